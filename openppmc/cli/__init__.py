@@ -29,7 +29,7 @@ def main(arguments: list[str] | None = None) -> int:
             # Imported here, so that a signal during the import also prints only one line.
             import typer
 
-            from ..host.stopping import Signalled, arrived, handled, name_of, say
+            from ..host.stopping import Signalled, arrived, handled, name_of, print_line
             from .app import app
         except KeyboardInterrupt:
             print("interrupted", file=sys.stderr)
@@ -48,7 +48,7 @@ def main(arguments: list[str] | None = None) -> int:
         except typer.Exit as done:
             ended.status = done.exit_code
         except Signalled as stop:
-            say(name_of(stop.number))
+            print_line(name_of(stop.number))
             ended.status = 128 + stop.number
         except (KeyboardInterrupt, typer.Abort):
             print("interrupted", file=sys.stderr)

@@ -175,7 +175,7 @@ BY_NUMBER: dict[int, type[CommandRefused]] = {
 }
 
 
-def refused(status: int) -> CommandRefused:
+def command_error(status: int) -> CommandRefused:
     """Return the exception for a status byte with ERR = 1."""
     return BY_NUMBER[status >> 4 & 7](status)
 

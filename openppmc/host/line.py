@@ -182,7 +182,7 @@ Answer = TypeVar("Answer", covariant=True)
 class ReplyReceiver(Protocol[Answer]):
     """Receiver for the bytes of one reply."""
 
-    def take(self, byte: int) -> Answer | Fault | None:
+    def feed(self, byte: int) -> Answer | Fault | None:
         """Process a byte; return the reply if it is complete.
 
         The call returns a Fault if no reply is possible any more.
@@ -206,9 +206,9 @@ class Master(Generic[Answer]):
         self.port, self.baud, self.echo = port, baud, echo
         self.patience = max(patience, self.port_patience)
         self.counters: dict[int, Counters] = {}
-        self.stray = 0
+        self.stray_bytes = 0
         self._closed = False
-        self._early = b""
+        self._early_bytes = b""
 
     @staticmethod
     def check_patience(patience: float) -> None:
@@ -234,7 +234,7 @@ class Master(Generic[Answer]):
         """Wait on the clock of the port; discard received bytes."""
         end = self.clock() + seconds
         while (left := end - self.clock()) > 0:
-            self.stray += len(self.port.read(left))
+            self.stray_bytes += len(self.port.read(left))
 
     def wait_event(self, timeout: float) -> int | None:
         """Return `None` after `timeout` seconds, because a line has no events; discard received bytes."""
@@ -282,7 +282,7 @@ class Master(Generic[Answer]):
         """Send a frame and discard its echo, if any. Bytes received earlier are discarded."""
         if self._closed:
             raise Disconnected(f"{self.name}: the line is closed: open it again")
-        self.stray += len(self.port.read(0))
+        self.stray_bytes += len(self.port.read(0))
         self.counters.setdefault(station, Counters()).sent += 1
         self.port.write(sent)
         if self.echo:
@@ -295,15 +295,15 @@ class Master(Generic[Answer]):
             received += self.port.read(left)
         if not received:
             raise LineEcho(f"{self.name}: the line does not hear its own bytes: leave the option echo out")
-        self._early = received[len(sent) :]
+        self._early_bytes = received[len(sent) :]
         if received[: len(sent)] != sent:
-            self.stray += 1  # another device sends at the same time; the reply will show the effect
+            self.stray_bytes += 1  # another device sends at the same time; the reply will show the effect
 
     def _await(self, listener: ReplyReceiver[Answer], seconds: float) -> Answer | MissingReply:
         """Return the reply, or a Miss with the bytes received instead."""
         received = bytearray()
         deadline = self.clock() + seconds + self.patience
-        early, self._early = self._early, b""
+        early, self._early_bytes = self._early_bytes, b""
         while True:
             data = early or self.port.read(max(0.0, deadline - self.clock()))
             early = b""
@@ -312,19 +312,19 @@ class Master(Generic[Answer]):
             deadline = self.clock() + self.patience
             for place, byte in enumerate(data):
                 received.append(byte)
-                got = listener.take(byte)
+                got = listener.feed(byte)
                 if got is not None and not isinstance(got, Fault):
-                    self.stray += len(data) - place - 1
+                    self.stray_bytes += len(data) - place - 1
                     return got
                 if got in (Fault.FOREIGN, Fault.BROKEN) or len(received) > _MOST_NOISE:
                     fault = got if isinstance(got, Fault) else Fault.NOISE
-                    return MissingReply(fault, bytes(received) + data[place + 1 :] + self._rest())
+                    return MissingReply(fault, bytes(received) + data[place + 1 :] + self._read_until_idle())
 
     def _missing_reply(self, listener: ReplyReceiver[Answer], received: bytes) -> MissingReply:
         """Return the Miss for silence, possibly after bytes that were no reply."""
         return MissingReply(Fault.NOISE if received else None, received)
 
-    def _rest(self) -> bytes:
+    def _read_until_idle(self) -> bytes:
         """Return the bytes that arrive until the line is quiet; the time is limited."""
         gap = max(_GAP, self.seconds(_GAP_BYTES))
         rest, end = b"", self.clock() + 20 * gap

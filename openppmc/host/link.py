@@ -7,7 +7,16 @@ from types import TracebackType
 from typing import Protocol
 
 from .capabilities import name_of
-from .errors import Disconnected, LinkError, NoAnswer, PortError, ProtocolError, Timeout, WrongDevice, refused
+from .errors import (
+    Disconnected,
+    LinkError,
+    NoAnswer,
+    PortError,
+    ProtocolError,
+    Timeout,
+    WrongDevice,
+    command_error,
+)
 from .frames import WAKE_UP, Nak, RetriesExhausted, Session
 from .port import BASE_BAUD, Port, open_port
 from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity, Result, Script, parse_answer
@@ -59,7 +68,7 @@ class Link:
             raise PortError(f"{baud} baud is not a rate of the bridge: it has {', '.join(map(str, RATES))}")
         self.port = open_port(spec) if isinstance(spec, str) else spec
         self.baud = BASE_BAUD
-        self.refusal: Callable[[Answer], Exception] = lambda answer: refused(answer.last)
+        self.refusal: Callable[[Answer], Exception] = lambda answer: command_error(answer.last)
         """Creates the exception for a rejected command; drivers of parts with other errors replace it."""
         self._session = Session()
         self._closed = False
@@ -234,7 +243,7 @@ class Link:
 
     def _run(self, script: Script, attempts_margin: float = MARGIN) -> Answer:
         session, port = self._session, self.port
-        line_time = (len(bytes(script)) + script.gives + 24) * 2 * _BITS / self.baud
+        line_time = (len(bytes(script)) + script.response_size + 24) * 2 * _BITS / self.baud
         patience = script.patience + line_time + attempts_margin
         request = session.request(bytes(script), patience, self.clock())
         try:

@@ -25,7 +25,7 @@ _TEXTS = {
 }
 
 
-def refused(status: int) -> CommandRefused:
+def command_error(status: int) -> CommandRefused:
     """Return the exception for a status byte of an STMC with ERR = 1."""
     number = status >> 4 & 7
     return BY_NUMBER[number](status, _TEXTS.get(Error(number), ""))
@@ -51,7 +51,7 @@ LEAST_DIVISOR = 5
 """The data sheet advises against lower divisors; the part would accept them."""
 
 
-def divided(hertz: Number, external: bool = True) -> BaseClock:
+def divided_clock(hertz: Number, external: bool = True) -> BaseClock:
     """Return a step clock. A speed is the clock / divisor, with divisors up to 255 (STMC-INI-01).
 
     Args:
@@ -63,7 +63,7 @@ def divided(hertz: Number, external: bool = True) -> BaseClock:
 
     The examples of the data sheet, with the external clock of its board:
 
-    >>> clock = divided(48_675)
+    >>> clock = divided_clock(48_675)
     >>> clock.choose(345).rate, clock.choose(825).rate
     (141, 59)
     >>> clock.speed(59)
@@ -73,7 +73,7 @@ def divided(hertz: Number, external: bool = True) -> BaseClock:
 
     >>> float(clock.slowest), float(clock.fastest)
     (190.88235294117646, 9735.0)
-    >>> float(divided(12_500, external=False).fastest)
+    >>> float(divided_clock(12_500, external=False).fastest)
     2500.0
     """
     return BaseClock(pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
@@ -98,9 +98,9 @@ class StmcCapabilities(RateCapabilities):
 
     def ramp_clock(self, xtal_hz: int, request: SetupRequest) -> speeds.BaseClock:
         if request.external_clock is not None:
-            return divided(request.external_clock)
-        internal = divided(Fraction(xtal_hz, TICK_XT), external=False)
-        board = divided(BOARD_CLOCK)
+            return divided_clock(request.external_clock)
+        internal = divided_clock(Fraction(xtal_hz, TICK_XT), external=False)
+        board = divided_clock(BOARD_CLOCK)
         if request.base_clock is None:
             return board if board.slowest <= speeds.exact(request.start_pps, "start speed") else internal
         for clock in (internal, board):
@@ -146,7 +146,7 @@ class Stmc(OneAxis):
 
     def __init__(self, link: Link) -> None:
         super().__init__(link)
-        link.refusal = lambda answer: refused(answer.last)
+        link.refusal = lambda answer: command_error(answer.last)
         self._read_map = ""
 
     @property

@@ -79,7 +79,7 @@ def handled(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
 def stop_motors(
     devices: Sequence[Device],
     seconds: float = LONGEST_WAIT,
-    hurry: Callable[[], bool] = lambda: False,
+    stop_now: Callable[[], bool] = lambda: False,
     every: bool = False,
 ) -> str:
     """Decelerate the motors of devices, wait until they stop, and return one line for the user.
@@ -88,7 +88,7 @@ def stop_motors(
 
     Args:
         seconds: longest wait; motors that still move then are stopped immediately.
-        hurry: called about ten times a second; True stops the motors immediately.
+        stop_now: called about ten times a second; True stops the motors immediately.
         every: also stop motions that these objects did not start.
     """
     from .errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
@@ -106,7 +106,7 @@ def stop_motors(
                     axis.halt(wait=False)
 
     def check(now: Progress) -> None:
-        if hurry():
+        if stop_now():
             halt()
 
     for device in devices:
@@ -139,7 +139,7 @@ def stop_motors(
     return ", ".join([how, *errors])
 
 
-def say(line: str) -> None:
+def print_line(line: str) -> None:
     """Print one line on stderr; ignore a closed terminal."""
     try:
         print(line, file=sys.stderr, flush=True)
@@ -191,5 +191,7 @@ def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator
             yield
         except Signalled as stop:
             resting = True
-            say(f"{name_of(stop.number)}: {stop_motors(devices, seconds, lambda: later > 0, every=True)}")
+            print_line(
+                f"{name_of(stop.number)}: {stop_motors(devices, seconds, lambda: later > 0, every=True)}"
+            )
             raise

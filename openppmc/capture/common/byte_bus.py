@@ -84,5 +84,5 @@ def byte_part(
         tuple(name for name in outputs if name not in (f"{bus}_o", f"{bus}_oe")),
         phases,
         axis_of=axis_of,
-        rests=outputs,
+        reset_levels=outputs,
     )

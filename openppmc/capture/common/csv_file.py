@@ -132,13 +132,13 @@ class _Table:
                 break
         if not before:
             raise CaptureError(f"{self.name}: there is nothing in it: capture again")
-        self._blame(before)
+        self._explain(before)
         raise CaptureError(
             f"{self.name}: neither a column of times nor a sample rate: export it from Saleae Logic with "
             "times, or from sigrok with its head"
         )
 
-    def _blame(self, before: list[tuple[str, int]]) -> None:
+    def _explain(self, before: list[tuple[str, int]]) -> None:
         """Raise a CaptureError that states why there is no table, if that is known."""
         for (head, _), (row, number) in zip(before, [*before[1:], ("", 0)], strict=True):
             for separator in "\t;,":

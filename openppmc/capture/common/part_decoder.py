@@ -130,7 +130,7 @@ class PartDecoder:
         parameters: returns parameters of the model that the capture contains.
         prelude: brings a new model to the beginning of a capture.
         axis_of: returns the axis of a bit of a port, 0: all axes.
-        rests: levels of the outputs in a reset.
+        reset_levels: levels of the outputs in a reset.
         initialised: True if nothing can be compared without a reset or an initialisation.
         pause: ps at a 16 MHz crystal between two moves; more if the pulses are that slow. The slowest rate of
             a byte makes 2.05 ms.
@@ -152,5 +152,5 @@ class PartDecoder:
     axis_of: Callable[[str, int], int] = lambda port, bit: 0
     initialised: bool = True
     pause: int = 2_200_000_000
-    unnamed: str = "commands"
-    rests: Mapping[str, int] = field(default_factory=dict)
+    row_noun: str = "commands"
+    reset_levels: Mapping[str, int] = field(default_factory=dict)

@@ -131,6 +131,6 @@ DECODER = PartDecoder(
     prelude=_named,
     initialised=False,
     pause=30 * 10**9,
-    unnamed="frames",
-    rests=OUTPUTS,
+    row_noun="frames",
+    reset_levels=OUTPUTS,
 )

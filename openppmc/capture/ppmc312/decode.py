@@ -71,6 +71,6 @@ DECODER = PartDecoder(
     trains,
     frozenset((*STROBES, "rs", "d_i")),
     tuple(name for name in OUTPUTS if name not in ("d_o", "d_oe", *SERIAL, "out_oe")),
-    unnamed="instructions",
-    rests=OUTPUTS,
+    row_noun="instructions",
+    reset_levels=OUTPUTS,
 )

@@ -136,6 +136,6 @@ DECODER = PartDecoder(
     frozenset(("rxd", "mode", "mod", "adr", "hsp", "d_i", "rs", "cs_n", "we_n", "oe_n")),
     tuple(name for name in OUTPUTS if name not in ("d_o", "d_oe", "wrq_n", "irq_n", "out_oe")),
     straps=_straps,
-    unnamed="frames",
-    rests=OUTPUTS,
+    row_noun="frames",
+    reset_levels=OUTPUTS,
 )

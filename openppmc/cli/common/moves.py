@@ -109,8 +109,8 @@ def move(
             ends = [chosen[0].move_constant(away[0], speed, guard.progress)]
         guard.bar_off()
         for end in ends:
-            output.say(show.end_line(end))
-        presenter.reports(part, output.say)
+            output.print_line(show.end_line(end))
+        presenter.reports(part, output.print_line)
 
 
 @with_setup
@@ -140,8 +140,8 @@ def jog(
 
         end = motion.wait(progress=look)
         guard.bar_off()
-        output.say(show.end_line(end))
-        session.presenter.reports(session.part, output.say)
+        output.print_line(show.end_line(end))
+        session.presenter.reports(session.part, output.print_line)
 
 
 @with_setup
@@ -172,7 +172,7 @@ def home(
             session.guard.progress,
         )
         session.guard.bar_off()
-        output.say(f"{show.prefix(motor)}position {motor.position}: origin found")
+        output.print_line(f"{show.prefix(motor)}position {motor.position}: origin found")
 
 
 def stop(
@@ -183,7 +183,7 @@ def stop(
     with opened() as session:
         ends = session.presenter.halt_all(session.part) if now and axis is None else None
         for end in stop_all(session.selected_axes(axis), now) if ends is None else ends:
-            output.say(show.end_line(end))
+            output.print_line(show.end_line(end))
 
 
 XTAL_HZ = 16_000_000
@@ -227,4 +227,4 @@ def plan(
     rows["duration"] = f"{figures['seconds']:.6g} s from the first to the last pulse"
     output.console.print(output.table(rows))
     if plot is not None:
-        output.say(f"plot: {plot}")
+        output.print_line(f"plot: {plot}")

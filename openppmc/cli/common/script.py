@@ -94,13 +94,13 @@ class ScriptRunner:
 
     def run(self, steps: Iterable[Step]) -> None:
         """Execute all steps. Raise ScriptError with file:line if the board rejects one."""
-        execute_steps(steps, self._name, self._guard, self._do_and_report)
+        execute_steps(steps, self._name, self._guard, self._execute_and_report)
 
-    def _do_and_report(self, step: Step) -> None:
-        self._do(step)
+    def _execute_and_report(self, step: Step) -> None:
+        self._execute(step)
         self._session.presenter.reports(self._part, self._print_line)
 
-    def _do(self, step: Step) -> None:
+    def _execute(self, step: Step) -> None:
         values, progress = step.values, self._guard.progress
         number = number_of(step)
         axis = self._session.axis(number)
@@ -310,6 +310,6 @@ def script(
         values = {axis: setup_values(typed, axis) for axis in used}
         check_speeds(steps, dict(values), session.xtal_hz, name, session.kind)
         initialise(session, values)
-        ScriptRunner(session, values, name, output.say).run(steps)
+        ScriptRunner(session, values, name, output.print_line).run(steps)
         session.guard.bar_off()
-        output.say(f"done, {positions(session.axis(number) for number in used)}")
+        output.print_line(f"done, {positions(session.axis(number) for number in used)}")

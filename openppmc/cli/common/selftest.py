@@ -45,7 +45,7 @@ def selftest(
     for kind in only or ():
         if kind not in KINDS:
             raise typer.BadParameter(f"--only {kind}: unknown kind; use {', '.join(KINDS)}")
-    tell = output.note if as_json else output.say
+    tell = output.note if as_json else output.print_line
     number = None if BOARD.part is None else parts.part(BOARD.part).number
     with Link(_spec(), BOARD.baud or DEFAULT_BAUD, number) as link:
         plan = _plan(link)
@@ -70,8 +70,8 @@ def selftest(
     if as_json:
         output.print_json(made)
     else:
-        output.say(f"page: {text}, {values}")
-        output.say(made["verdict"])
+        output.print_line(f"page: {text}, {values}")
+        output.print_line(made["verdict"])
     if test.results.differences:
         raise typer.Exit(1)
 

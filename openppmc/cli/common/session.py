@@ -29,7 +29,7 @@ from ...host.motion import Progress
 from ...host.part import AnyAxis, Device, Part
 from ...host.port import MODEL, SIM
 from ...host.script import Build
-from ...host.stopping import NO_MOTION, arrived, handled, name_of, say, stop_motors
+from ...host.stopping import NO_MOTION, arrived, handled, name_of, print_line, stop_motors
 from ...streams import StdoutLost
 from . import output
 from .board import BOARD
@@ -50,7 +50,7 @@ def state_folder() -> Path:
     return Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state") / "openppmc"
 
 
-def lasting(port: str) -> bool:
+def stores_setup(port: str) -> bool:
     """Return whether set-ups are stored for this port; a virtual board is new each time."""
     return bool(port) and not f"{port}:".startswith((MODEL, SIM))
 
@@ -60,10 +60,10 @@ def _file(port: str, axis: int) -> Path:
     return state_folder() / (name + ("" if axis == 1 else f".axis{axis}") + ".json")
 
 
-def recall(port: str, axis: int = 1) -> dict[str, Any]:
+def load_setup(port: str, axis: int = 1) -> dict[str, Any]:
     """Return the stored options of an axis, or {}. Raise PpmcError for an unreadable file."""
     path = _file(port, axis)
-    if not lasting(port) or not path.is_file():
+    if not stores_setup(port) or not path.is_file():
         return {}
     try:
         values = json.loads(path.read_text(encoding="utf-8"))["setup"]
@@ -76,9 +76,9 @@ def recall(port: str, axis: int = 1) -> dict[str, Any]:
     return values
 
 
-def remember(port: str, values: dict[str, Any], axis: int = 1) -> None:
+def store_setup(port: str, values: dict[str, Any], axis: int = 1) -> None:
     """Store the options for later commands. Raise PpmcError if the file cannot be written."""
-    if not lasting(port):
+    if not stores_setup(port):
         return
     path = _file(port, axis)
     text = json.dumps({"port": port, "setup": values}, indent=1) + "\n"
@@ -110,7 +110,7 @@ class Guard:
         self.count = 0
         self.number = int(signal.SIGINT)
         self._bars: Bars | None = None
-        self._handled = handled(self._note)
+        self._handled = handled(self._on_signal)
 
     def __enter__(self) -> Guard:
         self._handled.__enter__()
@@ -124,7 +124,7 @@ class Guard:
         self.bar_off()
         self._handled.__exit__(None, None, None)
 
-    def _note(self, number: int, frame: FrameType | None) -> None:
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if not self.count:
             self.number = number
         self.count += 1
@@ -192,11 +192,11 @@ class Guard:
             yield
             sys.stdout.flush()
         except Interrupted:
-            say(self.stop_motors(part))
+            print_line(self.stop_motors(part))
             raise typer.Exit(self.status) from None
         except StdoutLost as lost:
             self.bar_off()
-            motors = stop_motors([part], hurry=lambda: self.count > 0)
+            motors = stop_motors([part], stop_now=lambda: self.count > 0)
             lost.motors = "" if motors.startswith(NO_MOTION) else motors
             raise
 
@@ -211,7 +211,7 @@ class Guard:
         Returns one line for the user.
         """
         self.bar_off()
-        return f"{name_of(self.number)}: {stop_motors([part], hurry=lambda: self.count > 1)}"
+        return f"{name_of(self.number)}: {stop_motors([part], stop_now=lambda: self.count > 1)}"
 
 
 def mismatch(build: Build | None, number: int) -> str:
@@ -285,7 +285,7 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 
     Typed values have priority over values that `init` stored for this port and axis, these over the defaults.
     """
-    return SetupValues().merged(recall(BOARD.port, axis)).merged(typed)
+    return SetupValues().merged(load_setup(BOARD.port, axis)).merged(typed)
 
 
 @contextmanager

@@ -115,7 +115,7 @@ def watch(
             if turn:
                 pause()
             for line in lines():
-                output.say(line)
+                output.print_line(line)
         return
     from rich.live import Live
 

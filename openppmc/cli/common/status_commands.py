@@ -79,10 +79,10 @@ def table(
     with ready(typed, (1,)) as session:
         lines = session.presenter.table_lines(session.part)
     if out is None:
-        output.say("\n".join(lines))
+        output.print_line("\n".join(lines))
         return
     try:
         out.write_text("\n".join(lines) + "\n", encoding="utf-8")
     except OSError as error:
         raise PpmcError(f"{out}: cannot be written ({error.strerror})") from error
-    output.say(f"{len(lines) - 1} stages: {out}")
+    output.print_line(f"{len(lines) - 1} stages: {out}")

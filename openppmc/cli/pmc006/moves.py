@@ -64,7 +64,7 @@ def move(
             if away:
                 motions.append(part.start_move(away, speed))
             else:
-                output.say(end_line(part.move(0)))
+                output.print_line(end_line(part.move(0)))
         _finish(session, motions, True)
 
 
@@ -91,7 +91,7 @@ def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgre
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()
     for end in ends:
-        output.say(end_line(end))
+        output.print_line(end_line(end))
     for motion, end in zip(motions, ends, strict=True):
         if judge:
             end.check(motion.requested)
@@ -110,7 +110,7 @@ def speed(
                 if pps:
                     part.jog(FORWARD if pps > 0 else BACKWARD, abs(pps))
             state = f"runs at {pps} steps/s" if pps else f"position {part.position}: stopped"
-            output.say(prefix(part) + state)
+            output.print_line(prefix(part) + state)
 
 
 def _goes(part: Pmc006, pps: int) -> bool:
@@ -130,9 +130,9 @@ def stop(
     with opened() as session:
         ends = session.bus.stop([part.address for part in session.selected_axes(address)], now)
         for end in ends:
-            output.say(end_line(end))
+            output.print_line(end_line(end))
         if not ends:
-            output.say("nothing was moving")
+            output.print_line("nothing was moving")
 
 
 def home(
@@ -150,7 +150,9 @@ def home(
         for part in session.selected_axes(address):
             part.home(switch, direction.sign, speed, slow, off, session.guard.progress)
             session.guard.bar_off()
-            output.say(f"{prefix(part)}position {part.position}: {off} steps from the edge of EXT{switch}")
+            output.print_line(
+                f"{prefix(part)}position {part.position}: {off} steps from the edge of EXT{switch}"
+            )
 
 
 # ---------------------------------------------------------------------- scan and status
@@ -166,7 +168,7 @@ def scan(as_json: Json = False) -> None:
         output.console.print(found_table(found))
         for one in found:
             if one.problem:
-                output.say(one.problem)
+                output.print_line(one.problem)
     else:
         raise PpmcError(f"{session.bus.line.name}: no controller replies; check power, baud rate and wires")
 
@@ -180,7 +182,7 @@ def info(address: Address = None, as_json: Json = False) -> None:
     if as_json:
         output.print_json({"address": number, "version": version, "settings": values})
     else:
-        output.say(f"PMC006B4 at address {number}, firmware {version}")
+        output.print_line(f"PMC006B4 at address {number}, firmware {version}")
         _settings(values)
 
 
@@ -236,7 +238,7 @@ def set_values(
             names = [name for name, _ in assignments]
             known = settings_values(part, names) if names else settings_values(part)
             if prefix(part):
-                output.say(prefix(part).rstrip(": "))
+                output.print_line(prefix(part).rstrip(": "))
             _settings(known)
 
 
@@ -274,7 +276,7 @@ def io(
                 output.print_json(pins)
             else:
                 words = (f"{name.upper()} {level}" for name, level in pins.items())
-                output.say(prefix(part) + "  ".join(words))
+                output.print_line(prefix(part) + "  ".join(words))
 
 
 def _output(text: str) -> tuple[int, bool]:
@@ -292,7 +294,7 @@ def address(
         part = session.one(address)
         before = part.address
         part.set_address(new)
-        output.say(f"controller {before} has address {new} now")
+        output.print_line(f"controller {before} has address {new} now")
 
 
 def save(address: Address = None) -> None:
@@ -300,7 +302,7 @@ def save(address: Address = None) -> None:
     with opened() as session:
         for part in session.selected_axes(address):
             part.save()
-            output.say(f"{prefix(part)}saved")
+            output.print_line(f"{prefix(part)}saved")
 
 
 def reset_flags(address: Address = None) -> None:
@@ -309,4 +311,4 @@ def reset_flags(address: Address = None) -> None:
         for part in session.selected_axes(address):
             part.clear_stops()
             part.clear_stall()
-            output.say(f"{prefix(part)}flags cleared")
+            output.print_line(f"{prefix(part)}flags cleared")

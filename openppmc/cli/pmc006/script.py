@@ -55,7 +55,7 @@ def _write(path: Path | None, text: str | bytes) -> None:
     try:
         if path is None:
             assert isinstance(text, str)
-            output.say(text.rstrip("\n"))
+            output.print_line(text.rstrip("\n"))
         elif isinstance(text, bytes):
             path.write_bytes(text)
         else:
@@ -77,7 +77,7 @@ def assemble_file(file: File, out: Out = None) -> None:
         for number, one in enumerate(made.used):
             first, second = one.words
             name = one.kind.name if one.kind is not None else "?"
-            output.say(f"{number:3}  {first:08X} {second:08X}  {name}")
+            output.print_line(f"{number:3}  {first:08X} {second:08X}  {name}")
     output.note(f"{len(made.used)} instructions")
 
 
@@ -98,22 +98,22 @@ def load(
     made = _read(file)
     with opened() as session:
         for part in session.selected_axes(address):
-            part.load_program(made, session.counting)
+            part.load_program(made, session.on_word_progress)
             session.guard.bar_off()
-            output.say(f"{prefix(part)}{len(made.used)} instructions loaded and checked")
+            output.print_line(f"{prefix(part)}{len(made.used)} instructions loaded and checked")
             if burn:
                 part.burn_program()
-                output.say(f"{prefix(part)}burned")
+                output.print_line(f"{prefix(part)}burned")
             if run:
                 part.run_program()
-                output.say(f"{prefix(part)}running")
+                output.print_line(f"{prefix(part)}running")
 
 
 @program.command("read")
 def read_back(address: Address = None, out: Out = None) -> None:
     """Print the program in the buffer as text, or write an image (--out x.bin)."""
     with opened() as session:
-        found = session.one(address).read_program(session.counting)
+        found = session.one(address).read_program(session.on_word_progress)
         session.guard.bar_off()
     if out is not None and out.suffix == ".bin":
         _write(out, found.image())
@@ -130,7 +130,7 @@ def burn(address: Address = None) -> None:
     with opened() as session:
         for part in session.selected_axes(address):
             part.burn_program()
-            output.say(f"{prefix(part)}burned")
+            output.print_line(f"{prefix(part)}burned")
 
 
 @program.command()
@@ -139,7 +139,7 @@ def run(address: Address = None, begin: Place = 0) -> None:
     with opened() as session:
         for part in session.selected_axes(address):
             part.run_program(begin)
-            output.say(f"{prefix(part)}running")
+            output.print_line(f"{prefix(part)}running")
 
 
 @program.command()
@@ -148,7 +148,7 @@ def halt(address: Address = None) -> None:
     with opened() as session:
         for part in session.selected_axes(address):
             part.halt_program()
-            output.say(f"{prefix(part)}halted")
+            output.print_line(f"{prefix(part)}halted")
 
 
 @program.command("try")
@@ -157,7 +157,7 @@ def try_one(address: Address = None, begin: Place = 0) -> None:
     with opened() as session:
         for part in session.selected_axes(address):
             part.try_instruction(begin)
-            output.say(f"{prefix(part)}instruction {begin} executed")
+            output.print_line(f"{prefix(part)}instruction {begin} executed")
 
 
 @program.command()
@@ -165,7 +165,9 @@ def state(address: Address = None) -> None:
     """Print whether a program runs."""
     with opened() as session:
         for part in session.selected_axes(address):
-            output.say(f"{prefix(part)}{'a program runs' if part.program_runs() else 'no program runs'}")
+            output.print_line(
+                f"{prefix(part)}{'a program runs' if part.program_runs() else 'no program runs'}"
+            )
 
 
 MOST = (1 << 31) - 1
@@ -277,7 +279,7 @@ class ScriptRunner:
 
     def run(self, steps: Iterable[Step]) -> None:
         """Execute all steps. Raise ScriptError with file:line if a controller rejects one."""
-        execute_steps(steps, self._name, self._session.guard, self._do)
+        execute_steps(steps, self._name, self._session.guard, self._execute)
 
     def controller(self, address: int | None) -> Pmc006:
         """Return the controller with this address; for None, the first that replies."""
@@ -287,7 +289,7 @@ class ScriptRunner:
             self._first = self._session.selected_axes(None)[0]
         return self._first
 
-    def _do(self, step: Step) -> None:
+    def _execute(self, step: Step) -> None:
         values, guard, bus = step.values, self._session.guard, self._session.bus
         if step.word == "wait":
             guard.pause(bus, values["seconds"])
@@ -306,7 +308,7 @@ class ScriptRunner:
             part.home(values["switch"], values["way"], *speeds, values["off"], guard.progress)
         elif step.word == "stop":
             for end in bus.stop([part.address], values["now"]):
-                output.say(end_line(end))
+                output.print_line(end_line(end))
         else:
             self._set(step, part)
 
@@ -322,7 +324,7 @@ class ScriptRunner:
         elif step.word == "zero":
             part.zero()
         else:
-            output.say(f"{self._name}:{step.line}: {prefix(part)}position {part.position}")
+            output.print_line(f"{self._name}:{step.line}: {prefix(part)}position {part.position}")
 
 
 def addresses(steps: Iterable[Step]) -> set[int | None]:
@@ -350,4 +352,4 @@ def script(
             player.controller(one).alone = len(used) == 1
         player.run(steps)
         ends = [player.controller(one) for one in (*named, *([None] if None in used else []))]
-        output.say("done" + "".join(f", {prefix(part)}position {part.position}" for part in ends))
+        output.print_line("done" + "".join(f", {prefix(part)}position {part.position}" for part in ends))

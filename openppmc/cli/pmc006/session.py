@@ -49,7 +49,7 @@ class Session:
     def selected_axes(self, text: str | None) -> list[Pmc006]:
         """Return the controllers that --address names; without it, the first that replies."""
         if text is None:
-            numbers = [find(self.bus.line, self._scanning)]
+            numbers = [find(self.bus.line, self._on_scan_progress)]
             self.guard.bar_off()
         else:
             numbers = parse_addresses(text)
@@ -67,15 +67,15 @@ class Session:
 
     def scan(self) -> list[ScanResult]:
         """Return all controllers that reply; show a bar during the search."""
-        found = self.bus.scan(progress=self._scanning)
+        found = self.bus.scan(progress=self._on_scan_progress)
         self.guard.bar_off()
         return found
 
-    def _scanning(self, address: int) -> None:
+    def _on_scan_progress(self, address: int) -> None:
         self.guard.check()
         self.guard.count_bar("looking for controllers", ADDRESSES.index(address), len(ADDRESSES))
 
-    def counting(self, done: int, of: int) -> None:
+    def on_word_progress(self, done: int, of: int) -> None:
         """Check for signals and show the bar; progress callback of a download."""
         self.guard.check()
         self.guard.count_bar("words of the program", done, of)

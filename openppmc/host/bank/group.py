@@ -14,7 +14,7 @@ from ..link import Link
 from ..motion import READ_FINISH
 from ..script import Script
 from .axis import BankAxis
-from .registers import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
+from .registers import GO, MASK, STATUS, GroupRefused, bit_bytes, go_error
 from .window import visit
 
 BUSY, ERR = 0x04, 0x80
@@ -130,7 +130,7 @@ class Group(Checked):
         refusals = {}
         for number, (status,) in zip(began, seen, strict=True):
             if status[0] & ERR and not self._ended(number, status[0]):
-                refusals[number] = go_refused(status[0], number)
+                refusals[number] = go_error(status[0], number)
         if refusals:
             raise GroupRefused(refusals)
 

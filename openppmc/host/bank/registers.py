@@ -19,15 +19,15 @@ from ..registers import Inputs, Status
 NOTHING_HELD = "GO found no motion that it holds: start one while it is in the group"
 
 
-def refused(status: int, number: int) -> CommandRefused:
+def command_error(status: int, number: int) -> CommandRefused:
     """Return the exception for a status byte with ERR = 1 of the axis with this number."""
     kind = BY_NUMBER[status >> 4 & 7]
     return kind(status, f"axis {number}: {kind.text}")
 
 
-def go_refused(status: int, number: int) -> CommandRefused:
+def go_error(status: int, number: int) -> CommandRefused:
     """Return the exception for a status byte with ERR = 1 after GO (BANK-GRP-02)."""
-    error = refused(status, number)
+    error = command_error(status, number)
     return NothingToStop(status, f"axis {number}: {NOTHING_HELD}") if type(error) is NothingToStop else error
 
 

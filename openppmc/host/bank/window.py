@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from ..errors import WrongDevice
 from ..link import Link
 from ..script import LONGEST_SCRIPT, MOST_DATA, Answer, Identity, Result, Script
-from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
+from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, command_error
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]
@@ -74,7 +74,7 @@ class AxisLink:
         The error names the axis.
         """
         if answer.result is Result.REFUSED:
-            raise refused(answer.last, self._number)
+            raise command_error(answer.last, self._number)
         return self._link.check_answer(answer)
 
 
@@ -98,11 +98,11 @@ def _frames(pieces: Sequence[Piece]) -> Iterator[list[Piece]]:
     room, data = LONGEST_SCRIPT, MOST_DATA
     for number, script in pieces:
         size = _SELECT_BYTES + len(bytes(script))
-        if frame and (size > room or script.gives > data):
+        if frame and (size > room or script.response_size > data):
             yield frame
             frame, room, data = [], LONGEST_SCRIPT, MOST_DATA
         frame.append((number, script))
-        room, data = room - size, data - script.gives
+        room, data = room - size, data - script.response_size
     if frame:
         yield frame
 
@@ -119,9 +119,9 @@ def _run(link: Link, frame: Sequence[Piece]) -> list[tuple[bytes, ...]]:
     answer = link.attempt(whole)
     if answer.result is Result.REFUSED:
         place = next(place for place, op in enumerate(whole.ops) if op is answer.failed)
-        raise refused(answer.last, owners[place])
+        raise command_error(answer.last, owners[place])
     values = iter(link.check_answer(answer).values)
-    return [tuple(next(values) for op in piece.ops if op.gives) for _, piece in frame]
+    return [tuple(next(values) for op in piece.ops if op.response_size) for _, piece in frame]
 
 
 def read_info(link: Link) -> Info:

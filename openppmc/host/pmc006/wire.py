@@ -3,7 +3,7 @@
 >>> command(1, 0x73, 287).hex(" ")
 'a5 01 73 1f 01 00 00 39'
 >>> receiver = Receiver(1)
->>> [receiver.take(byte) for byte in bytes.fromhex("A5 7A 01 03 00 00 00 23")][-1]
+>>> [receiver.feed(byte) for byte in bytes.fromhex("A5 7A 01 03 00 00 00 23")][-1]
 Reply(address=1, value=3)
 """
 
@@ -303,7 +303,7 @@ class Receiver:
             return Fault.FOREIGN
         return Fault.NOISE if self._noise else None
 
-    def take(self, byte: int) -> Reply | Fault | None:
+    def feed(self, byte: int) -> Reply | Fault | None:
         """Process a byte; return the reply if it is complete."""
         if self._matched < len(self._echo):
             if byte == self._echo[self._matched]:
@@ -312,9 +312,9 @@ class Receiver:
                 return None
             self._echo = b""
         self._open += bytes([byte])
-        return self._look()
+        return self._match_frame()
 
-    def _look(self) -> Reply | None:
+    def _match_frame(self) -> Reply | None:
         """Return the reply in the bytes received so far, `None` if they contain no complete one."""
         while self._open:
             start = next((at for at in range(len(self._open)) if _begins(self._open[at:])), len(self._open))

@@ -17,7 +17,7 @@ from ..motion_result import EndUnknown, MotionResult
 from ..part import Part
 from ..script import Answer, Script
 from .axis import Axis2104
-from .registers import BY_NUMBER, CAPABILITIES, Status, refused
+from .registers import BY_NUMBER, CAPABILITIES, Status, command_error
 
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 IBF = 0x02
@@ -293,7 +293,7 @@ class Ppmc2104(Part):
             place = 1 - place
         if numbers[place] not in BY_NUMBER:
             return ProtocolError(f"{self.link.name}: the part reported an error and then no error; try again")
-        return refused(numbers[place], answer.last, place + 1)
+        return command_error(numbers[place], answer.last, place + 1)
 
 
 def _with_csel(levels: int, number: int, clock: speeds.BaseClock | None) -> int:

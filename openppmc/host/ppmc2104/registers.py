@@ -93,7 +93,7 @@ BY_NUMBER: dict[int, tuple[type[CommandRefused], str]] = {
 }
 
 
-def refused(number: int, status: int, axis: int) -> CommandRefused:
+def command_error(number: int, status: int, axis: int) -> CommandRefused:
     """Return the exception for a value of the error register of an axis, 1 to 13."""
     kind, text = BY_NUMBER[number]
     return kind(status, f"axis {axis}: {text or kind.text}")

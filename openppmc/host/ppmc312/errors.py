@@ -129,16 +129,16 @@ _FAILURES = {
 }
 
 
-def refused(code: int, parameters: bytes) -> CommandRefused | None:
+def command_error(code: int, parameters: bytes) -> CommandRefused | None:
     """Return the exception for a response, `None` if it is no error.
 
     parameters: parameters of the response.
 
-    >>> str(refused(0xF1, bytes([0, 0x10])))
+    >>> str(command_error(0xF1, bytes([0, 0x10])))
     'the part is in alarm: remove the cause, then clear the alarm (or reset)'
-    >>> type(refused(0xF0, bytes([0x18]))).__name__
+    >>> type(command_error(0xF0, bytes([0x18]))).__name__
     'CurveRefused'
-    >>> refused(0x40, bytes([0x12])) is None
+    >>> command_error(0x40, bytes([0x12])) is None
     True
     """
     first = parameters[0] if parameters else 0

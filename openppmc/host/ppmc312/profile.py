@@ -24,7 +24,7 @@ from .. import speeds as units
 from ..capabilities import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Capabilities, SetupRequest
 from ..errors import OutOfRange
 from . import blocks
-from .errors import refused
+from .errors import command_error
 
 # Free curves of the PPMC-312: 2 to 127 stages from a list or a CSV file.
 
@@ -83,7 +83,7 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
     try:
         table = tables.curve(rates, up, down if separate else None, clock.clk)
     except SettingError as error:
-        raise OutOfRange(f"free curve: {refused(0xF0, bytes([error.number]))}") from None
+        raise OutOfRange(f"free curve: {command_error(0xF0, bytes([error.number]))}") from None
     return Setup(
         clock,
         speeds[len(rows) - len(up)],
@@ -370,7 +370,7 @@ pulses: 762 or more
     try:
         table = tables.build(*numbers, up, down, clock.clk, sigmoid, separate)
     except SettingError as error:
-        text = str(refused(0xF0, bytes([error.number])))
+        text = str(command_error(0xF0, bytes([error.number])))
         if error.number == 5:
             least = _least(numbers, sigmoid)
             which = f"{least[0]} up and {least[1]} down" if separate else f"{least[0]}"

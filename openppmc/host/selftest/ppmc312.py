@@ -30,16 +30,16 @@ MOST_RESPONSES = 4
 CODES_A_SECTION = 32
 
 
-def ask(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> None:
+def execute(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> None:
     """Write an instruction and read all responses that arrive within this time."""
     access.link.forget_events()
     access.write(CONTROL, [WINDOW])
     access.write(ADDRESS, [start_address(instruction)])
     access.write(WRITE, bus_order(instruction))
-    answers(access, seconds)
+    read_responses(access, seconds)
 
 
-def answers(access: PartAccess, seconds: float) -> None:
+def read_responses(access: PartAccess, seconds: float) -> None:
     """Wait for a response, read it and the following ones."""
     access.until_interrupt(seconds)
     for _ in range(MOST_RESPONSES):
@@ -52,15 +52,15 @@ def answers(access: PartAccess, seconds: float) -> None:
         access.pause(0.001)
 
 
-def ready(access: PartAccess, setting: Sequence[bytes] = SETTING) -> None:
+def prepare(access: PartAccess, setting: Sequence[bytes] = SETTING) -> None:
     """Switch the interrupt on responses on, and load the ramps."""
     access.pause(0.005)
     access.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
     for instruction in setting:
-        ask(access, instruction, 0.3)
+        execute(access, instruction, 0.3)
 
 
-def played(
+def play_motions(
     *instructions: bytes, stop: bytes = b"", after: float = 0.02, setting: Sequence[bytes] = SETTING
 ) -> Callable[[PartAccess], None]:
     """Return a function that plays each of these motions to its end.
@@ -71,13 +71,13 @@ def played(
     """
 
     def play(access: PartAccess) -> None:
-        ready(access, setting)
+        prepare(access, setting)
         for instruction in instructions:
-            ask(access, instruction, 0.01)
+            execute(access, instruction, 0.01)
             if stop:
                 access.pause(after)
-                ask(access, stop, 0.01)
-            answers(access, END_S)
+                execute(access, stop, 0.01)
+            read_responses(access, END_S)
 
     return play
 
@@ -87,9 +87,9 @@ def registers(access: PartAccess) -> None:
     for _ in range(2):
         for register in range(8):
             access.read(register)
-        ready(access)
+        prepare(access)
     for code in (Code.VERSION, Code.POSITION_READ, Code.RUN_MONITOR, Code.STATUS):
-        ask(access, blocks.read_position() if code is Code.POSITION_READ else block(code))
+        execute(access, blocks.read_position() if code is Code.POSITION_READ else block(code))
 
 
 SETTINGS = (
@@ -118,18 +118,18 @@ SETTINGS = (
 
 def settings(access: PartAccess) -> None:
     """Execute valid instructions that start no motion."""
-    ready(access)
+    prepare(access)
     for instruction in SETTINGS:
-        ask(access, instruction)
+        execute(access, instruction)
 
 
 def codes(first: int) -> Callable[[PartAccess], None]:
     """Return a function that writes codes without parameters; most of them are rejected."""
 
     def play(access: PartAccess) -> None:
-        ready(access)
+        prepare(access)
         for code in range(first, first + CODES_A_SECTION):
-            ask(access, block(code), 0.02)
+            execute(access, block(code), 0.02)
             if code in (Code.RESET, Code.STOP, Code.SLOW_STOP):
                 access.pause(0.01)
 
@@ -152,17 +152,19 @@ class Plan312:
         rate = 300
         slow, now = blocks.slow_stop(), blocks.immediate_stop()
         moves = {
-            "single steps": played(blocks.single_step(CW), blocks.single_step(CCW)),
-            "ramp CW": played(blocks.acceleration(CW, 3 * PULSES)),
-            "ramp CCW": played(blocks.acceleration(CCW, 2 * PULSES)),
-            "linear ramp": played(blocks.acceleration(CW, 2 * PULSES), setting=LINEAR),
-            "triangles": played(blocks.acceleration(CW, 7), blocks.acceleration(CCW, 1)),
-            "constant speed": played(blocks.constant(CW, PULSES, rate), blocks.constant(CCW, PULSES, rate)),
-            "run, slowed down": played(blocks.run(CW, ramped=True), stop=slow),
-            "run CCW, stopped": played(blocks.run(CCW, rate), stop=now),
-            "search for an origin, stopped": played(blocks.origin_search(CW, rate), stop=now),
-            "zero return": played(blocks.acceleration(CW, PULSES), blocks.zero_return(CCW)),
-            "another speed during the motion": played(
+            "single steps": play_motions(blocks.single_step(CW), blocks.single_step(CCW)),
+            "ramp CW": play_motions(blocks.acceleration(CW, 3 * PULSES)),
+            "ramp CCW": play_motions(blocks.acceleration(CCW, 2 * PULSES)),
+            "linear ramp": play_motions(blocks.acceleration(CW, 2 * PULSES), setting=LINEAR),
+            "triangles": play_motions(blocks.acceleration(CW, 7), blocks.acceleration(CCW, 1)),
+            "constant speed": play_motions(
+                blocks.constant(CW, PULSES, rate), blocks.constant(CCW, PULSES, rate)
+            ),
+            "run, slowed down": play_motions(blocks.run(CW, ramped=True), stop=slow),
+            "run CCW, stopped": play_motions(blocks.run(CCW, rate), stop=now),
+            "search for an origin, stopped": play_motions(blocks.origin_search(CW, rate), stop=now),
+            "zero return": play_motions(blocks.acceleration(CW, PULSES), blocks.zero_return(CCW)),
+            "another speed during the motion": play_motions(
                 blocks.run(CW, rate), stop=blocks.change(220), after=0.005
             ),
         }
@@ -179,11 +181,11 @@ class Plan312:
     def switches(self, identity: Identity, width: int) -> list[Section]:
         def by_output(bit: int, motion: bytes) -> Callable[[PartAccess], None]:
             def play(access: PartAccess) -> None:
-                ready(access)
-                ask(access, blocks.outputs(0))
-                ask(access, motion, 0.01)
-                ask(access, blocks.outputs(bit))
-                answers(access, END_S)
+                prepare(access)
+                execute(access, blocks.outputs(0))
+                execute(access, motion, 0.01)
+                execute(access, blocks.outputs(bit))
+                read_responses(access, END_S)
 
             return play
 

@@ -266,7 +266,7 @@ def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, word
             os.kill(os.getpid(), signal.SIGINT)
         look(motion)
 
-    monkeypatch.setattr(Motion, "look", interrupt)
+    monkeypatch.setattr(Motion, "_update", interrupt)
     outcome = run(*PART, *words, "--address", "1,2")
     assert outcome.code == 130
     at = r"controller 1: position -?\d+, controller 2: position -?\d+"

@@ -307,10 +307,10 @@ def test_replies_are_found_among_others() -> None:
         sent[:4],
     ):
         receiver = Receiver(5, sent)
-        got = [receiver.take(byte) for byte in before + mine]
+        got = [receiver.feed(byte) for byte in before + mine]
         assert got[-1] == Reply(5, -2) and set(got[:-1]) <= {None}, before
     receiver = Receiver(5, sent)
-    assert [receiver.take(byte) for byte in sent] == [None] * 8 and receiver.fault is None
+    assert [receiver.feed(byte) for byte in sent] == [None] * 8 and receiver.fault is None
 
 
 def test_two_with_one_address() -> None:

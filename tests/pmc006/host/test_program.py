@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from openppmc.model.pmc006.program import (
     INSTRUCTIONS,
-    SCRIPT_COMMANDS,
+    WORDS,
     AssemblyError,
     BadImage,
     Instruction,
@@ -80,7 +80,7 @@ programs = st.lists(single, max_size=INSTRUCTIONS).map(Program.of)
 
 def test_the_example_of_the_rules() -> None:
     made = assemble(P1)
-    assert made.words == tuple(word for pair in P1_WORDS for word in pair) + (0,) * (SCRIPT_COMMANDS - 20)
+    assert made.words == tuple(word for pair in P1_WORDS for word in pair) + (0,) * (WORDS - 20)
     assert disassemble(made) == P1_AGAIN
     assert disassemble(made, numbers=True).splitlines()[3] == "L3:     ROT      200                    ; 3"
 
@@ -88,7 +88,7 @@ def test_the_example_of_the_rules() -> None:
 @given(programs)
 @example(Program())
 @example(Program.of([Instruction(0)] * 99 + [Instruction(0x0D, 0, 99)]))
-@example(Program((MASK,) * SCRIPT_COMMANDS))
+@example(Program((MASK,) * WORDS))
 @example(Program.of([Instruction(0x0D, 0, 57)]))
 @example(Program.of([Instruction(0x0D, 3, 0), Instruction(0x12, 8, MASK), Instruction(0x13, 1, 5)]))
 def test_there_and_back(made: Program) -> None:

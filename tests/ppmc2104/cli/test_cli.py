@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.cli.common.session import Guard, recall, remember
+from openppmc.cli.common.session import Guard, load_setup, store_setup
 from openppmc.host import CW, Ppmc2104
 from tests.common.cli.command_line import Run
 
@@ -49,9 +49,9 @@ def test_init_an_axis(run: Run) -> None:
 
 
 def test_set_ups_are_remembered_for_each_axis(run: Run) -> None:
-    remember("/dev/ttyUSB7", {"start": 2000.0})
-    remember("/dev/ttyUSB7", {"start": 3000.0, "logic": None}, 2)
-    assert (recall("/dev/ttyUSB7")["start"], recall("/dev/ttyUSB7", 2)["start"]) == (2000, 3000)
+    store_setup("/dev/ttyUSB7", {"start": 2000.0})
+    store_setup("/dev/ttyUSB7", {"start": 3000.0, "logic": None}, 2)
+    assert (load_setup("/dev/ttyUSB7")["start"], load_setup("/dev/ttyUSB7", 2)["start"]) == (2000, 3000)
 
 
 def test_status_of_both_and_of_one(run: Run) -> None:

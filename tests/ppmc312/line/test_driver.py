@@ -319,7 +319,7 @@ def test_checksums_of_characters_and_echo() -> None:
     with Ppmc312Bus.open("model:speed=max,stations=1,sum=chars", sum_mode=SumMode.CHARS) as bus:
         assert bus.axis(0).version() == 0x12 and bus.axis(0).counters.faults == 0
     with Ppmc312Bus.open("model:speed=max,stations=1,echo=on", echo=True) as bus:
-        assert bus.axis(0).version() == 0x12 and not bus.poll([0]) and bus.line.stray == 0
+        assert bus.axis(0).version() == 0x12 and not bus.poll([0]) and bus.line.stray_bytes == 0
 
 
 def test_a_slower_crystal() -> None:

@@ -383,7 +383,7 @@ def test_noise_in_front_of_a_reply_does_not_hurt() -> None:
     port, axis = station("00 7F 31 A1 31 32 4C")
     assert axis.version() == 0x12 and axis.counters.faults == 0
     port, axis = station("A1 31 32 4C 55 55", "A1 31 33 4B")
-    assert (axis.version(), axis.version()) == (0x12, 0x13) and axis.link.stray == 2
+    assert (axis.version(), axis.version()) == (0x12, 0x13) and axis.link.stray_bytes == 2
 
 
 def test_only_noise() -> None:

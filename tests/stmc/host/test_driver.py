@@ -40,7 +40,7 @@ from openppmc.host.errors import CommandRefused
 from openppmc.host.model_port import ModelPort
 from openppmc.host.script import Script
 from openppmc.host.stmc import CAPABILITIES as STMC
-from openppmc.host.stmc import refused as refused_stmc
+from openppmc.host.stmc import command_error as refused_stmc
 from openppmc.model.carrier.carrier import Plant
 from openppmc.model.stmc.carrier import Carrier
 

@@ -11,7 +11,7 @@ from ...common import output, show
 from ...common.board import BOARD
 from ...common.line_session import ending_after
 from ...common.options import Json, Side, check_seconds, with_setup
-from ...common.session import lasting, remember, setup_values
+from ...common.session import setup_values, store_setup, stores_setup
 from ..presenter import PRESENTER
 from . import show as show_line
 from .session import Session, opened
@@ -38,7 +38,7 @@ def scan(as_json: Json = False) -> None:
         output.console.print(show_line.found_table(found))
         for one in found:
             if one.problem:
-                output.say(f"station {one.station}: {one.problem}")
+                output.print_line(f"station {one.station}: {one.problem}")
     else:
         raise PpmcError(show_line.no_station_message(session.bus.line.name))
 
@@ -59,11 +59,11 @@ def poll(
             for one in axes:
                 session.guard.check()
                 for report in one.poll():
-                    output.say(show_line.report_line(one.number, report))
+                    output.print_line(show_line.report_line(one.number, report))
         for one in axes:
             state = "busy" if one.window.busy else "ready"
             lost = one.counters.lost_reports
-            output.say(f"station {one.number}: {state}" + (f", {lost} polls garbled" if lost else ""))
+            output.print_line(f"station {one.number}: {state}" + (f", {lost} polls garbled" if lost else ""))
 
 
 def status(axis: AnyAxis = None, as_json: Json = False) -> None:
@@ -81,7 +81,7 @@ def reset(axis: Axis) -> None:
     with opened() as session:
         for one in session.selected_axes(axis):
             one.reset()
-            output.say(f"station {one.number}: reset")
+            output.print_line(f"station {one.number}: reset")
 
 
 # ---------------------------------------------------------------------- motions
@@ -105,14 +105,14 @@ def init(typed: dict[str, Any], axis: Axis, as_json: Json = False) -> None:
         axes = session.selected_axes(axis)
         setups = _initialise(session, axes, typed)
     for one in axes:
-        remember(BOARD.port, setup_values(typed, one.number).table(), one.number)
+        store_setup(BOARD.port, setup_values(typed, one.number).table(), one.number)
     if as_json:
         values = {one.number: PRESENTER.setup_values(setup) for one, setup in zip(axes, setups, strict=True)}
         output.print_json(values)
         return
     output.console.print(output.table(PRESENTER.setup_rows(setups[0])))
-    output.say(f"initialised: station{'s' if len(axes) > 1 else ''} {_list(axes)}")
-    if not lasting(BOARD.port):
+    output.print_line(f"initialised: station{'s' if len(axes) > 1 else ''} {_list(axes)}")
+    if not stores_setup(BOARD.port):
         output.note("(a virtual board is new each time; the set-up is not stored)")
 
 
@@ -137,7 +137,7 @@ def move(
             if away:
                 motions.append(one.start_move(away) if speed is None else one.start_constant(away, speed))
             else:
-                output.say(show.end_line(one.move(0)))
+                output.print_line(show.end_line(one.move(0)))
         _finish(session, motions, abs(pulses))
 
 
@@ -150,7 +150,7 @@ def _finish(session: Session, motions: list[Any], asked: int | None = None) -> N
     ends = session.bus.wait(motions, progress=session.guard.progress)
     session.guard.bar_off()
     for end in ends:
-        output.say(show.end_line(end))
+        output.print_line(show.end_line(end))
     show_line.reports(session.bus.axes)
     if asked is not None:
         for motion, end in zip(motions, ends, strict=True):
@@ -177,7 +177,7 @@ def jog(
         ends = session.bus.wait(motions, progress=ending_after(seconds, session.bus, session.guard, axes))
         session.guard.bar_off()
         for end in ends:
-            output.say(show.end_line(end))
+            output.print_line(show.end_line(end))
         show_line.reports(axes)
 
 
@@ -200,7 +200,7 @@ def home(
         for one in axes:
             one.home(direction.code, search, fast, to_limit, progress=session.guard.progress, index=index)
             session.guard.bar_off()
-            output.say(f"station {one.number}: position {one.position}: origin found")
+            output.print_line(f"station {one.number}: position {one.position}: origin found")
 
 
 def stop(
@@ -212,9 +212,9 @@ def stop(
         axes = session.selected_axes(axis)
         ends = session.bus.stop([one.number for one in axes], now)
         for end in ends:
-            output.say(show.end_line(end))
+            output.print_line(show.end_line(end))
         if not ends:
-            output.say("nothing was moving")
+            output.print_line("nothing was moving")
 
 
 def _list(axes: list[Station312]) -> str:

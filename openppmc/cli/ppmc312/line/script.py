@@ -107,9 +107,9 @@ def script(
         for number, plan in plans.items():
             session.guard.check()
             line.axis(number).apply(plan)
-        ScriptRunner(line, values, name, output.say).run(steps)
+        ScriptRunner(line, values, name, output.print_line).run(steps)
         session.guard.bar_off()
-        output.say(f"done, {positions(line.axis(number) for number in used)}")
+        output.print_line(f"done, {positions(line.axis(number) for number in used)}")
 
 
 def _names(steps: Iterable[Step], number: int) -> bool:

@@ -48,11 +48,11 @@ class Session:
 
     def scan(self) -> list[ScanResult]:
         """Return all stations that reply; show a bar during the search."""
-        found = self.bus.scan(progress=self._scanning)
+        found = self.bus.scan(progress=self._on_scan_progress)
         self.guard.bar_off()
         return found
 
-    def _scanning(self, number: int) -> None:
+    def _on_scan_progress(self, number: int) -> None:
         self.guard.check()
         self.guard.count_bar("looking for stations", number, STATIONS)
 

@@ -104,7 +104,7 @@ def report_line(number: int, report: Report) -> str:
     return text if text.startswith(who) else who + text
 
 
-def reports(axes: Iterable[Station312], print_line: Callable[[str], None] = output.say) -> None:
+def reports(axes: Iterable[Station312], print_line: Callable[[str], None] = output.print_line) -> None:
     """Pass each new report to `print_line` as a line; then raise the first error among them."""
     first_error: PpmcError | None = None
     for axis in axes:

@@ -103,7 +103,7 @@ _SERIAL_PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
 _STOPPING = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
 
 
-def refused_serial(prefix: str, code: int, error: int, state: int | None = None) -> CommandRefused:
+def serial_command_error(prefix: str, code: int, error: int, state: int | None = None) -> CommandRefused:
     """Return the exception for error code `error` of a reply.
 
     Args:
@@ -111,9 +111,9 @@ def refused_serial(prefix: str, code: int, error: int, state: int | None = None)
         code: code of the instruction on the parallel bus.
         state: condition of the part, read after error 43.
 
-    >>> str(refused_serial("station 3: ", 0x82, 0x43, 0x10))
+    >>> str(serial_command_error("station 3: ", 0x82, 0x43, 0x10))
     'station 3: the part is in alarm: remove the cause, then clear the alarm (or reset)'
-    >>> str(refused_serial("", 0x82, 0x43, 0x02))
+    >>> str(serial_command_error("", 0x82, 0x43, 0x02))
     'the part was busy with a motion: try again'
     """
     kind: type[CommandRefused]
@@ -140,7 +140,7 @@ def refused_serial(prefix: str, code: int, error: int, state: int | None = None)
     return kind(error, prefix + (text or kind.text))
 
 
-def failed_serial(prefix: str, by: Source) -> CommandRefused:
+def serial_failure(prefix: str, by: Source) -> CommandRefused:
     """Return the exception for an override interruption (4B) or event interruption (4A)."""
     if by is Source.OVERRIDE:
         return OverrideFailed(0, f"{prefix}an override was not carried out; the others are dropped")

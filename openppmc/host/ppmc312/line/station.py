@@ -55,7 +55,8 @@ class SerialMotion(Motion):
     def _on_stop_report(self, report: Stopped) -> None:
         """Process the report of the end, and compare it with the request.
 
-        A damaged request or position may look valid. Therefore the position is read again if they do not agree.
+        A damaged request or position may look valid. Therefore the position is read again if they do not
+        agree.
         """
         super()._on_stop_report(report)
         if self.result_error is not None:

@@ -31,7 +31,7 @@ from ..answers import (
 )
 from ..motion import Motion
 from ..window import ANSWER_MS, SHORTEST
-from .line import Error, Line, failed_serial, refused_serial
+from .line import Error, Line, serial_command_error, serial_failure
 from .wire import (
     BUSY,
     DATA,
@@ -254,7 +254,7 @@ class StationLink:
         if block[2] == Code.EVENT_SET and block[3] & 2 and error == Error.REGISTRATION:
             return Response(bytes([3, 2, Code.EVENT_SET, 5]))
         state = self._station.status().raw if error == Error.STATUS else None
-        raise resolver.error_for(refused_serial(self._station._message_prefix, block[2], error, state))
+        raise resolver.error_for(serial_command_error(self._station._message_prefix, block[2], error, state))
 
     def read(self, code: int) -> bytes:
         """Execute a read instruction that only the line has. Raises the error of the station."""
@@ -262,7 +262,7 @@ class StationLink:
         if reply.error is None:
             return reply.data
         state = self.status().raw if reply.error == Error.STATUS else None
-        raise refused_serial(self._station._message_prefix, code, reply.error, state)
+        raise serial_command_error(self._station._message_prefix, code, reply.error, state)
 
     def _ended(self) -> bool:
         """Return True if the motion of this object is over."""
@@ -372,7 +372,7 @@ class StationLink:
             return InputChange(reply.data[2], bool(reply.data[1]))
         if code in _FAILED:
             by = _FAILED[Error(code)]
-            return Failed(by, failed_serial(self._station._message_prefix, by))
+            return Failed(by, serial_failure(self._station._message_prefix, by))
         report = _REPORTS[code]
         self._alarmed |= isinstance(report, Alarm)
         return report
