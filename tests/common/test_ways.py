@@ -103,8 +103,8 @@ def test_a_part_has_few_bases_and_names() -> None:
 
 
 def private_names(path: Path) -> list[str]:
-    """Return the uses of `_` names of other objects in a file, except those of named tuples."""
-    own = ("self", "cls", "super()")
+    """Return the uses of `_` names of other objects in a file, except those of named tuples and `os`."""
+    own = ("self", "cls", "super()", "os")
     return [
         f"{path.relative_to(ROOT)}:{node.lineno}: {ast.unparse(node)}"
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))

@@ -161,9 +161,9 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
     ratio = _ratio(decoded, first, begin)
     result = _check(decoded, first, begin, starts, reset, tolerance)
     if ratio != 1.0:
-        is_learned = _check(decoded, _run(decoded, begin, ratio), begin, starts, reset, tolerance)
-        if len(is_learned.differences) <= len(result.differences):
-            result = is_learned
+        corrected = _check(decoded, _run(decoded, begin, ratio), begin, starts, reset, tolerance)
+        if len(corrected.differences) <= len(result.differences):
+            result = corrected
             result.ppm = (ratio - 1) * 1e6
     return result
 
@@ -362,10 +362,10 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
         for mine, other in zip(moves([a], decoded.pause), moves([b], decoded.pause), strict=False):
             if mine.pulses == other.pulses and mine.pulses > 20:
                 alike.append((mine.end - mine.begin, other.end - other.begin))
-    return is_learned(alike, slack)
+    return clock_ratio(alike, slack)
 
 
-def is_learned(alike: list[tuple[int, int]], slack: int) -> float:
+def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
     The ratio is measured in the lengths of moves of both in ps, and is 1 if they do not define it.

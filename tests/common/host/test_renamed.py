@@ -129,7 +129,7 @@ def test_no_file_uses_an_old_name() -> None:
     """Only the tables of old names, this test, decisions and the changelog contain the old class names."""
     words = [part for name in USED for part in ("-e", name)]
     places = ("openppmc", "cocotb_tests", "tests", "scripts", "examples", "docs", "README.md")
-    command = ["git", "grep", "-nIw", *words, "--", *places, ":!docs/decisions", f":!{__file__}"]
+    command = ["git", "grep", "-nIw", *words, "--", *places, ":!docs/decisions", ":!tests/common/host/test_renamed.py"]
     done = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
     if done.returncode not in (0, 1):
         pytest.skip("the tree is no git checkout")
