@@ -26,12 +26,12 @@ def _warn(old: str, new: str) -> None:
 class Renamed:
     """Old name of an attribute or method; it warns and returns the one with the new name.
 
-    Args:
+    Attributes:
         name: new name.
     """
 
     def __init__(self, name: str) -> None:
-        self._name = name
+        self.name = name
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._old = name
@@ -39,8 +39,8 @@ class Renamed:
     def __get__(self, instance: object, owner: type) -> Any:
         if instance is None:
             return self
-        _warn(f"{owner.__name__}.{self._old}", self._name)
-        return getattr(instance, self._name)
+        _warn(f"{owner.__name__}.{self._old}", self.name)
+        return getattr(instance, self.name)
 
 
 def renamed(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:

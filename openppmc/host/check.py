@@ -23,6 +23,7 @@ from operator import index
 from types import FunctionType
 from typing import Any, NamedTuple, TypeAlias
 
+from ..lazy import Renamed
 from .errors import NotCalledError, OutOfRange, UnknownAttributeError
 
 Number: TypeAlias = int | float | Fraction
@@ -270,6 +271,8 @@ class Checked:
     def __setattr__(self, name: str, value: object) -> None:
         if not name.startswith("_"):
             known = getattr(type(self), name, None)
+            if isinstance(known, Renamed):
+                raise UnknownAttributeError(f"{type(self).__name__}: {name!r} is now {known.name!r}")
             if isinstance(known, CheckedMethod) and not callable(value):
                 raise UnknownAttributeError(f"{type(self).__name__}: {name!r} is a method, nothing to set")
             if name not in self._declared and not hasattr(type(self), name):
@@ -281,6 +284,10 @@ class Checked:
 
 def _guess(name: str, of: Checked) -> str:
     """Return a hint with the most similar existing name, or an empty text."""
-    names = [one for one in {*dir(of), *of._declared} if not one.startswith("_")]
+    names = [
+        one
+        for one in {*dir(of), *of._declared}
+        if not one.startswith("_") and not isinstance(getattr(type(of), one, None), Renamed)
+    ]
     near = get_close_matches(name, names, 1)
     return f": do you mean {near[0]!r}?" if near else ""

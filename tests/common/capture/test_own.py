@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.capture.common.compare import compare, clock_ratio
+from openppmc.capture.common.compare import clock_ratio, compare
 from openppmc.capture.common.decoding import decode
 from openppmc.capture.common.errors import CaptureError
 from openppmc.capture.common.files import read_capture

@@ -14,6 +14,8 @@ import pytest
 from cocotb_tests.harness.paths import ROOT
 from openppmc import host
 from openppmc.host.bank.part import PpmcBank
+from openppmc.host.check import Checked
+from openppmc.host.errors import UnknownAttributeError
 from openppmc.host.line_port import Counters
 from openppmc.host.motion import Handle, Progress
 from openppmc.host.motion_result import Cause, EndUnknown, MotionError, MotionResult
@@ -125,11 +127,37 @@ def test_an_attribute_of_a_result_warns(one: Any, old: str, new: str) -> None:
         getattr(one, new)
 
 
+def test_an_old_name_cannot_be_set() -> None:
+    """Setting an attribute by its old name fails and names the new one; no hint contains an old name."""
+
+    class Driver(Checked):
+        together = Renamed("move_together")
+
+        def move_together(self) -> None:
+            """Move."""
+
+    with pytest.raises(UnknownAttributeError, match="^Driver: 'together' is now 'move_together'$"):
+        Driver().together = 1
+    with pytest.raises(
+        UnknownAttributeError, match="^Driver has no attribute 'togethr': do you mean 'move_together'.$"
+    ):
+        Driver().togethr = 1  # type: ignore[attr-defined]
+
+
 def test_no_file_uses_an_old_name() -> None:
     """Only the tables of old names, this test, decisions and the changelog contain the old class names."""
     words = [part for name in USED for part in ("-e", name)]
     places = ("openppmc", "cocotb_tests", "tests", "scripts", "examples", "docs", "README.md")
-    command = ["git", "grep", "-nIw", *words, "--", *places, ":!docs/decisions", ":!tests/common/host/test_renamed.py"]
+    command = [
+        "git",
+        "grep",
+        "-nIw",
+        *words,
+        "--",
+        *places,
+        ":!docs/decisions",
+        ":!tests/common/host/test_renamed.py",
+    ]
     done = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
     if done.returncode not in (0, 1):
         pytest.skip("the tree is no git checkout")
