@@ -1,32 +1,84 @@
-"""Packages that import a name at its first use (PEP 562).
+"""Packages that import a name at its first use (PEP 562), and old names that warn.
 
 Such a package has its imports twice: under `TYPE_CHECKING` for type checkers and editors, and as rows for
 this module. `tests/common/test_lazy.py` compares both with `__all__`. The modules of the package import each
 other and never the package, so a name loads only the modules that it needs.
+
+A public name that was changed stays for one minor version: `renamed` and the argument of `lazy` for names of
+modules, `Renamed` for attributes. Type checkers do not know the old names.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
 
-def lazy(package: str, rows: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
+def _warn(old: str, new: str) -> None:
+    """Warn at the line of the caller's caller."""
+    message = f"{old} is now {new}; the old name will be removed in the next minor version"
+    warnings.warn(message, DeprecationWarning, stacklevel=3)
+
+
+class Renamed:
+    """Old name of an attribute or method; it warns and returns the one with the new name.
+
+    Attributes:
+        name: new name.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._old = name
+
+    def __get__(self, instance: object, owner: type) -> Any:
+        if instance is None:
+            return self
+        _warn(f"{owner.__name__}.{self._old}", self.name)
+        return getattr(instance, self.name)
+
+
+def renamed(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
+    """Return `__getattr__` of a module.
+
+    Args:
+        names: new name by old name.
+    """
+
+    def load(name: str) -> Any:
+        if name not in names:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        _warn(f"{module}.{name}", names[name])
+        return getattr(sys.modules[module], names[name])
+
+    return load
+
+
+def lazy(
+    package: str, rows: str, old: Mapping[str, str] | None = None
+) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
     """Return `__getattr__` and `__dir__` of a package.
 
     Args:
         rows: lines of a module, relative to the package, and names in it; `PUBLIC=NAME` renames one. Names of
             the module "." are modules themselves.
+        old: new name by old name.
     """
-    places = {}
+    places, old = {}, old or {}
     for module, *names in map(str.split, rows.strip().splitlines()):
         for name in names:
             public, _, own = name.partition("=")
             places[public] = module, own or public
 
     def load(name: str) -> Any:
+        if name in old:
+            _warn(f"{package}.{name}", old[name])
+            name = old[name]
         if name not in places:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         module, own = places[name]

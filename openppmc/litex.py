@@ -97,15 +97,15 @@ BRIDGE = "ppmc_wishbone"
 _BUILT_IN = re.compile(r"^//   (\w+) += (\S+)", re.M)
 
 
-def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
+def _plain(path: Path, expected: Mapping[str, Any]) -> None:
     """Check the parameters of a file of plain Verilog. Raises SourcesError."""
     head = path.read_text(encoding="utf-8").partition("`default_nettype")[0]
     for name, value in _BUILT_IN.findall(head):
         has = re.sub(r"^\d+'[bd]", "", value)
-        if name in wanted and has != str(wanted[name]):
+        if name in expected and has != str(expected[name]):
             raise SourcesError(
-                f"{path.name} was made with {name} = {value}, this SoC needs {wanted[name]}; run "
-                f"make verilog TOP={path.stem} PARAMS={name}={wanted[name]}"
+                f"{path.name} was made with {name} = {value}, this SoC needs {expected[name]}; run "
+                f"make verilog TOP={path.stem} PARAMS={name}={expected[name]}"
             )
 
 

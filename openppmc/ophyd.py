@@ -21,9 +21,9 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from .errors import needs
-from .host.ending import StoppedEarly
-from .host.errors import LinkError, NothingToStop, NotWhileBusy, OutOfRange, PpmcError
+from .host.errors import AxisBusy, LinkError, NothingToStop, OutOfRange, PpmcError
 from .host.motion import AnyMotion
+from .host.motion_result import StoppedByCommand
 from .host.part import Device
 
 needs("ophyd", "openppmc.ophyd", "ophyd")
@@ -45,8 +45,8 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     """One axis of a part or of a bank, or a station of a line.
 
     `set` returns a Status immediately. The Status fails with the error of the driver: LimitReached,
-    AlarmStop, StoppedEarly, Disconnected and others. Positioners of one device can move at the same time, and
-    any thread can call them. Other code must not use the device during this time.
+    AlarmStop, StoppedByCommand, Disconnected and others. Positioners of one device can move at the same time,
+    and any thread can call them. Other code must not use the device during this time.
 
     Args:
         device: the opened device with the port, its axis initialised; it must exist as long as the
@@ -120,10 +120,10 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
         """Move with ramps to the pulse nearest to a position in `egu`; return a Status of ophyd.
 
         Raises:
-            NotWhileBusy: another move of this positioner is in progress.
+            AxisBusy: another move of this positioner is in progress.
         """
         if self._moving:
-            raise NotWhileBusy(0, f"{self.name} is moving; wait for its Status or stop it")
+            raise AxisBusy(0, f"{self.name} is moving; wait for its Status or stop it")
         return super().move(position, wait=wait, timeout=timeout, moved_cb=moved_cb)
 
     def stop(self, *, success: bool = False) -> None:
@@ -170,13 +170,13 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
                     now = motion.poll()
                     if now is None:
                         break
-                    self._device.attend(POLL)
+                    self._device.process_reports(POLL)
                 self._set_position(now.position / self._scale)
                 time.sleep(FREE)
             self._ask()
-            assert motion.end is not None
-            motion.end.check(motion.asked)
-        except StoppedEarly as error:
+            assert motion.result is not None
+            motion.result.check(motion.requested)
+        except StoppedByCommand as error:
             self._over(status, None if self._stopped_well else error)
         except Exception as error:
             self._over(status, error)

@@ -30,10 +30,10 @@ LAYER_OF = {
     "model": "openppmc.model",
     "predict": "openppmc.model",
     "driver": "openppmc.host",
-    "kind": "openppmc.host",
+    "capabilities": "openppmc.host",
     "selftest": "openppmc.host.selftest",
-    "view": "openppmc.cli",
-    "words": "openppmc.cli",
+    "presenter": "openppmc.cli",
+    "script_commands": "openppmc.cli",
     "machine": "openppmc.sim",
     "decode": "openppmc.capture",
     "soak": "cocotb_tests",
@@ -62,8 +62,8 @@ class Row:
         rtl: group in rtl/files.yml.
         top: its top module.
         families: FPGA families for which it is built.
-        view: its output on the command line.
-        words: its own words in script files.
+        presenter: its output on the command line.
+        script_commands: its own commands in script files.
         docs: pages of its folder in docs/ in addition to README.md and traceability.md.
         manual: drawings and calculations for these pages.
         selftest: actions of its board in `openppmc selftest`.
@@ -89,10 +89,10 @@ class Row:
     model: str = ""
     predict: str = ""
     driver: str = ""
-    kind: str = ""
+    capabilities: str = ""
     selftest: str = ""
-    view: str = ""
-    words: str = ""
+    presenter: str = ""
+    script_commands: str = ""
     machine: str = ""
     decode: str = ""
     docs: tuple[str, ...] = ()
@@ -131,7 +131,7 @@ ROWS = (
         model=":Ppmc104",
         predict=":predict",
         driver=":Ppmc104",
-        kind=":KIND",
+        capabilities=":CAPABILITIES",
         selftest=":PLAN",
         machine=":MACHINE",
         decode="decode:DECODER",
@@ -153,9 +153,9 @@ ROWS = (
         model="part:Ppmc2104",
         predict="carrier:predict",
         driver="part:Ppmc2104",
-        kind="words:KIND",
+        capabilities="registers:CAPABILITIES",
         selftest=":PLAN",
-        view=":VIEW",
+        presenter=":PRESENTER",
         machine=":MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
@@ -183,7 +183,7 @@ ROWS = (
         model="part:Stmc",
         predict="carrier:predict",
         driver=":Stmc",
-        kind=":KIND",
+        capabilities=":CAPABILITIES",
         selftest=":PLAN",
         machine=":MACHINE",
         decode="decode:DECODER",
@@ -214,10 +214,10 @@ ROWS = (
         model="part:Ppmc312",
         predict="carrier:predict",
         driver="part:Ppmc312",
-        kind="profile:KIND",
+        capabilities="profile:CAPABILITIES",
         selftest=":PLAN",
-        view="view:VIEW",
-        words="view:WORDS",
+        presenter="presenter:PRESENTER",
+        script_commands="presenter:SCRIPT_COMMANDS",
         machine="machine:MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
@@ -233,7 +233,7 @@ ROWS = (
         title="PPMC-312 in serial mode",
         of="ppmc312",
         driver="line.bus:Ppmc312Bus",
-        kind="line.line:KIND",
+        capabilities="line.line:CAPABILITIES",
         machine="line:MACHINE",
         decode="line:DECODER",
         line=True,
@@ -252,9 +252,9 @@ ROWS = (
         families=("ecp5",),
         model="part:PpmcBank",
         driver="part:PpmcBank",
-        kind="words:KIND",
+        capabilities="registers:CAPABILITIES",
         selftest=":PLAN",
-        view=":VIEW",
+        presenter=":PRESENTER",
         machine=":MACHINE",
         docs=("carrier.md", "spi.md"),
         manual="manual:MANUAL",
@@ -272,7 +272,7 @@ ROWS = (
         families=BOTH,
         model="part:Pmc006",
         driver="part:Pmc006Bus",
-        kind="wire:KIND",
+        capabilities="wire:CAPABILITIES",
         machine="line:MACHINE",
         decode="decode:DECODER",
         docs=("design.md", "rulings.md"),

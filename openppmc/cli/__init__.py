@@ -4,10 +4,10 @@ Exit status: 0 success, 1 error, 2 wrong usage, 128 + n after signal n, 141 if t
 
 `app` has the table of commands; a command is imported when it is called. `common` has the commands that the
 parts share, and depends on no part. The folder of a part has the commands of a part on a serial line, and
-the objects that two columns of `openppmc.parts` name. `view` defines the output, the forecasts and the
-additional functions of a part; a part without a view uses that of the PPMC-104. `words` are the additional
-words of a part in script files. A part that is accessed through the UART bridge and has the ramp and the
-registers of the PPMC-104 needs no code here.
+the objects that two columns of `openppmc.parts` name. `presenter` defines the output, the forecasts and the
+additional functions of a part; a part without a presenter uses that of the PPMC-104. `script_commands` are
+the additional commands of a part in script files. A part that is accessed through the UART bridge and
+has the ramp and the registers of the PPMC-104 needs no code here.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def main(arguments: list[str] | None = None) -> int:
             # Imported here, so that a signal during the import also prints only one line.
             import typer
 
-            from ..host.stopping import Signalled, arrived, handled, name_of, say
+            from ..host.stopping import Signalled, arrived, handled, name_of, print_line
             from .app import app
         except KeyboardInterrupt:
             print("interrupted", file=sys.stderr)
@@ -48,7 +48,7 @@ def main(arguments: list[str] | None = None) -> int:
         except typer.Exit as done:
             ended.status = done.exit_code
         except Signalled as stop:
-            say(name_of(stop.number))
+            print_line(name_of(stop.number))
             ended.status = 128 + stop.number
         except (KeyboardInterrupt, typer.Abort):
             print("interrupted", file=sys.stderr)

@@ -33,14 +33,18 @@ class Commands(PartGroup):
         Command("jog", "common.moves:jog", "Run until Ctrl-C, a limit switch or the alarm."),
         Command("home", "common.moves:home", "Find the origin switch and set the position to 0 there."),
         Command("stop", "common.moves:stop", "Stop a motion that is still running."),
-        Command("status", "common.looks:status", "Print position, switches and state without side effects."),
-        Command("monitor", "common.looks:monitor", "Show position and switches until Ctrl-C."),
+        Command(
+            "status",
+            "common.status_commands:status",
+            "Print position, switches and state without side effects.",
+        ),
+        Command("monitor", "common.status_commands:monitor", "Show position and switches until Ctrl-C."),
         Command(
             "plan", "common.moves:plan", "Predict a move; no board is needed.", (BRIDGE, SERIAL), numbers=True
         ),
         Command(
             "table",
-            "common.looks:table",
+            "common.status_commands:table",
             "Read the ramps of a PPMC-312 as a CSV file for --curve.",
         ),
         Command("script", "common.script:script", "Execute a file of commands."),
@@ -79,8 +83,8 @@ class Commands(PartGroup):
         Command("jog", "ppmc312.line.commands:jog", parts=(SERIAL,)),
         Command("home", "ppmc312.line.commands:home", parts=(SERIAL,)),
         Command("stop", "ppmc312.line.commands:stop", parts=(SERIAL,)),
-        Command("info", "ppmc312.line.looks:info", parts=(SERIAL,)),
-        Command("monitor", "ppmc312.line.looks:monitor", parts=(SERIAL,)),
+        Command("info", "ppmc312.line.status_commands:info", parts=(SERIAL,)),
+        Command("monitor", "ppmc312.line.status_commands:monitor", parts=(SERIAL,)),
         Command("script", "ppmc312.line.script:script", parts=(SERIAL,)),
         Command("move", "pmc006.moves:move", parts=(PMC,), numbers=True),
         Command("jog", "pmc006.moves:jog", parts=(PMC,)),

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..host import End, NothingToStop, PpmcBank
+from ..host import MotionResult, NothingToStop, PpmcBank
 from ..host.axis import OnProgress
 from ..host.part import AnyAxis
-from .common.view import RampView
+from .common.presenter import RampPresenter
 
 
-class BankView(RampView[PpmcBank]):
+class BankPresenter(RampPresenter[PpmcBank]):
     """All axes in one snapshot, one row each; moves of several axes start in the same cycle."""
 
     wide = True
@@ -28,28 +28,28 @@ class BankView(RampView[PpmcBank]):
                 "status": seen.status.raw,
                 "inputs": {name: bool(on) for name, on in vars(seen.inputs).items()},
             }
-            for number, seen in part.look(axis.number for axis in axes).items()
+            for number, seen in part.snapshot(axis.number for axis in axes).items()
         }
 
     def busy(self, part: PpmcBank, axes: Sequence[AnyAxis]) -> tuple[AnyAxis, ...]:
         moving = part.status().busy
         return tuple(axis for axis in axes if axis.number in moving)
 
-    def together(
+    def move_together(
         self,
         part: PpmcBank,
         pulses: Mapping[int, int],
         pps: float | None,
         progress: OnProgress,
         pulse_only: bool = False,
-    ) -> Sequence[End]:
-        return list(part.together(pulses, pps, progress, pulse_only).values())
+    ) -> Sequence[MotionResult]:
+        return list(part.move_together(pulses, pps, progress, pulse_only).values())
 
-    def halt_all(self, part: PpmcBank) -> list[End]:
+    def halt_all(self, part: PpmcBank) -> list[MotionResult]:
         ends = part.stop_all()
         if not ends:
             raise NothingToStop(0, "nothing to stop: all axes are at rest")
         return list(ends.values())
 
 
-VIEW = BankView()
+PRESENTER = BankPresenter()

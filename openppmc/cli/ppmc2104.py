@@ -4,27 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..host import End, Ppmc2104
+from ..host import MotionResult, Ppmc2104
 from ..host.axis import OnProgress
-from ..host.ppmc2104.words import Status
-from .common.view import RampView
+from ..host.ppmc2104.registers import Status
+from .common.presenter import RampPresenter
 
 
-class PartView(RampView[Ppmc2104]):
-    """View of a part with one status register for both axes, and a common start."""
+class PartPresenter(RampPresenter[Ppmc2104]):
+    """Presenter of a part with one status register for both axes, and a common start."""
 
     def moving(self, status: Status, number: int) -> tuple[bool, int | str | None]:
         return status.busy[number - 1], "unread" if status.error else None
 
-    def together(
+    def move_together(
         self,
         part: Ppmc2104,
         pulses: Mapping[int, int],
         pps: float | None,
         progress: OnProgress,
         pulse_only: bool = False,
-    ) -> Sequence[End]:
-        return part.together(pulses[1], pulses[2], pps, pps, progress, pulse_only)
+    ) -> Sequence[MotionResult]:
+        return part.move_together(pulses[1], pulses[2], pps, pps, progress, pulse_only)
 
 
-VIEW = PartView()
+PRESENTER = PartPresenter()

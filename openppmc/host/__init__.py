@@ -22,29 +22,18 @@ if TYPE_CHECKING:
     from .axis import CCW, CW, Axis
     from .bank.axis import BankAxis
     from .bank.part import PpmcBank
-    from .bank.words import GroupRefused
-    from .ending import (
-        AlarmStop,
-        Cause,
-        End,
-        EndUnknown,
-        LimitReached,
-        MotionError,
-        OriginNotFound,
-        StoppedEarly,
-    )
+    from .bank.registers import GroupRefused
     from .errors import (
         AlreadyDecelerating,
-        BadRamp,
+        AxisBusy,
         CommandRefused,
         Disconnected,
+        InvalidRamp,
         LinkError,
-        Misused,
         NoAnswer,
-        NoSuchName,
+        NotCalledError,
         NothingToStop,
         NotInitialised,
-        NotWhileBusy,
         OutOfRange,
         PortError,
         PpmcError,
@@ -54,11 +43,22 @@ if TYPE_CHECKING:
         Timeout,
         UnexpectedData,
         UnexpectedDataBusy,
-        UnknownCode,
+        UnknownAttributeError,
+        UnknownCommand,
         WrongDevice,
     )
     from .link import Link
     from .motion import Motion, Progress
+    from .motion_result import (
+        AlarmStop,
+        Cause,
+        EndUnknown,
+        LimitReached,
+        MotionError,
+        MotionResult,
+        OriginNotFound,
+        StoppedByCommand,
+    )
     from .part import Part as AnyPart
     from .part import open_part
     from .pmc006.axis import BACKWARD, FORWARD
@@ -71,7 +71,7 @@ if TYPE_CHECKING:
     from .ppmc312.part import Ppmc312
     from .ppmc2104.axis import Axis2104
     from .ppmc2104.part import Ppmc2104
-    from .ppmc2104.words import BadSwitching, CutCommand, TooFast
+    from .ppmc2104.registers import IncompleteCommand, InvalidChopperTimes, RateLimitExceeded
     from .stmc import BOARD_CLOCK, Stmc
     from .stopping import Signalled, stop_on_signals
 else:
@@ -79,31 +79,45 @@ else:
         __name__,
         """
         . units
-        .axis CCW CW Axis
+        .axis Axis CCW CW
         .bank.axis BankAxis
         .bank.part PpmcBank
-        .bank.words GroupRefused
-        .ending AlarmStop Cause End EndUnknown LimitReached MotionError OriginNotFound StoppedEarly
-        .errors AlreadyDecelerating BadRamp CommandRefused Disconnected LinkError Misused NoAnswer NoSuchName
-        .errors NothingToStop NotInitialised NotWhileBusy OutOfRange PortError PpmcError ProtocolError
-        .errors RampTooLong StartRefused Timeout UnexpectedData UnexpectedDataBusy UnknownCode WrongDevice
+        .bank.registers GroupRefused
+        .errors AlreadyDecelerating AxisBusy CommandRefused Disconnected InvalidRamp LinkError NoAnswer
+        .errors NotCalledError NothingToStop NotInitialised OutOfRange PortError PpmcError ProtocolError
+        .errors RampTooLong StartRefused Timeout UnexpectedData UnexpectedDataBusy UnknownAttributeError
+        .errors UnknownCommand WrongDevice
         .link Link
         .motion Motion Progress
+        .motion_result AlarmStop Cause EndUnknown LimitReached MotionError MotionResult OriginNotFound
+        .motion_result StoppedByCommand
         .part AnyPart=Part open_part
         .pmc006.axis BACKWARD FORWARD
         .pmc006.part Pmc006 Pmc006Bus
         .port open_port serial_ports
         .ppmc104 Ppmc104
+        .ppmc2104.axis Axis2104
+        .ppmc2104.part Ppmc2104
+        .ppmc2104.registers IncompleteCommand InvalidChopperTimes RateLimitExceeded
         .ppmc312.line.bus Ppmc312Bus
         .ppmc312.line.station Station312
         .ppmc312.line.wire SumMode
         .ppmc312.part Ppmc312
-        .ppmc2104.axis Axis2104
-        .ppmc2104.part Ppmc2104
-        .ppmc2104.words BadSwitching CutCommand TooFast
         .stmc BOARD_CLOCK Stmc
         .stopping Signalled stop_on_signals
         """,
+        {
+            "BadRamp": "InvalidRamp",
+            "BadSwitching": "InvalidChopperTimes",
+            "CutCommand": "IncompleteCommand",
+            "End": "MotionResult",
+            "Misused": "NotCalledError",
+            "NoSuchName": "UnknownAttributeError",
+            "NotWhileBusy": "AxisBusy",
+            "StoppedEarly": "StoppedByCommand",
+            "TooFast": "RateLimitExceeded",
+            "UnknownCode": "UnknownCommand",
+        },
     )
 
 __all__ = [
@@ -119,26 +133,26 @@ __all__ = [
     "Axis",
     "Axis2104",
     "BankAxis",
-    "BadRamp",
-    "BadSwitching",
+    "InvalidRamp",
+    "InvalidChopperTimes",
     "Cause",
     "CommandRefused",
-    "CutCommand",
+    "IncompleteCommand",
     "Disconnected",
-    "End",
+    "MotionResult",
     "EndUnknown",
     "FORWARD",
     "GroupRefused",
     "LimitReached",
     "Link",
     "LinkError",
-    "Misused",
+    "NotCalledError",
     "Motion",
     "MotionError",
     "NoAnswer",
-    "NoSuchName",
+    "UnknownAttributeError",
     "NotInitialised",
-    "NotWhileBusy",
+    "AxisBusy",
     "NothingToStop",
     "OriginNotFound",
     "OutOfRange",
@@ -158,12 +172,12 @@ __all__ = [
     "Station312",
     "Stmc",
     "SumMode",
-    "StoppedEarly",
+    "StoppedByCommand",
     "Timeout",
-    "TooFast",
+    "RateLimitExceeded",
     "UnexpectedData",
     "UnexpectedDataBusy",
-    "UnknownCode",
+    "UnknownCommand",
     "WrongDevice",
     "open_part",
     "open_port",

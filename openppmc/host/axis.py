@@ -8,12 +8,12 @@ from fractions import Fraction
 
 from ..model.motion.codes import ACC_DEC, CONSTANT, CONTINUOUS, ENDLESS, HIGH_SPEED, ORIGIN, SINGLE_STEP
 from . import speeds
+from .capabilities import CHOPPER, COILS_OFF, PULSE_ONLY, RateCapabilities, SetupRequest
 from .check import Checked
-from .ending import Cause, End
-from .errors import AlreadyDecelerating, NothingToStop, NotWhileBusy, OutOfRange, ProtocolError
-from .kind import CHOPPER, COILS_OFF, PULSE_ONLY, RateKind, Wanted
-from .link import Talk
-from .motion import READ_FINISH, Homing, Motion, Order, Progress
+from .errors import AlreadyDecelerating, AxisBusy, NothingToStop, OutOfRange, ProtocolError
+from .link import LinkProtocol
+from .motion import READ_FINISH, Homing, Motion, MotionRequest, Progress
+from .motion_result import Cause, MotionResult
 from .registers import FAMILY, Outputs, ReadCodes, Switches
 from .script import Script
 from .speeds import Number, exact, nearby
@@ -44,12 +44,12 @@ def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tupl
     offset = {("on", 1): 108, ("on", 0): 100, ("off", 1): 132, ("off", 0): 115}[phase, vsel] * quantum
     unit = 12 * quantum
     low, high = offset, offset + 255 * unit
-    asked = exact(microseconds, f"{phase} time")
-    if not low <= asked <= high:
+    requested = exact(microseconds, f"{phase} time")
+    if not low <= requested <= high:
         raise OutOfRange(
             f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
         )
-    byte = min(255, int((asked - offset) / unit + Fraction(1, 2)))
+    byte = min(255, int((requested - offset) / unit + Fraction(1, 2)))
     return byte, offset + byte * unit
 
 
@@ -68,15 +68,15 @@ class Axis(Checked):
         unused: bits of the status register that read as 0.
     """
 
-    kind: RateKind
+    kind: RateCapabilities
     number = 1
-    bit = 0
-    busy = 0x04
-    unused = 0x08
-    link: Talk
+    _code_bits = 0
+    _busy_mask = 0x04
+    _zero_mask = 0x08
+    link: LinkProtocol
     setup: speeds.Setup | None
 
-    def __init__(self, link: Talk) -> None:
+    def __init__(self, link: LinkProtocol) -> None:
         self.link = link
         self.setup = None
         self._motion: Motion | None = None
@@ -87,18 +87,18 @@ class Axis(Checked):
         return self._motion
 
     @property
-    def codes(self) -> ReadCodes:
+    def _read_codes(self) -> ReadCodes:
         """Codes of the read commands that differ between parts."""
         return FAMILY
 
     @property
-    def who(self) -> str:
+    def _message_prefix(self) -> str:
         """Prefix of messages about this axis; empty if the part has one axis."""
         return f"axis {self.number}: " if self.kind.axes > 1 else ""
 
-    def told(self, end: End) -> End:
-        """Return the End with the message prefix and the alarm name of this axis."""
-        return replace(end, who=self.who, alarm=self.kind.alarm)
+    def _annotate(self, end: MotionResult) -> MotionResult:
+        """Return the result with the message prefix and the alarm name of this axis."""
+        return replace(end, message_prefix=self._message_prefix, alarm=self.kind.alarm)
 
     # ------------------------------------------------------------------ initialisation
 
@@ -133,9 +133,9 @@ class Axis(Checked):
 
         Raises:
             OutOfRange: an argument is out of range, or the part does not support it.
-            NotWhileBusy: a motion is running.
+            AxisBusy: a motion is running.
         """
-        wanted = Wanted(
+        request = SetupRequest(
             start_pps,
             high_pps,
             ramp_pulses,
@@ -148,11 +148,11 @@ class Axis(Checked):
             long_intervals,
             self.number,
         )
-        return self.apply(self.kind.plan(self.link.identity.xtal_hz, wanted))
+        return self.apply(self.kind.plan(self.link.identity.xtal_hz, request))
 
     # ------------------------------------------------------------------ implemented by each part
 
-    def straps(self, clock: speeds.BaseClock | None) -> Script:
+    def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
         """Return the script that sets the strap pins for this base clock; `None` = any level will do."""
         raise NotImplementedError
 
@@ -165,7 +165,7 @@ class Axis(Checked):
         raise NotImplementedError
 
     @property
-    def search_speed(self) -> speeds.Number:
+    def _default_speed(self) -> speeds.Number:
         """Default speed of searches and jogs in pps: the start speed.
 
         Raises:
@@ -181,7 +181,7 @@ class Axis(Checked):
         The base clock may be another internal clock than that of the ramp.
         """
         if pps is None:
-            pps = self.search_speed
+            pps = self._default_speed
         ramp = self.setup.clock if self.setup else None
         clock = self.kind.constant_clock(self.link.identity.xtal_hz, ramp, pps)
         return clock, clock.choose(pps).rate
@@ -189,47 +189,49 @@ class Axis(Checked):
     # ------------------------------------------------------------------ registers
 
     def outputs(self) -> Outputs:
-        """Read the motor outputs. Raises NotWhileBusy during a motion."""
-        return Outputs.parse(self.link.execute(Script().call(self.codes.outputs | self.bit).get(1)).byte(1))
+        """Read the motor outputs. Raises AxisBusy during a motion."""
+        return Outputs.parse(
+            self.link.execute(Script().call(self._read_codes.outputs | self._code_bits).get(1)).byte(1)
+        )
 
     def remaining(self) -> int:
         """Read the remaining-pulse register of the last motion. The call is not allowed during a motion.
 
         The register holds the remaining pulses - 1, at least 0.
         """
-        return self.link.execute(Script().call(self.codes.remaining | self.bit).get(3)).number(1)
+        return self.link.execute(Script().call(self._read_codes.remaining | self._code_bits).get(3)).number(1)
 
     @property
     def position(self) -> int:
         """Pulse counter of the bridge, CW positive. The call is allowed at any time."""
-        position = self.counted(self._count())
+        position = self._position_of(self._count())
         if position is None:
             raise ProtocolError(f"{self.link.name}: this board has no pulse counter, so no position")
         return position
 
-    def where(self, script: Script) -> Script:
+    def _add_position_read(self, script: Script) -> Script:
         """Add a read of the position counter of this axis to a script.
 
         The call returns one value of 4 bytes.
         """
         return script.count(self.number)
 
-    def counted(self, count: int) -> int | None:
+    def _position_of(self, count: int) -> int | None:
         """Return the position for a value of the counter, `None` if the board has no counter."""
         return count if self.link.identity.counter else None
 
     def _count(self) -> int:
-        return self.link.execute(self.where(Script())).number(0, signed=True)
+        return self.link.execute(self._add_position_read(Script())).number(0, signed=True)
 
     def zero(self) -> None:
         """Set the current position to 0.
 
         Raises:
-            NotWhileBusy: a motion of this object is running (its end is compared with the pulse counter).
+            AxisBusy: a motion of this object is running (its end is compared with the pulse counter).
         """
         motion = self._motion
         if motion is not None and not motion.over and motion.poll() is not None:
-            raise NotWhileBusy(self.busy)
+            raise AxisBusy(self._busy_mask)
         self.link.execute(Script().zero(self.number))
 
     def excitation_off(self) -> None:
@@ -239,11 +241,11 @@ class Axis(Checked):
         (P104-AUX-05).
 
         Raises:
-            NotWhileBusy: a motion is running.
+            AxisBusy: a motion is running.
             OutOfRange: the part is an STMC, which has no such command.
         """
         self.kind.need(COILS_OFF)
-        self._at_rest(Script().call(EXCITATION_OFF | self.bit))
+        self._at_rest(Script().call(EXCITATION_OFF | self._code_bits))
 
     def switching(self, on_us: Number, off_us: Number) -> tuple[Fraction, Fraction]:
         """Set the chopper times at standstill in us; return the times that are reached.
@@ -260,33 +262,35 @@ class Axis(Checked):
         self.link.execute(Script().call(SWITCHING, on[0], off[0]))
         return on[1], off[1]
 
-    def forget(self) -> None:
+    def _on_reset(self) -> None:
         """Discard set-up and motion, because the part was reset."""
         self.setup = self._motion = None
 
     def _at_rest(self, script: Script) -> None:
         """Execute a script only if BUSY = 0; the bridge itself checks it."""
-        answer = self.link.attempt(Script().timeout(0).wait(1, self.busy, 0).timeout(250).extend(script))
+        answer = self.link.attempt(
+            Script().timeout(0).wait(1, self._busy_mask, 0).timeout(250).extend(script)
+        )
         if answer.failed is not None and answer.failed.name == "WAIT":
-            raise NotWhileBusy(answer.last)
-        self.link.judge(answer)
+            raise AxisBusy(answer.last)
+        self.link.check_answer(answer)
 
     # ------------------------------------------------------------------ stop commands
 
-    def look(self, status: int) -> None:
+    def _on_status(self, status: int) -> None:
         """Process a status register that was read during a motion of this axis."""
 
-    def order_stop(self, now: bool) -> None:
+    def _send_stop(self, now: bool) -> None:
         """Send the stop command, immediate or with a ramp. Raises the error that the part reports."""
-        self.link.execute(Script().call((STOP_NOW if now else STOP_SLOWLY) | self.bit))
+        self.link.execute(Script().call((STOP_NOW if now else STOP_SLOWLY) | self._code_bits))
 
-    def brake(self, now: bool = False) -> None:
+    def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
         A rejection because the motion is already decelerating or has ended is ignored.
         """
         try:
-            self.order_stop(now)
+            self._send_stop(now)
         except (AlreadyDecelerating, NothingToStop):
             pass
 
@@ -299,11 +303,11 @@ class Axis(Checked):
             pulses: 1 to 16 777 216 in either direction.
             pulse_only: output pulses, but keep the phases unchanged.
         """
-        return self.start(self.move_order(pulses, pulse_only=pulse_only))
+        return self._start_motion(self._move_request(pulses, pulse_only=pulse_only))
 
     def start_constant(self, pulses: int, pps: speeds.Number) -> Motion:
         """Start a move at constant speed, without ramps."""
-        return self.start(self.move_order(pulses, pps))
+        return self._start_motion(self._move_request(pulses, pps))
 
     def jog(
         self,
@@ -321,18 +325,18 @@ class Axis(Checked):
         if high:
             if speed is not None:
                 raise OutOfRange("jog: either a speed or high, not both")
-            return self.start(Order(HIGH_SPEED, direction, pulse_only=pulse_only))
+            return self._start_motion(MotionRequest(HIGH_SPEED, direction, pulse_only=pulse_only))
         clock, rate = self._rate(speed)
-        return self.start(Order(CONTINUOUS, direction, bytes([rate]), clock=clock))
+        return self._start_motion(MotionRequest(CONTINUOUS, direction, bytes([rate]), clock=clock))
 
     def search(self, direction: int, pps: speeds.Number | None = None) -> Motion:
         """Run at constant speed until the origin switch, a stop command, a limit or the alarm."""
         clock, rate = self._rate(pps)
-        return self.start(Order(ORIGIN, direction, bytes([rate]), clock=clock))
+        return self._start_motion(MotionRequest(ORIGIN, direction, bytes([rate]), clock=clock))
 
-    def step(self, direction: int) -> End:
+    def step(self, direction: int) -> MotionResult:
         """Output one pulse."""
-        return self.start(Order(SINGLE_STEP, direction, asked=1)).wait().check(1)
+        return self._start_motion(MotionRequest(SINGLE_STEP, direction, requested=1)).wait().check(1)
 
     def home(
         self,
@@ -342,7 +346,7 @@ class Axis(Checked):
         to_limit: bool = False,
         back_off: int = 100,
         progress: OnProgress | None = None,
-    ) -> End:
+    ) -> MotionResult:
         """Find the origin switch, always from the same side, and set its edge to position 0.
 
         Args:
@@ -353,12 +357,12 @@ class Axis(Checked):
             back_off: pulses of each move away from the switch if it is active at the start of the search.
 
         Raises:
-            OriginNotFound, LimitReached, AlarmStop, StoppedEarly: homing did not succeed.
+            OriginNotFound, LimitReached, AlarmStop, StoppedByCommand: homing did not succeed.
         """
         return Homing(self, direction, search_pps, back_off, progress).run(fast, to_limit)
 
-    def stop(self, wait: bool = True) -> End | None:
-        """Stop with a ramp (constant speeds: immediately); return the End, or `None` if wait is False.
+    def stop(self, wait: bool = True) -> MotionResult | None:
+        """Stop with a ramp (constant speeds: immediately); return the result, or `None` if wait is False.
 
         The call is no error if the motor is already decelerating or has just stopped.
 
@@ -367,45 +371,49 @@ class Axis(Checked):
         """
         return self._stop(False, wait)
 
-    def halt(self, wait: bool = True) -> End | None:
+    def halt(self, wait: bool = True) -> MotionResult | None:
         """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
         return self._stop(True, wait)
 
-    def _stop(self, now: bool, wait: bool) -> End | None:
+    def _stop(self, now: bool, wait: bool) -> MotionResult | None:
         motion = self._motion
         if motion is None or motion.over:
             # Another program may have started a motion.
-            motion = Motion(self, Order(CONTINUOUS, CW), 0, ours=False)
-            self.order_stop(now)
+            motion = Motion(self, MotionRequest(CONTINUOUS, CW), 0, ours=False)
+            self._send_stop(now)
         else:
-            self.brake(now)
+            self._request_stop(now)
         self._motion = motion
         return motion.wait() if wait else None
 
     # ------------------------------------------------------------------ moves that wait for their end
 
-    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
+    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> MotionResult:
         """Move with ramps and wait for the end.
 
         Raises:
-            LimitReached, AlarmStop, StoppedEarly: the move ended before all pulses were output.
+            LimitReached, AlarmStop, StoppedByCommand: the move ended before all pulses were output.
         """
         if pulses == 0:
-            return self.nothing_to_move()
+            return self._empty_move_result()
         return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
 
-    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
+    def move_to(self, position: int, progress: OnProgress | None = None) -> MotionResult:
         """Move with ramps to a position of the pulse counter and wait for the end."""
         return self.move(position - self.position, progress)
 
-    def move_constant(self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None) -> End:
+    def move_constant(
+        self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None
+    ) -> MotionResult:
         """Move at constant speed and wait for the end; raises the same errors as `move`."""
         return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
 
     # ------------------------------------------------------------------ starting
 
-    def move_order(self, pulses: int, pps: speeds.Number | None = None, pulse_only: bool = False) -> Order:
-        """Return the order of a move with ramps, or at constant speed if pps is not `None`.
+    def _move_request(
+        self, pulses: int, pps: speeds.Number | None = None, pulse_only: bool = False
+    ) -> MotionRequest:
+        """Return the request of a move with ramps, or at constant speed if pps is not `None`.
 
         Raises:
             OutOfRange: the part does not support these values.
@@ -415,39 +423,41 @@ class Axis(Checked):
             raise OutOfRange(f"{pulses} pulses: a move has 1 to {ENDLESS} pulses either way")
         data = (abs(pulses) - 1).to_bytes(3, "little")
         if pps is None:
-            return Order(ACC_DEC, direction, data, abs(pulses), pulse_only=pulse_only)
+            return MotionRequest(ACC_DEC, direction, data, abs(pulses), pulse_only=pulse_only)
         clock, rate = self._rate(pps)
-        return Order(CONSTANT, direction, bytes([rate]) + data, abs(pulses), clock)
+        return MotionRequest(CONSTANT, direction, bytes([rate]) + data, abs(pulses), clock)
 
-    def start(self, order: Order) -> Motion:
+    def _start_motion(self, request: MotionRequest) -> Motion:
         """Start a motion with one frame.
 
         The frame clears a pending interrupt, sets the straps, reads the counter and sends the command.
         """
-        if order.pulse_only:
+        if request.pulse_only:
             self.kind.need(PULSE_ONLY)
-        code = order.code | self.bit
-        script = Script().call(READ_FINISH | self.bit).get(1)
-        self.where(script.extend(self.straps(self.clock_of(order)))).call(code, *order.data)
+        code = request.code | self._code_bits
+        script = Script().call(READ_FINISH | self._code_bits).get(1)
+        self._add_position_read(script.extend(self._strap_script(self._clock_for(request)))).call(
+            code, *request.data
+        )
         self.link.forget_events()
         answer = self.link.execute(script)
-        return self.started(order, answer.number(2, signed=True))
+        return self._motion_started(request, answer.number(2, signed=True))
 
-    def started(self, order: Order, begin: int) -> Motion:
+    def _motion_started(self, request: MotionRequest, begin: int) -> Motion:
         """Store the motion that the part has started.
 
         Args:
             begin: pulse counter before the motion.
         """
-        self._motion = Motion(self, order, begin)
+        self._motion = Motion(self, request, begin)
         return self._motion
 
-    def clock_of(self, order: Order) -> speeds.BaseClock | None:
-        """Return the base clock of an order, `None` if it is unknown."""
-        if order.clock is not None:
-            return order.clock
+    def _clock_for(self, request: MotionRequest) -> speeds.BaseClock | None:
+        """Return the base clock of a request, `None` if it is unknown."""
+        if request.clock is not None:
+            return request.clock
         return None if self.setup is None else self.setup.clock
 
-    def nothing_to_move(self) -> End:
-        """Return the End of a move of 0 pulses."""
-        return self.told(End(Cause.COMPLETE, 0, 0, self.counted(self._count()), 0))
+    def _empty_move_result(self) -> MotionResult:
+        """Return the result of a move of 0 pulses."""
+        return self._annotate(MotionResult(Cause.COMPLETE, 0, 0, self._position_of(self._count()), 0))

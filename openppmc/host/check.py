@@ -23,7 +23,8 @@ from operator import index
 from types import FunctionType
 from typing import Any, NamedTuple, TypeAlias
 
-from .errors import Misused, NoSuchName, OutOfRange
+from ..lazy import Renamed
+from .errors import NotCalledError, OutOfRange, UnknownAttributeError
 
 Number: TypeAlias = int | float | Fraction
 
@@ -115,7 +116,7 @@ def _seconds(value: Any, what: str) -> float:
 # ---------------------------------------------------------------------- methods
 
 
-class Kind(NamedTuple):
+class ArgumentType(NamedTuple):
     """Type of an argument.
 
     Attributes:
@@ -130,18 +131,22 @@ class Kind(NamedTuple):
 _CHECKS = {"int": whole, "Number": _usual, "float": _seconds, "bool": flag}
 
 
-def _kind(annotation: Any) -> Kind | None:
+def _argument_type(annotation: Any) -> ArgumentType | None:
     """Return the type for an annotation such as `int` or `units.Number | None`.
 
     For other annotations, which are not checked, it returns None.
     """
     first, *more = str(getattr(annotation, "__name__", annotation)).split(" | ")
     name = first.removeprefix("units.")
-    return Kind(name, _CHECKS[name], more == ["None"]) if name in _CHECKS and more in ([], ["None"]) else None
+    return (
+        ArgumentType(name, _CHECKS[name], more == ["None"])
+        if name in _CHECKS and more in ([], ["None"])
+        else None
+    )
 
 
-class Entry:
-    """Method of a class that checks its arguments; an instance returns it as a `Bound`.
+class CheckedMethod:
+    """Method of a class that checks its arguments; an instance returns it as a `BoundMethod`.
 
     Attributes:
         kinds: type of each parameter that is checked.
@@ -152,11 +157,11 @@ class Entry:
         self.function = function
         parameters = inspect.signature(function).parameters
         self._names = tuple(parameters)[1:]
-        kinds = {name: _kind(one.annotation) for name, one in parameters.items()}
+        kinds = {name: _argument_type(one.annotation) for name, one in parameters.items()}
         self.kinds = {name: kind for name, kind in kinds.items() if kind is not None}
 
     def __get__(self, instance: object, owner: type | None = None) -> Any:
-        return self if instance is None else Bound(self, instance)
+        return self if instance is None else BoundMethod(self, instance)
 
     def __call__(self, instance: object, /, *values: Any, **words: Any) -> Any:
         values, words = self.checked(values, words)
@@ -180,7 +185,7 @@ def _of_class(function: Callable[..., Any]) -> Callable[..., Any]:
 
     Python 3.10 binds only functions to the class.
     """
-    entry = Entry(function)
+    entry = CheckedMethod(function)
 
     @wraps(function)
     def checking(owner: type, /, *values: Any, **words: Any) -> Any:
@@ -189,15 +194,15 @@ def _of_class(function: Callable[..., Any]) -> Callable[..., Any]:
     return checking
 
 
-def _value(bound: Bound, *others: object) -> Any:
-    raise bound._misused()
+def _value(bound: BoundMethod, *others: object) -> Any:
+    raise bound._not_called()
 
 
-class Bound:  # noqa: D101 - help() shows the docstring of the function
+class BoundMethod:  # noqa: D101 - help() shows the docstring of the function
     # A method of an object. Its truth value, equality and hash are those of a Python method. Arithmetic with
     # it and a comparison with a number raise an error. Its help and its names are those of the function.
 
-    def __init__(self, entry: Entry, instance: object) -> None:
+    def __init__(self, entry: CheckedMethod, instance: object) -> None:
         self._entry, self.__self__ = entry, instance
 
     __doc__ = property(lambda self: self._entry.__doc__)
@@ -211,18 +216,18 @@ class Bound:  # noqa: D101 - help() shows the docstring of the function
         values, words = self._entry.checked(values, words)
         return self._entry.function(self.__self__, *values, **words)
 
-    def __get__(self, instance: object, owner: type | None = None) -> Bound:
+    def __get__(self, instance: object, owner: type | None = None) -> BoundMethod:
         return self
 
-    def _misused(self) -> Misused:
+    def _not_called(self) -> NotCalledError:
         name = self.__name__
-        return Misused(f"'{name}' is a method: write {name}{inspect.signature(self)}")
+        return NotCalledError(f"'{name}' is a method: write {name}{inspect.signature(self)}")
 
     def __eq__(self, other: object) -> bool:
-        if isinstance(other, Bound):
+        if isinstance(other, BoundMethod):
             return self._entry is other._entry and self.__self__ is other.__self__
         if isinstance(other, Real) and not isinstance(other, bool):
-            raise self._misused()
+            raise self._not_called()
         return NotImplemented
 
     def __hash__(self) -> int:
@@ -231,7 +236,7 @@ class Bound:  # noqa: D101 - help() shows the docstring of the function
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             return getattr(vars(self).get("_entry"), name)
-        raise self._misused()
+        raise self._not_called()
 
     for _name in "lt le gt ge neg abs add sub mul truediv floordiv mod and or".split():
         vars()[f"__{_name}__"] = vars()[f"__r{_name}__"] = _value
@@ -259,22 +264,30 @@ class Checked:
             if name.startswith("_"):
                 continue
             if isinstance(member, FunctionType):
-                setattr(cls, name, Entry(member))
+                setattr(cls, name, CheckedMethod(member))
             elif isinstance(member, classmethod):
                 setattr(cls, name, classmethod(_of_class(member.__func__)))
 
     def __setattr__(self, name: str, value: object) -> None:
         if not name.startswith("_"):
             known = getattr(type(self), name, None)
-            if isinstance(known, Entry) and not callable(value):
-                raise NoSuchName(f"{type(self).__name__}: {name!r} is a method, nothing to set")
+            if isinstance(known, Renamed):
+                raise UnknownAttributeError(f"{type(self).__name__}: {name!r} is now {known.name!r}")
+            if isinstance(known, CheckedMethod) and not callable(value):
+                raise UnknownAttributeError(f"{type(self).__name__}: {name!r} is a method, nothing to set")
             if name not in self._declared and not hasattr(type(self), name):
-                raise NoSuchName(f"{type(self).__name__} has no attribute {name!r}{_guess(name, self)}")
+                raise UnknownAttributeError(
+                    f"{type(self).__name__} has no attribute {name!r}{_guess(name, self)}"
+                )
         super().__setattr__(name, value)
 
 
 def _guess(name: str, of: Checked) -> str:
     """Return a hint with the most similar existing name, or an empty text."""
-    names = [one for one in {*dir(of), *of._declared} if not one.startswith("_")]
+    names = [
+        one
+        for one in {*dir(of), *of._declared}
+        if not one.startswith("_") and not isinstance(getattr(type(of), one, None), Renamed)
+    ]
     near = get_close_matches(name, names, 1)
     return f": do you mean {near[0]!r}?" if near else ""

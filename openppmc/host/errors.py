@@ -1,4 +1,4 @@
-"""Exceptions for ports, lines and rejected commands. Ends of motions are in `ending`.
+"""Exceptions for ports, lines and rejected commands. Ends of motions are in `motion_result`.
 
 Each message states what is wrong and what to do. The name of an exception is the event itself, as in `except
 LimitReached`; only the common base class ends in Error. An exception of one part only is in the module or
@@ -9,7 +9,10 @@ folder of that part.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from ..errors import PpmcError as PpmcError
+from ..lazy import renamed
 from ..model.single.codes import Error
 
 
@@ -17,11 +20,11 @@ class OutOfRange(PpmcError, ValueError):
     """An argument is outside its range; the message states range and unit."""
 
 
-class NoSuchName(PpmcError, AttributeError):
+class UnknownAttributeError(PpmcError, AttributeError):
     """An attribute was set that the object does not have, for example because of a typing error."""
 
 
-class Misused(PpmcError, TypeError, AttributeError):
+class NotCalledError(PpmcError, TypeError, AttributeError):
     """A method without its parentheses was used as a number, or as the object that it returns."""
 
 
@@ -90,7 +93,7 @@ class NothingToStop(CommandRefused):
     text = "nothing to stop: the motor is at rest (or the code is unknown)"
 
 
-class NotWhileBusy(CommandRefused):
+class AxisBusy(CommandRefused):
     """Error 1 (PPMC-2104: 5): the part is busy with a motion."""
 
     number = Error.NOT_WHILE_BUSY
@@ -118,7 +121,7 @@ class RampTooLong(CommandRefused):
     text = "the part refuses a ramp of more than 11220 pulses: choose a shorter one"
 
 
-class BadRamp(CommandRefused):
+class InvalidRamp(CommandRefused):
     """Error 5 (PPMC-2104: 9): the ramp is invalid."""
 
     number = Error.BAD_RAMP
@@ -139,7 +142,7 @@ class AlreadyDecelerating(CommandRefused):
     text = "the motor is decelerating already: wait for its end, or halt it at once"
 
 
-class UnknownCode(CommandRefused):
+class UnknownCommand(CommandRefused):
     """Error 1 of the PPMC-2104: the code is undefined."""
 
     text = "the part does not know this code: check the script"
@@ -161,17 +164,30 @@ BY_NUMBER: dict[int, type[CommandRefused]] = {
     kind.number: kind
     for kind in (
         NothingToStop,
-        NotWhileBusy,
+        AxisBusy,
         NotInitialised,
         UnexpectedData,
         RampTooLong,
-        BadRamp,
+        InvalidRamp,
         UnexpectedDataBusy,
         AlreadyDecelerating,
     )
 }
 
 
-def refused(status: int) -> CommandRefused:
+def command_error(status: int) -> CommandRefused:
     """Return the exception for a status byte with ERR = 1."""
     return BY_NUMBER[status >> 4 & 7](status)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed(
+        __name__,
+        {
+            "BadRamp": "InvalidRamp",
+            "Misused": "NotCalledError",
+            "NoSuchName": "UnknownAttributeError",
+            "NotWhileBusy": "AxisBusy",
+            "UnknownCode": "UnknownCommand",
+        },
+    )

@@ -173,17 +173,17 @@ class Nak(IntEnum):
 _REPEAT_AFTER = frozenset(Nak) - {Nak.SEQ}
 
 
-class GaveUp(Exception):  # noqa: N818 - says what happened, the link makes an error of it
+class RetriesExhausted(Exception):  # noqa: N818 - says what happened, the link makes an error of it
     """No answer after all attempts.
 
     Args:
         naks: NAKs of the bridge during the attempts.
-        heard: number of bytes received during the attempts.
+        received: number of bytes received during the attempts.
     """
 
-    def __init__(self, attempts: int, naks: tuple[int, ...], heard: int) -> None:
+    def __init__(self, attempts: int, naks: tuple[int, ...], received: int) -> None:
         super().__init__(f"no answer after {attempts} attempts")
-        self.attempts, self.naks, self.heard = attempts, naks, heard
+        self.attempts, self.naks, self.received = attempts, naks, received
 
 
 class Session:
@@ -204,7 +204,7 @@ class Session:
         self._next_seq = 0
         self._answer: bytes | None = None
         self._request: bytes | None = None
-        self._heard = 0
+        self._received = 0
         self.events: deque[int] = deque()
         """Pin bytes of the received events, oldest first; the caller removes them."""
         self.repeats = 0
@@ -245,7 +245,7 @@ class Session:
         self._patience = patience
         self._sent = 1
         self._naks: list[int] = []
-        self._heard = 0
+        self._received = 0
         self._deadline = now + patience
         return line
 
@@ -255,7 +255,7 @@ class Session:
 
     def receive(self, data: bytes, now: float) -> bytes | None:
         """Process received bytes; return the answer without its SEQ if it is complete."""
-        self._heard += len(data)
+        self._received += len(data)
         for item in self._deframer.feed(data):
             if isinstance(item, Frame):
                 self._sort(item.payload, now)
@@ -265,13 +265,13 @@ class Session:
     def tick(self, now: float) -> bytes:
         """Return the request again at its deadline, before it nothing.
 
-        Raises GaveUp after the last attempt.
+        Raises RetriesExhausted after the last attempt.
         """
         if self._request is None or now < self._deadline:
             return b""
         if self._sent >= self._attempts:
             self._request = None
-            raise GaveUp(self._sent, tuple(self._naks), self._heard)
+            raise RetriesExhausted(self._sent, tuple(self._naks), self._received)
         self._sent += 1
         self.repeats += 1
         self._deadline = now + self._patience

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
+from ..lazy import renamed
 from .check import exact
-from .ending import End, EndUnknown
 from .errors import (
     Disconnected,
     LinkError,
@@ -23,19 +23,20 @@ from .errors import (
     PpmcError,
     Timeout,
 )
-from .line_port import Counters, Fault, Miss
+from .line_port import Counters, Fault, MissingReply
 from .motion import PROGRESS_POLL, AnyMotion, Progress
-from .part import Device, Turning
+from .motion_result import EndUnknown, MotionResult
+from .part import Device, Stoppable
 from .port import Port
 
 # Exceptions of a line with several stations.
 
 
-class StationSilent(NoAnswer):
+class StationNotResponding(NoAnswer):
     """No reply of a station was received after all attempts."""
 
 
-class GarbledReply(NoAnswer):
+class CorruptReply(NoAnswer):
     """Bytes were received, but no complete reply.
 
     The cause is noise, a wrong speed, or two stations with one address.
@@ -54,21 +55,23 @@ class LostReply(LinkError):
     """An instruction that may not be repeated was sent, and it is unknown whether it was executed."""
 
 
-def unanswered(where: str, misses: Sequence[Miss], attempts: int, check: str, others: str) -> NoAnswer:
+def unanswered(
+    where: str, misses: Sequence[MissingReply], attempts: int, check: str, others: str
+) -> NoAnswer:
     """Return the exception after all attempts to reach a station have failed.
 
     Args:
         check: what the user should check after silence.
         others: possible causes of corrupt replies.
     """
-    if not any(miss.heard for miss in misses):
+    if not any(miss.received for miss in misses):
         if len(misses) < attempts:
-            return GarbledReply(f"{where} could not read {attempts} frames: check cable and termination")
+            return CorruptReply(f"{where} could not read {attempts} frames: check cable and termination")
         frames = "a frame" if attempts == 1 else f"{attempts} frames"
-        return StationSilent(f"{where}: no reply to {frames}: {check}")
+        return StationNotResponding(f"{where}: no reply to {frames}: {check}")
     if all(miss.fault is Fault.FOREIGN for miss in misses):
-        return GarbledReply(f"{where}: another station replied, {attempts} times: does a second master talk?")
-    return GarbledReply(f"{where}: only garbled replies, {attempts} times: {others}")
+        return CorruptReply(f"{where}: another station replied, {attempts} times: does a second master talk?")
+    return CorruptReply(f"{where}: only garbled replies, {attempts} times: {others}")
 
 
 # Motions of stations on a line. Only a poll detects their ends.
@@ -81,7 +84,7 @@ class LineMotion(AnyMotion, Protocol):
     """Running motion."""
 
     @property
-    def unknown(self) -> EndUnknown | None:
+    def result_error(self) -> EndUnknown | None:
         """Reason why the part does not confirm the end.
 
         The value is None if the part confirms it, or while the motion is running.
@@ -95,10 +98,10 @@ class LineMotion(AnyMotion, Protocol):
     def station(self) -> int:
         """Number of the station."""
 
-    def look(self) -> None:
-        """Poll the station; set `end` or `unknown` if the motion is over."""
+    def _update(self) -> None:
+        """Poll the station; set `result` or `result_error` if the motion is over."""
 
-    def now(self) -> Progress:
+    def _current_progress(self) -> Progress:
         """Return the progress now, or at the end of the motion."""
 
 
@@ -106,7 +109,7 @@ def wait_all(
     motions: Sequence[LineMotion],
     timeout: float | None = None,
     progress: Callable[[Progress], None] | None = None,
-) -> list[End]:
+) -> list[MotionResult]:
     """Poll the stations until their motions are over.
 
     The call returns the ends in the same order, for any cause.
@@ -127,17 +130,17 @@ def wait_all(
     while True:
         for motion in motions:
             if not motion.over:
-                motion.look()
+                motion._update()
         running = [motion for motion in motions if not motion.over]
         for motion in motions:
-            if motion.unknown is not None:
-                raise motion.unknown
+            if motion.result_error is not None:
+                raise motion.result_error
         if not running:
-            return [motion.end for motion in motions if motion.end is not None]
+            return [motion.result for motion in motions if motion.result is not None]
         if limit is not None and line.clock() >= limit:
-            who = ", ".join(str(motion.station) for motion in running)
+            numbers = ", ".join(str(motion.station) for motion in running)
             raise Timeout(
-                f"station {who}: motion still in progress after {timeout:g} s; "
+                f"station {numbers}: motion still in progress after {timeout:g} s; "
                 "increase timeout or stop the motion"
             )
         if progress is not None and line.clock() >= due:
@@ -151,13 +154,13 @@ def _sum(motions: Sequence[LineMotion]) -> Progress:
 
     Its position is that of the first running motion.
     """
-    known = [(motion, motion.now()) for motion in motions]
-    asked = [motion.asked for motion in motions]
-    first = next(now for motion, now in known if motion.end is None)
+    known = [(motion, motion._current_progress()) for motion in motions]
+    requested = [motion.requested for motion in motions]
+    first = next(now for motion, now in known if motion.result is None)
     return Progress(
         first.position,
-        sum(now.made for _, now in known),
-        None if None in asked else sum(filter(None, asked)),
+        sum(now.done for _, now in known),
+        None if None in requested else sum(filter(None, requested)),
         max(now.seconds for _, now in known),
     )
 
@@ -176,10 +179,10 @@ _MOST_NOISE = 400
 Answer = TypeVar("Answer", covariant=True)
 
 
-class Listener(Protocol[Answer]):
+class ReplyReceiver(Protocol[Answer]):
     """Receiver for the bytes of one reply."""
 
-    def take(self, byte: int) -> Answer | Fault | None:
+    def feed(self, byte: int) -> Answer | Fault | None:
         """Process a byte; return the reply if it is complete.
 
         The call returns a Fault if no reply is possible any more.
@@ -203,9 +206,9 @@ class Master(Generic[Answer]):
         self.port, self.baud, self.echo = port, baud, echo
         self.patience = max(patience, self.port_patience)
         self.counters: dict[int, Counters] = {}
-        self.stray = 0
+        self.stray_bytes = 0
         self._closed = False
-        self._early = b""
+        self._early_bytes = b""
 
     @staticmethod
     def check_patience(patience: float) -> None:
@@ -231,7 +234,7 @@ class Master(Generic[Answer]):
         """Wait on the clock of the port; discard received bytes."""
         end = self.clock() + seconds
         while (left := end - self.clock()) > 0:
-            self.stray += len(self.port.read(left))
+            self.stray_bytes += len(self.port.read(left))
 
     def wait_event(self, timeout: float) -> int | None:
         """Return `None` after `timeout` seconds, because a line has no events; discard received bytes."""
@@ -252,7 +255,9 @@ class Master(Generic[Answer]):
 
     # ------------------------------------------------------------------ frames
 
-    def ask(self, station: int, sent: bytes, listener: Listener[Answer], extra: float = 0.0) -> Answer | Miss:
+    def request(
+        self, station: int, sent: bytes, listener: ReplyReceiver[Answer], extra: float = 0.0
+    ) -> Answer | MissingReply:
         """Send a frame and wait for the reply.
 
         Args:
@@ -264,10 +269,10 @@ class Master(Generic[Answer]):
         self.send(station, sent)
         counters = self.counters[station]
         got = self._await(listener, self.seconds(len(sent)) + extra)
-        if isinstance(got, Miss):
+        if isinstance(got, MissingReply):
             if got.fault is Fault.FOREIGN:
                 counters.foreign += 1
-            elif got.heard:
+            elif got.received:
                 counters.garbled += 1
             else:
                 counters.silent += 1
@@ -277,49 +282,49 @@ class Master(Generic[Answer]):
         """Send a frame and discard its echo, if any. Bytes received earlier are discarded."""
         if self._closed:
             raise Disconnected(f"{self.name}: the line is closed: open it again")
-        self.stray += len(self.port.read(0))
+        self.stray_bytes += len(self.port.read(0))
         self.counters.setdefault(station, Counters()).sent += 1
         self.port.write(sent)
         if self.echo:
             self._drop_echo(sent)
 
     def _drop_echo(self, sent: bytes) -> None:
-        heard = b""
+        received = b""
         end = self.clock() + self.seconds(len(sent)) + self.patience
-        while len(heard) < len(sent) and (left := end - self.clock()) > 0:
-            heard += self.port.read(left)
-        if not heard:
+        while len(received) < len(sent) and (left := end - self.clock()) > 0:
+            received += self.port.read(left)
+        if not received:
             raise LineEcho(f"{self.name}: the line does not hear its own bytes: leave the option echo out")
-        self._early = heard[len(sent) :]
-        if heard[: len(sent)] != sent:
-            self.stray += 1  # another device sends at the same time; the reply will show the effect
+        self._early_bytes = received[len(sent) :]
+        if received[: len(sent)] != sent:
+            self.stray_bytes += 1  # another device sends at the same time; the reply will show the effect
 
-    def _await(self, listener: Listener[Answer], seconds: float) -> Answer | Miss:
+    def _await(self, listener: ReplyReceiver[Answer], seconds: float) -> Answer | MissingReply:
         """Return the reply, or a Miss with the bytes received instead."""
-        heard = bytearray()
+        received = bytearray()
         deadline = self.clock() + seconds + self.patience
-        early, self._early = self._early, b""
+        early, self._early_bytes = self._early_bytes, b""
         while True:
             data = early or self.port.read(max(0.0, deadline - self.clock()))
             early = b""
             if not data:
-                return self._missed(listener, bytes(heard))
+                return self._missing_reply(listener, bytes(received))
             deadline = self.clock() + self.patience
             for place, byte in enumerate(data):
-                heard.append(byte)
-                got = listener.take(byte)
+                received.append(byte)
+                got = listener.feed(byte)
                 if got is not None and not isinstance(got, Fault):
-                    self.stray += len(data) - place - 1
+                    self.stray_bytes += len(data) - place - 1
                     return got
-                if got in (Fault.FOREIGN, Fault.BROKEN) or len(heard) > _MOST_NOISE:
+                if got in (Fault.FOREIGN, Fault.BROKEN) or len(received) > _MOST_NOISE:
                     fault = got if isinstance(got, Fault) else Fault.NOISE
-                    return Miss(fault, bytes(heard) + data[place + 1 :] + self._rest())
+                    return MissingReply(fault, bytes(received) + data[place + 1 :] + self._read_until_idle())
 
-    def _missed(self, listener: Listener[Answer], heard: bytes) -> Miss:
+    def _missing_reply(self, listener: ReplyReceiver[Answer], received: bytes) -> MissingReply:
         """Return the Miss for silence, possibly after bytes that were no reply."""
-        return Miss(Fault.NOISE if heard else None, heard)
+        return MissingReply(Fault.NOISE if received else None, received)
 
-    def _rest(self) -> bytes:
+    def _read_until_idle(self) -> bytes:
         """Return the bytes that arrive until the line is quiet; the time is limited."""
         gap = max(_GAP, self.seconds(_GAP_BYTES))
         rest, end = b"", self.clock() + 20 * gap
@@ -328,7 +333,7 @@ class Master(Generic[Answer]):
         return rest
 
 
-class Station(Turning, Protocol):
+class Station(Stoppable, Protocol):
     """Station of the line."""
 
     @property
@@ -355,20 +360,20 @@ class LineBus(Device, Generic[LineT, StationT]):
         self._stations: dict[int, StationT] = {}
 
     @abstractmethod
-    def make(self, station: int) -> StationT:
+    def _make_station(self, station: int) -> StationT:
         """Create the driver of a station."""
 
     @abstractmethod
-    def look_at(self, axis: StationT) -> None:
+    def _collect_reports(self, axis: StationT) -> None:
         """Read the unsolicited reports of a station."""
 
     def axis(self, station: int) -> StationT:
         """Return the station with this number, connected or not; the object is always the same."""
-        made = self._stations.get(station)
-        if made is None:
-            made = self.make(station)
-            self._stations[made.number] = made
-        return made
+        driver = self._stations.get(station)
+        if driver is None:
+            driver = self._make_station(station)
+            self._stations[driver.number] = driver
+        return driver
 
     @property
     def axes(self) -> tuple[StationT, ...]:
@@ -380,7 +385,7 @@ class LineBus(Device, Generic[LineT, StationT]):
         motions: Sequence[LineMotion | StationT] | None = None,
         timeout: float | None = None,
         progress: Callable[[Progress], None] | None = None,
-    ) -> list[End]:
+    ) -> list[MotionResult]:
         """Wait until motions, or the motions of stations, are over; return the ends for any cause.
 
         Args:
@@ -391,13 +396,13 @@ class LineBus(Device, Generic[LineT, StationT]):
         Raises:
             Timeout: the time is over; the other motions continue.
         """
-        wanted = self.axes if motions is None else motions
-        chosen = [one.motion if hasattr(one, "motion") else one for one in wanted]
+        waiting = self.axes if motions is None else motions
+        chosen = [one.motion if hasattr(one, "motion") else one for one in waiting]
         if motions is not None and None in chosen:
             raise OutOfRange("this station has no motion to wait for; start one first")
         return wait_all([one for one in chosen if one is not None], timeout, progress)
 
-    def stop(self, stations: Iterable[int] | None = None, now: bool = False) -> list[End]:
+    def stop(self, stations: Iterable[int] | None = None, now: bool = False) -> list[MotionResult]:
         """Stop stations (default: those in use) and wait.
 
         All stations receive the stop command before an error is raised. Stopped stations are skipped.
@@ -417,13 +422,23 @@ class LineBus(Device, Generic[LineT, StationT]):
             raise errors[0]
         return ends
 
-    def attend(self, seconds: float) -> None:
+    def process_reports(self, seconds: float) -> None:
         """Wait on the clock of the line and poll the stations in use."""
         end = self.line.clock() + seconds
         while (left := end - self.line.clock()) > 0:
             for axis in self.axes:
-                self.look_at(axis)
+                self._collect_reports(axis)
             self.line.pause(min(left, POLL_EVERY))
 
     def _chosen(self, stations: Iterable[int] | None) -> list[StationT]:
         return list(self.axes) if stations is None else [self.axis(number) for number in stations]
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed(
+        __name__,
+        {
+            "GarbledReply": "CorruptReply",
+            "StationSilent": "StationNotResponding",
+        },
+    )

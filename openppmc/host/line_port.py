@@ -45,7 +45,7 @@ class ModelLine:
 
     def read(self, timeout: float) -> bytes:
         self._check()
-        self._catch_up()
+        self._synchronise()
         end = self.line.seconds + timeout
         data = self.line.read()
         while not data and (left := end - self.line.seconds) > 0:
@@ -57,11 +57,11 @@ class ModelLine:
 
     def write(self, data: bytes) -> None:
         self._check()
-        self._catch_up()
-        whole(lambda: self.line.write(data if self._fits else bytes(len(data))))
+        self._synchronise()
+        whole(lambda: self.line.write(data if self._rate_matches else bytes(len(data))))
 
     def set_baud(self, baud: int) -> None:
-        self._fits = abs(baud / self.spec.rate - 1) < 0.03
+        self._rate_matches = abs(baud / self.spec.rate - 1) < 0.03
 
     def clock(self) -> float:
         return self.line.seconds
@@ -73,7 +73,7 @@ class ModelLine:
         if self._closed or self.line.seconds >= self.spec.unplug:
             raise Disconnected(f"{self.name}: the port went away: plug it in and run the command again")
 
-    def _catch_up(self) -> None:
+    def _synchronise(self) -> None:
         """Advance the line by the time that has passed while the program did something else."""
         if behind := self._pacer.behind(self.line.seconds):
             self._run(behind)
@@ -128,16 +128,16 @@ class Counters:
 
 
 @dataclass(frozen=True)
-class Miss:
+class MissingReply:
     """Missing reply.
 
     Attributes:
         fault: reason why there is no reply, `None` after silence.
-        heard: bytes received instead of the reply.
+        received: bytes received instead of the reply.
     """
 
     fault: Fault | None
-    heard: bytes
+    received: bytes
 
 
 SIM_PATIENCE = 0.25

@@ -6,9 +6,18 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Protocol
 
-from .errors import Disconnected, LinkError, NoAnswer, PortError, ProtocolError, Timeout, WrongDevice, refused
-from .frames import WAKE_UP, GaveUp, Nak, Session
-from .kind import name_of
+from .capabilities import name_of
+from .errors import (
+    Disconnected,
+    LinkError,
+    NoAnswer,
+    PortError,
+    ProtocolError,
+    Timeout,
+    WrongDevice,
+    command_error,
+)
+from .frames import WAKE_UP, Nak, RetriesExhausted, Session
 from .port import BASE_BAUD, Port, open_port
 from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity, Result, Script, parse_answer
 
@@ -21,10 +30,10 @@ USB adapters and busy computers need this time.
 _SETTLE = 0.02
 _QUIET = 0.05
 _BITS = 10
-_MISFIT = "package and bitstream do not fit together: renew the older one"
+_MISMATCH = "package and bitstream do not fit together: renew the older one"
 
 
-class Talk(Protocol):
+class LinkProtocol(Protocol):
     """Members of a link that the driver of an axis needs; see `Link`."""
 
     @property
@@ -35,7 +44,7 @@ class Talk(Protocol):
     def pause(self, seconds: float) -> None: ...
     def close(self) -> None: ...
     def execute(self, script: Script) -> Answer: ...
-    def judge(self, answer: Answer) -> Answer: ...
+    def check_answer(self, answer: Answer) -> Answer: ...
     def attempt(self, script: Script) -> Answer: ...
     def wait_event(self, timeout: float) -> int | None: ...
     def forget_events(self) -> None: ...
@@ -59,12 +68,12 @@ class Link:
             raise PortError(f"{baud} baud is not a rate of the bridge: it has {', '.join(map(str, RATES))}")
         self.port = open_port(spec) if isinstance(spec, str) else spec
         self.baud = BASE_BAUD
-        self.refusal: Callable[[Answer], Exception] = lambda answer: refused(answer.last)
+        self.refusal: Callable[[Answer], Exception] = lambda answer: command_error(answer.last)
         """Creates the exception for a rejected command; drivers of parts with other errors replace it."""
         self._session = Session()
         self._closed = False
         try:
-            self.identity = self._hello()
+            self.identity = self._identify()
             self._check(part)
             if baud != BASE_BAUD:
                 self._raise_rate(baud)
@@ -89,24 +98,25 @@ class Link:
 
     # ------------------------------------------------------------------ opening and closing
 
-    def _hello(self) -> Identity:
+    def _identify(self) -> Identity:
         """Wake the bridge up at 115 200 baud and read its identity."""
-        heard = 0
+        received = 0
         for _ in range(3):
             self.port.write(WAKE_UP)
-            heard += self._drain()
+            received += self._drain()
             self._session.restart()
             try:
                 return Identity.parse(self._run(Script().ident(), attempts_margin=MARGIN).values[0])
             except NoAnswer as error:
-                heard += error.args[1] if len(error.args) > 1 else 0
+                received += error.args[1] if len(error.args) > 1 else 0
             except BadAnswer as error:
                 raise WrongDevice(
                     f"{self.name}: something answers, but no PPMC bridge ({error}): is this the right port?"
                 ) from error
-        if heard:
+        if received:
             raise WrongDevice(
-                f"{self.name}: {heard} bytes came, but no answer of a PPMC bridge: is this the right port, "
+                f"{self.name}: {received} bytes came, but no answer of a PPMC bridge: is this the right "
+                "port, "
                 f"and does the board's UART begin with {BASE_BAUD} baud?"
             )
         raise NoAnswer(
@@ -115,12 +125,12 @@ class Link:
 
     def _drain(self) -> int:
         """Discard received bytes until the line is quiet, for a limited time; return their number."""
-        heard = 0
+        received = 0
         end = self.clock() + 10 * _QUIET
         while (data := self.port.read(_QUIET)) and self.clock() < end:
-            heard += len(data)
+            received += len(data)
         # Up to two NAKs are the response to the wake-up itself.
-        return max(0, heard - 16)
+        return max(0, received - 16)
 
     def _check(self, part: int | None) -> None:
         identity = self.identity
@@ -168,7 +178,7 @@ class Link:
         except (NoAnswer, PortError, ProtocolError, BadAnswer):
             self.baud = BASE_BAUD
             self.port.set_baud(BASE_BAUD)
-            self.identity = self._hello()
+            self.identity = self._identify()
 
     def close(self) -> None:
         """Switch events off, return to 115 200 baud and close the port.
@@ -205,9 +215,9 @@ class Link:
             ProtocolError: the answer is invalid.
             NoAnswer, Disconnected: the link failed.
         """
-        return self.judge(self.attempt(script))
+        return self.check_answer(self.attempt(script))
 
-    def judge(self, answer: Answer) -> Answer:
+    def check_answer(self, answer: Answer) -> Answer:
         """Return the answer if all operations were done, otherwise raise the exception of `execute`."""
         if answer.result is Result.DONE:
             return answer
@@ -220,7 +230,7 @@ class Link:
             )
         if answer.result is Result.INTERRUPTED:
             raise ProtocolError(f"{where}: a wait was cut short by noise on the line: try again")
-        raise ProtocolError(f"{where}: refused (result {int(answer.result)}): {_MISFIT}")
+        raise ProtocolError(f"{where}: refused (result {int(answer.result)}): {_MISMATCH}")
 
     def attempt(self, script: Script) -> Answer:
         """Execute a script and return its answer, regardless of its result. Raises LinkErrors only."""
@@ -229,11 +239,11 @@ class Link:
         try:
             return self._run(script)
         except BadAnswer as error:
-            raise ProtocolError(f"{self.name}: bad answer ({error}): {_MISFIT}") from error
+            raise ProtocolError(f"{self.name}: bad answer ({error}): {_MISMATCH}") from error
 
     def _run(self, script: Script, attempts_margin: float = MARGIN) -> Answer:
         session, port = self._session, self.port
-        line_time = (len(bytes(script)) + script.gives + 24) * 2 * _BITS / self.baud
+        line_time = (len(bytes(script)) + script.response_size + 24) * 2 * _BITS / self.baud
         patience = script.patience + line_time + attempts_margin
         request = session.request(bytes(script), patience, self.clock())
         try:
@@ -257,8 +267,8 @@ class Link:
                 return body
             try:
                 again = session.tick(self.clock())
-            except GaveUp as gone:
-                raise NoAnswer(_silence(self.name, gone), gone.heard) from gone
+            except RetriesExhausted as gone:
+                raise NoAnswer(_silence(self.name, gone), gone.received) from gone
             if again:
                 port.write(again)
 
@@ -289,16 +299,15 @@ class Link:
             self._session.receive(self.port.read(left), self.clock())
 
 
-def _silence(name: str, gone: GaveUp) -> str:
+def _silence(name: str, gone: RetriesExhausted) -> str:
     """Return the error message after all attempts."""
     if gone.naks:
-        why = Nak(gone.naks[-1]).name.lower().replace("_", " ") if gone.naks[-1] in set(Nak) else "unknown"
+        reason = Nak(gone.naks[-1]).name.lower().replace("_", " ") if gone.naks[-1] in set(Nak) else "unknown"
         return (
-            f"{name}: the bridge could not read any of {gone.attempts} requests (last complaint: {why}): "
+            f"{name}: the bridge could not read any of {gone.attempts} requests (last complaint: {reason}): "
             "check the cable and ground, or use a lower --baud"
         )
-    if gone.heard:
-        return (
-            f"{name}: {gone.heard} bytes came, but no answer ({gone.attempts} attempts): wrong rate or device"
-        )
+    if gone.received:
+        received, attempts = gone.received, gone.attempts
+        return f"{name}: {received} bytes came, but no answer ({attempts} attempts): wrong rate or device"
     return f"{name}: no answer in {gone.attempts} attempts: is the board still powered and connected?"

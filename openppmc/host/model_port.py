@@ -151,10 +151,10 @@ class ModelPort:
 
     def read(self, timeout: float) -> bytes:
         self._check()
-        self._catch_up()
+        self._synchronise()
         end = self.board.seconds + timeout
         while not self._waiting and (left := end - self.board.seconds) > 0:
-            self._pass_time(self._pacer.step(left))
+            self._advance(self._pacer.step(left))
             self._pacer.wait(self.board.seconds)
             self._check()
         data = bytes(self._waiting)
@@ -163,7 +163,7 @@ class ModelPort:
 
     def write(self, data: bytes) -> None:
         self._check()
-        self._catch_up()
+        self._synchronise()
         whole(lambda: self._send(data))
 
     def set_baud(self, baud: int) -> None:
@@ -183,7 +183,7 @@ class ModelPort:
                 f"{self.name}: the port went away: plug the board in and run the command again"
             )
 
-    def _pass_time(self, seconds: float) -> None:
+    def _advance(self, seconds: float) -> None:
         """Let time pass without a byte on the line; return early when a message arrives."""
         whole(lambda: self._idle(seconds))
 
@@ -207,11 +207,11 @@ class ModelPort:
         clk = count * BITS_PER_BYTE * self.board.clk_hz // self._baud
         self.board.run_until(self.board.t + clk)
 
-    def _catch_up(self) -> None:
+    def _synchronise(self) -> None:
         """Advance the board by the time that has passed while the program did something else."""
         end = self.board.seconds + self._pacer.behind(self.board.seconds)
         while (left := end - self.board.seconds) > 0:
-            self._pass_time(left)
+            self._advance(left)
 
     # ------------------------------------------------------------------ bytes from the bridge
 

@@ -6,13 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+from ..lazy import Renamed
 from ..model.motion.codes import ENDLESS, RAMP_OPERATIONS
 from . import speeds
+from .capabilities import Capabilities
 from .check import Checked, side, within
-from .ending import COUNTS, Cause, End, EndUnknown, OriginNotFound, decode_end
-from .errors import NotWhileBusy, ProtocolError, Timeout
-from .kind import Kind
-from .link import Talk
+from .errors import AxisBusy, ProtocolError, Timeout
+from .link import LinkProtocol
+from .motion_result import COUNTS, Cause, EndUnknown, MotionResult, OriginNotFound, decode_end
 from .registers import ReadCodes
 from .script import Script
 from .speeds import Number
@@ -28,19 +29,19 @@ OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
 
 
 @dataclass(frozen=True)
-class Order:
+class MotionRequest:
     """Parameters of a motion to start.
 
     Attributes:
         operation: lowest three bits of the command code.
-        asked: pulses, `None` for endless motions.
+        requested: pulses, `None` for endless motions.
         clock: base clock, `None` for that of the ramp.
     """
 
     operation: int
     direction: int
     data: bytes = b""
-    asked: int | None = None
+    requested: int | None = None
     clock: speeds.BaseClock | None = None
     pulse_only: bool = False
 
@@ -62,118 +63,126 @@ class Progress:
 
     Attributes:
         position: position of the pulse counter.
-        made: pulses output since the start.
-        asked: pulses of the move, `None` if endless.
+        done: pulses output since the start.
+        requested: pulses of the move, `None` if endless.
         seconds: time since the start in s.
     """
 
     position: int
-    made: int
-    asked: int | None
+    done: int
+    requested: int | None
     seconds: float
+    made = Renamed("done")
+    asked = Renamed("requested")
 
 
 class AnyMotion(Protocol):
     """Running motion of any part; see `Motion`."""
 
     @property
-    def end(self) -> End | None: ...
+    def result(self) -> MotionResult | None: ...
     @property
     def over(self) -> bool: ...
     @property
-    def asked(self) -> int | None: ...
+    def requested(self) -> int | None: ...
     def poll(self) -> Progress | None: ...
     def wait(
         self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
-    ) -> End: ...
+    ) -> MotionResult: ...
 
 
-class Moving(Protocol):
+class MotionAxis(Protocol):
     """Members of an axis (`axis.Axis`) that a motion needs."""
 
-    link: Talk
-    bit: int
-    busy: int
-    unused: int
+    link: LinkProtocol
+    _code_bits: int
+    _busy_mask: int
+    _zero_mask: int
 
     @property
-    def who(self) -> str: ...
+    def _message_prefix(self) -> str: ...
     @property
-    def codes(self) -> ReadCodes: ...
-    def look(self, status: int) -> None: ...
-    def where(self, script: Script) -> Script: ...
-    def counted(self, count: int) -> int | None: ...
-    def told(self, end: End) -> End: ...
+    def _read_codes(self) -> ReadCodes: ...
+    def _on_status(self, status: int) -> None: ...
+    def _add_position_read(self, script: Script) -> Script: ...
+    def _position_of(self, count: int) -> int | None: ...
+    def _annotate(self, end: MotionResult) -> MotionResult: ...
 
 
 class Handle(Checked):
     """Members that all motions have.
 
     Attributes:
-        end: End that the part has confirmed.
-        unknown: error of a motion that is over without a confirmed end.
+        result: result that the part has confirmed.
+        result_error: error of a motion that is over without a confirmed result.
+        requested: pulses, `None` for endless motions.
     """
 
-    end: End | None = None
-    unknown: EndUnknown | None = None
+    result: MotionResult | None = None
+    result_error: EndUnknown | None = None
+    requested: int | None
+    end = Renamed("result")
+    asked = Renamed("requested")
 
     @property
     def over(self) -> bool:
-        """True if the motion is over: `end` is set, or `poll` and `wait` raise EndUnknown."""
-        return self.end is not None or self.unknown is not None
+        """True if the motion is over: `result` is set, or `poll` and `wait` raise EndUnknown."""
+        return self.result is not None or self.result_error is not None
 
-    def _confirmed(self) -> End | None:
+    def _confirmed_result(self) -> MotionResult | None:
         """Return the end, `None` while the motion is running. Raises EndUnknown."""
-        if self.unknown is not None:
-            raise self.unknown
-        return self.end
+        if self.result_error is not None:
+            raise self.result_error
+        return self.result
 
 
 class Motion(Handle):
-    """Handle of a motion that was started; `end` is its End when it is known.
+    """Handle of a motion that was started; `result` is its result when it is known.
 
     Attributes:
-        asked: pulses, `None` for endless motions.
+        requested: pulses, `None` for endless motions.
         direction: 0 = CW, 1 = CCW.
         ramped: True if the motion has ramps.
         begin: pulse counter before the motion.
         ours: False if another program started it.
     """
 
-    asked: int | None
+    requested: int | None
     direction: int
     ramped: bool
     operation: int
     begin: int
 
-    def __init__(self, axis: Moving, order: Order, begin: int, ours: bool = True) -> None:
+    def __init__(self, axis: MotionAxis, request: MotionRequest, begin: int, ours: bool = True) -> None:
         self._axis = axis
         self._link = axis.link
         self._ours = ours
-        self.asked = order.asked
-        self.direction = order.direction
-        self.ramped = order.ramped
-        self.operation = order.operation
+        self.requested = request.requested
+        self.direction = request.direction
+        self.ramped = request.ramped
+        self.operation = request.operation
         self.begin = begin
         self._started = self._link.clock()
 
     def poll(self) -> Progress | None:
-        """Return the current progress; `None` if the motor has stopped (then `end` is set).
+        """Return the current progress; `None` if the motor has stopped (then `result` is set).
 
         Raises:
             EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.
         """
-        self._confirmed()
-        answer = self._link.execute(self._axis.where(Script().read(1)))
-        self.look(answer.byte(0))
-        self._axis.look(answer.byte(0))
-        if self._confirmed() is not None:
+        self._confirmed_result()
+        answer = self._link.execute(self._axis._add_position_read(Script().read(1)))
+        self._on_status(answer.byte(0))
+        self._axis._on_status(answer.byte(0))
+        if self._confirmed_result() is not None:
             return None
         count = answer.number(1, signed=True)
-        made = abs(count - self.begin)
-        return Progress(self._axis.counted(count) or 0, made, self.asked, self._link.clock() - self._started)
+        done = abs(count - self.begin)
+        return Progress(
+            self._axis._position_of(count) or 0, done, self.requested, self._link.clock() - self._started
+        )
 
-    def look(self, status: int) -> None:
+    def _on_status(self, status: int) -> None:
         """Process a status register that was read; read the end of the motion if BUSY = 0.
 
         Only `poll` and `wait` raise EndUnknown, so that a poll of one axis does not raise the error of
@@ -182,15 +191,18 @@ class Motion(Handle):
         Raises:
             ProtocolError: the status has a bit set that always reads as 0.
         """
-        if status & self._axis.unused:
+        if status & self._axis._zero_mask:
             raise ProtocolError(
-                f"{self._link.name}: {self._axis.who}status 0x{status:02X} does not exist; the bus to the "
+                f"{self._link.name}: {self._axis._message_prefix}status 0x{status:02X} does not exist; "
+                "the bus to the "
                 "part is not connected, or another part is there: check the wiring"
             )
-        if not self.over and not status & self._axis.busy:
+        if not self.over and not status & self._axis._busy_mask:
             self._finish()
 
-    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+    def wait(
+        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
+    ) -> MotionResult:
         """Wait for the end and return it, for any cause.
 
         Args:
@@ -202,10 +214,10 @@ class Motion(Handle):
             Timeout: the time is over; the motion continues.
             EndUnknown: the part does not confirm how the motion ended.
         """
-        self._confirmed()
+        self._confirmed_result()
         limit = None if timeout is None else self._link.clock() + timeout
         pause = PROGRESS_POLL if progress else SAFETY_POLL
-        while self.end is None:
+        while self.result is None:
             left = pause if limit is None else min(pause, limit - self._link.clock())
             self._link.wait_event(max(0.0, left))
             now = self.poll()
@@ -217,8 +229,8 @@ class Motion(Handle):
                 raise Timeout(
                     f"motion still in progress after {timeout:g} s; increase timeout or stop the motion"
                 )
-        assert self.end is not None
-        return self.end
+        assert self.result is not None
+        return self.result
 
     def _finish(self) -> None:
         """Read the finish status, which also releases int_n (P104-RD-04).
@@ -226,14 +238,14 @@ class Motion(Handle):
         With DATASHEET timing BUSY rises up to 112 us after the command, and the part accepts no byte before
         that (P104-DS-03). In this case the motion has not ended.
         """
-        bit, remaining = self._axis.bit, self._axis.codes.remaining
+        bit, remaining = self._axis._code_bits, self._axis._read_codes.remaining
         script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
         try:
-            answer = self._link.execute(self._axis.where(script))
-        except NotWhileBusy:
+            answer = self._link.execute(self._axis._add_position_read(script))
+        except AxisBusy:
             return  # with DATASHEET timing the motion had not begun yet
         count = answer.number(4, signed=True)
-        position = self._axis.counted(count)
+        position = self._axis._position_of(count)
         moved = None
         if self._ours and position is not None:
             moved = (count - self.begin + COUNTS // 2) % COUNTS - COUNTS // 2
@@ -241,17 +253,17 @@ class Motion(Handle):
             end = decode_end(
                 answer.byte(1),
                 answer.number(3),
-                (self.asked or ENDLESS) if self._ours else None,
+                (self.requested or ENDLESS) if self._ours else None,
                 self.direction,
                 position,
                 self.operation if self._ours else None,
                 moved,
-                f"{self._link.name}: {self._axis.who}",
+                f"{self._link.name}: {self._axis._message_prefix}",
             )
         except EndUnknown as error:
-            self.unknown = error
+            self.result_error = error
         else:
-            self.end = self._axis.told(end)
+            self.result = self._axis._annotate(end)
 
 
 # Homing. It finds the same edge from the same side, regardless of the start position.
@@ -259,33 +271,33 @@ class Motion(Handle):
 LONGEST_BACK_OFF = 200_000
 
 
-class Switched(Protocol):
+class OriginInput(Protocol):
     """Switches; True = active."""
 
     @property
     def origin(self) -> bool: ...
 
 
-class Searching(Protocol):
+class HomingAxis(Protocol):
     """Members of an axis that homing needs.
 
     The axis is an `axis.Axis`, or an axis of a part with other commands.
     """
 
     @property
-    def kind(self) -> Kind: ...
+    def kind(self) -> Capabilities: ...
     @property
-    def who(self) -> str: ...
+    def _message_prefix(self) -> str: ...
     @property
     def position(self) -> int: ...
     @property
-    def search_speed(self) -> Number: ...
-    def inputs(self) -> Switched: ...
+    def _default_speed(self) -> Number: ...
+    def inputs(self) -> OriginInput: ...
     def search(self, direction: int, pps: Number | None = None) -> AnyMotion: ...
     def jog(self, direction: int, speed: Number | None = None, high: bool = False) -> AnyMotion: ...
     def move_constant(
         self, pulses: int, pps: Number, progress: Callable[[Progress], None] | None = None
-    ) -> End: ...
+    ) -> MotionResult: ...
     def zero(self) -> None: ...
 
 
@@ -294,7 +306,7 @@ class Homing:
 
     def __init__(
         self,
-        axis: Searching,
+        axis: HomingAxis,
         direction: int,
         search_pps: Number | None,
         back_off: int,
@@ -307,7 +319,7 @@ class Homing:
         self._back_off = back_off
         self._progress = progress
 
-    def run(self, fast: bool, to_limit: bool) -> End:
+    def run(self, fast: bool, to_limit: bool) -> MotionResult:
         """Approach the switch, leave it if it is active, search its edge and set the position to 0."""
         if (fast or to_limit) and not self._axis.inputs().origin:
             self._approach(to_limit)
@@ -319,29 +331,31 @@ class Homing:
         self._axis.zero()
         return replace(end, position=None if end.position is None else 0)
 
-    def _search(self, direction: int) -> End:
+    def _search(self, direction: int) -> MotionResult:
         """Search at constant speed."""
         end = self._axis.search(direction, self._pps).wait(progress=self._progress)
         if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             raise OriginNotFound(
-                f"{end.who}a limit switch came before the origin: home in the other direction, or check the "
+                f"{end.message_prefix}a limit switch came before the origin: home in the other direction, "
+                "or check the "
                 "switch",
                 end,
             )
-        return self.found(end)
+        return self._check_found(end)
 
     @staticmethod
-    def found(end: End) -> End:
-        """Return the end of a search if the origin switch ended it.
+    def _check_found(end: MotionResult) -> MotionResult:
+        """Return the result of a search if the origin switch ended it.
 
         Raises:
             OriginNotFound: the search output all its pulses.
-            MotionError: another cause ended the search; see `End.check`.
+            MotionError: another cause ended the search; see `MotionResult.check`.
         """
         if end.cause is Cause.ORIGIN:
             return end
         raise OriginNotFound(
-            f"{end.who}the search ended after {abs(end.check().pulses or 0)} pulses without the origin; "
+            f"{end.message_prefix}the search ended after {abs(end.check().pulses or 0)} pulses without "
+            "the origin; "
             "check the switch",
             end,
         )
@@ -355,7 +369,8 @@ class Homing:
             return
         if end.cause != Cause.SLOW_LIMIT:
             raise OriginNotFound(
-                f"{end.who}no limit switch ended the approach after {abs(end.check().pulses or 0)} pulses; "
+                f"{end.message_prefix}no limit switch ended the approach after "
+                f"{abs(end.check().pulses or 0)} pulses; "
                 "check the switches",
                 end,
             )
@@ -366,12 +381,13 @@ class Homing:
         step = -self._back_off if not self._towards else self._back_off
         while self._axis.inputs().origin:
             if gone > LONGEST_BACK_OFF:
-                end = End(Cause.COMPLETE, gone, 0, self._axis.position, 0)
+                end = MotionResult(Cause.COMPLETE, gone, 0, self._axis.position, 0)
                 raise OriginNotFound(
-                    f"{self._axis.who}the origin switch is still active {gone} pulses away from where it "
+                    f"{self._axis._message_prefix}the origin switch is still active {gone} pulses away "
+                    "from where it "
                     "was: check it",
                     end,
                 )
-            pps = self._pps if self._pps is not None else self._axis.search_speed
+            pps = self._pps if self._pps is not None else self._axis._default_speed
             self._axis.move_constant(step, pps, self._progress)
             gone += self._back_off

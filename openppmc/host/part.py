@@ -8,15 +8,16 @@ from __future__ import annotations
 from types import TracebackType
 from typing import Any, Protocol, TypeVar, cast
 
+from ..lazy import Renamed
 from ..parts import by_number, having
 from . import speeds
 from .axis import Axis, OnProgress
+from .capabilities import AnySetup, Capabilities, RateCapabilities, name_of
 from .check import Checked
-from .ending import End
 from .errors import Disconnected, PpmcError, WrongDevice
-from .kind import AnySetup, Kind, RateKind, name_of
-from .link import DEFAULT_BAUD, Link, Talk
+from .link import DEFAULT_BAUD, Link, LinkProtocol
 from .motion import AnyMotion
+from .motion_result import MotionResult
 from .port import Port
 from .registers import Status
 from .script import Script
@@ -26,7 +27,7 @@ from .script import Script
 DeviceT = TypeVar("DeviceT", bound="Device")
 
 
-class Way(Protocol):
+class Transport(Protocol):
     """Transport to the hardware: the link of a bridge or the master end of a line."""
 
     @property
@@ -36,18 +37,18 @@ class Way(Protocol):
     def close(self) -> None: ...
 
 
-class Turning(Protocol):
+class Stoppable(Protocol):
     """Axis of any part, with the members that are needed to stop it."""
 
     @property
-    def who(self) -> str: ...
+    def _message_prefix(self) -> str: ...
     @property
     def position(self) -> int: ...
     @property
     def motion(self) -> AnyMotion | None: ...
-    def stop(self, wait: bool = True) -> End | None: ...
-    def halt(self, wait: bool = True) -> End | None: ...
-    def brake(self, now: bool = False) -> None: ...
+    def stop(self, wait: bool = True) -> MotionResult | None: ...
+    def halt(self, wait: bool = True) -> MotionResult | None: ...
+    def _request_stop(self, now: bool = False) -> None: ...
 
 
 class Device(Checked):
@@ -57,15 +58,16 @@ class Device(Checked):
     they continue.
     """
 
-    kind: Kind
-    link: Way
+    kind: Capabilities
+    link: Transport
+    attend = Renamed("process_reports")
 
     @property
-    def axes(self) -> tuple[Turning, ...]:
+    def axes(self) -> tuple[Stoppable, ...]:
         """Axes of the device; axis 1 is first."""
         raise NotImplementedError
 
-    def attend(self, seconds: float) -> None:
+    def process_reports(self, seconds: float) -> None:
         """Wait on the clock of the board and process unsolicited reports of the part."""
         self.link.pause(seconds)
 
@@ -83,7 +85,7 @@ class Device(Checked):
             for axis in self.axes:
                 if axis.motion is not None and not axis.motion.over:
                     try:
-                        axis.brake()
+                        axis._request_stop()
                     except PpmcError:
                         pass  # the first error is the one to report
         self.close()
@@ -101,19 +103,19 @@ class AnyInputs(Protocol):
     def active(self) -> list[str]: ...
 
 
-class AnyAxis(Turning, Protocol):
+class AnyAxis(Stoppable, Protocol):
     """Axis accessed through a bridge; see `axis.Axis`."""
 
     @property
     def number(self) -> int: ...
     @property
-    def busy(self) -> int:
+    def _busy_mask(self) -> int:
         """Mask of the bits in the raw status of the part that are set while this axis moves."""
 
     @property
-    def kind(self) -> Kind: ...
+    def kind(self) -> Capabilities: ...
     @property
-    def link(self) -> Talk: ...
+    def link(self) -> LinkProtocol: ...
     def apply(self, setup: Any) -> AnySetup:
         """Initialise the axis with a set-up of the part's own type."""
 
@@ -130,7 +132,7 @@ class AnyAxis(Turning, Protocol):
         pulse_only: bool = False,
     ) -> AnyMotion: ...
     def search(self, direction: int, pps: speeds.Number | None = None) -> AnyMotion: ...
-    def step(self, direction: int) -> End: ...
+    def step(self, direction: int) -> MotionResult: ...
     def home(
         self,
         direction: int = 1,
@@ -139,10 +141,14 @@ class AnyAxis(Turning, Protocol):
         to_limit: bool = False,
         back_off: int = 100,
         progress: OnProgress | None = None,
-    ) -> End: ...
-    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End: ...
-    def move_to(self, position: int, progress: OnProgress | None = None) -> End: ...
-    def move_constant(self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None) -> End: ...
+    ) -> MotionResult: ...
+    def move(
+        self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False
+    ) -> MotionResult: ...
+    def move_to(self, position: int, progress: OnProgress | None = None) -> MotionResult: ...
+    def move_constant(
+        self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None
+    ) -> MotionResult: ...
 
 
 class Part(Device):
@@ -182,7 +188,7 @@ class Part(Device):
 class OneAxis(Part, Axis):
     """Part and axis in one object; see `Part` and `axis.Axis`."""
 
-    kind: RateKind
+    kind: RateCapabilities
     link: Link
 
     def __init__(self, link: Link) -> None:
@@ -192,25 +198,25 @@ class OneAxis(Part, Axis):
     def axes(self) -> tuple[Axis, ...]:
         return (self,)
 
-    def straps(self, clock: speeds.BaseClock | None) -> Script:
+    def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
         return Script()
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
         """Initialise the axis with a set-up planned earlier."""
-        self.link.execute(self.straps(setup.clock).call(setup.code, *setup.data))
+        self.link.execute(self._strap_script(setup.clock).call(setup.code, *setup.data))
         self.setup = setup
         return setup
 
     def reset(self) -> None:
         """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
         self.link.execute(Script().reset())
-        self.forget()
+        self._on_reset()
 
     def status(self) -> Status:
         """Return the status register. The call is allowed at any time."""
         return Status.parse(self.link.execute(Script().read(1)).byte(0))
 
-    def pins(self) -> int:
+    def _pins(self) -> int:
         """Return the PINS byte of the bridge: interrupt, HOLD, switches. The call is allowed at any time."""
         return self.link.execute(Script().pins()).byte(0)
 

@@ -56,7 +56,7 @@ class SerialPort:
         try:
             self._serial = self._open(path, baud)
         except (OSError, ValueError) as error:
-            raise PortError(_why_not(path, error)) from error
+            raise PortError(_open_error_reason(path, error)) from error
 
     def _open(self, path: str, baud: int) -> serial.SerialBase:
         import serial
@@ -154,7 +154,7 @@ def describe_ports() -> str:
     )
 
 
-def _why_not(path: str, error: Exception) -> str:
+def _open_error_reason(path: str, error: Exception) -> str:
     """Return cause and remedy of a failed open as text."""
     code = getattr(error, "errno", None)
     text = str(error)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from ..parts import part
 from . import speeds
-from .errors import NotWhileBusy, OutOfRange
-from .kind import AUX, CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind
+from .capabilities import AUX, CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateCapabilities
+from .errors import AxisBusy, OutOfRange
 from .part import OneAxis
 from .registers import Inputs
 from .script import Result, Script
 
-KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER, AUX)))
+CAPABILITIES = RateCapabilities(
+    part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER, AUX))
+)
 
 
 READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x85, 0x86, 0xC1, 0xC2
@@ -30,14 +32,14 @@ class Ppmc104(OneAxis):
     change until `excitation_off` or `reset`.
     """
 
-    kind = KIND
+    kind = CAPABILITIES
 
-    def straps(self, clock: speeds.BaseClock | None) -> Script:
+    def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
         script = Script()
         return script if clock is None else script.straps(_OTHER_STRAPS | clock.vsel << 1 | clock.csel)
 
     def inputs(self) -> Inputs:
-        return Inputs.of_pins(self.pins())
+        return Inputs.of_pins(self._pins())
 
     def _at_rest(self, script: Script) -> None:
         identity = self.link.identity
@@ -45,9 +47,9 @@ class Ppmc104(OneAxis):
             # A command sent just before may not have started its motion yet. The bridge may wait 1 ms less
             # than the limit.
             limit = 2 + _START_XT * 1000 // identity.xtal_hz
-            answer = self.link.attempt(Script().timeout(limit).wait(1, self.busy, self.busy))
+            answer = self.link.attempt(Script().timeout(limit).wait(1, self._busy_mask, self._busy_mask))
             if answer.result is not Result.TIMED_OUT:
-                raise NotWhileBusy(self.link.judge(answer).byte(0))
+                raise AxisBusy(self.link.check_answer(answer).byte(0))
         super()._at_rest(script)
 
     # ------------------------------------------------------------------ auxiliary

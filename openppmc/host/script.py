@@ -28,7 +28,7 @@ class Op:
 
     name: str
     code: bytes
-    gives: int = 0
+    response_size: int = 0
 
 
 def _within(name: str, value: int, low: int, high: int) -> int:
@@ -52,9 +52,9 @@ class Script:
         return b"".join(op.code for op in self.ops)
 
     @property
-    def gives(self) -> int:
+    def response_size(self) -> int:
         """Number of data bytes of a complete answer."""
-        return sum(op.gives for op in self.ops)
+        return sum(op.response_size for op in self.ops)
 
     @property
     def patience(self) -> float:
@@ -64,7 +64,7 @@ class Script:
     def _add(self, name: str, code: bytes, gives: int = 0, mailbox: bool = False) -> Script:
         if len(bytes(self)) + len(code) > LONGEST_SCRIPT:
             raise ValueError(f"the script would be longer than {LONGEST_SCRIPT} bytes")
-        if self.gives + gives > MOST_DATA:
+        if self.response_size + gives > MOST_DATA:
             raise ValueError(f"the script would give more than {MOST_DATA} data bytes")
         if mailbox:
             self._mailbox_ms = max(self._mailbox_ms, self._wait_ms)
@@ -74,7 +74,7 @@ class Script:
     def extend(self, other: Script) -> Script:
         """Append all operations of another script."""
         for op in other.ops:
-            self._add(op.name, op.code, op.gives, mailbox=op.name in ("POST", "CALL", "GET"))
+            self._add(op.name, op.code, op.response_size, mailbox=op.name in ("POST", "CALL", "GET"))
         self._mailbox_ms = max(self._mailbox_ms, other._mailbox_ms)
         self._waits_ms += other._waits_ms
         if any(op.name == "TIMEOUT" for op in other.ops):
@@ -267,19 +267,19 @@ def parse_answer(script: Script, body: bytes) -> Answer:
     position, last = body[1], body[2]
     done, failed = _op_at(script.ops, position)
     values, rest = _split(done, body[3:])
-    if failed is not None and len(rest) > failed.gives:
-        raise BadAnswer(f"{len(rest)} data bytes from an op that gives {failed.gives}")
+    if failed is not None and len(rest) > failed.response_size:
+        raise BadAnswer(f"{len(rest)} data bytes from an op that gives {failed.response_size}")
     return Answer(result, (*values, rest) if rest else values, failed, last)
 
 
 def _split(ops: list[Op], data: bytes) -> tuple[tuple[bytes, ...], bytes]:
     values = []
     for op in ops:
-        if op.gives:
-            if len(data) < op.gives:
-                raise BadAnswer(f"{len(data)} data bytes where {op.name} gives {op.gives}")
-            values.append(data[: op.gives])
-            data = data[op.gives :]
+        if op.response_size:
+            if len(data) < op.response_size:
+                raise BadAnswer(f"{len(data)} data bytes where {op.name} gives {op.response_size}")
+            values.append(data[: op.response_size])
+            data = data[op.response_size :]
     return tuple(values), data
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from ..lazy import Renamed
 from ..model.motion.codes import ENDLESS, PA_MAX, PA_MIN
 from ..model.motion.ramp import Ramp
 from .check import Number as Number
@@ -109,15 +110,16 @@ class BaseClock:
         Raises:
             OutOfRange: the speed is out of range; the message states the range.
         """
-        asked = exact(pps, what)
-        if not self.slowest <= asked <= self.fastest:
+        requested = exact(pps, what)
+        if not self.slowest <= requested <= self.fastest:
             raise OutOfRange(
-                f"{what} {nearby(asked)} pps is outside {nearby(self.slowest)} to {nearby(self.fastest)} pps "
+                f"{what} {nearby(requested)} pps is outside {nearby(self.slowest)} to "
+                f"{nearby(self.fastest)} pps "
                 f"(base clock {nearby(self.hertz)} Hz)"
             )
-        periods = (1 / asked - self.extra) / self.period
+        periods = (1 / requested - self.extra) / self.period
         rate = min(self.slowest_rate, max(self.least_rate, int(periods + Fraction(1, 2)) - self.beyond))
-        return Speed(asked, rate, self.speed(rate), self)
+        return Speed(requested, rate, self.speed(rate), self)
 
 
 def pin_period(hertz: Number) -> Fraction:
@@ -131,15 +133,16 @@ def pin_period(hertz: Number) -> Fraction:
 class Speed:
     """Speed as requested and as reached by the part, both in pps."""
 
-    asked: Fraction
+    requested: Fraction
     rate: int
     reached: Fraction
     clock: BaseClock = field(repr=False)
+    asked = Renamed("requested")
 
     @property
     def error(self) -> float:
         """Relative deviation; 0.01 = one per cent too fast."""
-        return float(self.reached / self.asked - 1)
+        return float(self.reached / self.requested - 1)
 
     def __str__(self) -> str:
         return f"{nearby(self.reached)} pps"
@@ -263,9 +266,10 @@ def plan_setup(
         raise OutOfRange(f"ramp of {ramp_pulses} pulses is outside {shortest} to {longest} pulses")
     start = clock.choose(start_pps, "start speed")
     high = clock.choose(high_pps, "high speed")
-    if start.asked > high.asked:
+    if start.requested > high.requested:
         raise OutOfRange(
-            f"start speed {nearby(start.asked)} pps is above high speed {nearby(high.asked)} pps: swap them"
+            f"start speed {nearby(start.requested)} pps is above high speed {nearby(high.requested)} pps: "
+            "swap them"
         )
     if start.rate < high.rate + rate_gap:
         raise OutOfRange(

@@ -9,8 +9,8 @@ from ..model.single.codes import Error
 from ..model.stmc.codes import BOARD_CLOCK_HZ, TICK_XT
 from ..parts import part
 from . import speeds
+from .capabilities import POSITIVE, Capabilities, RateCapabilities, SetupRequest
 from .errors import BY_NUMBER, CommandRefused, OutOfRange
-from .kind import POSITIVE, Kind, RateKind, Wanted
 from .link import Link
 from .part import OneAxis
 from .registers import FAMILY, ReadCodes, Switches
@@ -25,7 +25,7 @@ _TEXTS = {
 }
 
 
-def refused(status: int) -> CommandRefused:
+def command_error(status: int) -> CommandRefused:
     """Return the exception for a status byte of an STMC with ERR = 1."""
     number = status >> 4 & 7
     return BY_NUMBER[number](status, _TEXTS.get(Error(number), ""))
@@ -51,7 +51,7 @@ LEAST_DIVISOR = 5
 """The data sheet advises against lower divisors; the part would accept them."""
 
 
-def divided(hertz: Number, external: bool = True) -> BaseClock:
+def divided_clock(hertz: Number, external: bool = True) -> BaseClock:
     """Return a step clock. A speed is the clock / divisor, with divisors up to 255 (STMC-INI-01).
 
     Args:
@@ -63,7 +63,7 @@ def divided(hertz: Number, external: bool = True) -> BaseClock:
 
     The examples of the data sheet, with the external clock of its board:
 
-    >>> clock = divided(48_675)
+    >>> clock = divided_clock(48_675)
     >>> clock.choose(345).rate, clock.choose(825).rate
     (141, 59)
     >>> clock.speed(59)
@@ -73,7 +73,7 @@ def divided(hertz: Number, external: bool = True) -> BaseClock:
 
     >>> float(clock.slowest), float(clock.fastest)
     (190.88235294117646, 9735.0)
-    >>> float(divided(12_500, external=False).fastest)
+    >>> float(divided_clock(12_500, external=False).fastest)
     2500.0
     """
     return BaseClock(pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
@@ -85,7 +85,7 @@ BOARD_CLOCK = BOARD_CLOCK_HZ
 """Second step clock of the J105 board: 48 675 Hz."""
 
 
-class StmcKind(RateKind):
+class StmcCapabilities(RateCapabilities):
     """Capabilities of an STMC.
 
     A speed is step clock / divisor, and the initialisation selects the clock.
@@ -94,25 +94,25 @@ class StmcKind(RateKind):
     def constant_clock(
         self, xtal_hz: int, ramp: speeds.BaseClock | None, pps: speeds.Number
     ) -> speeds.BaseClock:
-        return Kind.constant_clock(self, xtal_hz, ramp, pps)
+        return Capabilities.constant_clock(self, xtal_hz, ramp, pps)
 
-    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> speeds.BaseClock:
-        if wanted.external_clock is not None:
-            return divided(wanted.external_clock)
-        internal = divided(Fraction(xtal_hz, TICK_XT), external=False)
-        board = divided(BOARD_CLOCK)
-        if wanted.base_clock is None:
-            return board if board.slowest <= speeds.exact(wanted.start_pps, "start speed") else internal
+    def ramp_clock(self, xtal_hz: int, request: SetupRequest) -> speeds.BaseClock:
+        if request.external_clock is not None:
+            return divided_clock(request.external_clock)
+        internal = divided_clock(Fraction(xtal_hz, TICK_XT), external=False)
+        board = divided_clock(BOARD_CLOCK)
+        if request.base_clock is None:
+            return board if board.slowest <= speeds.exact(request.start_pps, "start speed") else internal
         for clock in (internal, board):
-            if clock.hertz == speeds.exact(wanted.base_clock, "base clock"):
+            if clock.hertz == speeds.exact(request.base_clock, "base clock"):
                 return clock
         raise OutOfRange(
-            f"base clock {speeds.nearby(wanted.base_clock)} Hz: this board has "
+            f"base clock {speeds.nearby(request.base_clock)} Hz: this board has "
             f"{speeds.nearby(internal.hertz)} and {BOARD_CLOCK} Hz"
         )
 
 
-KIND = StmcKind(
+CAPABILITIES = StmcCapabilities(
     part("stmc"),
     has=frozenset((POSITIVE,)),
     outputs=0,
@@ -142,11 +142,11 @@ class Stmc(OneAxis):
     A search (command 7) also ends at the deceleration limit of its direction (ruling R-19).
     """
 
-    kind = KIND
+    kind = CAPABILITIES
 
     def __init__(self, link: Link) -> None:
         super().__init__(link)
-        link.refusal = lambda answer: refused(answer.last)
+        link.refusal = lambda answer: command_error(answer.last)
         self._read_map = ""
 
     @property
@@ -162,13 +162,13 @@ class Stmc(OneAxis):
             if answer.result is Result.REFUSED:
                 self._read_map = "FAMILY" if answer.last >> 4 & 7 else "SHEET"
             else:
-                self.link.judge(answer)
+                self.link.check_answer(answer)
                 self._read_map = "FAMILY"
         return self._read_map
 
     @property
-    def codes(self) -> ReadCodes:
+    def _read_codes(self) -> ReadCodes:
         return READ_MAPS[self.read_map]
 
     def inputs(self) -> Inputs:
-        return Inputs.of_pins(self.pins())
+        return Inputs.of_pins(self._pins())

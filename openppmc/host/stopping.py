@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .motion import Progress
-    from .part import Device, Turning
+    from .part import Device, Stoppable
 
 # The command line imports this module first. To keep that fast, functions import what they need.
 
@@ -27,7 +27,7 @@ SIGNALS = tuple(
 )
 """Signals of this system that `stop_on_signals` handles."""
 NO_MOTION = "nothing was moving"
-"""First words of the result of `bring_to_rest` in this case."""
+"""First words of the result of `stop_motors` in this case."""
 arrived: list[int] = []
 """Signals that the command line received before it opened a board.
 
@@ -76,10 +76,10 @@ def handled(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
             signal.signal(number, signal.SIG_DFL if old is None else old)
 
 
-def bring_to_rest(
+def stop_motors(
     devices: Sequence[Device],
     seconds: float = LONGEST_WAIT,
-    hurry: Callable[[], bool] = lambda: False,
+    stop_now: Callable[[], bool] = lambda: False,
     every: bool = False,
 ) -> str:
     """Decelerate the motors of devices, wait until they stop, and return one line for the user.
@@ -88,13 +88,13 @@ def bring_to_rest(
 
     Args:
         seconds: longest wait; motors that still move then are stopped immediately.
-        hurry: called about ten times a second; True stops the motors immediately.
+        stop_now: called about ten times a second; True stops the motors immediately.
         every: also stop motions that these objects did not start.
     """
     from .errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
 
-    axes: list[Turning] = [axis for device in devices for axis in device.axes]
-    moving: list[tuple[Device, Turning]] = []
+    axes: list[Stoppable] = [axis for device in devices for axis in device.axes]
+    moving: list[tuple[Device, Stoppable]] = []
     how, errors, halted = NO_MOTION, [], False
 
     def halt() -> None:
@@ -105,8 +105,8 @@ def bring_to_rest(
                 with suppress(PpmcError):
                     axis.halt(wait=False)
 
-    def look(now: Progress) -> None:
-        if hurry():
+    def check(now: Progress) -> None:
+        if stop_now():
             halt()
 
     for device in devices:
@@ -128,18 +128,18 @@ def bring_to_rest(
         if axis.motion is None:
             continue
         try:
-            axis.motion.wait(max(0.1, ends[id(device)] - device.link.clock()), look)
+            axis.motion.wait(max(0.1, ends[id(device)] - device.link.clock()), check)
         except Timeout:
             halt()
             how = f"stopped at once after {seconds:g} s"
         except PpmcError as error:
             errors.append(str(error))
     with suppress(PpmcError):
-        errors[:0] = [f"{axis.who}position {axis.position}" for axis in axes]
+        errors[:0] = [f"{axis._message_prefix}position {axis.position}" for axis in axes]
     return ", ".join([how, *errors])
 
 
-def say(line: str) -> None:
+def print_line(line: str) -> None:
     """Print one line on stderr; ignore a closed terminal."""
     try:
         print(line, file=sys.stderr, flush=True)
@@ -191,5 +191,7 @@ def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator
             yield
         except Signalled as stop:
             resting = True
-            say(f"{name_of(stop.number)}: {bring_to_rest(devices, seconds, lambda: later > 0, every=True)}")
+            print_line(
+                f"{name_of(stop.number)}: {stop_motors(devices, seconds, lambda: later > 0, every=True)}"
+            )
             raise

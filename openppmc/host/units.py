@@ -4,7 +4,7 @@ The functions are defined in `speeds`; times that only one part has are defined 
 """
 
 from .axis import chop_byte
-from .ppmc2104.words import half_us_byte, hold_byte
+from .ppmc2104.registers import half_us_byte, hold_byte
 from .speeds import (
     BaseClock,
     Setup,

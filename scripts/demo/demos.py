@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness.config import F16, Config
-from openppmc.capture.common.words import Words
+from openppmc.capture.common.mnemonics import CommandDecoder
 from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
 from scripts.demo.scenes import Changes, access_text, falls
@@ -51,7 +51,7 @@ class Demo:
     part: str
     module: str
     test: str
-    words: Words
+    words: CommandDecoder
     view: View
     marks: Sequence[str]
     picture: Callable[[Any, Sequence[Mapping[str, Any]]], Run] | None = None

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
 from cocotb_tests.pmc006.demo_program import BUILD, FINE, LEAD, MOTOR, MOVES, WAY
-from openppmc.capture.pmc006.words import Words006
+from openppmc.capture.pmc006.mnemonics import Pmc006Decoder
 from openppmc.model.pmc006.bench.motor import BRIDGES, Winding
 from openppmc.plot.motion import GREY, INK, PALE, bare
 from scripts.demo.demos import Demo, View
@@ -256,7 +256,7 @@ DEMO = Demo(
     part="pmc006",
     module="cocotb_tests.pmc006.demo",
     test="demo_program",
-    words=Words006(),
+    words=Pmc006Decoder(),
     view=VIEW,
     marks=("move4", "move16", "move32", "program"),
     own=draw,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from openppmc.capture.ppmc104.words import Words104
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.plot.motion import SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
 from scripts.demo.demos import Demo, View
@@ -126,7 +126,7 @@ DEMO = Demo(
     part="ppmc104",
     module="cocotb_tests.ppmc104.demo",
     test="demo_move",
-    words=Words104(),
+    words=Ppmc104Decoder(),
     picture=picture,
     view=VIEW,
     marks=("move", "limit", "rest"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from openppmc.capture.ppmc2104.words import Words2104
+from openppmc.capture.ppmc2104.mnemonics import Ppmc2104Decoder
 from openppmc.plot.motion import SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
 from scripts.demo.demos import Demo, View
@@ -199,7 +199,7 @@ DEMO = Demo(
     part="ppmc2104",
     module="cocotb_tests.ppmc2104.demo",
     test="demo_two_axes",
-    words=Words2104(),
+    words=Ppmc2104Decoder(),
     picture=picture,
     view=VIEW,
     marks=("wait", "move", "limits", "rest"),

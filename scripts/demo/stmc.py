@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from openppmc.capture.stmc.words import WordsStmc
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 from openppmc.check.records import steps
 from openppmc.plot.motion import COLOURS, SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
@@ -136,7 +136,7 @@ DEMO = Demo(
     part="j105_stmc",
     module="cocotb_tests.stmc.demo",
     test="demo_board",
-    words=WordsStmc("FAMILY"),
+    words=StmcDecoder("FAMILY"),
     picture=picture,
     view=VIEW,
     marks=("move", "limit", "reference", "rest"),

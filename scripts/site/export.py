@@ -15,7 +15,7 @@ from typing import Any
 
 from cocotb_tests.harness.part import BusStyle
 from cocotb_tests.harness.project import ProjectError, run
-from openppmc.capture.common.words import Words
+from openppmc.capture.common.mnemonics import CommandDecoder
 from openppmc.parts import PARTS
 from openppmc.sim.common.build import SimError
 from scripts.site import wasm
@@ -75,7 +75,7 @@ def data(part: WebPart, module: str) -> dict[str, Any]:
     row = PARTS[part.name]
     pins = part.part
     levels = {**pins.inputs, **part.idle}
-    words = getattr(row.load("demo"), "words", Words())
+    words = getattr(row.load("demo"), "words", CommandDecoder())
     switches = {pin for motor in part.motors for pin in motor.switches}
     return {
         "name": part.name,

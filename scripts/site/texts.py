@@ -9,10 +9,10 @@ from typing import Any
 from cocotb_tests.bank.env import WORDS as BANK_REGISTERS
 from cocotb_tests.harness.bus import MREF, MWEF
 from cocotb_tests.harness.bus import NAMES as NAMES312
-from openppmc.capture.common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, Words
-from openppmc.capture.pmc006 import words as line
-from openppmc.capture.ppmc104.words import Words104
-from openppmc.capture.ppmc312 import words as block
+from openppmc.capture.common.mnemonics import END_STATUS, INPUTS, OUTPUTS, REMAINING, CommandDecoder
+from openppmc.capture.pmc006 import mnemonics as line
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
+from openppmc.capture.ppmc312 import mnemonics as block
 from openppmc.model.motion.codes import Command, Kind
 from openppmc.model.ppmc312.codes import Code as Code312
 
@@ -37,7 +37,7 @@ Field = tuple[str, int, int]
 """Name, number of bytes, and the number that is added for display."""
 
 
-def _fields(command: Command, words: Words) -> list[Field]:
+def _fields(command: Command, words: CommandDecoder) -> list[Field]:
     pulses: Field = (f"{words.unit}s", 3, 1)
     fields: dict[Kind, list[Field]] = {
         Kind.INITIALISE: [(name, 1 + (name == "PA"), 0) for name in words.setting_names],
@@ -51,7 +51,7 @@ def _fields(command: Command, words: Words) -> list[Field]:
     return by_count[command.parameters] if command.kind is Kind.OPERATION else fields[command.kind]
 
 
-def _code(command: Command, words: Words) -> dict[str, object]:
+def _code(command: Command, words: CommandDecoder) -> dict[str, object]:
     code = command.code
     text = words.command(code, [])
     if command.kind in KINDS:
@@ -73,13 +73,13 @@ def _code(command: Command, words: Words) -> dict[str, object]:
     return {"text": text, "fields": fields, "answer": answer, "count": count}
 
 
-def tables(part: str, words: Words) -> dict[str, Any]:
+def tables(part: str, words: CommandDecoder) -> dict[str, Any]:
     """Return the tables of a part: codes, status, answers, meanings of its host's accesses."""
     if part == "ppmc312":
         return blocks()
     if part == "pmc006":
         return frames()
-    found = _bytes(part, words if part != "bank" else Words104())
+    found = _bytes(part, words if part != "bank" else Ppmc104Decoder())
     return {**found, "registers": REGISTERS} if part == "bank" else found
 
 
@@ -114,7 +114,7 @@ def frames() -> dict[str, Any]:
     }
 
 
-def _bytes(part: str, words: Words) -> dict[str, Any]:
+def _bytes(part: str, words: CommandDecoder) -> dict[str, Any]:
     """Return the tables of a part with commands of one byte."""
     folder = {"stmc": "stmc", "ppmc2104": "ppmc2104"}.get(part, "single")
     decode = importlib.import_module(f"openppmc.model.{folder}.codes").decode

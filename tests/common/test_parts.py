@@ -130,8 +130,8 @@ def test_command_line():
     for wrong in (["names", "--with", "colour"], ["names", "--with"], ["show", "ppmc105"], []):
         done = asked(*wrong)
         assert done.returncode == 2 and len(done.stderr.splitlines()) == 1 and not done.stdout
-    with pytest.raises(UnknownPartError, match="part ppmc104 has no words"):
-        parts.part("ppmc104").load("words")
+    with pytest.raises(UnknownPartError, match="part ppmc104 has no script_commands"):
+        parts.part("ppmc104").load("script_commands")
 
 
 def test_an_old_python_reads_it():

@@ -6,11 +6,14 @@ docs/architecture.md describes the path of a byte. Lower a limit when a change a
 
 from __future__ import annotations
 
+import ast
 import json
+import re
 import resource
 import subprocess
 import sys
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -96,7 +99,28 @@ def test_help_costs_little_more_than_typer() -> None:
 def test_a_part_has_few_bases_and_names() -> None:
     """A `Ppmc104` has few base classes and few public names."""
     few([base.__name__ for base in Ppmc104.__mro__[1:-1]], 5)
-    few([name for name in dir(Ppmc104) if not name.startswith("_")], 53)
+    few([name for name in dir(Ppmc104) if not name.startswith("_")], 34)
+
+
+def private_names(path: Path) -> list[str]:
+    """Return the uses of `_` names of other objects in a file, except those of named tuples and `os`."""
+    own = ("self", "cls", "super()", "os")
+    return [
+        f"{path.relative_to(ROOT)}:{node.lineno}: {ast.unparse(node)}"
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Attribute)
+        and re.match(r"_(?!_)", node.attr)
+        and node.attr not in ("_asdict", "_fields", "_make", "_replace")
+        and ast.unparse(node.value) not in own
+    ]
+
+
+def test_users_of_the_host_package_need_no_private_name() -> None:
+    """The command line, the ophyd device and the examples use public names of the drivers only."""
+    files = [ROOT / "openppmc/ophyd.py", *(ROOT / "openppmc/cli").rglob("*.py")]
+    files += (ROOT / "examples").rglob("*.py")
+    assert len(files) > 30
+    assert [use for path in sorted(files) for use in private_names(path)] == []
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from math import isnan
 import pytest
 
 from cocotb_tests.pmc006.demo_program import FINE, MOVES, PROGRAM
-from openppmc.capture.pmc006.words import Words006
+from openppmc.capture.pmc006.mnemonics import Pmc006Decoder
 from openppmc.check.records import Access
 from openppmc.model.pmc006.line import command, reply
 from openppmc.model.pmc006.program import assemble
@@ -38,13 +38,13 @@ def told(*rows: tuple[str, int, int]) -> list[Access]:
     ],
 )
 def test_frames_in_words(letter: str, data: int, got: int, meaning: str, answer: str) -> None:
-    (row,) = Words006().exchanges(told((letter, data, got)))
+    (row,) = Pmc006Decoder().exchanges(told((letter, data, got)))
     assert (row.meaning, row.reply) == (meaning, answer)
     assert bytes(row.sent) == command(0xFF, letter, data) and bytes(row.answer) == reply(0xFF, got)
 
 
 def test_polls_and_words_are_one_row() -> None:
-    rows = Words006().exchanges(
+    rows = Pmc006Decoder().exchanges(
         told(("s", 5, 3), ("j", 0, 9), ("j", 0, 8), ("W", 1, 1), ("W", 2, 2), ("W", 3, 3))
     )
     assert [(row.meaning, row.polls) for row in rows] == [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Mapping, Sequence
 
-from .kind import Accesses, Wires
+from .part_decoder import Accesses, Wires
 from .signals import Channel, numpy, slices
 
 Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping
 
 from ...model.motion.codes import Command, Kind
 from .bus import Strobe, accesses
-from .kind import Access, Accesses, DecodeKind, Line, Needs, Train, Wires
+from .mnemonics import CommandDecoder, Exchange
+from .part_decoder import Access, Accesses, Line, Needs, PartDecoder, PulseTrain, Wires
 from .pinmap import Pins
-from .registers import Judged, cycle, spoken_bytes
-from .words import Exchange, Words
+from .registers import DecodedAccess, cycle, decoded_byte_lines
 
 SHORTEST = 250_000
 """Shortest strobe of an old host, which an analyser must sample, ps."""
@@ -22,23 +22,23 @@ def byte_part(
     model: tuple[Mapping[str, int], Mapping[str, int], Mapping[str, int]],
     strobe_pins: tuple[str, ...],
     strobes: Strobe,
-    words: Words | Callable[[Wires], Words],
+    decoder: CommandDecoder | Callable[[Wires], CommandDecoder],
     code: Callable[[int, Wires], Command],
     levels: Callable[[Access, Wires], dict[str, int]],
-    trains: Callable[[Wires], list[Train]],
+    trains: Callable[[Wires], list[PulseTrain]],
     lowest: Mapping[str, int],
     phases: tuple[str, ...],
     axis_of: Callable[[str, int], int] = lambda port, bit: 0,
     address: str = "a0",
     bus: str = "d",
     aliases: Mapping[str, str] | None = None,
-) -> DecodeKind:
+) -> PartDecoder:
     """Return the capture functions of a part on a byte bus.
 
     Args:
         model: inputs, outputs, widths of the golden model.
         strobe_pins: pins that make a strobe.
-        words: meaning of bytes; a function returns it for a capture.
+        decoder: meaning of bytes; a function returns it for a capture.
         code: decodes a command byte.
         levels: returns the levels of these pins and the address during an access.
         address: port whose bit 0 selects the register.
@@ -53,15 +53,15 @@ def byte_part(
         return found
 
     def lines(wires: Wires) -> list[Line]:
-        def judge(row: Exchange) -> Judged:
+        def judge(row: Exchange) -> DecodedAccess:
             if not row.sent:
-                return Judged(bool(row.answer))
+                return DecodedAccess(bool(row.answer))
             command = code(row.sent[0], wires)
             whole = len(row.sent) - 1 == command.parameters
             first = whole and command.kind is Kind.INITIALISE
-            return Judged(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
+            return DecodedAccess(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
 
-        return spoken_bytes(seen(wires), words(wires) if callable(words) else words, judge)
+        return decoded_byte_lines(seen(wires), decoder(wires) if callable(decoder) else decoder, judge)
 
     def stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
         for access in seen(wires):
@@ -72,7 +72,7 @@ def byte_part(
         return Needs((*(pin for pin in strobe_pins if pin not in STEADY), address, data), SHORTEST)
 
     names = {name: widths.get(name, 1) for name in (*inputs, *outputs)} | {bus: 8, "clk": 1}
-    return DecodeKind(
+    return PartDecoder(
         called,
         Pins(names, lowest, aliases or {}),
         inputs,
@@ -84,5 +84,5 @@ def byte_part(
         tuple(name for name in outputs if name not in (f"{bus}_o", f"{bus}_oe")),
         phases,
         axis_of=axis_of,
-        rests=outputs,
+        reset_levels=outputs,
     )

@@ -89,7 +89,7 @@ class _Table:
     def __init__(self, name: str, lines: _Lines) -> None:
         self.name, self.lines = name, lines
         self.rate: Fraction | None = None
-        self.told: list[str] = []
+        self.column_names: list[str] = []
         self.separator = ","
         self.unit: Fraction | None = None
         self.timed = self.counted = False
@@ -132,13 +132,13 @@ class _Table:
                 break
         if not before:
             raise CaptureError(f"{self.name}: there is nothing in it: capture again")
-        self._blame(before)
+        self._explain(before)
         raise CaptureError(
             f"{self.name}: neither a column of times nor a sample rate: export it from Saleae Logic with "
             "times, or from sigrok with its head"
         )
 
-    def _blame(self, before: list[tuple[str, int]]) -> None:
+    def _explain(self, before: list[tuple[str, int]]) -> None:
         """Raise a CaptureError that states why there is no table, if that is known."""
         for (head, _), (row, number) in zip(before, [*before[1:], ("", 0)], strict=True):
             for separator in "\t;,":
@@ -158,7 +158,7 @@ class _Table:
         self.rate = rate_in(text) or self.rate
         match = re.match(r"Channels \(\d+/\d+\):\s*(.+)", text)
         if match:
-            self.told = [name.strip() for name in match[1].split(",")]
+            self.column_names = [name.strip() for name in match[1].split(",")]
 
     def _shape(self, head: str, row: str) -> list[str] | None:
         """Return the names if these two lines are the heading and the first row of a table."""
@@ -196,8 +196,8 @@ class _Table:
 
     def _names(self, count: int) -> list[str]:
         """Return the names of the comment, or numbers."""
-        if len(self.told) in (count, count - 1):
-            return [*self.told, "Trigger"][:count]
+        if len(self.column_names) in (count, count - 1):
+            return [*self.column_names, "Trigger"][:count]
         return [f"logic{place}" for place in range(count)]
 
     def _headless(self, row: str) -> list[str] | None:
@@ -208,11 +208,15 @@ class _Table:
                 continue
             levels = [level_of(cell) for cell in cells]
             self.separator = separator
-            timed = bool(self.told) and len(cells) == len(self.told) + 1
+            timed = bool(self.column_names) and len(cells) == len(self.column_names) + 1
             if self.rate and None not in levels and not timed and "" not in cells:
                 self.timed = self.counted = False
                 self.separator, self.unit = separator, None
-                return self.told if len(self.told) == len(cells) else [f"D{n}" for n in range(len(cells))]
+                return (
+                    self.column_names
+                    if len(self.column_names) == len(cells)
+                    else [f"D{n}" for n in range(len(cells))]
+                )
             if (
                 self.rate
                 and timed
@@ -220,7 +224,7 @@ class _Table:
                 and time_of(cells[0], self.separator) is not None
             ):
                 self.timed, self.counted, self.separator, self.unit = True, False, separator, None
-                return ["Time", *self.told]
+                return ["Time", *self.column_names]
         return None
 
     def _rows(self, names: list[str]) -> Capture:

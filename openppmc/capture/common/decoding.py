@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ... import parts
 from .errors import CaptureError
-from .kind import DecodeKind, Line, Train, Wires
+from .part_decoder import Line, PartDecoder, PulseTrain, Wires
 from .pinmap import PinMap, wired
 from .pulses import Move, moves
 from .signals import US, Bits, Capture, Channel, joined, without_glitches
@@ -31,10 +31,10 @@ class Decoded:
     """
 
     part: str
-    kind: DecodeKind
+    decoder: PartDecoder
     wires: Wires
     lines: list[Line]
-    trains: list[Train]
+    trains: list[PulseTrain]
     moves: list[Move]
     glitches: Mapping[str, int]
     missing: tuple[str, ...]
@@ -46,18 +46,18 @@ class Decoded:
     @property
     def pause(self) -> int:
         """Shortest time between two moves in ps."""
-        return self.kind.pause * 16_000_000 // self.crystal
+        return self.decoder.pause * 16_000_000 // self.crystal
 
     @property
-    def strange(self) -> int:
+    def invalid_lines(self) -> int:
         """Number of lines that are invalid for this part."""
-        return sum(line.strange for line in self.lines)
+        return sum(line.invalid for line in self.lines)
 
     @property
     def complaint(self) -> str:
         """Message if this cannot be a capture of this part; otherwise empty."""
-        spoken = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
-        if len(spoken) < 3 or 2 * self.strange <= len(spoken):
+        rows = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
+        if len(rows) < 3 or 2 * self.invalid_lines <= len(rows):
             return ""
         wires = (
             "are rxd and txd mixed up"
@@ -65,15 +65,16 @@ class Decoded:
             else "are lines of d mixed up, is a0 (rs) right"
         )
         return (
-            f"{self.strange} of {len(spoken)} {self.kind.unnamed} are none of {self.kind.called}: is the "
+            f"{self.invalid_lines} of {len(rows)} {self.decoder.row_noun} are none of "
+            f"{self.decoder.title}: is the "
             f"capture of another part, {wires}?"
         )
 
 
-def decoder(part: str) -> DecodeKind:
+def part_decoder(part: str) -> PartDecoder:
     """Return the capture functions of a part (`decode.py`). Raises UnknownPartError."""
-    kind: DecodeKind = parts.part(part).load("decode")
-    return kind
+    decoder: PartDecoder = parts.part(part).load("decode")
+    return decoder
 
 
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
@@ -96,13 +97,13 @@ def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
 
 def _has_pins(capture: Capture, chosen: PinMap, part: str) -> bool:
     """Return True if the channels have the names of all pins that this part needs."""
-    kind = decoder(part)
+    decoder = part_decoder(part)
     try:
-        bits = wired(capture, chosen, kind.pins)
+        bits = wired(capture, chosen, decoder.pins)
     except CaptureError:
         return False
-    needs = kind.needs(Wires({}, bits, capture.end, capture.sample)).pins
-    return all(len(bits.get(pin, ())) == kind.pins.widths[pin] for pin in needs)
+    needs = decoder.needs(Wires({}, bits, capture.end, capture.sample)).pins
+    return all(len(bits.get(pin, ())) == decoder.pins.widths[pin] for pin in needs)
 
 
 def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: int = GLITCH) -> Decoded:
@@ -122,17 +123,17 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
         raise CaptureError(
             f"which part is this? name it with --part, or in the map as `part:` (there are {names})"
         )
-    kind = decoder(name)
+    decoder = part_decoder(name)
     try:
-        bits, glitches, doubtful, blank = _clean(wired(capture, chosen, kind.pins), kind, glitch)
+        bits, glitches, doubtful, blank = _clean(wired(capture, chosen, decoder.pins), decoder, glitch)
     except CaptureError as error:
         raise CaptureError(f"{error}{fitting(capture, chosen, name)}") from None
     ports = {
         port: places.whole
         if isinstance(places, Bits)
-        else joined([places[bit] for bit in range(kind.pins.widths[port])])
+        else joined([places[bit] for bit in range(decoder.pins.widths[port])])
         for port, places in bits.items()
-        if len(places) == kind.pins.widths[port]
+        if len(places) == decoder.pins.widths[port]
     }
     for port, whole in ports.items():
         if whole.width > 1:
@@ -145,31 +146,31 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     sample = 0 if told else capture.finest
     wires = Wires(ports, bits, capture.end, sample, params)
     try:
-        _check(kind, wires, capture, blank)
+        _check(decoder, wires, capture, blank)
     except CaptureError as error:
         raise CaptureError(f"{error}{fitting(capture, chosen, name)}") from None
-    lines = kind.lines(wires)
+    lines = decoder.lines(wires)
     if not lines:
         raise CaptureError(
-            f"{capture.name}: the host never says anything to {kind.called}: is the pin map right "
-            f"({', '.join(kind.needs(wires).pins)}), was the program running?"
+            f"{capture.name}: the host never says anything to {decoder.title}: is the pin map right "
+            f"({', '.join(decoder.needs(wires).pins)}), was the program running?"
         )
     if not any(line.data[:2] not in ("st", "CS", "→ ", " →") for line in lines):
         raise CaptureError(
-            f"{capture.name}: the host only reads and never writes to {kind.called}: is the write strobe the "
-            f"right channel ({', '.join(kind.needs(wires).pins)})?"
+            f"{capture.name}: the host only reads and never writes to {decoder.title}: is the write strobe "
+            f"the right channel ({', '.join(decoder.needs(wires).pins)})?"
         )
-    trains = kind.trains(wires)
-    known = {"clk", *ports, *kind.host_pins}
-    used = [*kind.inputs, *kind.outputs]
+    trains = decoder.trains(wires)
+    known = {"clk", *ports, *decoder.host_pins}
+    used = [*decoder.inputs, *decoder.outputs]
     missing = tuple(pin for pin in used if pin not in known and pin not in bits)
     return Decoded(
         name,
-        kind,
+        decoder,
         wires,
         lines,
         trains,
-        moves(trains, kind.pause * 16_000_000 // crystal),
+        moves(trains, decoder.pause * 16_000_000 // crystal),
         glitches,
         missing,
         crystal,
@@ -187,7 +188,7 @@ def _remarks(doubtful: Sequence[str], blank: Sequence[str]) -> list[str]:
 
 
 def _clean(
-    bits: Mapping[str, Mapping[int, Channel]], kind: DecodeKind, glitch: int
+    bits: Mapping[str, Mapping[int, Channel]], decoder: PartDecoder, glitch: int
 ) -> tuple[dict[str, Mapping[int, Channel]], dict[str, int], list[str], list[str]]:
     """Return cleaned wires.
 
@@ -202,12 +203,12 @@ def _clean(
     for port, places in bits.items():
         # A clock may be faster than the limit.
         shortest = 0 if port == "clk" else glitch
-        idle = {"rst_n": 1, **kind.rests, **kind.inputs}.get(port, 0)
+        idle = {"rst_n": 1, **decoder.reset_levels, **decoder.inputs}.get(port, 0)
         own: dict[int, Channel] = {}
         touched = not isinstance(places, Bits)
         for bit in places:
             channel = places[bit]
-            name = kind.pins.shown(port, bit)
+            name = decoder.pins.text_of(port, bit)
             if channel.blank:
                 blank.append(name)
                 touched = True
@@ -215,7 +216,7 @@ def _clean(
             if channel.doubtful:
                 doubtful.append(name)
                 touched = True
-                channel = channel.settled(idle >> bit & 1, port not in kind.inputs)
+                channel = channel.settled(idle >> bit & 1, port not in decoder.inputs)
             channel, dropped = without_glitches(channel, shortest)
             if dropped:
                 glitches[port] = glitches.get(port, 0) + dropped
@@ -228,9 +229,9 @@ def _clean(
     return clean, glitches, doubtful, blank
 
 
-def _check(kind: DecodeKind, wires: Wires, capture: Capture, blank: Sequence[str]) -> None:
+def _check(decoder: PartDecoder, wires: Wires, capture: Capture, blank: Sequence[str]) -> None:
     """Raise CaptureError if a required pin is missing or was sampled too slowly."""
-    needs = kind.needs(wires)
+    needs = decoder.needs(wires)
     for pin in needs.pins:
         if pin in wires.ports:
             continue
@@ -240,10 +241,10 @@ def _check(kind: DecodeKind, wires: Wires, capture: Capture, blank: Sequence[str
                 f"{capture.name}: {lost_levels} has no known level (x or z all the time): nothing can be "
                 "read without it; capture it"
             )
-        low = kind.pins.low(pin)
+        low = decoder.pins.low(pin)
         have = wires.bits.get(pin, {})
         if have:
-            lost = next(bit for bit in range(kind.pins.widths[pin]) if bit not in have)
+            lost = next(bit for bit in range(decoder.pins.widths[pin]) if bit not in have)
             raise CaptureError(
                 f"{capture.name}: {pin}[{lost + low}] is not in the map: nothing can be read without it"
             )

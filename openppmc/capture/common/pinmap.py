@@ -69,7 +69,7 @@ class Pins:
             raise ValueError(f"{pin}: {port} has bits {self.low(port)} to {last}")
         return port, bit
 
-    def shown(self, port: str, bit: int) -> str:
+    def text_of(self, port: str, bit: int) -> str:
         """Return the name of a pin as in the manual."""
         return f"{port}[{bit + self.low(port)}]" if self.widths[port] > 1 else port
 
@@ -286,8 +286,8 @@ def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel
         if name in capture.doubled or used.get((port, bit), name) != name:
             other = used.get((port, bit), name)
             raise CaptureError(
-                f"{capture.name}: two channels are {pins.shown(port, bit)} ({other}, {name}): name the right "
-                "one with --map FILE"
+                f"{capture.name}: two channels are {pins.text_of(port, bit)} ({other}, {name}): name the "
+                "right one with --map FILE"
             )
         one = found.setdefault(port, {})
         if isinstance(one, dict):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
-from .kind import Train, Wires
+from .part_decoder import PulseTrain, Wires
 from .signals import SECOND, Bits, Channel, joined, level_code, level_type, numpy
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class Move:
     last: float
 
 
-def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
+def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
     """Return groups of pulses without a pause (ps) in one direction."""
     np = numpy()
     times = train.times
@@ -46,12 +46,12 @@ def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
         return []
     gaps = np.diff(times)
     split = gaps > pause
-    if train.ways is not None:
-        split |= train.ways[1:] != train.ways[:-1]
+    if train.directions is not None:
+        split |= train.directions[1:] != train.directions[:-1]
     # Slow pulses may have longer intervals than a pause: up to 2.5 times the previous interval.
     last_split = -1
     for place in np.flatnonzero(split).tolist():
-        turned = train.ways is not None and train.ways[place] != train.ways[place + 1]
+        turned = train.directions is not None and train.directions[place] != train.directions[place + 1]
         begun = last_split + 1
         if not turned and place > begun and gaps[place] <= 5 * gaps[place - 1] // 2:
             split[place] = False
@@ -59,12 +59,12 @@ def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
             last_split = place
     bounds = [0, *(np.flatnonzero(split) + 1).tolist(), len(times)]
     return [
-        (times[a:b], None if train.ways is None else int(train.ways[a]))
+        (times[a:b], None if train.directions is None else int(train.directions[a]))
         for a, b in zip(bounds, bounds[1:], strict=False)
     ]
 
 
-def moves(trains: list[Train], pause: int) -> list[Move]:
+def moves(trains: list[PulseTrain], pause: int) -> list[Move]:
     """Return the moves in the order of their beginnings.
 
     Args:
@@ -96,7 +96,7 @@ def edges_of(channel: Channel, level: int) -> Column:
     return times
 
 
-def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) -> Train | None:
+def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) -> PulseTrain | None:
     """Return pulses that begin with `level` on a bit of a port.
 
     The result is `None` if that pin was not captured.
@@ -109,10 +109,10 @@ def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) ->
         return None
     direction = wires.bits.get(way, {}).get(bit)
     times = edges_of(pulses, level)
-    return Train(axis, times, None if direction is None else direction.at_all(times))
+    return PulseTrain(axis, times, None if direction is None else direction.at_all(times))
 
 
-def phase_train(wires: Wires, axis: int, port: str) -> Train | None:
+def phase_train(wires: Wires, axis: int, port: str) -> PulseTrain | None:
     """Return the steps of phases that were captured completely.
 
     Wires change one after the other within a few samples, so the pattern is the levels 1 µs after a change.
@@ -130,7 +130,7 @@ def phase_train(wires: Wires, axis: int, port: str) -> Train | None:
     times, levels = phases.times[steady], phases.levels[steady]
     moved = np.zeros(len(times), bool)
     moved[1:] = (levels[1:] != levels[:-1]) & ((levels[1:] ^ levels[:-1]) != full)
-    return Train(axis, times[moved], None)
+    return PulseTrain(axis, times[moved], None)
 
 
 def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[int, Channel]:

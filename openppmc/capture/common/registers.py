@@ -1,20 +1,20 @@
-"""Accesses to registers as text: rows of `Words` with their times and a check."""
+"""Accesses to registers as text: rows of `CommandDecoder` with their times and a check."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-from .kind import Access, Accesses, Line
+from .mnemonics import END_STATUS, CommandDecoder, Exchange
+from .part_decoder import Access, Accesses, Line
 from .signals import numpy
-from .words import END_STATUS, Exchange, Words
 
 KNOWN = 1000
 """Number of rows whose texts are cached."""
 
 
-class Said(NamedTuple):
-    """Access in the form that `Words` accepts."""
+class BusAccess(NamedTuple):
+    """Access in the form that `CommandDecoder` accepts."""
 
     t: int
     kind: str
@@ -22,29 +22,29 @@ class Said(NamedTuple):
     byte: int
 
 
-class Judged(NamedTuple):
+class DecodedAccess(NamedTuple):
     """Result of the check of a row.
 
     Attributes:
-        strange: True if the row is invalid for this part.
+        invalid: True if the row is invalid for this part.
     """
 
-    strange: bool = False
+    invalid: bool = False
     initialises: bool = False
     axis: int = 0
 
 
-def spoken(
+def decoded_lines(
     accesses: Accesses,
-    words: Words,
-    said: Callable[[Access], Said],
-    judge: Callable[[Any], Judged],
+    decoder: CommandDecoder,
+    said: Callable[[Access], BusAccess],
+    judge: Callable[[Any], DecodedAccess],
 ) -> list[Line]:
     """Return all accesses as text, one row per command with its response.
 
-    A row that the part's words cannot describe is strange.
+    A row that the part's decoder cannot describe is invalid.
     """
-    rows = words.exchanges(map(said, accesses))
+    rows = decoder.exchanges(map(said, accesses))
     begin, end = accesses.begin[accesses.write], accesses.end[accesses.write]
     found = []
     place = 0
@@ -57,7 +57,9 @@ def spoken(
     return found
 
 
-def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged]) -> list[Line]:
+def decoded_byte_lines(
+    accesses: Accesses, decoder: CommandDecoder, judge: Callable[[Any], DecodedAccess]
+) -> list[Line]:
     """Return all accesses as text, from columns.
 
     The function is for parts with commands and status in register 1 and data in register 0.
@@ -84,11 +86,11 @@ def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged
         sent, polls, answer = (
             content[bounds[place] : bounds[place + 1]] for place in range(3 * number, 3 * number + 3)
         )
-        axis = words.axis(sent[0]) if sent else 0
+        axis = decoder.axis(sent[0]) if sent else 0
         key = (sent, polls, answer, stopped.get(axis, False))
         line = known.get(key)
         if line is None:
-            one = Exchange(words, t, list(sent), list(answer), list(polls), key[3])
+            one = Exchange(decoder, t, list(sent), list(answer), list(polls), key[3])
             line = _line(one, over, judge)
             if len(known) < KNOWN:
                 known[key] = line
@@ -98,7 +100,7 @@ def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged
     return found
 
 
-def _line(row: Any, end: int, judge: Callable[[Any], Judged]) -> Line:
+def _line(row: Any, end: int, judge: Callable[[Any], DecodedAccess]) -> Line:
     data = _hex(row.sent) if row.sent else ""
     data += f" → {_hex(row.answer)}" if row.answer else ""
     if not data:

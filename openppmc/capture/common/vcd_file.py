@@ -503,9 +503,9 @@ class _Body:
             return
         which = self._lookup(data, buf, starts + 1, ends).astype(np.int16)
         levels = self.level[buf[starts]]
-        self._give(which, stamps[at], levels & 1, levels >> 1)
+        self._store_times(which, stamps[at], levels & 1, levels >> 1)
 
-    def _give(self, which: Any, times: Any, levels: Any, unknown: Any) -> None:
+    def _store_times(self, which: Any, times: Any, levels: Any, unknown: Any) -> None:
         """Add changes of single wires to their variables."""
         np = self.np
         order = np.argsort(which, kind="stable")
@@ -560,11 +560,14 @@ class _Body:
                 levels |= (value & 1).astype(kind) << kind(place)
                 unknown |= (value >> 1).astype(kind) << kind(place)
             if one.indices[0] > one.indices[-1]:
-                levels, unknown = self._turned(levels, one.width), self._turned(unknown, one.width)
+                levels, unknown = (
+                    self._reverse_bits(levels, one.width),
+                    self._reverse_bits(unknown, one.width),
+                )
             times = stamps[at[which[rows]]]
             one.add(times, levels, unknown if unknown.any() else None)
 
-    def _turned(self, values: Any, width: int) -> Any:
+    def _reverse_bits(self, values: Any, width: int) -> Any:
         """Return the numbers with their bits in reverse order."""
         kind = values.dtype.type
         turned = values & kind(0)

@@ -13,9 +13,9 @@ from ...model.pmc006.line import ANSWER, HEAD, SIZE, command
 from ...model.pmc006.part import Pmc006
 from ...model.pmc006.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.characters import Character, characters, rate_of
-from ..common.kind import DecodeKind, Line, Needs, Train, Wires
+from ..common.part_decoder import Line, Needs, PartDecoder, PulseTrain, Wires
 from ..common.pinmap import Pins
-from .words import MEANINGS
+from .mnemonics import MEANINGS
 
 RATES = (9600.0, 19_200.0, 38_400.0, 57_600.0, 115_200.0, 4800.0, 2400.0, 1200.0)
 SHORTEST = 8_600_000
@@ -78,13 +78,13 @@ def _stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
     return ((t, {"rxd": level}) for t, level in wires.ports["rxd"])
 
 
-def _trains(wires: Wires) -> list[Train]:
+def _trains(wires: Wires) -> list[PulseTrain]:
     step = wires.bits.get("mon_step", {}).get(0)
     if step is None:
         return []
     way = wires.bits.get("mon_dir", {}).get(0)
     times = step.times[step.levels == 1]
-    return [Train(1, times, None if way is None else 1 - way.at_all(times))]
+    return [PulseTrain(1, times, None if way is None else 1 - way.at_all(times))]
 
 
 def _named(model: Pmc006, wires: Wires) -> None:
@@ -92,7 +92,7 @@ def _named(model: Pmc006, wires: Wires) -> None:
 
     The address is that of the controller that replies, or else of the one that receives frames.
     """
-    found = [line.data.split() for line in _lines(wires) if not line.strange]
+    found = [line.data.split() for line in _lines(wires) if not line.invalid]
     replies = [words[3] for words in found if words[0] == "→"]
     asked = [words[1] for words in found if words[0] != "→"]
     if not replies and not asked:
@@ -117,7 +117,7 @@ _INSIDE = (
     "pwm_b_ref",
 )
 _DRIVE = ("bridge_a_en", "bridge_b_en", "m10", "m11", "m20", "m21", "scl_oe", "sda_oe")
-DECODER = DecodeKind(
+DECODER = PartDecoder(
     "a PMC006B4",
     Pins(NAMES, {"gpi": 1, "gpo": 1}),
     INPUTS,
@@ -131,6 +131,6 @@ DECODER = DecodeKind(
     prelude=_named,
     initialised=False,
     pause=30 * 10**9,
-    unnamed="frames",
-    rests=OUTPUTS,
+    row_noun="frames",
+    reset_levels=OUTPUTS,
 )

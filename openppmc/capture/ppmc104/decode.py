@@ -6,16 +6,16 @@ from ...model.ppmc104 import INPUTS, OUTPUTS, WIDTHS
 from ...model.single.codes import decode
 from ...model.single.hostport import strobes
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, Train, Wires
+from ..common.part_decoder import Access, PulseTrain, Wires
 from ..common.pulses import train
-from .words import Words104
+from .mnemonics import Ppmc104Decoder
 
 
 def _levels(access: Access, wires: Wires) -> dict[str, int]:
     return {"cs_n": 0, "wr_n" if access.write else "rd_n": 0, "a0": access.reg}
 
 
-def _trains(wires: Wires) -> list[Train]:
+def _trains(wires: Wires) -> list[PulseTrain]:
     one = train(wires, 1, "pout_n", 0, 0, "dir")
     return [] if one is None else [one]
 
@@ -25,7 +25,7 @@ DECODER = byte_part(
     (INPUTS, OUTPUTS, WIDTHS),
     ("cs_n", "rd_n", "wr_n"),
     strobes,
-    Words104(),
+    Ppmc104Decoder(),
     lambda code, wires: decode(code),
     _levels,
     _trains,

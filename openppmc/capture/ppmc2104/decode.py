@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ...model.ppmc2104.codes import AXIS_INPUTS, AXIS_OUTPUTS, INPUTS, OUTPUTS, WIDTHS, decode, strobes
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, Train, Wires
+from ..common.part_decoder import Access, PulseTrain, Wires
 from ..common.pulses import train
-from .words import Words2104
+from .mnemonics import Ppmc2104Decoder
 
 
 def _levels(access: Access, wires: Wires) -> dict[str, int]:
@@ -16,7 +16,7 @@ def _levels(access: Access, wires: Wires) -> dict[str, int]:
     return {"cs_n": 0, "ds_wrs_n" if access.write else "rw_rds_n": 0, "a0": access.reg}
 
 
-def _trains(wires: Wires) -> list[Train]:
+def _trains(wires: Wires) -> list[PulseTrain]:
     found = (train(wires, axis + 1, "pout_n", axis, 0, "dir") for axis in (0, 1))
     return [one for one in found if one is not None]
 
@@ -31,7 +31,7 @@ DECODER = byte_part(
     (INPUTS, OUTPUTS, WIDTHS),
     ("cs_n", "ds_wrs_n", "rw_rds_n", "busc"),
     strobes,
-    Words2104(),
+    Ppmc2104Decoder(),
     lambda code, wires: decode(code),
     _levels,
     _trains,

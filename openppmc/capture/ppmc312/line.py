@@ -10,10 +10,10 @@ from ...model.ppmc312.front import serial
 from ...model.ppmc312.front.serial import FORMS, LENGTHS, Local, Note, block_of
 from ..common.characters import Character, characters, rate_of
 from ..common.errors import CaptureError
-from ..common.kind import DecodeKind, Line, Needs, Wires
+from ..common.part_decoder import Line, Needs, PartDecoder, Wires
 from ..common.pinmap import Pins
 from .decode import NAMES, trains
-from .words import block_words
+from .mnemonics import block_words
 
 SPEEDS = {19_200.0: 5, 38_400.0: 6, 16e6 / 192: 7}
 SHORTEST = 12_000_000
@@ -125,7 +125,7 @@ def _stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
     return ((t, {"rxd": level}) for t, level in wires.ports["rxd"])
 
 
-DECODER = DecodeKind(
+DECODER = PartDecoder(
     "a PPMC-312 in serial mode",
     Pins(NAMES),
     INPUTS,
@@ -136,6 +136,6 @@ DECODER = DecodeKind(
     frozenset(("rxd", "mode", "mod", "adr", "hsp", "d_i", "rs", "cs_n", "we_n", "oe_n")),
     tuple(name for name in OUTPUTS if name not in ("d_o", "d_oe", "wrq_n", "irq_n", "out_oe")),
     straps=_straps,
-    unnamed="frames",
-    rests=OUTPUTS,
+    row_noun="frames",
+    reset_levels=OUTPUTS,
 )

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from ...model.stmc.codes import decode
 from ...model.stmc.pc104_board import INPUTS, OUTPUTS, WIDTHS
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, Wires
+from ..common.part_decoder import Access, Wires
 from .decode import read_map, trains
-from .words import WordsStmc
+from .mnemonics import StmcDecoder
 
 BASE = 0x3B0
 """Address of the data register.
@@ -32,7 +32,7 @@ DECODER = byte_part(
     (INPUTS, OUTPUTS, WIDTHS),
     ("sa", "aen", "ior_n", "iow_n"),
     _strobes,
-    lambda wires: WordsStmc(read_map(wires)),
+    lambda wires: StmcDecoder(read_map(wires)),
     lambda code, wires: decode(code, read_map(wires)),
     _levels,
     trains,

@@ -6,9 +6,9 @@ from ...model.single.hostport import strobes
 from ...model.stmc.codes import decode
 from ...model.stmc.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, Train, Wires
+from ..common.part_decoder import Access, PulseTrain, Wires
 from ..common.pulses import phase_train
-from .words import WordsStmc
+from .mnemonics import StmcDecoder
 
 
 def _levels(access: Access, wires: Wires) -> dict[str, int]:
@@ -20,7 +20,7 @@ def read_map(wires: Wires) -> str:
     return str(wires.params.get("READ_MAP", "FAMILY"))
 
 
-def trains(wires: Wires) -> list[Train]:
+def trains(wires: Wires) -> list[PulseTrain]:
     """Return the steps of the phases."""
     one = phase_train(wires, 1, "s")
     return [] if one is None else [one]
@@ -31,7 +31,7 @@ DECODER = byte_part(
     (INPUTS, OUTPUTS, WIDTHS),
     ("cs_n", "rd_n", "wr_n"),
     strobes,
-    lambda wires: WordsStmc(read_map(wires)),
+    lambda wires: StmcDecoder(read_map(wires)),
     lambda code, wires: decode(code, read_map(wires)),
     _levels,
     trains,

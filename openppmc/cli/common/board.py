@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ... import parts
 
 if TYPE_CHECKING:
-    from ...host.kind import Kind
+    from ...host.capabilities import Capabilities
 
 USUAL = "ppmc104"
 """Part of plans and of virtual boards if the user names no part."""
@@ -61,17 +61,17 @@ class Board:
         return f"{self.port}{comma}part={self.part}"
 
     @property
-    def planned(self) -> Kind:
+    def planned(self) -> Capabilities:
         """Part of a plan, which opens no board: from --part, else from a virtual port, else USUAL."""
-        from ...host.kind import kind_of
+        from ...host.capabilities import capabilities_of
 
         if self.part is not None:
-            return kind_of(self.part)
+            return capabilities_of(self.part)
         if not self.virtual:
-            return kind_of(USUAL)
+            return capabilities_of(USUAL)
         words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
         named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
-        return kind_of(named[-1] if named and named[-1] in NAMES else USUAL)
+        return capabilities_of(named[-1] if named and named[-1] in NAMES else USUAL)
 
 
 BOARD = Board()

@@ -10,7 +10,7 @@ from ...host import serial_ports
 from . import output, show
 from .board import BOARD
 from .options import MOST_AXES, Json, with_setup
-from .session import initialise, lasting, opened, remember, setup_values
+from .session import initialise, opened, setup_values, store_setup, stores_setup
 
 AxisNumber = Annotated[
     int, typer.Option("--axis", min=1, max=MOST_AXES, metavar="N", help="number of the axis, from 1")
@@ -25,7 +25,7 @@ def ports(as_json: Json = False) -> None:
     elif found:
         output.console.print(output.table(dict(found)))
     else:
-        output.say("no serial port; use --port model: for a virtual board")
+        output.print_line("no serial port; use --port model: for a virtual board")
 
 
 def info(as_json: Json = False) -> None:
@@ -49,11 +49,11 @@ def init(typed: dict[str, Any], axis: AxisNumber = 1, as_json: Json = False) -> 
     values = setup_values(typed, axis)
     with opened() as session:
         (setup,) = initialise(session, {axis: values})
-        view = session.view
-    remember(BOARD.port, values.table(), axis)
+        presenter = session.presenter
+    store_setup(BOARD.port, values.table(), axis)
     if as_json:
-        output.print_json(view.setup_values(setup))
+        output.print_json(presenter.setup_values(setup))
         return
-    output.console.print(output.table(view.setup_rows(setup)))
-    if not lasting(BOARD.port):
+    output.console.print(output.table(presenter.setup_rows(setup)))
+    if not stores_setup(BOARD.port):
         output.note("(a virtual board is new each time; the set-up is not stored)")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ... import parts
-from ...capture.common.beside import Result, compare, other_timing
+from ...capture.common.compare import Result, compare, other_timing
 from ...capture.common.decoding import Decoded, decode
 from ...capture.common.errors import CaptureError
 from ...capture.common.files import read_capture
@@ -91,7 +91,7 @@ def decode_capture(
 
 
 def _show(found: Decoded) -> None:
-    output.say(f"{found.capture}: {found.kind.called}, {found.wires.end / SECOND:.6f} s")
+    output.print_line(f"{found.capture}: {found.decoder.title}, {found.wires.end / SECOND:.6f} s")
     for pin, count in sorted(found.glitches.items()):
         output.note(f"{pin}: {count} pulse{'s' if count > 1 else ''} ignored, shorter than --glitch")
     if found.missing:
@@ -99,8 +99,8 @@ def _show(found: Decoded) -> None:
     for note in found.notes:
         output.note(note)
     for line in found.lines:
-        mark = " !" if line.strange else "  "
-        output.say(f"{line.t / SECOND:12.6f}{mark} {line.data:<24}  {line.text}")
+        mark = " !" if line.invalid else "  "
+        output.print_line(f"{line.t / SECOND:12.6f}{mark} {line.data:<24}  {line.text}")
     if found.moves:
         output.console.print(_table(found))
 
@@ -130,26 +130,28 @@ def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
     for pin, why in result.skipped.items():
         output.note(f"{pin} not compared: {why}")
     if result.begin and result.begin > found.lines[0].t:
-        output.say(f"edges are compared from {result.begin / SECOND:.6f} s, where the part is initialised")
+        output.print_line(
+            f"edges are compared from {result.begin / SECOND:.6f} s, where the part is initialised"
+        )
     if result.ppm:
         how = "fast" if result.ppm > 0 else "slow"
-        output.say(f"the crystal is {abs(result.ppm):.1f} ppm {how} relative to the analyser's clock")
-    output.say(
+        output.print_line(f"the crystal is {abs(result.ppm):.1f} ppm {how} relative to the analyser's clock")
+    output.print_line(
         f"{result.compared} edges of {len(result.pins)} pins compared with the golden model "
         f"({found.timing}), {len(result.differences)} differences; at most {result.worst / US:.3f} µs apart"
         f"{f' ({result.worst_pin})' if result.worst_pin else ''}, {result.mean / US:.3f} µs on average, "
         f"tolerance {tolerance:g} µs"
     )
-    blind = [pin for pin in found.missing if pin in found.kind.inputs and pin != "rst_n"]
+    blind = [pin for pin in found.missing if pin in found.decoder.inputs and pin != "rst_n"]
     if result.differences and blind:
         output.note(
             f"inputs not captured: {', '.join(blind)}; without the signal of a switch, the model continues "
             "a move that the switch ended"
         )
     for one in result.differences[:SHOWN]:
-        output.say("  " + one.text())
+        output.print_line("  " + one.text())
     if len(result.differences) > SHOWN:
-        output.say(f"  … and {len(result.differences) - SHOWN} more")
+        output.print_line(f"  … and {len(result.differences) - SHOWN} more")
 
 
 def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
@@ -162,7 +164,7 @@ def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
         "glitches": dict(found.glitches),
         "notes": list(found.notes),
         "lines": [
-            {"t": line.t / SECOND, "data": line.data, "text": line.text, "strange": line.strange}
+            {"t": line.t / SECOND, "data": line.data, "text": line.text, "strange": line.invalid}
             for line in found.lines
         ],
         "moves": [
@@ -194,7 +196,7 @@ def _plot(found: Decoded, path: Path) -> None:
         raise CaptureError(f"{found.capture}: no pulses, so no speed to plot")
     drawn = [(one.axis, [run.tolist() for run, _ in runs(one, found.pause)]) for one in found.trains]
     try:
-        draw_capture(drawn, f"{found.kind.called}: {found.capture}", path)
+        draw_capture(drawn, f"{found.decoder.title}: {found.capture}", path)
     except OSError as error:
         raise PpmcError(f"{path}: cannot be written ({error.strerror})") from error
-    output.say(f"speed over time: {path}")
+    output.print_line(f"speed over time: {path}")

@@ -11,7 +11,7 @@ import typer
 
 from ...host.line import LineBus
 from ...host.motion import Progress
-from ...host.part import Turning
+from ...host.part import Stoppable
 from .session import Guard
 
 Bus = TypeVar("Bus", bound=LineBus[Any, Any])
@@ -78,7 +78,7 @@ def _number(word: str, value: str) -> float | int:
 
 
 def ending_after(
-    seconds: float | None, bus: LineBus[Any, Any], guard: Guard, stations: Sequence[Turning]
+    seconds: float | None, bus: LineBus[Any, Any], guard: Guard, stations: Sequence[Stoppable]
 ) -> Callable[[Progress], None]:
     """Return a progress callback that shows a bar and decelerates the stations after a time.
 
@@ -88,15 +88,16 @@ def ending_after(
     clock = bus.line.clock
     end_at = None if seconds is None else clock() + seconds
 
-    def look(now: Progress) -> None:
+    def check(now: Progress) -> None:
         nonlocal end_at
         guard.progress(now)
         if end_at is not None and clock() >= end_at:
             end_at = None
             for station in stations:
-                station.brake()
+                if station.motion is not None and not station.motion.over:
+                    station.stop(wait=False)
 
-    return look
+    return check
 
 
 @contextmanager
@@ -105,5 +106,5 @@ def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
 
     A lost stdout also stops the motors.
     """
-    with make() as bus, Guard() as guard, guard.resting(bus):
+    with make() as bus, Guard() as guard, guard.stop_motors_on_exit(bus):
         yield bus, guard

@@ -12,8 +12,8 @@ from . import output, show
 from .board import BOARD
 from .boards import AxisNumber
 from .options import MOST_AXES, Json, Side, check_seconds, with_setup
+from .presenter import Override, parse_override, plot_move, presenter_of
 from .session import opened, ready, setup_values, stop_all
-from .view import Override, parse_override, plot_move, view_of
 
 AxisOrAll = Annotated[
     int | None,
@@ -93,24 +93,24 @@ def move(
         raise typer.BadParameter("--pulse-only: only for moves with a ramp; omit --speed")
     if axis is not None and (len(pulses) > 1 or axes is not None):
         raise typer.BadParameter(f"--axis {axis}: only for one value and without --axes; omit it")
-    wanted = override_values(overrides)
+    chosen_overrides = override_values(overrides)
     numbers = numbers_of(axes, len(pulses)) if axis is None else (axis,)
     with ready(typed, numbers) as session:
-        guard, part, view = session.guard, session.part, session.view
+        guard, part, presenter = session.guard, session.part, session.presenter
         chosen = [session.axis(number) for number in numbers]
         away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
-        view.prepare(part, wanted, encoder)
+        presenter.prepare(part, chosen_overrides, encoder)
         if len(numbers) > 1:
             table = dict(zip(numbers, away, strict=True))
-            ends = list(view.together(part, table, speed, guard.progress, pulse_only))
+            ends = list(presenter.move_together(part, table, speed, guard.progress, pulse_only))
         elif speed is None or away[0] == 0:
             ends = [chosen[0].move(away[0], guard.progress, pulse_only)]
         else:
             ends = [chosen[0].move_constant(away[0], speed, guard.progress)]
         guard.bar_off()
         for end in ends:
-            output.say(show.end_line(end))
-        view.reports(part, output.say)
+            output.print_line(show.end_line(end))
+        presenter.reports(part, output.print_line)
 
 
 @with_setup
@@ -140,8 +140,8 @@ def jog(
 
         end = motion.wait(progress=look)
         guard.bar_off()
-        output.say(show.end_line(end))
-        session.view.reports(session.part, output.say)
+        output.print_line(show.end_line(end))
+        session.presenter.reports(session.part, output.print_line)
 
 
 @with_setup
@@ -161,7 +161,7 @@ def home(
     """Find the origin switch and set the position to 0 there."""
     with ready(typed, (axis,)) as session:
         motor = session.axis(axis)
-        session.view.home(
+        session.presenter.home(
             session.part,
             motor,
             direction.code,
@@ -172,7 +172,7 @@ def home(
             session.guard.progress,
         )
         session.guard.bar_off()
-        output.say(f"{motor.who}position {motor.position}: origin found")
+        output.print_line(f"{show.prefix(motor)}position {motor.position}: origin found")
 
 
 def stop(
@@ -181,9 +181,9 @@ def stop(
 ) -> None:
     """Stop a motion that is still running."""
     with opened() as session:
-        ends = session.view.halt_all(session.part) if now and axis is None else None
-        for end in stop_all(session.chosen(axis), now) if ends is None else ends:
-            output.say(show.end_line(end))
+        ends = session.presenter.halt_all(session.part) if now and axis is None else None
+        for end in stop_all(session.selected_axes(axis), now) if ends is None else ends:
+            output.print_line(show.end_line(end))
 
 
 XTAL_HZ = 16_000_000
@@ -202,21 +202,21 @@ def plan(
 ) -> None:
     """Predict a move; no board is needed."""
     kind = BOARD.planned
-    view = view_of(kind)
+    presenter = presenter_of(kind)
     setup = setup_values(typed).plan(xtal, kind)
     constant = None
     if speed is not None:
         constant = kind.constant_clock(xtal, setup.clock, speed).choose(speed)
-    figures = view.figures(setup, pulses, constant)
+    figures = presenter.figures(setup, pulses, constant)
     if plot is not None:
         try:
-            plot_move(lambda n: view.course(setup, n, constant), pulses, plot)
+            plot_move(lambda n: presenter.trajectory(setup, n, constant), pulses, plot)
         except OSError as error:
             raise PpmcError(f"{plot}: the plot cannot be written ({error.strerror})") from error
     if as_json:
-        output.print_json({"setup": view.setup_values(setup), "move": figures})
+        output.print_json({"setup": presenter.setup_values(setup), "move": figures})
         return
-    rows = view.setup_rows(setup) if constant is None else {"speed": str(constant)}
+    rows = presenter.setup_rows(setup) if constant is None else {"speed": str(constant)}
     rows["move"] = f"{pulses} pulses, {figures['profile']}"
     rows["top speed"] = f"{speeds.nearby(figures['top_pps'])} pps"
     if "plateau_intervals" in figures:
@@ -227,4 +227,4 @@ def plan(
     rows["duration"] = f"{figures['seconds']:.6g} s from the first to the last pulse"
     output.console.print(output.table(rows))
     if plot is not None:
-        output.say(f"plot: {plot}")
+        output.print_line(f"plot: {plot}")

@@ -14,9 +14,9 @@ import typer
 
 from ... import parts
 from ...errors import PpmcError
-from ...host.kind import AnySetup, Kind, Wanted
+from ...host.capabilities import AnySetup, Capabilities, SetupRequest
 
-MOST_AXES = max(row.axes for row in parts.having("number", "kind"))
+MOST_AXES = max(row.axes for row in parts.having("number", "capabilities"))
 """Highest number that --axis accepts; the connected part may have fewer axes."""
 Json = Annotated[bool, typer.Option("--json", help="print JSON")]
 _PANEL = "Set-up (stored by init)"
@@ -79,9 +79,9 @@ class SetupValues:
         """Return the values for the state file."""
         return asdict(self)
 
-    def plan(self, xtal_hz: int, kind: Kind, axis: int = 1) -> AnySetup:
+    def plan(self, xtal_hz: int, kind: Capabilities, axis: int = 1) -> AnySetup:
         """Return the plan of an axis with this crystal. Raise OutOfRange for unsupported values."""
-        wanted = Wanted(
+        request = SetupRequest(
             self.start,
             self.high,
             self.ramp,
@@ -98,7 +98,7 @@ class SetupValues:
             self.sigmoid,
             self.curve,
         )
-        return kind.plan(xtal_hz, wanted)
+        return kind.plan(xtal_hz, request)
 
 
 def _option(*names: str, text: str, metavar: str | None = None) -> Any:

@@ -28,7 +28,7 @@ def __getattr__(name: str) -> Any:
     return globals()[name]
 
 
-def say(text: str) -> None:
+def print_line(text: str) -> None:
     """Print one line on stdout, unchanged."""
     print(text)
 
@@ -60,7 +60,7 @@ def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = (f"{cell:{side}{width}}" for cell, side, width in zip(row, sides, widths, strict=True))
-        say(" ".join(cells).rstrip())
+        print_line(" ".join(cells).rstrip())
 
 
 def grid(rows: dict[str, dict[str, str]]) -> Table:

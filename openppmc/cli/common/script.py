@@ -1,4 +1,4 @@
-"""Script files, one command a line: `read_program` parses a file, `Player` executes it."""
+"""Script files, one command a line: `read_program` parses a file, `ScriptRunner` executes it."""
 
 from __future__ import annotations
 
@@ -10,12 +10,21 @@ from typing import Annotated, Any, Protocol
 import typer
 
 from ...host import PpmcError
-from ...host.kind import COILS_OFF, Kind
+from ...host.capabilities import COILS_OFF, Capabilities
 from ...host.part import AnyAxis
 from ...textfile import NotTextError, read_text
 from . import output
 from .options import SetupValues, with_setup
-from .reading import AXES, READERS, Numbered, Reader, none_left, own_words, read_axis, read_repeat
+from .script_parser import (
+    AXES,
+    READERS,
+    Numbered,
+    Reader,
+    check_no_more_words,
+    part_commands,
+    read_axis,
+    read_repeat,
+)
 from .session import Guard, initialise, opened, setup_values, stop_all
 
 
@@ -25,7 +34,7 @@ def positions(axes: Iterable[AnyAxis]) -> str:
     return f"position{'s' if len(at) > 1 else ''} {' and '.join(at)}"
 
 
-class Played(Protocol):
+class ScriptTarget(Protocol):
     """Open board or line, with the members that a script needs."""
 
     guard: Guard
@@ -33,13 +42,13 @@ class Played(Protocol):
     @property
     def part(self) -> Any: ...
     @property
-    def kind(self) -> Kind: ...
+    def kind(self) -> Capabilities: ...
     @property
-    def view(self) -> Any: ...
+    def presenter(self) -> Any: ...
     @property
     def xtal_hz(self) -> int: ...
     def axis(self, number: int = 1) -> AnyAxis: ...
-    def chosen(self, number: int | None) -> Sequence[AnyAxis]: ...
+    def selected_axes(self, number: int | None) -> Sequence[AnyAxis]: ...
 
 
 def number_of(step: Step) -> int:
@@ -47,7 +56,7 @@ def number_of(step: Step) -> int:
     return 1 if step.axis is None else step.axis
 
 
-def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step], None]) -> None:
+def execute_steps(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step], None]) -> None:
     """Execute all steps with `do`; `repeat` executes its body the given number of times.
 
     The progress bar of a step ends with the step. Raises ScriptError with file:line if the part rejects a
@@ -57,7 +66,7 @@ def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step
         guard.check()
         if step.word == "repeat":
             for _ in range(step.values["turns"]):
-                carry_out(step.body, name, guard, do)
+                execute_steps(step.body, name, guard, do)
             continue
         try:
             do(step)
@@ -69,7 +78,7 @@ def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step
             guard.bar_off()
 
 
-class Player:
+class ScriptRunner:
     """Executes a program.
 
     Args:
@@ -78,20 +87,20 @@ class Player:
     """
 
     def __init__(
-        self, session: Played, values: dict[int, SetupValues], name: str, say: Callable[[str], None]
+        self, session: ScriptTarget, values: dict[int, SetupValues], name: str, say: Callable[[str], None]
     ) -> None:
         self._session, self._guard, self._part = session, session.guard, session.part
-        self._values, self._name, self._say = values, name, say
+        self._values, self._name, self._print_line = values, name, say
 
     def run(self, steps: Iterable[Step]) -> None:
         """Execute all steps. Raise ScriptError with file:line if the board rejects one."""
-        carry_out(steps, self._name, self._guard, self._do_and_report)
+        execute_steps(steps, self._name, self._guard, self._execute_and_report)
 
-    def _do_and_report(self, step: Step) -> None:
-        self._do(step)
-        self._session.view.reports(self._part, self._say)
+    def _execute_and_report(self, step: Step) -> None:
+        self._execute(step)
+        self._session.presenter.reports(self._part, self._print_line)
 
-    def _do(self, step: Step) -> None:
+    def _execute(self, step: Step) -> None:
         values, progress = step.values, self._guard.progress
         number = number_of(step)
         axis = self._session.axis(number)
@@ -112,18 +121,18 @@ class Player:
         elif step.word == "wait":
             self._guard.pause(self._part, values["seconds"])
         elif step.word == "stop":
-            stop_all(self._session.view.busy(self._part, self._session.chosen(step.axis)))
+            stop_all(self._session.presenter.busy(self._part, self._session.selected_axes(step.axis)))
         elif step.word == "zero":
             axis.zero()
-        elif own := own_words().get(step.word):
-            own.do(self._part, values)
+        elif own := part_commands().get(step.word):
+            own.execute(self._part, values)
         elif step.word == "off":
-            for motor in self._chosen(step):
+            for motor in self._selected_axes(step):
                 motor.excitation_off()
         else:
-            self._say(f"{self._name}:{step.line}: {positions(self._chosen(step))}")
+            self._print_line(f"{self._name}:{step.line}: {positions(self._selected_axes(step))}")
 
-    def _chosen(self, step: Step) -> tuple[AnyAxis, ...]:
+    def _selected_axes(self, step: Step) -> tuple[AnyAxis, ...]:
         """Return the axis that a line names, or all axes that the program uses."""
         numbers = sorted(self._values) if step.axis is None else [step.axis]
         return tuple(self._session.axis(number) for number in numbers)
@@ -135,7 +144,7 @@ class Player:
         first, second = values["position" if absolute else "pulses"], values["second"]
         if second is not None:
             x, y = (motor.position if absolute else 0 for motor in self._part.axes[:2])
-            self._session.view.together(self._part, {1: first - x, 2: second - y}, speed, progress)
+            self._session.presenter.move_together(self._part, {1: first - x, 2: second - y}, speed, progress)
             return
         pulses = first - (axis.position if absolute else 0)
         if speed is None or pulses == 0:
@@ -144,12 +153,12 @@ class Player:
             axis.move_constant(pulses, speed, progress)
 
 
-def check_steps(steps: Iterable[Step], name: str, kind: Kind) -> list[int]:
+def check_steps(steps: Iterable[Step], name: str, kind: Capabilities) -> list[int]:
     """Return the axes of a program, [1] if it names none. Raise ScriptError if unsupported."""
     return sorted(_axes_of(steps, name, kind)) or [1]
 
 
-def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
+def _axes_of(steps: Iterable[Step], name: str, kind: Capabilities) -> set[int]:
     used: set[int] = set()
     for step in steps:
         try:
@@ -159,23 +168,23 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
                 used.add(kind.check_axis(2))
         except PpmcError as error:
             raise ScriptError(f"{name}:{step.line}: {error}") from error
-        if lacks := _lacks(step, kind):
-            raise ScriptError(f"{name}:{step.line}: {lacks}")
+        if reason := _unsupported_reason(step, kind):
+            raise ScriptError(f"{name}:{step.line}: {reason}")
         used |= _axes_of(step.body, name, kind)
     return used
 
 
-def _lacks(step: Step, kind: Kind) -> str:
+def _unsupported_reason(step: Step, kind: Capabilities) -> str:
     """Return why the part does not support this step; empty if it does."""
-    if own := own_words().get(step.word):
-        return own.lacks(kind, step.values)
+    if own := part_commands().get(step.word):
+        return own.unsupported_reason(kind, step.values)
     if step.word == "off" and COILS_OFF not in kind.has:
         return f"a {kind} cannot switch its coils off"
     return ""
 
 
 def check_speeds(
-    steps: Iterable[Step], values: dict[int, SetupValues], xtal_hz: int, name: str, kind: Kind
+    steps: Iterable[Step], values: dict[int, SetupValues], xtal_hz: int, name: str, kind: Capabilities
 ) -> None:
     """Raise ScriptError for unsupported speeds and ramps, before the first motion."""
     for step in steps:
@@ -250,7 +259,7 @@ def read_program(
         numbered: name and range of this number.
     """
     if readers is None:
-        readers = READERS | {word: own.read for word, own in own_words().items()}
+        readers = READERS | {word: own.parse for word, own in part_commands().items()}
     stack: list[tuple[int, dict[str, Any], list[Step]]] = [(0, {}, [])]
     for number, line in enumerate(text.splitlines(), 1):
         words = line.split("#", 1)[0].split()
@@ -259,7 +268,7 @@ def read_program(
         word, rest = words[0].lower(), words[1:]
         try:
             if word == "end":
-                none_left(rest)
+                check_no_more_words(rest)
                 if len(stack) == 1:
                     raise ValueError("end without repeat")
                 start, values, body = stack.pop()
@@ -301,6 +310,6 @@ def script(
         values = {axis: setup_values(typed, axis) for axis in used}
         check_speeds(steps, dict(values), session.xtal_hz, name, session.kind)
         initialise(session, values)
-        Player(session, values, name, output.say).run(steps)
+        ScriptRunner(session, values, name, output.print_line).run(steps)
         session.guard.bar_off()
-        output.say(f"done, {positions(session.axis(number) for number in used)}")
+        output.print_line(f"done, {positions(session.axis(number) for number in used)}")

@@ -18,7 +18,7 @@ from ...host.selftest.run import SelfTest
 from . import output
 from .board import BOARD
 from .options import Json
-from .session import misfit
+from .session import mismatch
 
 RECORDS = 13
 """Size of the recorder of a virtual board without `record=`: 2**RECORDS records."""
@@ -45,13 +45,13 @@ def selftest(
     for kind in only or ():
         if kind not in KINDS:
             raise typer.BadParameter(f"--only {kind}: unknown kind; use {', '.join(KINDS)}")
-    tell = output.note if as_json else output.say
+    tell = output.note if as_json else output.print_line
     number = None if BOARD.part is None else parts.part(BOARD.part).number
     with Link(_spec(), BOARD.baud or DEFAULT_BAUD, number) as link:
         plan = _plan(link)
         test = SelfTest(link, plan, folder, tell)
-        notes = [line for line in (misfit(test.found.build, link.identity.part),) if line]
-        tell(f"{page.board_name(test.found.build)}: {page.built(test.found.build)}")
+        notes = [line for line in (mismatch(test.results.build, link.identity.part),) if line]
+        tell(f"{page.board_name(test.results.build)}: {page.built(test.results.build)}")
         for line in notes:
             output.note(f"note: {line}")
         sections = [one for one in test.sections(jumpers) if one.what in (only or KINDS)]
@@ -62,17 +62,17 @@ def selftest(
                 test.play(section)
         finally:
             test.safe()
-        made = page.values(link, test.found, notes)
+        made = page.values(link, test.results, notes)
     try:
-        text, values = page.write(folder, made, test.found.build)
+        text, values = page.write(folder, made, test.results.build)
     except OSError as error:
         raise PpmcError(f"{folder}: cannot be written ({error.strerror})") from error
     if as_json:
         output.print_json(made)
     else:
-        output.say(f"page: {text}, {values}")
-        output.say(made["verdict"])
-    if test.found.differences:
+        output.print_line(f"page: {text}, {values}")
+        output.print_line(made["verdict"])
+    if test.results.differences:
         raise typer.Exit(1)
 
 

@@ -22,19 +22,19 @@ import typer
 
 from ... import __version__, parts
 from ...errors import PpmcError
-from ...host import End, NothingToStop, open_part
-from ...host.kind import Kind
+from ...host import MotionResult, NothingToStop, open_part
+from ...host.capabilities import Capabilities
 from ...host.link import DEFAULT_BAUD
 from ...host.motion import Progress
 from ...host.part import AnyAxis, Device, Part
 from ...host.port import MODEL, SIM
 from ...host.script import Build
-from ...host.stopping import NO_MOTION, arrived, bring_to_rest, handled, name_of, say
+from ...host.stopping import NO_MOTION, arrived, handled, name_of, print_line, stop_motors
 from ...streams import StdoutLost
 from . import output
 from .board import BOARD
 from .options import SetupValues
-from .view import AnyView, view_of
+from .presenter import AnyPresenter, presenter_of
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bars
@@ -50,7 +50,7 @@ def state_folder() -> Path:
     return Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state") / "openppmc"
 
 
-def lasting(port: str) -> bool:
+def stores_setup(port: str) -> bool:
     """Return whether set-ups are stored for this port; a virtual board is new each time."""
     return bool(port) and not f"{port}:".startswith((MODEL, SIM))
 
@@ -60,10 +60,10 @@ def _file(port: str, axis: int) -> Path:
     return state_folder() / (name + ("" if axis == 1 else f".axis{axis}") + ".json")
 
 
-def recall(port: str, axis: int = 1) -> dict[str, Any]:
+def load_setup(port: str, axis: int = 1) -> dict[str, Any]:
     """Return the stored options of an axis, or {}. Raise PpmcError for an unreadable file."""
     path = _file(port, axis)
-    if not lasting(port) or not path.is_file():
+    if not stores_setup(port) or not path.is_file():
         return {}
     try:
         values = json.loads(path.read_text(encoding="utf-8"))["setup"]
@@ -76,9 +76,9 @@ def recall(port: str, axis: int = 1) -> dict[str, Any]:
     return values
 
 
-def remember(port: str, values: dict[str, Any], axis: int = 1) -> None:
+def store_setup(port: str, values: dict[str, Any], axis: int = 1) -> None:
     """Store the options for later commands. Raise PpmcError if the file cannot be written."""
-    if not lasting(port):
+    if not stores_setup(port):
         return
     path = _file(port, axis)
     text = json.dumps({"port": port, "setup": values}, indent=1) + "\n"
@@ -110,7 +110,7 @@ class Guard:
         self.count = 0
         self.number = int(signal.SIGINT)
         self._bars: Bars | None = None
-        self._handled = handled(self._note)
+        self._handled = handled(self._on_signal)
 
     def __enter__(self) -> Guard:
         self._handled.__enter__()
@@ -124,7 +124,7 @@ class Guard:
         self.bar_off()
         self._handled.__exit__(None, None, None)
 
-    def _note(self, number: int, frame: FrameType | None) -> None:
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if not self.count:
             self.number = number
         self.count += 1
@@ -148,7 +148,7 @@ class Guard:
         end = link.clock() + seconds
         while (left := end - link.clock()) > 0:
             self.check()
-            part.attend(min(left, 0.1))
+            part.process_reports(min(left, 0.1))
         self.check()
 
     # ------------------------------------------------------------------ bar
@@ -157,7 +157,7 @@ class Guard:
         """Show or update the bar of the running motion; only on a terminal."""
         if not sys.stderr.isatty() or now.seconds < BAR_AFTER:
             return
-        self._draw("moving", "position {task.fields[at]}", now.asked, now.made, at=now.position)
+        self._draw("moving", "position {task.fields[at]}", now.requested, now.done, at=now.position)
 
     def count_bar(self, what: str, done: int, of: int) -> None:
         """Show or update a bar with a count; only on a terminal."""
@@ -185,18 +185,18 @@ class Guard:
     # ------------------------------------------------------------------ signals and a lost stdout
 
     @contextmanager
-    def resting(self, part: Device) -> Iterator[None]:
+    def stop_motors_on_exit(self, part: Device) -> Iterator[None]:
         """Stop the motors if the block ends by a signal or because stdout is lost."""
         try:
             self.check()
             yield
             sys.stdout.flush()
         except Interrupted:
-            say(self.bring_to_rest(part))
+            print_line(self.stop_motors(part))
             raise typer.Exit(self.status) from None
         except StdoutLost as lost:
             self.bar_off()
-            motors = bring_to_rest([part], hurry=lambda: self.count > 0)
+            motors = stop_motors([part], stop_now=lambda: self.count > 0)
             lost.motors = "" if motors.startswith(NO_MOTION) else motors
             raise
 
@@ -205,16 +205,16 @@ class Guard:
         """Exit status after a signal."""
         return 128 + self.number
 
-    def bring_to_rest(self, part: Device) -> str:
+    def stop_motors(self, part: Device) -> str:
         """Decelerate all axes and wait; the next signal stops them immediately.
 
         Returns one line for the user.
         """
         self.bar_off()
-        return f"{name_of(self.number)}: {bring_to_rest([part], hurry=lambda: self.count > 1)}"
+        return f"{name_of(self.number)}: {stop_motors([part], stop_now=lambda: self.count > 1)}"
 
 
-def misfit(build: Build | None, number: int) -> str:
+def mismatch(build: Build | None, number: int) -> str:
     """Return one line if bitstream and package do not match: the difference, and what to do.
 
     The line is empty if they match or if this cannot be checked.
@@ -257,14 +257,14 @@ class Session:
     guard: Guard
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> Capabilities:
         """Capabilities of the part."""
         return self.part.kind
 
     @property
-    def view(self) -> AnyView:
+    def presenter(self) -> AnyPresenter:
         """Output of the part, and its additional functions."""
-        return view_of(self.kind)
+        return presenter_of(self.kind)
 
     @property
     def xtal_hz(self) -> int:
@@ -275,7 +275,7 @@ class Session:
         """Return an axis. Raise OutOfRange if the part does not have it."""
         return self.part.axes[self.kind.check_axis(number) - 1]
 
-    def chosen(self, number: int | None) -> Sequence[AnyAxis]:
+    def selected_axes(self, number: int | None) -> Sequence[AnyAxis]:
         """Return the axis with this number; for None all axes."""
         return self.part.axes if number is None else (self.axis(number),)
 
@@ -285,7 +285,7 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 
     Typed values have priority over values that `init` stored for this port and axis, these over the defaults.
     """
-    return SetupValues().merged(recall(BOARD.port, axis)).merged(typed)
+    return SetupValues().merged(load_setup(BOARD.port, axis)).merged(typed)
 
 
 @contextmanager
@@ -298,9 +298,9 @@ def opened() -> Iterator[Session]:
     with (
         open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part,
         Guard() as guard,
-        guard.resting(part),
+        guard.stop_motors_on_exit(part),
     ):
-        if line := misfit(part.link.build(), part.link.identity.part):
+        if line := mismatch(part.link.build(), part.link.identity.part):
             output.note(f"note: {line}")
         yield Session(part, guard)
 
@@ -322,7 +322,7 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
     return [session.part.axes[axis - 1].apply(plan) for axis, plan in plans.items()]
 
 
-def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[End]:
+def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[MotionResult]:
     """Stop motions, including those of other programs, and wait for their ends.
 
     All axes are stopped before an error is raised. An axis that is already at standstill is an error only if
@@ -337,7 +337,7 @@ def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[End]:
         except PpmcError as error:
             errors.append(error)
     ends = [axis.motion.wait() for axis in moving if axis.motion is not None]
-    for told in errors:
-        if len(errors) == len(axes) or not isinstance(told, NothingToStop):
-            raise told
+    for one in errors:
+        if len(errors) == len(axes) or not isinstance(one, NothingToStop):
+            raise one
     return ends

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ...host import End, speeds
-from ...host.kind import name_of
+from ...host import MotionResult, speeds
+from ...host.capabilities import name_of
 from ...host.link import Link
+from ...host.part import AnyAxis
 from ...host.script import RATES
 from . import output
 
@@ -34,10 +35,15 @@ def identity_values(link: Link) -> dict[str, Any]:
     }
 
 
-def end_line(end: End) -> str:
+def prefix(axis: AnyAxis) -> str:
+    """Return the beginning of lines about an axis; empty if the part has one axis."""
+    return f"axis {axis.number}: " if axis.kind.axes > 1 else ""
+
+
+def end_line(end: MotionResult) -> str:
     """Return one line: position, pulses, and why the motion has ended."""
     pulses = "" if end.pulses is None else f", {abs(end.pulses)} pulses {'CCW' if end.pulses < 0 else 'CW'}"
-    return f"{end.who}position {end.position}{pulses}: {end.why}"
+    return f"{end.message_prefix}position {end.position}{pulses}: {end.cause_text}"
 
 
 def switches(axis_inputs: dict[str, bool]) -> str:
@@ -48,7 +54,11 @@ def switches(axis_inputs: dict[str, bool]) -> str:
 def speed(value: speeds.Speed, byte_name: str = "rate") -> str:
     """Return the reached speed, its rate or divisor, and a different requested speed."""
     text = f"{speeds.nearby(value.reached)} pps ({byte_name} {value.rate})"
-    return text if value.reached == value.asked else f"{text}, requested {speeds.nearby(value.asked)} pps"
+    return (
+        text
+        if value.reached == value.requested
+        else f"{text}, requested {speeds.nearby(value.requested)} pps"
+    )
 
 
 # ---------------------------------------------------------------------- the ramp of the PPMC family
@@ -105,7 +115,7 @@ def watch(
             if turn:
                 pause()
             for line in lines():
-                output.say(line)
+                output.print_line(line)
         return
     from rich.live import Live
 

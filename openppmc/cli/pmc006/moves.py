@@ -24,6 +24,7 @@ from .session import (
     found_values,
     io_values,
     opened,
+    prefix,
     settings_rows,
     settings_values,
     status_rows,
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 Speed = Annotated[int | None, typer.Option(metavar="PPS", help="new max_speed, in steps/s")]
 
 
-class Way(str, Enum):
+class Direction(str, Enum):
     """Directions as users type them."""
 
     FORWARD = "forward"
@@ -45,7 +46,7 @@ class Way(str, Enum):
     @property
     def sign(self) -> int:
         """1 for forward, -1 for backward."""
-        return FORWARD if self is Way.FORWARD else BACKWARD
+        return FORWARD if self is Direction.FORWARD else BACKWARD
 
 
 def move(
@@ -57,18 +58,18 @@ def move(
     """Move controllers by STEPS, all at the same time."""
     with opened() as session:
         motions = []
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             session.guard.check()
             away = steps - part.position if to else steps
             if away:
                 motions.append(part.start_move(away, speed))
             else:
-                output.say(end_line(part.move(0)))
+                output.print_line(end_line(part.move(0)))
         _finish(session, motions, True)
 
 
 def jog(
-    direction: Annotated[Way, typer.Argument(help="direction of rotation")],
+    direction: Annotated[Direction, typer.Argument(help="direction of rotation")],
     address: Address = None,
     speed: Speed = None,
     seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after this time")] = None,
@@ -76,7 +77,7 @@ def jog(
     """Run until Ctrl-C, an EXT stop or a stall."""
     check_seconds(seconds)
     with opened() as session:
-        parts = session.chosen(address)
+        parts = session.selected_axes(address)
         motions = [part.jog(direction.sign, speed) for part in parts]
         _finish(session, motions, False, ending_after(seconds, session.bus, session.guard, parts))
 
@@ -90,10 +91,10 @@ def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgre
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()
     for end in ends:
-        output.say(end_line(end))
+        output.print_line(end_line(end))
     for motion, end in zip(motions, ends, strict=True):
         if judge:
-            end.check(motion.asked)
+            end.check(motion.requested)
 
 
 def speed(
@@ -101,7 +102,7 @@ def speed(
 ) -> None:
     """Start motors at this speed and return. `stop` stops them."""
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             session.guard.check()
             if pps == 0 or not _goes(part, pps):
                 if part.flags().busy:
@@ -109,7 +110,7 @@ def speed(
                 if pps:
                     part.jog(FORWARD if pps > 0 else BACKWARD, abs(pps))
             state = f"runs at {pps} steps/s" if pps else f"position {part.position}: stopped"
-            output.say(part.who + state)
+            output.print_line(prefix(part) + state)
 
 
 def _goes(part: Pmc006, pps: int) -> bool:
@@ -127,17 +128,17 @@ def stop(
 ) -> None:
     """Stop motors that are still running."""
     with opened() as session:
-        ends = session.bus.stop([part.address for part in session.chosen(address)], now)
+        ends = session.bus.stop([part.address for part in session.selected_axes(address)], now)
         for end in ends:
-            output.say(end_line(end))
+            output.print_line(end_line(end))
         if not ends:
-            output.say("nothing was moving")
+            output.print_line("nothing was moving")
 
 
 def home(
     address: Address = None,
     switch: Annotated[int, typer.Option(min=1, max=2, metavar="N", help="EXT1 or EXT2")] = 1,
-    direction: Annotated[Way, typer.Option(help="towards the switch")] = Way.BACKWARD,
+    direction: Annotated[Direction, typer.Option(help="towards the switch")] = Direction.BACKWARD,
     speed: Annotated[
         int, typer.Option(metavar="PPS", help="speed of the first approach to the switch")
     ] = 1000,
@@ -146,10 +147,12 @@ def home(
 ) -> None:
     """Find a switch, move off it and set the position to 0; one controller after the other."""
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             part.home(switch, direction.sign, speed, slow, off, session.guard.progress)
             session.guard.bar_off()
-            output.say(f"{part.who}position {part.position}: {off} steps from the edge of EXT{switch}")
+            output.print_line(
+                f"{prefix(part)}position {part.position}: {off} steps from the edge of EXT{switch}"
+            )
 
 
 # ---------------------------------------------------------------------- scan and status
@@ -164,8 +167,8 @@ def scan(as_json: Json = False) -> None:
     elif found:
         output.console.print(found_table(found))
         for one in found:
-            if one.trouble:
-                output.say(one.trouble)
+            if one.problem:
+                output.print_line(one.problem)
     else:
         raise PpmcError(f"{session.bus.line.name}: no controller replies; check power, baud rate and wires")
 
@@ -179,14 +182,14 @@ def info(address: Address = None, as_json: Json = False) -> None:
     if as_json:
         output.print_json({"address": number, "version": version, "settings": values})
     else:
-        output.say(f"PMC006B4 at address {number}, firmware {version}")
+        output.print_line(f"PMC006B4 at address {number}, firmware {version}")
         _settings(values)
 
 
 def status(address: Address = None, as_json: Json = False) -> None:
     """Print position, state, stops, inputs and outputs without side effects."""
     with opened() as session:
-        values = [status_values(part) for part in session.chosen(address)]
+        values = [status_values(part) for part in session.selected_axes(address)]
     if as_json:
         output.print_json(values if len(values) > 1 else values[0])
         return
@@ -197,7 +200,7 @@ def status(address: Address = None, as_json: Json = False) -> None:
 def monitor(address: Address = None, count: Count = None, every: Every = 0.2) -> None:
     """Show position, state and stops until Ctrl-C."""
     with opened() as session:
-        parts = session.chosen(address)
+        parts = session.selected_axes(address)
 
         def lines() -> Iterator[str]:
             for part in parts:
@@ -225,17 +228,17 @@ def set_values(
     address: Address = None,
 ) -> None:
     """Change or print settings: `set current=1500 microsteps=32`. `save` stores them."""
-    wanted = [_assignment(text) for text in values or ()]
+    assignments = [_assignment(text) for text in values or ()]
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             session.guard.check()
-            for name, value in wanted:
+            for name, value in assignments:
                 if value is not None:
                     setattr(part, name, value)
-            names = [name for name, _ in wanted]
+            names = [name for name, _ in assignments]
             known = settings_values(part, names) if names else settings_values(part)
-            if part.who:
-                output.say(part.who.rstrip(": "))
+            if prefix(part):
+                output.print_line(prefix(part).rstrip(": "))
             _settings(known)
 
 
@@ -265,7 +268,7 @@ def io(
     """Print inputs and outputs; `io gpo1=1 gpo3=0` sets outputs."""
     levels = [_output(text) for text in values or ()]
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             for number, on in levels:
                 part.set_output(number, on)
             pins = io_values(part)
@@ -273,7 +276,7 @@ def io(
                 output.print_json(pins)
             else:
                 words = (f"{name.upper()} {level}" for name, level in pins.items())
-                output.say(part.who + "  ".join(words))
+                output.print_line(prefix(part) + "  ".join(words))
 
 
 def _output(text: str) -> tuple[int, bool]:
@@ -291,21 +294,21 @@ def address(
         part = session.one(address)
         before = part.address
         part.set_address(new)
-        output.say(f"controller {before} has address {new} now")
+        output.print_line(f"controller {before} has address {new} now")
 
 
 def save(address: Address = None) -> None:
     """Store the settings with a star in `info` for the next power-up."""
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             part.save()
-            output.say(f"{part.who}saved")
+            output.print_line(f"{prefix(part)}saved")
 
 
 def reset_flags(address: Address = None) -> None:
     """Clear the flags of EXT1, EXT2 and stall, so that motors can start. Nothing moves."""
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             part.clear_stops()
             part.clear_stall()
-            output.say(f"{part.who}flags cleared")
+            output.print_line(f"{prefix(part)}flags cleared")

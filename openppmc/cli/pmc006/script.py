@@ -14,10 +14,19 @@ from ...host.pmc006.settings import setting
 from ...model.pmc006.program import BadImage, Program, assemble, disassemble
 from ...textfile import NotTextError, read_text
 from ..common import output
-from ..common.reading import Numbered, Reader, Values, first, none_left, number, read_speed, whole
-from ..common.script import Step, carry_out, read_file, read_program
-from .moves import Way
-from .session import Address, Session, end_line, opened
+from ..common.script import Step, execute_steps, read_file, read_program
+from ..common.script_parser import (
+    Numbered,
+    Reader,
+    Values,
+    check_no_more_words,
+    first,
+    number,
+    read_speed,
+    whole,
+)
+from .moves import Direction
+from .session import Address, Session, end_line, opened, prefix
 
 program = typer.Typer(
     help="pmc006: Load, run and read user programs.", no_args_is_help=True, add_completion=False
@@ -46,7 +55,7 @@ def _write(path: Path | None, text: str | bytes) -> None:
     try:
         if path is None:
             assert isinstance(text, str)
-            output.say(text.rstrip("\n"))
+            output.print_line(text.rstrip("\n"))
         elif isinstance(text, bytes):
             path.write_bytes(text)
         else:
@@ -68,7 +77,7 @@ def assemble_file(file: File, out: Out = None) -> None:
         for number, one in enumerate(made.used):
             first, second = one.words
             name = one.kind.name if one.kind is not None else "?"
-            output.say(f"{number:3}  {first:08X} {second:08X}  {name}")
+            output.print_line(f"{number:3}  {first:08X} {second:08X}  {name}")
     output.note(f"{len(made.used)} instructions")
 
 
@@ -88,23 +97,23 @@ def load(
     """Load a program into the buffer; it is lost at power-off unless it is burned."""
     made = _read(file)
     with opened() as session:
-        for part in session.chosen(address):
-            part.load_program(made, session.counting)
+        for part in session.selected_axes(address):
+            part.load_program(made, session.on_word_progress)
             session.guard.bar_off()
-            output.say(f"{part.who}{len(made.used)} instructions loaded and checked")
+            output.print_line(f"{prefix(part)}{len(made.used)} instructions loaded and checked")
             if burn:
                 part.burn_program()
-                output.say(f"{part.who}burned")
+                output.print_line(f"{prefix(part)}burned")
             if run:
                 part.run_program()
-                output.say(f"{part.who}running")
+                output.print_line(f"{prefix(part)}running")
 
 
 @program.command("read")
 def read_back(address: Address = None, out: Out = None) -> None:
     """Print the program in the buffer as text, or write an image (--out x.bin)."""
     with opened() as session:
-        found = session.one(address).read_program(session.counting)
+        found = session.one(address).read_program(session.on_word_progress)
         session.guard.bar_off()
     if out is not None and out.suffix == ".bin":
         _write(out, found.image())
@@ -119,44 +128,46 @@ def burn(address: Address = None) -> None:
     After `set offline=1` and `save` it then starts automatically.
     """
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             part.burn_program()
-            output.say(f"{part.who}burned")
+            output.print_line(f"{prefix(part)}burned")
 
 
 @program.command()
 def run(address: Address = None, begin: Place = 0) -> None:
     """Start the program in the buffer."""
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             part.run_program(begin)
-            output.say(f"{part.who}running")
+            output.print_line(f"{prefix(part)}running")
 
 
 @program.command()
 def halt(address: Address = None) -> None:
     """Halt the program; a motion continues."""
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             part.halt_program()
-            output.say(f"{part.who}halted")
+            output.print_line(f"{prefix(part)}halted")
 
 
 @program.command("try")
 def try_one(address: Address = None, begin: Place = 0) -> None:
     """Execute one instruction of the buffer."""
     with opened() as session:
-        for part in session.chosen(address):
+        for part in session.selected_axes(address):
             part.try_instruction(begin)
-            output.say(f"{part.who}instruction {begin} executed")
+            output.print_line(f"{prefix(part)}instruction {begin} executed")
 
 
 @program.command()
 def state(address: Address = None) -> None:
     """Print whether a program runs."""
     with opened() as session:
-        for part in session.chosen(address):
-            output.say(f"{part.who}{'a program runs' if part.program_runs() else 'no program runs'}")
+        for part in session.selected_axes(address):
+            output.print_line(
+                f"{prefix(part)}{'a program runs' if part.program_runs() else 'no program runs'}"
+            )
 
 
 MOST = (1 << 31) - 1
@@ -167,7 +178,7 @@ def _way(words: list[str]) -> int:
     text = first(words, "direction (forward or backward)")
     if text not in ("forward", "backward"):
         raise ValueError(f"{text!r} is neither forward nor backward")
-    return Way(text).sign
+    return Direction(text).sign
 
 
 def _speed(words: list[str]) -> int | None:
@@ -179,7 +190,7 @@ def _speed(words: list[str]) -> int | None:
 
 def _move(words: list[str]) -> Values:
     values = {"steps": whole(first(words, "number of steps"), "steps", -MOST, MOST), "speed": _speed(words)}
-    none_left(words)
+    check_no_more_words(words)
     return values
 
 
@@ -188,12 +199,12 @@ def _jog(words: list[str]) -> Values:
     if first(words, "for SECONDS") != "for":
         raise ValueError("jog needs: jog forward|backward [speed=PPS] for SECONDS")
     values["seconds"] = number(first(words, "seconds"), "seconds", 0, 86_400)
-    none_left(words)
+    check_no_more_words(words)
     return values
 
 
 def _home(words: list[str]) -> Values:
-    values: Values = {"switch": 1, "way": Way.BACKWARD.sign, "speed": 1000, "slow": 200, "off": 100}
+    values: Values = {"switch": 1, "way": Direction.BACKWARD.sign, "speed": 1000, "slow": 200, "off": 100}
     if words and words[0] in ("forward", "backward"):
         values["way"] = _way(words)
     for word in words:
@@ -230,18 +241,18 @@ def _out(words: list[str]) -> Values:
 
 def _wait(words: list[str]) -> Values:
     values = {"seconds": number(first(words, "seconds"), "seconds", 0, 86_400)}
-    none_left(words)
+    check_no_more_words(words)
     return values
 
 
 def _stop(words: list[str]) -> Values:
     now = bool(words) and words[0] == "now" and bool(words.pop(0))
-    none_left(words)
+    check_no_more_words(words)
     return {"now": now}
 
 
 def _plain(words: list[str]) -> Values:
-    none_left(words)
+    check_no_more_words(words)
     return {}
 
 
@@ -259,7 +270,7 @@ READERS: dict[str, Reader] = {
 }
 
 
-class Player:
+class ScriptRunner:
     """Executes a script. Lines without address= apply to the first controller that replies."""
 
     def __init__(self, session: Session, name: str) -> None:
@@ -268,17 +279,17 @@ class Player:
 
     def run(self, steps: Iterable[Step]) -> None:
         """Execute all steps. Raise ScriptError with file:line if a controller rejects one."""
-        carry_out(steps, self._name, self._session.guard, self._do)
+        execute_steps(steps, self._name, self._session.guard, self._execute)
 
     def controller(self, address: int | None) -> Pmc006:
         """Return the controller with this address; for None, the first that replies."""
         if address is not None:
             return self._session.bus.axis(address)
         if self._first is None:
-            self._first = self._session.chosen(None)[0]
+            self._first = self._session.selected_axes(None)[0]
         return self._first
 
-    def _do(self, step: Step) -> None:
+    def _execute(self, step: Step) -> None:
         values, guard, bus = step.values, self._session.guard, self._session.bus
         if step.word == "wait":
             guard.pause(bus, values["seconds"])
@@ -297,7 +308,7 @@ class Player:
             part.home(values["switch"], values["way"], *speeds, values["off"], guard.progress)
         elif step.word == "stop":
             for end in bus.stop([part.address], values["now"]):
-                output.say(end_line(end))
+                output.print_line(end_line(end))
         else:
             self._set(step, part)
 
@@ -313,7 +324,7 @@ class Player:
         elif step.word == "zero":
             part.zero()
         else:
-            output.say(f"{self._name}:{step.line}: {part.who}position {part.position}")
+            output.print_line(f"{self._name}:{step.line}: {prefix(part)}position {part.position}")
 
 
 def addresses(steps: Iterable[Step]) -> set[int | None]:
@@ -336,9 +347,9 @@ def script(
     with opened() as session:
         named = sorted(one for one in used if one is not None)
         session.bus.check(named)
-        player = Player(session, name)
+        player = ScriptRunner(session, name)
         for one in used:
             player.controller(one).alone = len(used) == 1
         player.run(steps)
         ends = [player.controller(one) for one in (*named, *([None] if None in used else []))]
-        output.say("done" + "".join(f", {part.who}position {part.position}" for part in ends))
+        output.print_line("done" + "".join(f", {prefix(part)}position {part.position}" for part in ends))

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ...host import End, Pmc006, Pmc006Bus
-from ...host.pmc006.part import Found, find
+from ...host import MotionResult, Pmc006, Pmc006Bus
+from ...host.pmc006.part import ScanResult, find
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
 from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST, Flags, Modes
 from ..common.board import BOARD
@@ -46,10 +46,10 @@ class Session:
     bus: Pmc006Bus
     guard: Guard
 
-    def chosen(self, text: str | None) -> list[Pmc006]:
+    def selected_axes(self, text: str | None) -> list[Pmc006]:
         """Return the controllers that --address names; without it, the first that replies."""
         if text is None:
-            numbers = [find(self.bus.line, self._scanning)]
+            numbers = [find(self.bus.line, self._on_scan_progress)]
             self.guard.bar_off()
         else:
             numbers = parse_addresses(text)
@@ -63,19 +63,19 @@ class Session:
         """Return the only controller. Raise BadParameter for several."""
         if text is not None and len(parse_addresses(text)) > 1:
             raise typer.BadParameter(f"--address {text!r}: the command is for one controller; name only one")
-        return self.chosen(text)[0]
+        return self.selected_axes(text)[0]
 
-    def scan(self) -> list[Found]:
+    def scan(self) -> list[ScanResult]:
         """Return all controllers that reply; show a bar during the search."""
-        found = self.bus.scan(progress=self._scanning)
+        found = self.bus.scan(progress=self._on_scan_progress)
         self.guard.bar_off()
         return found
 
-    def _scanning(self, address: int) -> None:
+    def _on_scan_progress(self, address: int) -> None:
         self.guard.check()
         self.guard.count_bar("looking for controllers", ADDRESSES.index(address), len(ADDRESSES))
 
-    def counting(self, done: int, of: int) -> None:
+    def on_word_progress(self, done: int, of: int) -> None:
         """Check for signals and show the bar; progress callback of a download."""
         self.guard.check()
         self.guard.count_bar("words of the program", done, of)
@@ -105,7 +105,12 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
     return ", ".join(words) or "at rest"
 
 
-def found_table(found: Iterable[Found]) -> Table:
+def prefix(part: Pmc006) -> str:
+    """Return the beginning of lines about a controller; empty if it is the only one."""
+    return "" if part.alone else f"controller {part.address}: "
+
+
+def found_table(found: Iterable[ScanResult]) -> Table:
     """Return a table with one row for each controller."""
     from rich.table import Table
 
@@ -123,7 +128,7 @@ def found_table(found: Iterable[Found]) -> Table:
     return grid
 
 
-def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
+def found_values(found: Iterable[ScanResult]) -> list[dict[str, Any]]:
     """Return the values for JSON."""
     return [
         {
@@ -132,18 +137,18 @@ def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
             "state": state(one.flags, one.modes),
             "position": one.position,
             "line": asdict(one.counters),
-            "trouble": one.trouble,
+            "trouble": one.problem,
         }
         for one in found
     ]
 
 
-def end_line(end: End) -> str:
+def end_line(end: MotionResult) -> str:
     """Return one line: position, steps, and why the motion has ended."""
     steps = ""
     if end.pulses is not None:
         steps = f", {abs(end.pulses)} steps {'backward' if end.pulses < 0 else 'forward'}"
-    return f"{end.who}position {end.position}{steps}: {end.why}"
+    return f"{end.message_prefix}position {end.position}{steps}: {end.cause_text}"
 
 
 # ---------------------------------------------------------------------- one controller

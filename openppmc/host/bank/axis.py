@@ -8,48 +8,51 @@ from typing import Protocol
 from ...model.motion.codes import CONTINUOUS
 from .. import speeds
 from ..axis import CW, Axis
+from ..capabilities import RateCapabilities
 from ..check import within
-from ..ending import End
-from ..errors import Misused, ProtocolError
-from ..kind import RateKind
+from ..errors import NotCalledError, ProtocolError
 from ..link import Link
-from ..motion import Motion, Order, Progress
+from ..motion import Motion, MotionRequest, Progress
+from ..motion_result import MotionResult
 from ..registers import Inputs, Status
 from ..script import Script
+from .registers import CONFIG, POSITION, POSITION_BYTES, STATUS, Config
 from .window import AxisLink
-from .words import CONFIG, POSITION, POSITION_BYTES, STATUS, Config
 
 _HALF = 1 << 31
 
 
-class Whole(Protocol):
+class BankAccess(Protocol):
     """Members of a bank (`part.PpmcBank`) that an axis needs."""
 
     @property
     def link(self) -> Link: ...
     @property
-    def kind(self) -> RateKind: ...
-    def holds(self, number: int) -> bool: ...
-    def started(self, number: int) -> None: ...
-    def settle(self, number: int) -> None: ...
+    def kind(self) -> RateCapabilities: ...
+    def _is_in_group(self, number: int) -> bool: ...
+    def _axis_started(self, number: int) -> None: ...
+    def _resolve_others(self, number: int) -> None: ...
 
 
 class BankMotion(Motion):
     """Motion of an axis of a bank; see `Motion`."""
 
-    def __init__(self, axis: BankAxis, order: Order, begin: int) -> None:
-        super().__init__(axis, order, begin)
-        self._of = axis
+    def __init__(self, axis: BankAxis, request: MotionRequest, begin: int) -> None:
+        super().__init__(axis, request, begin)
+        self._bank_axis = axis
 
-    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+    def wait(
+        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
+    ) -> MotionResult:
         """Wait as `Motion.wait` does.
 
         Raises:
-            Misused: the group that holds the motion is still open, so the motion would never end.
+            NotCalledError: the group that holds the motion is still open, so the motion would never end.
         """
-        if not self.over and self._of.held:
-            raise Misused(
-                f"{self._of.who}its group holds it until the end of the with block: start it there with "
+        if not self.over and self._bank_axis._in_open_group:
+            raise NotCalledError(
+                f"{self._bank_axis._message_prefix}its group holds it until the end of the with block: "
+                "start it there with "
                 "start_move, start_constant, jog or search, and wait behind the block"
             )
         return super().wait(timeout, progress)
@@ -63,7 +66,7 @@ class BankAxis(Axis):
     is read-only (BANK-WIN-07).
     """
 
-    def __init__(self, bank: Whole, number: int) -> None:
+    def __init__(self, bank: BankAccess, number: int) -> None:
         super().__init__(AxisLink(bank.link, number))
         self.kind = bank.kind
         self.number = number
@@ -71,53 +74,55 @@ class BankAxis(Axis):
         self._origin = 0
 
     @property
-    def held(self) -> bool:
+    def _in_open_group(self) -> bool:
         """True if an open group holds the motion of this axis (BANK-GRP-01)."""
-        return self._bank.holds(self.number)
+        return self._bank._is_in_group(self.number)
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
         """Initialise the axis with a set-up planned earlier."""
-        self.link.execute(self.straps(setup.clock).call(setup.code, *setup.data))
+        self.link.execute(self._strap_script(setup.clock).call(setup.code, *setup.data))
         self.setup = setup
         return setup
 
     # ------------------------------------------------------------------ differences to other parts
 
-    def straps(self, clock: speeds.BaseClock | None) -> Script:
+    def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
         script = Script()
         return script if clock is None else script.write(CONFIG, clock.vsel << 1 | clock.csel)
 
-    def started(self, order: Order, begin: int) -> Motion:
-        self._bank.started(self.number)
-        self._motion = BankMotion(self, order, begin)
+    def _motion_started(self, request: MotionRequest, begin: int) -> Motion:
+        self._bank._axis_started(self.number)
+        self._motion = BankMotion(self, request, begin)
         return self._motion
 
-    def foreign_end(self) -> End:
+    def _foreign_result(self) -> MotionResult:
         """Return the end of a motion of another program, whose interrupt is pending."""
-        motion = Motion(self, Order(CONTINUOUS, CW), 0, ours=False)
-        motion.look(0)
+        motion = Motion(self, MotionRequest(CONTINUOUS, CW), 0, ours=False)
+        motion._on_status(0)
         if not motion.over:
-            raise ProtocolError(f"{self.link.name}: {self.who}its interrupt is pending while it moves")
+            raise ProtocolError(
+                f"{self.link.name}: {self._message_prefix}its interrupt is pending while it moves"
+            )
         self._motion = motion
         return motion.wait()
 
-    def look(self, status: int) -> None:
+    def _on_status(self, status: int) -> None:
         # If the end of another axis's motion stays unread, int_n stays low, and the end of this motion sends
         # no message.
-        self._bank.settle(self.number)
+        self._bank._resolve_others(self.number)
 
-    def where(self, script: Script) -> Script:
+    def _add_position_read(self, script: Script) -> Script:
         return script.read_number(POSITION, POSITION_BYTES)
 
-    def counted(self, count: int) -> int:
+    def _position_of(self, count: int) -> int:
         return (count - self._origin + _HALF) % (2 * _HALF) - _HALF
 
     def zero(self) -> None:
         """Set the current position to 0, for this object only."""
         self._origin = self._count()
 
-    def forget(self) -> None:
-        super().forget()
+    def _on_reset(self) -> None:
+        super()._on_reset()
         self._origin = 0
 
     # ------------------------------------------------------------------ registers

@@ -7,15 +7,15 @@ from types import TracebackType
 from typing import Protocol
 
 from ..axis import STOP_NOW
+from ..capabilities import RateCapabilities
 from ..check import Checked, whole
-from ..errors import CommandRefused, NotWhileBusy, OutOfRange, PpmcError
-from ..kind import RateKind
+from ..errors import AxisBusy, CommandRefused, OutOfRange, PpmcError
 from ..link import Link
 from ..motion import READ_FINISH
 from ..script import Script
 from .axis import BankAxis
+from .registers import GO, MASK, STATUS, GroupRefused, bit_bytes, go_error
 from .window import visit
-from .words import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 
 BUSY, ERR = 0x04, 0x80
 _GO_READS = 8
@@ -25,19 +25,19 @@ One takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
 """
 
 
-class Grouped(Protocol):
+class GroupAccess(Protocol):
     """Members of a bank (`part.PpmcBank`) that a group needs."""
 
     @property
     def link(self) -> Link: ...
     @property
-    def kind(self) -> RateKind: ...
+    def kind(self) -> RateCapabilities: ...
     @property
     def axes(self) -> tuple[BankAxis, ...]: ...
-    def open_group(self, group: Group | None) -> None: ...
+    def _set_group(self, group: Group | None) -> None: ...
 
 
-def numbers_of(kind: RateKind, axes: Iterable[int]) -> tuple[int, ...]:
+def numbers_of(kind: RateCapabilities, axes: Iterable[int]) -> tuple[int, ...]:
     """Return the axis numbers of a group in ascending order.
 
     Raises:
@@ -54,7 +54,7 @@ def numbers_of(kind: RateKind, axes: Iterable[int]) -> tuple[int, ...]:
     return tuple(sorted(numbers))
 
 
-def write_mask(kind: RateKind, numbers: tuple[int, ...]) -> list[tuple[int, Script]]:
+def write_mask(kind: RateCapabilities, numbers: tuple[int, ...]) -> list[tuple[int, Script]]:
     """Return the scripts that write MASK.
 
     Byte k is written at axis k + 1; every bank with this number of MASK bytes has this axis.
@@ -72,15 +72,15 @@ class Group(Checked):
     waiting motions are stopped, and nothing moves. It is made with the numbers of the axes.
 
     Raises:
-        NotWhileBusy: at the start of the block, an axis moves.
+        AxisBusy: at the start of the block, an axis moves.
         GroupRefused: at the end of the block, axes did not start. A motion that a switch ended while it was
-            waiting does not count; its End holds the cause.
+            waiting does not count; its result holds the cause.
     """
 
     numbers: tuple[int, ...]
     started: set[int]
 
-    def __init__(self, bank: Grouped, axes: Iterable[int]) -> None:
+    def __init__(self, bank: GroupAccess, axes: Iterable[int]) -> None:
         self._bank = bank
         self.numbers = numbers_of(bank.kind, axes)
         self.started = set()
@@ -94,12 +94,12 @@ class Group(Checked):
             self.numbers, self._each(self.numbers, Script().read(STATUS)), strict=True
         ):
             if status[0] & BUSY:
-                raise NotWhileBusy(status[0], f"axis {number}: {NotWhileBusy.text}")
-        bank.open_group(self)
+                raise AxisBusy(status[0], f"axis {number}: {AxisBusy.text}")
+        bank._set_group(self)
         try:
             visit(bank.link, write_mask(bank.kind, self.numbers))
         except BaseException:
-            bank.open_group(None)
+            bank._set_group(None)
             raise
         return self
 
@@ -108,11 +108,11 @@ class Group(Checked):
     ) -> None:
         try:
             if error is not None:
-                self._call_off()
+                self._cancel()
             else:
                 self._go()
         finally:
-            self._bank.open_group(None)
+            self._bank._set_group(None)
 
     def _go(self) -> None:
         """Start the waiting motions and check which of them started."""
@@ -125,12 +125,12 @@ class Group(Checked):
             visit(bank.link, [*write_mask(bank.kind, began), (1, go), *write_mask(bank.kind, ())])
             seen = self._each(began, Script().read(STATUS))
         except BaseException:
-            self._call_off()
+            self._cancel()
             raise
         refusals = {}
         for number, (status,) in zip(began, seen, strict=True):
             if status[0] & ERR and not self._ended(number, status[0]):
-                refusals[number] = go_refused(status[0], number)
+                refusals[number] = go_error(status[0], number)
         if refusals:
             raise GroupRefused(refusals)
 
@@ -142,10 +142,10 @@ class Group(Checked):
         motion = self._bank.axes[number - 1].motion
         if motion is None:
             return False
-        motion.look(status)
-        return motion.over and not (motion.end and motion.end.complete)
+        motion._on_status(status)
+        return motion.over and not (motion.result and motion.result.complete)
 
-    def _call_off(self) -> None:
+    def _cancel(self) -> None:
         """Cancel all motions of this group. All of its axes were stopped before."""
         link, kind = self._bank.link, self._bank.kind
         try:
@@ -156,7 +156,7 @@ class Group(Checked):
                     continue  # the motor is stopped
                 motion = self._bank.axes[number - 1].motion
                 if number in self.started and motion is not None:
-                    motion.look(0)
+                    motion._on_status(0)
                 else:
                     self._each((number,), Script().call(READ_FINISH).get(1))
             visit(link, write_mask(kind, ()))

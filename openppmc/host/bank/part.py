@@ -6,40 +6,41 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from ...lazy import Renamed
 from .. import speeds
 from ..axis import OnProgress
+from ..capabilities import PULSE_ONLY
 from ..check import whole
-from ..ending import End
 from ..errors import CommandRefused, OutOfRange
-from ..kind import PULSE_ONLY
 from ..link import Link
-from ..motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Order
+from ..motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, MotionRequest
+from ..motion_result import MotionResult
 from ..part import Part
 from ..registers import Inputs, Status
 from ..script import Script
 from .axis import BankAxis
 from .group import Group, numbers_of, write_mask
-from .window import read_info, visit
-from .words import (
-    KIND,
+from .registers import (
+    CAPABILITIES,
     PENDING,
     POSITION,
     POSITION_BYTES,
     SELECT,
     STATUS,
     STOP,
-    BankKind,
+    AxisSnapshot,
+    BankCapabilities,
     BankStatus,
     Info,
-    Look,
     members,
 )
+from .window import read_info, visit
 
 
 class Axes(dict[int, BankAxis]):
     """Axes by number."""
 
-    def __init__(self, kind: BankKind, axes: Iterable[BankAxis]) -> None:
+    def __init__(self, kind: BankCapabilities, axes: Iterable[BankAxis]) -> None:
         super().__init__({axis.number: axis for axis in axes})
         self._kind = kind
 
@@ -55,18 +56,21 @@ class PpmcBank(Part):
     share the bridge, so only one call at a time is allowed for all of them.
     """
 
-    kind: BankKind = KIND
+    kind: BankCapabilities = CAPABILITIES
     axis: Mapping[int, BankAxis]
+    together = Renamed("move_together")
+    start_together = Renamed("start_moves")
+    look = Renamed("snapshot")
 
     def __init__(self, link: Link) -> None:
         self.link = link
         self._info = read_info(link)
-        self.kind = replace(KIND, axes=self._info.axes)
+        self.kind = replace(CAPABILITIES, axes=self._info.axes)
         self.axis = Axes(self.kind, (BankAxis(self, number) for number in range(1, self._info.axes + 1)))
         self._group: Group | None = None
         visit(link, write_mask(self.kind, ()))
         for number in self.pending():
-            self._take_end(number)
+            self._read_finish(number)
 
     @property
     def axes(self) -> tuple[BankAxis, ...]:
@@ -84,7 +88,9 @@ class PpmcBank(Part):
     def positions(self) -> dict[int, int]:
         """Return the positions of all axes by number. The call is allowed at any time."""
         seen = self._all(Script().read_number(POSITION, POSITION_BYTES))
-        return {axis.number: axis.counted(_signed(one)) for axis, (one,) in zip(self.axes, seen, strict=True)}
+        return {
+            axis.number: axis._position_of(_signed(one)) for axis, (one,) in zip(self.axes, seen, strict=True)
+        }
 
     def position(self, axis: int) -> int:
         """Return the position of one axis. The call is allowed at any time."""
@@ -94,7 +100,7 @@ class PpmcBank(Part):
         """Return the status registers of all axes. The call is allowed at any time."""
         return BankStatus.parse(b"".join(one for (one,) in self._all(Script().read(STATUS))))
 
-    def look(self, axes: Iterable[int] | None = None) -> dict[int, Look]:
+    def snapshot(self, axes: Iterable[int] | None = None) -> dict[int, AxisSnapshot]:
         """Return status, position and switches of axes by number. The call is allowed at any time.
 
         Args:
@@ -104,8 +110,8 @@ class PpmcBank(Part):
         script = Script().read(STATUS).read_number(POSITION, POSITION_BYTES).pins()
         seen = visit(self.link, [(number, script) for number in numbers])
         return {
-            number: Look(
-                Status.parse(raw[0]), self.axis[number].counted(_signed(at)), Inputs.of_pins(pins[0])
+            number: AxisSnapshot(
+                Status.parse(raw[0]), self.axis[number]._position_of(_signed(at)), Inputs.of_pins(pins[0])
             )
             for number, (raw, at, pins) in zip(numbers, seen, strict=True)
         }
@@ -131,7 +137,7 @@ class PpmcBank(Part):
             )
         return Group(self, axes)
 
-    def start_together(
+    def start_moves(
         self,
         moves: Mapping[int, int],
         pps: speeds.Number | None = None,
@@ -147,63 +153,65 @@ class PpmcBank(Part):
             GroupRefused: some axes did not start with the others.
             CommandRefused, OutOfRange: an axis rejected its move, or an argument is wrong; nothing moves.
         """
-        orders = self._orders(moves, pps, pulse_only)
-        with self.group(orders) as group:
+        requests = self._requests(moves, pps, pulse_only)
+        with self.group(requests) as group:
             pieces = []
-            for number, order in orders.items():
+            for number, request in requests.items():
                 axis = self.axis[number]
-                script = Script().call(READ_FINISH).get(1).extend(axis.straps(axis.clock_of(order)))
-                pieces.append((number, axis.where(script).call(order.code, *order.data)))
+                script = (
+                    Script().call(READ_FINISH).get(1).extend(axis._strap_script(axis._clock_for(request)))
+                )
+                pieces.append((number, axis._add_position_read(script).call(request.code, *request.data)))
             begins = [_signed(values[2]) for values in visit(self.link, pieces)]
             motions = {
-                number: self.axis[number].started(order, begin)
-                for (number, order), begin in zip(orders.items(), begins, strict=True)
+                number: self.axis[number]._motion_started(request, begin)
+                for (number, request), begin in zip(requests.items(), begins, strict=True)
             }
             assert group.started == set(motions)
         return motions
 
-    def together(
+    def move_together(
         self,
         moves: Mapping[int, int],
         pps: speeds.Number | None = None,
         progress: OnProgress | None = None,
         pulse_only: bool = False,
-    ) -> dict[int, End]:
+    ) -> dict[int, MotionResult]:
         """Start moves in the same cycle and wait for all of them; an axis with 0 pulses does not move.
 
         If an axis ends early, the others are stopped with a ramp.
 
         Raises:
-            LimitReached, AlarmStop, StoppedEarly: end of the axis that ended first.
+            LimitReached, AlarmStop, StoppedByCommand: end of the axis that ended first.
         """
         _table(moves)
         still = {number: pulses for number, pulses in moves.items() if whole(pulses, "pulses") == 0}
         moving = {number: pulses for number, pulses in moves.items() if number not in still}
         numbers_of(self.kind, moves)
-        motions = self.start_together(moving, pps, pulse_only) if moving else {}
+        motions = self.start_moves(moving, pps, pulse_only) if moving else {}
         first = self._wait(motions, progress)
         if first is not None:
-            first.wait().check(first.asked)
-        ends = {number: self.axis[number].nothing_to_move() for number in still}
+            first.wait().check(first.requested)
+        ends = {number: self.axis[number]._empty_move_result() for number in still}
         for number, motion in motions.items():
             ends[number] = motion.wait()
         return dict(sorted(ends.items()))
 
-    def _orders(
+    def _requests(
         self, moves: Mapping[int, int], pps: speeds.Number | None, pulse_only: bool
-    ) -> dict[int, Order]:
-        """Return the checked orders, sorted by axis."""
+    ) -> dict[int, MotionRequest]:
+        """Return the checked requests, sorted by axis."""
         if pulse_only:
             self.kind.need(PULSE_ONLY)
         numbers = numbers_of(self.kind, _table(moves))
-        orders = {}
+        requests = {}
         for number in numbers:
             pulses = whole(moves[number], f"axis {number}: pulses")
             try:
-                orders[number] = self.axis[number].move_order(pulses, pps, pulse_only)
+                requests[number] = self.axis[number]._move_request(pulses, pps, pulse_only)
             except OutOfRange as error:
                 raise OutOfRange(f"axis {number}: {error}") from None
-        return orders
+        return requests
 
     def _wait(self, motions: Mapping[int, Motion], progress: OnProgress | None) -> Motion | None:
         """Wait until all motions have ended; return the first one that ended early, if any.
@@ -216,14 +224,19 @@ class PpmcBank(Part):
             self.link.wait_event(pause)
             seen = visit(self.link, [(number, Script().read(STATUS)) for number in running])
             for motion, (status,) in zip(running.values(), seen, strict=True):
-                motion.look(status[0])
+                motion._on_status(status[0])
             running = {number: motion for number, motion in running.items() if not motion.over}
             if first is None:
                 first = next(
-                    (one for one in motions.values() if one.over and not (one.end and one.end.complete)), None
+                    (
+                        one
+                        for one in motions.values()
+                        if one.over and not (one.result and one.result.complete)
+                    ),
+                    None,
                 )
                 for number in running if first is not None else ():
-                    self.axis[number].brake()
+                    self.axis[number]._request_stop()
             if progress and running:
                 now = running[max(running)].poll()
                 if now is not None:
@@ -232,24 +245,24 @@ class PpmcBank(Part):
 
     # ------------------------------------------------------------------ all axes
 
-    def stop_all(self, wait: bool = True) -> dict[int, End]:
+    def stop_all(self, wait: bool = True) -> dict[int, MotionResult]:
         """Stop every motion immediately, in the same cycle (STOP, BANK-GRP-04).
 
         Steps may be lost at high speed. It is no error if nothing moves. The result holds the ends of the
         axes that moved, by number, also if another program started them; without wait it is empty.
         """
         visit(self.link, [(1, Script().write(STOP, 0))])
-        ends: dict[int, End] = {}
+        ends: dict[int, MotionResult] = {}
         ours: dict[int, Motion] = {}
         if not wait:
             return ends
         for axis in self.axes:
             if axis.motion is not None and not axis.motion.over:
-                self.link.execute(Script().write(SELECT, axis.number - 1).wait(STATUS, axis.busy, 0))
-                axis.motion.look(0)
+                self.link.execute(Script().write(SELECT, axis.number - 1).wait(STATUS, axis._busy_mask, 0))
+                axis.motion._on_status(0)
                 ours[axis.number] = axis.motion
         for number in self.pending():
-            ends[number] = self.axis[number].foreign_end()
+            ends[number] = self.axis[number]._foreign_result()
         ends |= {number: motion.wait() for number, motion in ours.items()}
         return dict(sorted(ends.items()))
 
@@ -261,11 +274,11 @@ class PpmcBank(Part):
         self.link.execute(Script().reset())
         self._group = None
         for axis in self.axes:
-            axis.forget()
+            axis._on_reset()
 
     # ------------------------------------------------------------------ for axes and groups
 
-    def open_group(self, group: Group | None) -> None:
+    def _set_group(self, group: Group | None) -> None:
         """Store the open group, `None` for no group."""
         if group is not None and self._group is not None:
             raise OutOfRange(
@@ -273,16 +286,16 @@ class PpmcBank(Part):
             )
         self._group = group
 
-    def holds(self, number: int) -> bool:
+    def _is_in_group(self, number: int) -> bool:
         """Return True if the open group holds motions of this axis."""
         return self._group is not None and number in self._group.numbers
 
-    def started(self, number: int) -> None:
-        """Record that this axis has accepted an order."""
+    def _axis_started(self, number: int) -> None:
+        """Record that this axis has accepted a motion."""
         if self._group is not None and number in self._group.numbers:
             self._group.started.add(number)
 
-    def settle(self, number: int) -> None:
+    def _resolve_others(self, number: int) -> None:
         """Read the ends of other axes after the status of this axis was read.
 
         Otherwise int_n would stay low.
@@ -295,11 +308,11 @@ class PpmcBank(Part):
                 continue
             motion = self.axis[other].motion
             if motion is not None and not motion.over:
-                motion.look(0)  # an interrupt is pending, so the axis is stopped
+                motion._on_status(0)  # an interrupt is pending, so the axis is stopped
             else:
-                self._take_end(other)
+                self._read_finish(other)
 
-    def _take_end(self, number: int) -> None:
+    def _read_finish(self, number: int) -> None:
         try:
             visit(self.link, [(number, Script().call(READ_FINISH).get(1))])
         except CommandRefused:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from ..errors import WrongDevice
 from ..link import Link
 from ..script import LONGEST_SCRIPT, MOST_DATA, Answer, Identity, Result, Script
-from .words import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
+from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, command_error
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]
@@ -62,20 +62,20 @@ class AxisLink:
 
     def execute(self, script: Script) -> Answer:
         """Execute a script completely at this axis."""
-        return self.judge(self.attempt(script))
+        return self.check_answer(self.attempt(script))
 
     def attempt(self, script: Script) -> Answer:
         """Execute a script at this axis and return its answer, regardless of its result."""
         return self._link.attempt(Script().write(SELECT, self._number - 1).extend(script))
 
-    def judge(self, answer: Answer) -> Answer:
+    def check_answer(self, answer: Answer) -> Answer:
         """Return the answer if all operations were done, otherwise raise its error.
 
         The error names the axis.
         """
         if answer.result is Result.REFUSED:
-            raise refused(answer.last, self._number)
-        return self._link.judge(answer)
+            raise command_error(answer.last, self._number)
+        return self._link.check_answer(answer)
 
 
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
@@ -98,11 +98,11 @@ def _frames(pieces: Sequence[Piece]) -> Iterator[list[Piece]]:
     room, data = LONGEST_SCRIPT, MOST_DATA
     for number, script in pieces:
         size = _SELECT_BYTES + len(bytes(script))
-        if frame and (size > room or script.gives > data):
+        if frame and (size > room or script.response_size > data):
             yield frame
             frame, room, data = [], LONGEST_SCRIPT, MOST_DATA
         frame.append((number, script))
-        room, data = room - size, data - script.gives
+        room, data = room - size, data - script.response_size
     if frame:
         yield frame
 
@@ -119,9 +119,9 @@ def _run(link: Link, frame: Sequence[Piece]) -> list[tuple[bytes, ...]]:
     answer = link.attempt(whole)
     if answer.result is Result.REFUSED:
         place = next(place for place, op in enumerate(whole.ops) if op is answer.failed)
-        raise refused(answer.last, owners[place])
-    values = iter(link.judge(answer).values)
-    return [tuple(next(values) for op in piece.ops if op.gives) for _, piece in frame]
+        raise command_error(answer.last, owners[place])
+    values = iter(link.check_answer(answer).values)
+    return [tuple(next(values) for op in piece.ops if op.response_size) for _, piece in frame]
 
 
 def read_info(link: Link) -> Info:

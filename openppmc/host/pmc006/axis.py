@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable
 
 from ..axis import OnProgress
 from ..check import whole, within
-from ..ending import Cause, OriginNotFound
-from ..errors import CommandRefused, NoAnswer, NothingToStop, NotWhileBusy, OutOfRange, StartRefused
+from ..errors import AxisBusy, CommandRefused, NoAnswer, NothingToStop, OutOfRange, StartRefused
 from ..motion import Progress
-from .motion import End, Motion
+from ..motion_result import Cause, OriginNotFound
+from .motion import Motion, MotionResult
 from .settings import Settings, mean_acceleration
-from .wire import Code, Flags, MotorFree, SpeedRefused, locked
+from .wire import Code, Flags, MotorDisabled, SpeedRefused, locked
 
 FORWARD, BACKWARD = 1, -1
 LONGEST = 0x7FFFFFFF
@@ -43,19 +43,21 @@ class Axis(Settings):
             raise OutOfRange(f"{steps} steps: a move has 1 to {LONGEST} steps either way")
         return self._start(Code.STEP, abs(steps), (_ACCEPTED, abs(steps)), _side(steps), speed)
 
-    def move(self, steps: int, speed: int | None = None, progress: OnProgress | None = None) -> End:
+    def move(self, steps: int, speed: int | None = None, progress: OnProgress | None = None) -> MotionResult:
         """Move and wait for the end.
 
         Raises:
-            LimitReached, AlarmStop, StoppedEarly: EXT, a stall or a stop ended the move.
+            LimitReached, AlarmStop, StoppedByCommand: EXT, a stall or a stop ended the move.
         """
         if steps == 0:
-            return End(Cause.COMPLETE, 0, 0, self.position, 0, self.who)
+            return MotionResult(Cause.COMPLETE, 0, 0, self.position, 0, self._message_prefix)
         end = self.start_move(steps, speed).wait(progress=progress)
         end.check(abs(steps))
         return end
 
-    def move_to(self, position: int, speed: int | None = None, progress: OnProgress | None = None) -> End:
+    def move_to(
+        self, position: int, speed: int | None = None, progress: OnProgress | None = None
+    ) -> MotionResult:
         """Move to a position and wait for the end."""
         return self.move(position - self.position, speed, progress)
 
@@ -74,8 +76,8 @@ class Axis(Settings):
         """Set the maximum speed; a running motion reaches it with its ramps."""
         self.max_speed = speed
 
-    def stop(self, wait: bool = True) -> End | None:
-        """Stop with a ramp; return the End, or `None` if wait is False.
+    def stop(self, wait: bool = True) -> MotionResult | None:
+        """Stop with a ramp; return the result, or `None` if wait is False.
 
         A free run receives a stop instruction. The part has no such instruction for moves. A move of 256
         steps or more first gets a low maximum speed; it is aborted when it has decelerated to it.
@@ -85,11 +87,11 @@ class Axis(Settings):
         """
         return self._stop(False, wait)
 
-    def halt(self, wait: bool = True) -> End | None:
+    def halt(self, wait: bool = True) -> MotionResult | None:
         """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
         return self._stop(True, wait)
 
-    def brake(self, now: bool = False) -> None:
+    def _request_stop(self, now: bool = False) -> None:
         """Stop the motion that this object started, without waiting for its end.
 
         A free run stops with its ramp, a move stops immediately.
@@ -98,8 +100,8 @@ class Axis(Settings):
         if motion is None or motion.over:
             return
         motion.stop_ordered = True
-        if now or motion.asked is not None:
-            self.ask(Code.ABORT, good=lambda value: value == 0)
+        if now or motion.requested is not None:
+            self.execute(Code.ABORT, good=lambda value: value == 0)
         else:
             self._end_run()
 
@@ -113,11 +115,11 @@ class Axis(Settings):
         """Clear EXT flags, so that the motor may start again. It does not start the motor."""
         for number in numbers:
             code = Code.CLEAR_EXT2 if _ext(number) == 2 else Code.CLEAR_EXT1
-            self.ask(code, good=lambda value: value == 0)
+            self.execute(code, good=lambda value: value == 0)
 
     def clear_stall(self) -> None:
         """Clear the stall flag, which also releases GPO5."""
-        self.ask(Code.CLEAR_STALL, good=lambda value: value == 0)
+        self.execute(Code.CLEAR_STALL, good=lambda value: value == 0)
 
     def on_switch(self, number: int) -> bool:
         """Return True if EXT1 or EXT2 has its active level, which its trigger setting defines."""
@@ -130,11 +132,11 @@ class Axis(Settings):
         """Set the current position to this value, -2^31 to 2^31 - 1.
 
         Raises:
-            NotWhileBusy: the motor is moving.
+            AxisBusy: the motor is moving.
         """
         within(position, "position", -(1 << 31), (1 << 31) - 1)
         self._at_rest(self.flags())
-        self.ask(Code.SET_POSITION, position, good=lambda value: value == position)
+        self.execute(Code.SET_POSITION, position, good=lambda value: value == position)
 
     def zero(self) -> None:
         """Set the current position to 0. The motor must be stopped."""
@@ -153,19 +155,19 @@ class Axis(Settings):
         if begin < 0 < direction:
             self.remember("max_speed")  # detects a reset in a motion that ends at 0
         motion = Motion(self, data if code is Code.STEP else None, direction, begin)
-        got = self.ask(
+        got = self.execute(
             code,
             data,
             good=lambda value: value == 0 or value in replies,
-            settle=lambda: self._begun(begin, replies[0]),
+            resolve=lambda: self._start_executed(begin, replies[0]),
             risky=True,
         )
         if got == 0:
-            raise self._why_not(code)
+            raise self._start_error(code)
         self._motion = motion
         return motion
 
-    def _begun(self, begin: int, reply: int) -> int | None:
+    def _start_executed(self, begin: int, reply: int) -> int | None:
         """Return whether the motor moves or has moved, after the reply to a start was lost.
 
         The motor was stopped before the start.
@@ -173,66 +175,69 @@ class Axis(Settings):
         try:
             return reply if self.flags().busy or self.position != begin else None
         except NoAnswer as error:
-            raise self.lost(str(error)) from error
+            raise self._lost_reply(str(error)) from error
 
     def _at_rest(self, flags: Flags) -> None:
         if flags.busy:
-            raise NotWhileBusy(0, f"{self.who}the motor is moving: wait for its end or stop it first")
+            raise AxisBusy(0, f"{self._message_prefix}the motor is moving: wait for its end or stop it first")
 
-    def _why_not(self, code: Code) -> CommandRefused:
+    def _start_error(self, code: Code) -> CommandRefused:
         """Return the reason why the part rejected a start."""
         flags = self.flags()
         if flags.stops:
-            return locked(flags.stops, self.who)
+            return locked(flags.stops, self._message_prefix)
         if self.free:
-            return MotorFree(0, f"{self.who}{MotorFree.text}")
+            return MotorDisabled(0, f"{self._message_prefix}{MotorDisabled.text}")
         top, start, stop = self.max_speed, self.start_speed, self.stop_speed
         if code is Code.STEP and max(start, stop) > top:
             return SpeedRefused(
                 0,
-                f"{self.who}the maximum speed of {top} steps/s is below the start speed ({start}) or the "
+                f"{self._message_prefix}the maximum speed of {top} steps/s is below the start speed "
+                f"({start}) or the "
                 f"stop speed ({stop}): raise it, or lower those",
             )
         if code is Code.RUN and not top:
-            return SpeedRefused(0, f"{self.who}the maximum speed is 0: set one")
+            return SpeedRefused(0, f"{self._message_prefix}the maximum speed is 0: set one")
         if flags.busy:
-            return NotWhileBusy(0, f"{self.who}another program has started the motor: wait, or stop it")
+            return AxisBusy(
+                0, f"{self._message_prefix}another program has started the motor: wait, or stop it"
+            )
         return StartRefused(
-            0, f"{self.who}the part refused to start, but nothing is in the way now: try again"
+            0, f"{self._message_prefix}the part refused to start, but nothing is in the way now: try again"
         )
 
-    def _stop(self, now: bool, wait: bool) -> End | None:
+    def _stop(self, now: bool, wait: bool) -> MotionResult | None:
         motion = self._motion
         if motion is None or motion.over:
-            motion = self._strange()
+            motion = self._foreign_motion()
         motion.stop_ordered = True
         if now:
-            self.ask(Code.ABORT, good=lambda value: value == 0)
-        elif motion.asked is None:
+            self.execute(Code.ABORT, good=lambda value: value == 0)
+        elif motion.requested is None:
             self._end_run()
         else:
             self._slow_move(motion)
         self._motion = motion
         return motion.wait() if wait else None
 
-    def _strange(self) -> Motion:
+    def _foreign_motion(self) -> Motion:
         """Return a motion of another program. Raises NothingToStop if the motor is stopped."""
         if not self.flags().busy:
-            raise NothingToStop(0, f"{self.who}nothing to stop: the motor is at rest")
+            raise NothingToStop(0, f"{self._message_prefix}nothing to stop: the motor is at rest")
         running = self.modes().running
         return Motion(self, None if running else LONGEST, FORWARD, None)
 
     def _end_run(self) -> None:
-        self.ask(Code.RUN, 0, good=lambda value: value == 0)
+        self.execute(Code.RUN, 0, good=lambda value: value == 0)
 
     def _slow_move(self, motion: Motion) -> None:
-        """Decelerate a move to its stop speed; `Motion.look` ends it then."""
+        """Decelerate a move to its stop speed; `Motion._update` ends it then."""
         top, low = self.max_speed, self.stop_speed
         if top <= low:
-            motion.slow_down(0, top)
+            motion._abort_after(0, top)
             return
         self.max_speed = low
-        motion.slow_down((top - low) / mean_acceleration(self.deceleration), top)
+        motion._abort_after((top - low) / mean_acceleration(self.deceleration), top)
 
 
 def _side(steps: int) -> int:
@@ -274,7 +279,7 @@ class Homing:
         self._axis, self._switch, self._direction = axis, switch, direction
         self._speed, self._slow, self._off, self._progress = speed, slow, off, progress
 
-    def run(self) -> End:
+    def run(self) -> MotionResult:
         """Find the edge of the switch and set the position to 0.
 
         The motor leaves the switch if it is active, otherwise it approaches the switch and leaves it. Then it
@@ -294,35 +299,36 @@ class Homing:
             self._approach(self._slow)
             end = self._leave()
             axis.zero()
-            return end.at(0)
+            return end.with_position(0)
         finally:
             if axis.motion is None or axis.motion.over:
                 for name, value in before.items():
                     setattr(axis, name, value)
 
-    def _pace(self, speed: int) -> None:
+    def _set_constant_speed(self, speed: int) -> None:
         """Switch ramps off, so that the motor always stops at the same distance from the switch edge."""
         self._axis.start_speed = self._axis.stop_speed = self._axis.max_speed = speed
 
     def _approach(self, speed: int) -> None:
         """Run until the switch stops the motor, and clear its flag."""
         axis = self._axis
-        self._pace(speed)
+        self._set_constant_speed(speed)
         end = axis.jog(self._direction).wait(progress=self._progress)
         stops = axis.flags().stops
         if self._switch not in stops:
-            other = " and ".join(f"EXT{number}" for number in stops) or end.why
+            other = " and ".join(f"EXT{number}" for number in stops) or end.cause_text
             raise OriginNotFound(
-                f"{axis.who}{other} came before EXT{self._switch}: home in the other direction, or check the "
+                f"{axis._message_prefix}{other} came before EXT{self._switch}: home in the other "
+                "direction, or check the "
                 "switch",
                 end,
             )
         axis.clear_stops(stops)
 
-    def _leave(self) -> End:
+    def _leave(self) -> MotionResult:
         """Move away from the switch in moves of equal length until it is released."""
         axis, gone = self._axis, 0
-        self._pace(self._slow)
+        self._set_constant_speed(self._slow)
         while True:
             end = axis.move(-self._direction * self._off, progress=self._progress)
             gone += self._off
@@ -330,7 +336,8 @@ class Homing:
                 return end
             if gone > LONGEST_WAY_OFF:
                 raise OriginNotFound(
-                    f"{axis.who}EXT{self._switch} is still active {gone} steps away from where it was: check "
+                    f"{axis._message_prefix}EXT{self._switch} is still active {gone} steps away from "
+                    "where it was: check "
                     "it",
                     end,
                 )

@@ -8,7 +8,7 @@ from functools import partial
 from ...model.pmc006.program import WORDS, Program, harmless
 from ..errors import NoAnswer, OutOfRange
 from .axis import Axis
-from .wire import Code, ProgramDiffers, ProgramRuns, Storage, StorageBusy, StorageFailed
+from .wire import Code, ProgramRuns, ProgramVerifyFailed, Storage, StorageBusy, StorageFailed
 
 OnCount = Callable[[int, int], None]
 """Called with the number of words done and the total number."""
@@ -32,10 +32,10 @@ class Memory(Axis):
 
         Raises:
             ProgramRuns: a program is running.
-            ProgramDiffers: a word reads back wrong.
+            ProgramVerifyFailed: a word reads back wrong.
         """
         if self.program_runs():
-            raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
+            raise ProgramRuns(0, f"{self._message_prefix}{ProgramRuns.text}")
         found = self._read_words(range(WORDS), progress, WORDS)
         places = [place for place, word in enumerate(program.words) if word != found[place]]
         total = WORDS + 2 * len(places)
@@ -47,9 +47,10 @@ class Memory(Axis):
         self._here = None
         for place, got in self._read_words(places, progress, total).items():
             if got != (want := program.words[place]):
-                raise ProgramDiffers(
+                raise ProgramVerifyFailed(
                     got & _MASK,
-                    f"{self.who}word {place} of the program reads {got:08X}, not {want:08X}: load it again",
+                    f"{self._message_prefix}word {place} of the program reads {got:08X}, not {want:08X}: "
+                    "load it again",
                 )
 
     def read_program(self, progress: OnCount | None = None) -> Program:
@@ -93,18 +94,18 @@ class Memory(Axis):
 
     def _store(self, code: Code, seconds: float) -> None:
         repeated = self.counters.repeated
-        got = self.ask(code, good=_yes_or_no)
+        got = self.execute(code, good=_yes_or_no)
         if not got and self.counters.repeated == repeated:
-            raise StorageBusy(0, f"{self.who}{StorageBusy.text}")
+            raise StorageBusy(0, f"{self._message_prefix}{StorageBusy.text}")
         # A rejection after a lost reply means that the first instruction is being executed.
         for _ in range(_LOOKS):
             self.line.pause(seconds)
-            state = self.ask(Code.STORED, good=lambda value: value in set(Storage))
+            state = self.execute(Code.STORED, good=lambda value: value in set(Storage))
             if state == Storage.KEPT:
                 return
             if state == Storage.FAILED:
-                raise StorageFailed(state, f"{self.who}{StorageFailed.text}")
-        raise StorageBusy(0, f"{self.who}{StorageBusy.text}")
+                raise StorageFailed(state, f"{self._message_prefix}{StorageFailed.text}")
+        raise StorageBusy(0, f"{self._message_prefix}{StorageBusy.text}")
 
     # ------------------------------------------------------------------ running
 
@@ -116,16 +117,16 @@ class Memory(Axis):
             LostReply: it is unknown whether the program was started.
         """
         self._point(2 * _instruction(begin))
-        if not self._ask_risky(Code.RUN_PROGRAM, self._started):
-            raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
+        if not self._execute_risky(Code.RUN_PROGRAM, self._started):
+            raise ProgramRuns(0, f"{self._message_prefix}{ProgramRuns.text}")
 
     def _started(self) -> int | None:
         try:
             if self.program_runs():
                 return 1
         except NoAnswer as error:
-            raise self.lost(str(error)) from error
-        raise self.lost("no program runs now, but a short one may have run")
+            raise self._lost_reply(str(error)) from error
+        raise self._lost_reply("no program runs now, but a short one may have run")
 
     def halt_program(self) -> None:
         """Halt the program; a motion continues.
@@ -147,11 +148,11 @@ class Memory(Axis):
             LostReply: it is unknown whether the instruction was executed.
         """
         self._point(2 * _instruction(place))
-        if not self._ask_risky(Code.TRY, self._perhaps_tried):
-            raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
+        if not self._execute_risky(Code.TRY, self._resolve_tried):
+            raise ProgramRuns(0, f"{self._message_prefix}{ProgramRuns.text}")
 
-    def _perhaps_tried(self) -> int | None:
-        raise self.lost("it cannot be seen whether the instruction was carried out")
+    def _resolve_tried(self) -> int | None:
+        raise self._lost_reply("it cannot be seen whether the instruction was carried out")
 
     def program_runs(self) -> bool:
         """Return True if a program runs, waits or is paused.
@@ -167,18 +168,18 @@ class Memory(Axis):
             if harmless(self._read(2 * place)):
                 self._point(2 * place)
                 again = partial(self._point, 2 * place)
-                return not self.ask(Code.TRY, good=_yes_or_no, settle=again)
-        raise ProgramRuns(0, f"{self.who}the buffer holds no END: halt the program first")
+                return not self.execute(Code.TRY, good=_yes_or_no, resolve=again)
+        raise ProgramRuns(0, f"{self._message_prefix}the buffer holds no END: halt the program first")
 
     # ------------------------------------------------------------------ inside
 
-    def _ask_risky(self, code: Code, settle: Callable[[], int | None]) -> int:
-        return self.ask(code, good=_yes_or_no, settle=settle, risky=True)
+    def _execute_risky(self, code: Code, resolve: Callable[[], int | None]) -> int:
+        return self.execute(code, good=_yes_or_no, resolve=resolve, risky=True)
 
     def _point(self, word: int) -> None:
         """Set the word pointer of the part."""
         self._here = None
-        self.ask(Code.POINTER, word, good=lambda value: value == word)
+        self.execute(Code.POINTER, word, good=lambda value: value == word)
 
     def _seek(self, word: int) -> None:
         """Set the word pointer of the part unless it has this value."""
@@ -186,16 +187,19 @@ class Memory(Axis):
             self._point(word)
 
     def _write(self, place: int, word: int) -> None:
-        wanted = word - (word >> 31 << 32)
-        got = self.ask(
-            Code.WRITE_WORD, word, good=lambda value: value in (0, wanted), settle=lambda: self._point(place)
+        expected = word - (word >> 31 << 32)
+        got = self.execute(
+            Code.WRITE_WORD,
+            word,
+            good=lambda value: value in (0, expected),
+            resolve=lambda: self._point(place),
         )
-        if got != wanted:
-            raise ProgramRuns(0, f"{self.who}word {place} was not written: {ProgramRuns.text}")
+        if got != expected:
+            raise ProgramRuns(0, f"{self._message_prefix}word {place} was not written: {ProgramRuns.text}")
         self._here = place + 1
 
     def _read(self, place: int) -> int:
-        word = self.ask(Code.READ_WORD, settle=lambda: self._point(place)) & _MASK
+        word = self.execute(Code.READ_WORD, resolve=lambda: self._point(place)) & _MASK
         self._here = place + 1
         return word
 

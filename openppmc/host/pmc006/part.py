@@ -19,18 +19,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from ...lazy import Renamed
 from ..axis import OnProgress
 from ..check import within
 from ..errors import OutOfRange
-from ..line import PATIENCE, DuplicateAddress, GarbledReply, StationSilent
-from ..line_port import Miss
+from ..line import PATIENCE, CorruptReply, DuplicateAddress, StationNotResponding
+from ..line_port import MissingReply
 from ..part import Device
 from ..port import Port
 from .axis import BACKWARD, Homing
 from .memory import Memory
-from .motion import End
-from .talk import ATTEMPTS, BAUD, Line, Talk
-from .wire import ADDRESSES, KIND, LAST, Code
+from .motion import MotionResult
+from .station_link import ATTEMPTS, BAUD, Line, StationLink
+from .wire import ADDRESSES, CAPABILITIES, LAST, Code
 
 if TYPE_CHECKING:
     from serial.rs485 import RS485Settings
@@ -52,7 +53,7 @@ class Pmc006(Memory, Device):
     is left by an exception, a motion that this object started is stopped.
     """
 
-    kind = KIND
+    kind = CAPABILITIES
     link: Line
 
     @classmethod
@@ -70,7 +71,7 @@ class Pmc006(Memory, Device):
             address: address of the controller, `None` to search for one: 255, then 1 to 120.
 
         Raises:
-            StationSilent: no controller replies.
+            StationNotResponding: no controller replies.
         """
         line = Line(spec, baud, rs485, patience)
         try:
@@ -99,7 +100,7 @@ class Pmc006(Memory, Device):
         slow: int = 200,
         off: int = 100,
         progress: OnProgress | None = None,
-    ) -> End:
+    ) -> MotionResult:
         """Find the edge of EXT1 or EXT2 and set the position to 0 `off` steps away from it.
 
         It works with any start position, also on the switch. Both stops are enabled during homing, and EXT
@@ -131,7 +132,7 @@ class Pmc006(Memory, Device):
     @outputs.setter
     def outputs(self, levels: int) -> None:
         levels = within(levels, "outputs", 0, (1 << OUTPUTS) - 1)
-        self.ask(Code.WRITE_IO, levels << 3, good=lambda value: value == levels << 3)
+        self.execute(Code.WRITE_IO, levels << 3, good=lambda value: value == levels << 3)
 
     def set_output(self, number: int, on: bool) -> None:
         """Set one of GPO1 to GPO5; the others are unchanged."""
@@ -155,7 +156,7 @@ class Pmc006(Memory, Device):
     @property
     def stall_position(self) -> int:
         """Position of the last stall, 0 if there was no stall."""
-        return self.ask(Code.STALL_POSITION)
+        return self.execute(Code.STALL_POSITION)
 
     # ------------------------------------------------------------------ address
 
@@ -168,26 +169,28 @@ class Pmc006(Memory, Device):
         within(address, "address", 1, LAST)
         if address == self.address:
             return
-        if Pmc006(self.line, address).is_there():
+        if Pmc006(self.line, address)._is_connected():
             raise DuplicateAddress(f"{self.line.name}: address {address} is taken: choose another one")
         # The reply already uses the new address.
         for _ in range(ATTEMPTS):
             got = self.line.exchange(self.address, Code.ADDRESS, address, answers=address)
-            if not isinstance(got, Miss) or Pmc006(self.line, address).is_there():
+            if not isinstance(got, MissingReply) or Pmc006(self.line, address)._is_connected():
                 self.address = address
                 return
-            self.line.settle()
-        raise StationSilent(f"{self.where}: no reply to {ATTEMPTS} frames: is it there and powered?")
+            self.line.wait_until_idle()
+        raise StationNotResponding(
+            f"{self._location}: no reply to {ATTEMPTS} frames: is it there and powered?"
+        )
 
 
 def find(line: Line, progress: Callable[[int], None] | None = None) -> int:
     """Return the first address that replies: 255, then 1 to 120.
 
-    Raises StationSilent if no controller replies.
+    Raises StationNotResponding if no controller replies.
     """
     for found in scan(line, progress=progress):
         return found
-    raise StationSilent(
+    raise StationNotResponding(
         f"{line.name}: no controller replies: are they powered, are baud rate and the wires right?"
     )
 
@@ -204,19 +207,19 @@ def scan(
         if progress is not None:
             progress(address)
         try:
-            if Talk(line, address).is_there():
+            if StationLink(line, address)._is_connected():
                 yield address
-        except GarbledReply:
+        except CorruptReply:
             yield address
 
 
 @dataclass(frozen=True)
-class Found:
+class ScanResult:
     """Controller found by `scan`.
 
     Attributes:
         version, flags, modes, position: `None` if the replies are corrupt.
-        trouble: the problem in this case.
+        problem: the problem in this case.
         counters: counters of the master.
     """
 
@@ -226,7 +229,8 @@ class Found:
     modes: Modes | None
     position: int | None
     counters: Counters = field(repr=False)
-    trouble: str = ""
+    problem: str = ""
+    trouble = Renamed("problem")
 
 
 class Pmc006Bus(LineBus[Line, Pmc006]):
@@ -235,7 +239,7 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
     `axis(5)` is the `Pmc006` with that address, whether it is connected or not.
     """
 
-    kind = KIND
+    kind = CAPABILITIES
 
     @classmethod
     def open(
@@ -248,17 +252,17 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
         """Open a port; the arguments are those of `Line`. It sends nothing."""
         return cls(Line(spec, baud, rs485, patience))
 
-    def make(self, station: int) -> Pmc006:
+    def _make_station(self, station: int) -> Pmc006:
         return Pmc006(self.line, address_number(station), alone=False)
 
-    def look_at(self, axis: Pmc006) -> None:
+    def _collect_reports(self, axis: Pmc006) -> None:
         """Poll a move that is being stopped; controllers send no unsolicited reports."""
         if axis.motion is not None and not axis.motion.over:
-            axis.motion.look()
+            axis.motion._update()
 
     def scan(
         self, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
-    ) -> list[Found]:
+    ) -> list[ScanResult]:
         """Return the controllers of the line.
 
         An address without a controller takes the time `patience`.
@@ -266,17 +270,17 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
         Args:
             progress: called with each address before it is polled.
         """
-        return [self.look(self.axis(address)) for address in scan(self.line, addresses, progress)]
+        return [self._probe(self.axis(address)) for address in scan(self.line, addresses, progress)]
 
-    def look(self, axis: Pmc006) -> Found:
+    def _probe(self, axis: Pmc006) -> ScanResult:
         """Return the state of a controller that replies."""
         try:
             seen = axis.version(), axis.flags(), axis.modes(), axis.position
-        except (GarbledReply, StationSilent) as error:
-            return Found(axis.address, None, None, None, None, axis.counters, str(error))
-        return Found(axis.address, *seen, axis.counters)
+        except (CorruptReply, StationNotResponding) as error:
+            return ScanResult(axis.address, None, None, None, None, axis.counters, str(error))
+        return ScanResult(axis.address, *seen, axis.counters)
 
     def check(self, addresses: Iterable[int]) -> None:
-        """Check that all these addresses reply. Raises StationSilent, GarbledReply."""
+        """Check that all these addresses reply. Raises StationNotResponding, CorruptReply."""
         for address in addresses:
             self.axis(address).flags()

@@ -12,7 +12,7 @@ from typing import overload
 
 from ..check import whole
 from ..errors import OutOfRange
-from .talk import Talk
+from .station_link import StationLink
 from .wire import STATUS_1_BITS, STATUS_2_BITS, Code, SettingRefused
 
 MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)
@@ -78,16 +78,16 @@ class Setting:
     @overload
     def __get__(self, node: None, owner: type) -> Setting: ...
     @overload
-    def __get__(self, node: Talk, owner: type) -> int: ...
-    def __get__(self, node: Talk | None, owner: type) -> Setting | int:
+    def __get__(self, node: StationLink, owner: type) -> int: ...
+    def __get__(self, node: StationLink | None, owner: type) -> Setting | int:
         if node is None:
             return self
         if self.read is None:
-            return self.known(node.ask(self.write, NO_WRITE))
-        got = node.ask(self.read, good=self._plausible)
+            return self.known(node.execute(self.write, NO_WRITE))
+        got = node.execute(self.read, good=self._plausible)
         return self.known(got >> self.shift & (1 << self.bits) - 1)
 
-    def __set__(self, node: Talk, value: int) -> None:
+    def __set__(self, node: StationLink, value: int) -> None:
         if isinstance(value, bool) and self.accepts == range(2):
             value = int(value)
         value = whole(value, self.name)
@@ -95,9 +95,11 @@ class Setting:
             unit = self.unit and f" {self.unit}"
             raise OutOfRange(f"{self.name} {value}: there are {self.span}{unit}{self.hint}")
         data = self.data(value)
-        got = node.ask(self.write, data, good=lambda reply: reply == data, sure=False)
+        got = node.execute(self.write, data, good=lambda reply: reply == data, sure=False)
         if got != data:
-            raise SettingRefused(got, f"{node.who}{self.name} {value} was refused: it is {self.known(got)}")
+            raise SettingRefused(
+                got, f"{node._message_prefix}{self.name} {value} was refused: it is {self.known(got)}"
+            )
         if self.name in _SHOW_A_RESET:
             node.unsaved[self.name] = value
 
@@ -133,7 +135,7 @@ _SHOW_A_RESET = ("direction", "stops", "max_speed")
 """Settings that `save` does not store and that one short instruction reads."""
 
 
-class Settings(Talk):
+class Settings(StationLink):
     """Settings of a controller. Each assignment is checked against the reply.
 
     A value out of range raises OutOfRange before it is sent. A value that the part rejects raises

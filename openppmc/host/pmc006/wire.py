@@ -3,7 +3,7 @@
 >>> command(1, 0x73, 287).hex(" ")
 'a5 01 73 1f 01 00 00 39'
 >>> receiver = Receiver(1)
->>> [receiver.take(byte) for byte in bytes.fromhex("A5 7A 01 03 00 00 00 23")][-1]
+>>> [receiver.feed(byte) for byte in bytes.fromhex("A5 7A 01 03 00 00 00 23")][-1]
 Reply(address=1, value=3)
 """
 
@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+from ...lazy import renamed
 from ...parts import part
+from ..capabilities import Capabilities
 from ..check import whole
 from ..errors import CommandRefused, OutOfRange
-from ..kind import Kind
 from ..line_port import Fault
 
 
@@ -181,11 +182,11 @@ class SettingRefused(CommandRefused):
     """The part rejected a value of a setting; `status` is the active value, which is unchanged."""
 
 
-class LockedByExt(CommandRefused):
+class ExtStopActive(CommandRefused):
     """An EXT stop has occurred; starts are rejected until its flag is cleared."""
 
 
-class MotorFree(CommandRefused):
+class MotorDisabled(CommandRefused):
     """The motor is switched off (FREE)."""
 
     text = "the motor is off-line (free): switch it on first (free = 0)"
@@ -213,11 +214,11 @@ class ProgramRuns(CommandRefused):
     text = "a user program runs: halt it first"
 
 
-class ProgramDiffers(CommandRefused):
+class ProgramVerifyFailed(CommandRefused):
     """The program that was read back differs from the one that was written."""
 
 
-def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
+def locked(numbers: tuple[int, ...], prefix: str = "") -> ExtStopActive:
     """Return the exception for these EXT flags.
 
     >>> str(locked((1,)))
@@ -225,9 +226,9 @@ def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
     """
     names, flags = " and ".join(f"EXT{number}" for number in numbers), "flags" if len(numbers) > 1 else "flag"
     have = "have" if len(numbers) > 1 else "has"
-    return LockedByExt(
+    return ExtStopActive(
         sum(1 << number for number in numbers),
-        f"{who}{names} {have} stopped it: clear the {flags} (clear_stops, reset-flags), then move off the "
+        f"{prefix}{names} {have} stopped it: clear the {flags} (clear_stops, reset-flags), then move off the "
         "switch",
     )
 
@@ -276,7 +277,7 @@ def _sealed(body: bytes) -> bytes:
 
 
 class Receiver:
-    """Receiver for the bytes after a frame to `address`; see `host.line.Listener`.
+    """Receiver for the bytes after a frame to `address`; see `host.line.ReplyReceiver`.
 
     Replies of other controllers and damaged replies are skipped, because the expected one may follow; `fault`
     reports them.
@@ -302,7 +303,7 @@ class Receiver:
             return Fault.FOREIGN
         return Fault.NOISE if self._noise else None
 
-    def take(self, byte: int) -> Reply | Fault | None:
+    def feed(self, byte: int) -> Reply | Fault | None:
         """Process a byte; return the reply if it is complete."""
         if self._matched < len(self._echo):
             if byte == self._echo[self._matched]:
@@ -311,9 +312,9 @@ class Receiver:
                 return None
             self._echo = b""
         self._open += bytes([byte])
-        return self._look()
+        return self._match_frame()
 
-    def _look(self) -> Reply | None:
+    def _match_frame(self) -> Reply | None:
         """Return the reply in the bytes received so far, `None` if they contain no complete one."""
         while self._open:
             start = next((at for at in range(len(self._open)) if _begins(self._open[at:])), len(self._open))
@@ -340,4 +341,15 @@ def _begins(data: bytes) -> bool:
 
 # Capabilities of a PMC006B4.
 
-KIND = Kind(part("pmc006"), outputs=31)
+CAPABILITIES = Capabilities(part("pmc006"), outputs=31)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed(
+        __name__,
+        {
+            "LockedByExt": "ExtStopActive",
+            "MotorFree": "MotorDisabled",
+            "ProgramDiffers": "ProgramVerifyFailed",
+        },
+    )

@@ -9,15 +9,15 @@ from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
 from .. import speeds
 from ..axis import CCW, Axis
-from ..ending import Cause, End
+from ..capabilities import AXIS_BIT
 from ..errors import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused, Timeout
-from ..kind import AXIS_BIT
 from ..link import Link
-from ..motion import Motion, Order
+from ..motion import Motion, MotionRequest
+from ..motion_result import Cause, MotionResult
 from ..registers import Inputs
 from ..script import Script
-from . import words
-from .words import KIND, CutCommand, Status
+from . import registers
+from .registers import CAPABILITIES, IncompleteCommand, Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
@@ -27,23 +27,23 @@ A part needs 0.15 s for both axes, but a virtual board may be slow.
 """
 
 
-class Settling(Protocol):
+class PeerAxis(Protocol):
     """Members of the other axis that an axis needs."""
 
-    def settle(self, status: int) -> None: ...
+    def _resolve(self, status: int) -> None: ...
 
 
-class Both(Protocol):
+class TwoAxisPart(Protocol):
     """Members of a part (`part.Ppmc2104`) that an axis needs."""
 
     @property
     def link(self) -> Link: ...
     def status(self) -> Status: ...
-    def straps(self, number: int, clock: speeds.BaseClock | None) -> Script: ...
-    def show(self, number: int) -> Script: ...
-    def other(self, number: int) -> Settling: ...
-    def rests(self, number: int) -> None: ...
-    def settle_foreign(self, number: int) -> None: ...
+    def _strap_script(self, number: int, clock: speeds.BaseClock | None) -> Script: ...
+    def _select_pins(self, number: int) -> Script: ...
+    def _other_axis(self, number: int) -> PeerAxis: ...
+    def _set_idle(self, number: int) -> None: ...
+    def _resolve_foreign(self, number: int) -> None: ...
 
 
 class Axis2104(Axis):
@@ -57,16 +57,16 @@ class Axis2104(Axis):
     change until `excitation_off` or `reset` (P2104-INI-05).
     """
 
-    kind = KIND
-    part: Both
+    kind = CAPABILITIES
+    part: TwoAxisPart
 
-    def __init__(self, part: Both, number: int) -> None:
+    def __init__(self, part: TwoAxisPart, number: int) -> None:
         super().__init__(part.link)
         self.part = part
         self.number = self.kind.check_axis(number)
-        self.bit = (number - 1) * AXIS_BIT
-        self.busy = BUSY[number - 1]
-        self.unused = 0x40
+        self._code_bits = (number - 1) * AXIS_BIT
+        self._busy_mask = BUSY[number - 1]
+        self._zero_mask = 0x40
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
         """Initialise the axis with a set-up planned earlier for it, and wait until the ramp is ready."""
@@ -75,40 +75,42 @@ class Axis2104(Axis):
         end = clock() + _SETUP_SECONDS * 16e6 / self.link.identity.xtal_hz
         while self.part.status().raw & CMND[self.number - 1]:
             if clock() >= end:
-                raise Timeout(f"{self.link.name}: {self.who}the initialisation does not end: reset the part")
+                raise Timeout(
+                    f"{self.link.name}: {self._message_prefix}the initialisation does not end: reset the part"
+                )
             self.link.pause(0.002)
         self.setup = setup
         return setup
 
     # ------------------------------------------------------------------ differences to other parts
 
-    def straps(self, clock: speeds.BaseClock | None) -> Script:
-        return self.part.straps(self.number, clock)
+    def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
+        return self.part._strap_script(self.number, clock)
 
-    def started(self, order: Order, begin: int) -> Motion:
-        self.part.rests(self.number)
-        return super().started(order, begin)
+    def _motion_started(self, request: MotionRequest, begin: int) -> Motion:
+        self.part._set_idle(self.number)
+        return super()._motion_started(request, begin)
 
-    def look(self, status: int) -> None:
+    def _on_status(self, status: int) -> None:
         # If the end of the other axis's motion stays unread, int_n stays low, and the end of this motion
         # sends no message.
-        self.part.other(self.number).settle(status)
+        self.part._other_axis(self.number)._resolve(status)
 
-    def settle(self, status: int) -> None:
+    def _resolve(self, status: int) -> None:
         """Process a status register that was read; read the end of a motion that is over."""
         if self._motion is not None and not self._motion.over:
-            self._motion.look(status)
-        elif not status & self.busy:
-            self.part.settle_foreign(self.number)
+            self._motion._on_status(status)
+        elif not status & self._busy_mask:
+            self.part._resolve_foreign(self.number)
 
-    def start(self, order: Order) -> Motion:
+    def _start_motion(self, request: MotionRequest) -> Motion:
         """Start a motion; return a motion without pulses if the part rejects it because of a switch."""
         try:
-            return super().start(order)
+            return super()._start_motion(request)
         except StartRefused as refused:
-            return self.refused_start(order, refused)
+            return self._refused_start_motion(request, refused)
 
-    def refused_start(self, order: Order, refused: StartRefused) -> Motion:
+    def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
         """Return a motion that ended where it began.
 
         Raises the rejection itself if no switch is active any more.
@@ -117,29 +119,31 @@ class Axis2104(Axis):
         cause = Cause.COMPLETE
         if inputs.alarm:
             cause |= Cause.ALARM
-        if inputs.limit_ccw if order.direction == CCW else inputs.limit_cw:
+        if inputs.limit_ccw if request.direction == CCW else inputs.limit_cw:
             cause |= Cause.LIMIT
-        if not cause and order.operation == ORIGIN and inputs.origin:
+        if not cause and request.operation == ORIGIN and inputs.origin:
             cause = Cause.ORIGIN
         if not cause:
             raise refused
         position = self._count()
-        motion = self.started(order, position)
-        left = order.asked or speeds.LONGEST_MOVE
-        motion.end = self.told(End(cause, 0, left, self.counted(position), 0))
+        motion = self._motion_started(request, position)
+        remaining = request.requested or speeds.LONGEST_MOVE
+        motion.result = self._annotate(MotionResult(cause, 0, remaining, self._position_of(position), 0))
         return motion
 
-    def order_stop(self, now: bool) -> None:
+    def _send_stop(self, now: bool) -> None:
         try:
-            super().order_stop(now)
+            super()._send_stop(now)
         except NotInitialised as error:
-            raise NothingToStop(error.status, f"{self.who}nothing to stop: it is not initialised") from None
-        except CutCommand:
+            raise NothingToStop(
+                error.status, f"{self._message_prefix}nothing to stop: it is not initialised"
+            ) from None
+        except IncompleteCommand:
             # An unfinished command, which waited for data, ended; the stop is effective nevertheless
             # (P2104-STP-07).
             pass
 
-    def brake(self, now: bool = False) -> None:
+    def _request_stop(self, now: bool = False) -> None:
         """Stop the motion that this object started, without waiting.
 
         The part rejects a stop with a ramp at constant speed and while it waits for RUN (P2104-STP-03). In
@@ -147,17 +151,17 @@ class Axis2104(Axis):
         """
         motion = self._motion
         try:
-            self.order_stop(now or (motion is not None and not motion.ramped))
+            self._send_stop(now or (motion is not None and not motion.ramped))
         except NothingToStop:
             pass
         except AlreadyDecelerating:
             if motion is not None and motion.begin == self._count():
-                self.brake(now=True)
+                self._request_stop(now=True)
 
     # ------------------------------------------------------------------ registers and settings
 
     def inputs(self) -> Inputs:
-        return Inputs.of_pins(self.link.execute(self.part.show(self.number).pins()).byte(0))
+        return Inputs.of_pins(self.link.execute(self.part._select_pins(self.number).pins()).byte(0))
 
     def switching(self, on_us: speeds.Number, off_us: speeds.Number) -> tuple[Fraction, Fraction]:
         """Set the chopper times at standstill in us; return the times that are reached.
@@ -166,9 +170,9 @@ class Axis2104(Axis):
 
         The call is not allowed during a motion.
         """
-        on = words.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
-        off = words.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
-        self.link.execute(Script().call(SWITCHING | self.bit, on[0], off[0]))
+        on = registers.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
+        off = registers.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
+        self.link.execute(Script().call(SWITCHING | self._code_bits, on[0], off[0]))
         return on[1], off[1]
 
     def hold_delay(self, microseconds: speeds.Number) -> Fraction:
@@ -178,6 +182,6 @@ class Axis2104(Axis):
 
         The call is not allowed during a motion.
         """
-        byte, reached = words.hold_byte(self.link.identity.xtal_hz, microseconds)
-        self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))
+        byte, reached = registers.hold_byte(self.link.identity.xtal_hz, microseconds)
+        self.link.execute(Script().call(HOLD_DELAY | self._code_bits, byte))
         return reached

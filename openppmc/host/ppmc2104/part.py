@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ...lazy import Renamed
 from ...model.ppmc2104.codes import CMND
 from .. import speeds
 from ..axis import Axis, OnProgress
+from ..capabilities import AXIS_BIT
 from ..check import whole, within
-from ..ending import End, EndUnknown
 from ..errors import AlreadyDecelerating, CommandRefused, PpmcError, ProtocolError
-from ..kind import AXIS_BIT
 from ..link import Link
 from ..motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
+from ..motion_result import EndUnknown, MotionResult
 from ..part import Part
 from ..script import Answer, Script
 from .axis import Axis2104
-from .words import BY_NUMBER, KIND, Status, refused
+from .registers import BY_NUMBER, CAPABILITIES, Status, command_error
 
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 IBF = 0x02
@@ -29,7 +30,7 @@ class Axes(dict[int, Axis2104]):
     """Axes by number."""
 
     def __missing__(self, number: object) -> Axis2104:
-        return self[KIND.check_axis(whole(number, "axis"))]
+        return self[CAPABILITIES.check_axis(whole(number, "axis"))]
 
 
 class Ppmc2104(Part):
@@ -39,10 +40,12 @@ class Ppmc2104(Part):
     the errors of other programs, and ends their unfinished commands; a running motion continues.
     """
 
-    kind = KIND
+    kind = CAPABILITIES
     x: Axis2104
     y: Axis2104
     axis: Mapping[int, Axis2104]
+    together = Renamed("move_together")
+    start_together = Renamed("start_moves")
 
     def __init__(self, link: Link) -> None:
         self.link = link
@@ -55,21 +58,21 @@ class Ppmc2104(Part):
         # Motions of another program. Such an axis may have waited for RUN since that program aborted; it must
         # not start now.
         self._foreign = {number for number in self.axis if busy[number - 1]}
-        self._held = set(self._foreign)
+        self._run_held = set(self._foreign)
         for number in set(self.axis) - self._foreign:
-            self._end_of(number)
+            self._read_finish(number)
 
     @property
     def axes(self) -> tuple[Axis, ...]:
         return (self.x, self.y)
 
-    def other(self, number: int) -> Axis2104:
+    def _other_axis(self, number: int) -> Axis2104:
         """Return the axis that does not have this number."""
         return self.axis[3 - number]
 
     # ------------------------------------------------------------------ both axes
 
-    def together(
+    def move_together(
         self,
         x: int,
         y: int,
@@ -77,7 +80,7 @@ class Ppmc2104(Part):
         y_pps: speeds.Number | None = None,
         progress: OnProgress | None = None,
         pulse_only: bool = False,
-    ) -> tuple[End, End]:
+    ) -> tuple[MotionResult, MotionResult]:
         """Move both axes, starting in the same cycle, and wait for both.
 
         If one axis ends early, the other is stopped with a ramp.
@@ -89,25 +92,25 @@ class Ppmc2104(Part):
             y_pps: constant speed of axis 2, `None` for a move with ramps.
 
         Raises:
-            LimitReached, AlarmStop, StoppedEarly: end of the axis that ended first.
+            LimitReached, AlarmStop, StoppedByCommand: end of the axis that ended first.
         """
         if not (x and y):
             ends = [
-                axis.nothing_to_move()
+                axis._empty_move_result()
                 if not pulses
-                else axis.start(axis.move_order(pulses, pps, pulse_only))
+                else axis._start_motion(axis._move_request(pulses, pps, pulse_only))
                 .wait(progress=progress)
                 .check(abs(pulses))
                 for axis, pulses, pps in ((self.x, x, x_pps), (self.y, y, y_pps))
             ]
             return ends[0], ends[1]
-        motions = self.start_together(x, y, x_pps, y_pps, pulse_only)
+        motions = self.start_moves(x, y, x_pps, y_pps, pulse_only)
         first = self._wait(motions, progress)
         if first is not None:
-            first.wait().check(first.asked)
+            first.wait().check(first.requested)
         return motions[0].wait(), motions[1].wait()
 
-    def start_together(
+    def start_moves(
         self,
         x: int,
         y: int,
@@ -122,29 +125,29 @@ class Ppmc2104(Part):
         Raises:
             OutOfRange: a number of pulses is 0.
         """
-        orders = (self.x.move_order(x, x_pps, pulse_only), self.y.move_order(y, y_pps, pulse_only))
+        requests = (self.x._move_request(x, x_pps, pulse_only), self.y._move_request(y, y_pps, pulse_only))
         for number in self.axis:
-            self._end_of(number)  # rejected while an axis moves; its motion continues
+            self._read_finish(number)  # rejected while an axis moves; its motion continues
         script = Script()
         waiting = self._levels & ~(RUN[0] | RUN[1])
-        for axis, order in zip(self.axis.values(), orders, strict=True):
-            waiting = _with_csel(waiting, axis.number, axis.clock_of(order))
+        for axis, request in zip(self.axis.values(), requests, strict=True):
+            waiting = _with_csel(waiting, axis.number, axis._clock_for(request))
         script.straps(waiting).count(1).count(2)
-        for axis, order in zip(self.axis.values(), orders, strict=True):
-            script.call(order.code | axis.bit, *order.data)
+        for axis, request in zip(self.axis.values(), requests, strict=True):
+            script.call(request.code | axis._code_bits, *request.data)
         # With DATASHEET timing RUN is not sampled before the processing windows have closed (P2104-DS-14).
         script.wait(1, CMND[0] | CMND[1], 0).straps(waiting | RUN[0] | RUN[1])
         self.link.forget_events()
         try:
             answer = self.link.execute(script)
         except BaseException:
-            self._call_off()
+            self._cancel_start()
             raise
         self._levels = waiting | RUN[0] | RUN[1]
         begins = [answer.number(place, signed=True) for place in (0, 1)]
-        return self.x.started(orders[0], begins[0]), self.y.started(orders[1], begins[1])
+        return self.x._motion_started(requests[0], begins[0]), self.y._motion_started(requests[1], begins[1])
 
-    def _call_off(self) -> None:
+    def _cancel_start(self) -> None:
         """Cancel a coordinated start that failed: an axis that waits for RUN must not start any more.
 
         An axis that already runs, because only the answer was lost, stops with its ramp.
@@ -152,17 +155,17 @@ class Ppmc2104(Part):
         try:
             for axis in self.axis.values():
                 try:
-                    axis.order_stop(now=False)
+                    axis._send_stop(now=False)
                 except AlreadyDecelerating:
-                    axis.order_stop(now=True)
+                    axis._send_stop(now=True)
                 except CommandRefused:
                     continue
             for axis in self.axis.values():
-                self.link.execute(Script().wait(1, axis.busy, 0))
-                self._end_of(axis.number)
+                self.link.execute(Script().wait(1, axis._busy_mask, 0))
+                self._read_finish(axis.number)
             self.link.execute(Script().straps(self._levels))
         except PpmcError:
-            self._held = set(self.axis)
+            self._run_held = set(self.axis)
 
     def _wait(self, motions: tuple[Motion, Motion], progress: OnProgress | None) -> Motion | None:
         """Wait until both have ended; return the motion that ended early, if any.
@@ -173,20 +176,20 @@ class Ppmc2104(Part):
         first: Motion | None = None
         while running := [motion for motion in motions if not motion.over]:
             self.link.wait_event(pause)
-            seen = [now for motion in running if (now := self._look(motion)) is not None]
+            seen = [now for motion in running if (now := self._poll(motion)) is not None]
             if first is None:
                 first = next(
-                    (one for one in motions if one.over and not (one.end and one.end.complete)), None
+                    (one for one in motions if one.over and not (one.result and one.result.complete)), None
                 )
                 for axis in self.axis.values() if first is not None else ():
                     if axis.motion is not None and not axis.motion.over:
-                        axis.brake()
+                        axis._request_stop()
             if progress and seen:
                 progress(seen[-1])
         return first
 
     @staticmethod
-    def _look(motion: Motion) -> Progress | None:
+    def _poll(motion: Motion) -> Progress | None:
         """Poll a motion as `Motion.poll` does.
 
         An unconfirmed end raises its error later, when both have stopped.
@@ -198,39 +201,39 @@ class Ppmc2104(Part):
 
     # ------------------------------------------------------------------ straps
 
-    def straps(self, number: int, clock: speeds.BaseClock | None) -> Script:
+    def _strap_script(self, number: int, clock: speeds.BaseClock | None) -> Script:
         """Return the straps for a motion of one axis with this base clock.
 
         RUN of an axis that may be waiting stays low.
         """
         self._levels = _with_csel(self._levels, number, clock)
-        return Script().straps(self._run_low(self._held - {number}))
+        return Script().straps(self._run_low(self._run_held - {number}))
 
-    def rests(self, number: int) -> None:
+    def _set_idle(self, number: int) -> None:
         """Record that this axis does not wait for RUN."""
-        self._held.discard(number)
+        self._run_held.discard(number)
         self._foreign.discard(number)
 
-    def settle_foreign(self, number: int) -> None:
+    def _resolve_foreign(self, number: int) -> None:
         """Read the end of a motion of another program once, because int_n stays low until then.
 
         The axis with this number has stopped.
         """
         if number in self._foreign:
             self._foreign.discard(number)
-            self._end_of(number)
+            self._read_finish(number)
 
-    def _end_of(self, number: int) -> None:
-        self.link.execute(Script().call(READ_FINISH | self.axis[number].bit).get(1))
+    def _read_finish(self, number: int) -> None:
+        self.link.execute(Script().call(READ_FINISH | self.axis[number]._code_bits).get(1))
 
     def _run_low(self, axes: set[int]) -> int:
         """Return the straps with RUN of these axes low."""
         return self._levels & ~sum(RUN[axis - 1] for axis in axes)
 
-    def show(self, number: int) -> Script:
+    def _select_pins(self, number: int) -> Script:
         """Return the straps that select the axis whose pins a following PINS returns."""
         self._levels = self._levels | PINS_OF_1 if number == 1 else self._levels & ~PINS_OF_1
-        return Script().straps(self._run_low(self._held))
+        return Script().straps(self._run_low(self._run_held))
 
     # ------------------------------------------------------------------ registers, auxiliary, reset
 
@@ -249,10 +252,10 @@ class Ppmc2104(Part):
     def reset(self) -> None:
         """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
         self.link.execute(Script().reset())
-        self._held.clear()
+        self._run_held.clear()
         self._foreign.clear()
         for axis in self.axis.values():
-            axis.forget()
+            axis._on_reset()
 
     # ------------------------------------------------------------------ errors
 
@@ -290,7 +293,7 @@ class Ppmc2104(Part):
             place = 1 - place
         if numbers[place] not in BY_NUMBER:
             return ProtocolError(f"{self.link.name}: the part reported an error and then no error; try again")
-        return refused(numbers[place], answer.last, place + 1)
+        return command_error(numbers[place], answer.last, place + 1)
 
 
 def _with_csel(levels: int, number: int, clock: speeds.BaseClock | None) -> int:

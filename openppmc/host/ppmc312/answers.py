@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 from ...model.ppmc312.codes import Answer, Cause, Source, State
 from ..errors import CommandRefused
-from .errors import refused
+from .errors import command_error
 
 # Registers of a PPMC-312 that can be read at any time (P312-CMD-4D, -27, -47).
 
@@ -221,7 +221,7 @@ class Alarm:
     @property
     def error(self) -> CommandRefused:
         """The alarm as an exception."""
-        error = refused(Answer.ALARM, bytes([self.status]))
+        error = command_error(Answer.ALARM, bytes([self.status]))
         assert error is not None
         return error
 
@@ -311,7 +311,7 @@ class Response:
     @property
     def error(self) -> CommandRefused | None:
         """Exception for an error response, `None` for others."""
-        return refused(self.code, self.data) if self.raw[0] & _HAS_CODE else None
+        return command_error(self.code, self.data) if self.raw[0] & _HAS_CODE else None
 
     def report(self) -> Report:
         """Return the content of a response that is no response to the host. Raises BadResponse."""

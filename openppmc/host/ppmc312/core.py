@@ -8,16 +8,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
+from ...lazy import Renamed
 from ...model.ppmc312.codes import Code
 from .. import speeds
+from ..capabilities import SetupRequest
 from ..check import Checked
-from ..ending import End
 from ..errors import OutOfRange, ProtocolError
-from ..kind import Wanted
+from ..motion_result import MotionResult
 from . import blocks
 from .answers import BadResponse, Executed, Inputs, Report, Response, Status, Stopped, signed
-from .motion import Motion, Way
-from .profile import KIND, Setup, TableKind, plan_stages, read_stages
+from .motion import Motion, Transport
+from .profile import CAPABILITIES, Setup, TableCapabilities, plan_stages, read_stages
 from .window import ANSWER_MS, SHORTEST
 
 MOST_KEPT = 1000
@@ -27,7 +28,7 @@ MotionT = TypeVar("MotionT", bound=Motion)
 class Instructions(Protocol):
     """Transport of instructions to a part.
 
-    `window.Window` transports them through the bridge, `line.talk.Talk` through a line.
+    `window.Window` transports them through the bridge, `line.station_link.StationLink` through a line.
     """
 
     @property
@@ -40,13 +41,13 @@ class Instructions(Protocol):
     def open(self) -> None:
         """Prepare the transport after a reset of the part."""
 
-    def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
+    def execute(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
         """Execute an instruction block and return the response.
 
         Raises the error of the part and LinkErrors.
         """
 
-    def more(self) -> Response:
+    def next_block(self) -> Response:
         """Return the next block of a response of several blocks."""
 
     def collect(self) -> None:
@@ -59,19 +60,21 @@ class Core(Checked, Generic[MotionT]):
     Attributes:
         setup: last table of this object, `None` before it.
         reports: unsolicited reports of the part that the caller has not fetched yet, oldest first. Ends of
-            this object's own motions are in their `end` instead. Beyond 1000 reports the oldest are dropped.
+            this object's own motions are in their `result` instead. Beyond 1000 reports the oldest are
+            dropped.
     """
 
-    kind: TableKind
+    kind: TableCapabilities
     number = 1
-    busy = 0x2C
-    who = ""
-    link: Way
+    _busy_mask = 0x2C
+    _message_prefix = ""
+    link: Transport
     window: Instructions
     setup: Setup | None
     reports: deque[Report]
+    attend = Renamed("process_reports")
 
-    def __init__(self, link: Way) -> None:
+    def __init__(self, link: Transport) -> None:
         self.link = link
         self.setup = None
         self.reports = deque(maxlen=MOST_KEPT)
@@ -84,7 +87,7 @@ class Core(Checked, Generic[MotionT]):
         """Create the transport of instructions to the part and of responses back."""
         raise NotImplementedError
 
-    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> MotionT:
+    def _make_motion(self, requested: int | None, direction: int, begin: int | None) -> MotionT:
         """Create the handle of a motion; see `motion.Motion`."""
         raise NotImplementedError
 
@@ -93,9 +96,9 @@ class Core(Checked, Generic[MotionT]):
         """Motion that was started last, `None` before the first."""
         return self._motion
 
-    def told(self, end: End) -> End:
-        """Return the End with the message prefix and the alarm name of this part."""
-        return replace(end, who=self.who, alarm=self.kind.alarm)
+    def _annotate(self, end: MotionResult) -> MotionResult:
+        """Return the result with the message prefix and the alarm name of this part."""
+        return replace(end, message_prefix=self._message_prefix, alarm=self.kind.alarm)
 
     # ------------------------------------------------------------------ instructions
 
@@ -106,7 +109,7 @@ class Core(Checked, Generic[MotionT]):
 
         Raises the error of the part.
         """
-        response = self.window.ask(block, gives, milliseconds)
+        response = self.window.execute(block, gives, milliseconds)
         if response.code != block[2]:
             raise ProtocolError(
                 f"{self.link.name}: the part answers {response.code:02X} to {block[2]:02X}: does another "
@@ -124,20 +127,20 @@ class Core(Checked, Generic[MotionT]):
 
     # ------------------------------------------------------------------ reports
 
-    def _arrived(self, response: Response) -> None:
+    def _on_response(self, response: Response) -> None:
         """Process a response that is not for an instruction of this object."""
         try:
             report = response.report()
         except BadResponse as error:
             raise ProtocolError(f"{self.link.name}: {error}") from error
-        self._heard(report)
+        self._store_report(report)
 
-    def _heard(self, report: Report) -> None:
+    def _store_report(self, report: Report) -> None:
         """Pass a report to the motion that it ends, or store it."""
         motion = self._motion
         younger = self.window.answers > self._mark
         if isinstance(report, Stopped) and motion is not None and not motion.over and younger:
-            motion.stopped(report)
+            motion._on_stop_report(report)
         else:
             if isinstance(report, Executed) and report.code == Code.SLOW_STOP and motion is not None:
                 motion.stop_ordered = True
@@ -156,7 +159,7 @@ class Core(Checked, Generic[MotionT]):
             self.window.collect()
         return self.reports.popleft() if self.reports else None
 
-    def attend(self, seconds: float) -> None:
+    def process_reports(self, seconds: float) -> None:
         """Wait on the clock of the board and process unsolicited reports of the part."""
         end = self.link.clock() + seconds
         while (left := end - self.link.clock()) > 0:
@@ -191,7 +194,7 @@ class Core(Checked, Generic[MotionT]):
         data = self.instruct(blocks.read_position(encoder), 8)
         return signed(int.from_bytes(data[1:5], "big"))
 
-    def counted(self, count: int) -> int | None:
+    def _position_of(self, count: int) -> int | None:
         """Return a position unchanged; other parts may have no position."""
         return count
 
@@ -199,7 +202,7 @@ class Core(Checked, Generic[MotionT]):
         """Set the position of the pulses, or of the encoder.
 
         Raises:
-            NotWhileBusy: the motor is moving.
+            AxisBusy: the motor is moving.
         """
         self.instruct(blocks.set_position(position, encoder))
 
@@ -246,9 +249,9 @@ class Core(Checked, Generic[MotionT]):
     def software_reset(self) -> None:
         """Execute the reset instruction of the part, which has the effect of the reset pin."""
         self._plain(Code.RESET)
-        self.forget()
+        self._on_reset()
 
-    def forget(self) -> None:
+    def _on_reset(self) -> None:
         """Discard set-up, motion and reports, because the part was reset."""
         self.setup = self._motion = None
         self.reports.clear()
@@ -285,7 +288,7 @@ class Settings(Core[MotionT]):
         self,
         start_pps: speeds.Number = 1000,
         high_pps: speeds.Number = 5000,
-        ramp_pulses: int = KIND.usual_ramp,
+        ramp_pulses: int = CAPABILITIES.usual_ramp,
         stop_pps: speeds.Number | None = None,
         down_pulses: int | None = None,
         sigmoid: bool = False,
@@ -310,9 +313,9 @@ class Settings(Core[MotionT]):
 
         Raises:
             OutOfRange: an argument is out of range.
-            NotWhileBusy: a motion is running.
+            AxisBusy: a motion is running.
         """
-        wanted = Wanted(
+        request = SetupRequest(
             start_pps,
             high_pps,
             ramp_pulses,
@@ -322,7 +325,7 @@ class Settings(Core[MotionT]):
             down_pulses=down_pulses,
             sigmoid=sigmoid,
         )
-        return self.apply(self.kind.plan(self.link.identity.xtal_hz, wanted))
+        return self.apply(self.kind.plan(self.link.identity.xtal_hz, request))
 
     def load_curve(
         self,
@@ -350,7 +353,7 @@ class Settings(Core[MotionT]):
         if self.link.identity.datasheet:
             milliseconds += LONGEST_BUILD_MS * 16_000_000 // self.link.identity.xtal_hz
         for block in setup.blocks:
-            self.window.ask(block, 5, milliseconds)
+            self.window.execute(block, 5, milliseconds)
         self.excitation_on()
         self.setup = setup
         return setup
@@ -360,12 +363,12 @@ class Settings(Core[MotionT]):
 
         Raises NotInitialised without a table.
         """
-        response = self.window.ask(blocks.block(Code.TABLE_READ), 12)
+        response = self.window.execute(blocks.block(Code.TABLE_READ), 12)
         if response.code != Code.TABLE_READ:
             raise ProtocolError(f"{self.link.name}: expected the table, received {response.raw.hex(' ')}")
         items: dict[int, bytearray] = {ITEM_RATES: bytearray(), ITEM_UP: bytearray(), ITEM_DOWN: bytearray()}
         while not response.last:
-            response = self.window.more()
+            response = self.window.next_block()
             items.setdefault(response.data[0], bytearray()).extend(response.data[1:])
         return TableRead(
             *(_numbers(items[item], width) for item, width in ((ITEM_RATES, 2), (ITEM_UP, 3), (ITEM_DOWN, 3)))

@@ -9,8 +9,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from ...lazy import renamed
 from ...model.ppmc312.codes import Answer, State
-from ..errors import CommandRefused, NothingToStop, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
+from ..errors import AxisBusy, CommandRefused, NothingToStop, NotInitialised, StartRefused, UnknownCommand
 
 
 class ParameterRefused(CommandRefused):
@@ -36,7 +39,7 @@ class CurveRefused(ParameterRefused):
     """F0 10 to 1A: a free curve is invalid. The part has no table now."""
 
 
-class OutOfTurn(CommandRefused):
+class UnexpectedInstruction(CommandRefused):
     """F1 01, 02: a data block without a free curve, or an instruction in the middle of one."""
 
     text = "the part did not expect this block: another program may be using it; send the command again"
@@ -54,7 +57,7 @@ class HeldByRun(CommandRefused):
     text = "a start waits for RUN: give RUN, switch its monitor off, or reset the part"
 
 
-class BadBlock(CommandRefused):
+class InvalidBlockLength(CommandRefused):
     """F6: the length byte does not fit the block."""
 
     text = "the part could not make sense of the block (its length): send the command again"
@@ -105,8 +108,8 @@ _PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
 STATES: dict[int, tuple[type[CommandRefused], str]] = {
     State.INI: (NotInitialised, "the part has no table (power-up, reset, refused setting): initialise it"),
     State.NOR: (NothingToStop, "nothing to stop or to change: the motor is at rest"),
-    State.ACC: (NotWhileBusy, "the part is busy with a motion (speed changing): wait, or stop it first"),
-    State.FIX: (NotWhileBusy, "the part is busy with a motion: wait for its end or stop it first"),
+    State.ACC: (AxisBusy, "the part is busy with a motion (speed changing): wait, or stop it first"),
+    State.FIX: (AxisBusy, "the part is busy with a motion: wait for its end or stop it first"),
     State.ABN: (InAlarm, ""),
     State.WRN: (HeldByRun, ""),
 }
@@ -126,16 +129,16 @@ _FAILURES = {
 }
 
 
-def refused(code: int, parameters: bytes) -> CommandRefused | None:
+def command_error(code: int, parameters: bytes) -> CommandRefused | None:
     """Return the exception for a response, `None` if it is no error.
 
     parameters: parameters of the response.
 
-    >>> str(refused(0xF1, bytes([0, 0x10])))
+    >>> str(command_error(0xF1, bytes([0, 0x10])))
     'the part is in alarm: remove the cause, then clear the alarm (or reset)'
-    >>> type(refused(0xF0, bytes([0x18]))).__name__
+    >>> type(command_error(0xF0, bytes([0x18]))).__name__
     'CurveRefused'
-    >>> refused(0x40, bytes([0x12])) is None
+    >>> command_error(0x40, bytes([0x12])) is None
     True
     """
     first = parameters[0] if parameters else 0
@@ -146,15 +149,15 @@ def refused(code: int, parameters: bytes) -> CommandRefused | None:
         return error
     if code == Answer.STATUS:
         if first:
-            return OutOfTurn(first)
-        state, text = STATES.get(parameters[1], (NotWhileBusy, ""))
+            return UnexpectedInstruction(first)
+        state, text = STATES.get(parameters[1], (AxisBusy, ""))
         return state(parameters[1], text)
     if code == Answer.LIMIT:
         return StartRefused(first, LIMIT)
     if code == Answer.COMMAND:
-        return UnknownCode(first)
+        return UnknownCommand(first)
     if code == Answer.SIZE:
-        return BadBlock(first)
+        return InvalidBlockLength(first)
     if code == Answer.REGISTRATION:
         return RegistrationRefused(
             first,
@@ -163,10 +166,24 @@ def refused(code: int, parameters: bytes) -> CommandRefused | None:
             else "eight overrides wait already: let some of them happen first",
         )
     if code in (Answer.OVERRIDE_FAILED, Answer.EVENT_FAILED):
-        why = _FAILURES.get(first, f"reason {first:02X}")
+        reason = _FAILURES.get(first, f"reason {first:02X}")
         if code == Answer.OVERRIDE_FAILED:
-            return OverrideFailed(first, f"an override was not carried out ({why}); the others are dropped")
-        return EventFailed(first, f"an event's instruction was not carried out ({why}); its buffer is empty")
+            return OverrideFailed(
+                first, f"an override was not carried out ({reason}); the others are dropped"
+            )
+        return EventFailed(
+            first, f"an event's instruction was not carried out ({reason}); its buffer is empty"
+        )
     if code == Answer.ALARM:
         return AlarmRaised(first, _ALARMS.get(first, f"alarm {first:02X}"))
     return None
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed(
+        __name__,
+        {
+            "BadBlock": "InvalidBlockLength",
+            "OutOfTurn": "UnexpectedInstruction",
+        },
+    )

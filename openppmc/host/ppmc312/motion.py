@@ -8,9 +8,9 @@ from typing import Protocol
 from ...model.ppmc312.codes import Cause as Bit
 from .. import motion as homing
 from .. import part as device
-from ..ending import COUNTS, Cause, End, EndUnknown, OriginNotFound
 from ..errors import Timeout
 from ..motion import PROGRESS_POLL, SAFETY_POLL, AnyMotion, Handle, Progress
+from ..motion_result import COUNTS, Cause, EndUnknown, MotionResult, OriginNotFound
 from ..script import Identity
 from ..speeds import Number
 from .answers import Status, Stopped, signed
@@ -28,7 +28,7 @@ _CAUSES = {
 SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: "acceleration only"}
 
 
-class Way(device.Way, Protocol):
+class Transport(device.Transport, Protocol):
     """Transport to the part: the link of a bridge, or a line."""
 
     @property
@@ -37,98 +37,101 @@ class Way(device.Way, Protocol):
     def forget_events(self) -> None: ...
 
 
-class Collecting(Protocol):
+class ReportSource(Protocol):
     """Transport of reports to the object of the part."""
 
     def collect(self) -> None: ...
 
 
-class Moving(Protocol):
+class MotionAxis(Protocol):
     """Members of a part (`core.Core`) that a motion needs."""
 
     @property
-    def who(self) -> str: ...
+    def _message_prefix(self) -> str: ...
     @property
-    def link(self) -> Way: ...
+    def link(self) -> Transport: ...
     @property
-    def window(self) -> Collecting: ...
+    def window(self) -> ReportSource: ...
     @property
     def position(self) -> int: ...
     def status(self) -> Status: ...
-    def told(self, end: End) -> End: ...
+    def _annotate(self, end: MotionResult) -> MotionResult: ...
 
 
 class Motion(Handle):
-    """Handle of a motion that was started; `end` is its End when it is known.
+    """Handle of a motion that was started; `result` is its result when it is known.
 
     Attributes:
-        asked: pulses, `None` for endless motions.
+        requested: pulses, `None` for endless motions.
         direction: 0 = CW, 1 = CCW.
         begin: position before the motion, `None` if another program started it.
-        held: the motion waited for RUN when it was started.
+        waited_for_run: the motion waited for RUN when it was started.
         shape: shape that the part reported for a move with ramps.
         stop_ordered: a stop was sent, so it is the cause of an end below the stop speed.
     """
 
-    asked: int | None
+    requested: int | None
     direction: int
     begin: int | None
-    held = False
+    waited_for_run = False
     shape = ""
     stop_ordered = False
 
-    def __init__(self, part: Moving, asked: int | None, direction: int, begin: int | None) -> None:
+    def __init__(self, part: MotionAxis, requested: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self._link = part.link
-        self.asked = asked
+        self.requested = requested
         self.direction = direction
         self.begin = begin
         self._started = self._link.clock()
 
-    def accepted(self, status: int | None) -> None:
+    def _on_start_response(self, status: int | None) -> None:
         """Process the response to the start.
 
         Args:
             status: its status byte, `None` if the response contains none.
         """
         if status is not None:
-            self.held, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
+            self.waited_for_run, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
 
-    def stopped(self, report: Stopped) -> None:
+    def _on_stop_report(self, report: Stopped) -> None:
         """Process the report that the pulses have ended.
 
-        The end is confirmed if the pulses are those of the order.
+        The end is confirmed if the pulses are those of the request.
         """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:
             cause = Cause.SLOW_LIMIT
-        made, left = None, 0
+        done, remaining = None, 0
         if self.begin is not None:
-            made = signed((report.position - self.begin) % COUNTS)
-        if made is not None and self.asked:
-            ahead = (-made if self.direction else made) % COUNTS  # it may be more than half the counter range
-            left = self.asked - ahead
-            if left < 0 or (left and cause is Cause.COMPLETE):
+            done = signed((report.position - self.begin) % COUNTS)
+        if done is not None and self.requested:
+            ahead = (-done if self.direction else done) % COUNTS  # it may be more than half the counter range
+            remaining = self.requested - ahead
+            if remaining < 0 or (remaining and cause is Cause.COMPLETE):
                 self._not_confirmed(
-                    f"the part reports '{self._part.told(End(cause, 0, 0, 0, 0)).why}'", report
+                    f"the part reports '{self._part._annotate(MotionResult(cause, 0, 0, 0, 0)).cause_text}'",
+                    report,
                 )
                 return
-            made = -ahead if self.direction else ahead
+            done = -ahead if self.direction else ahead
         elif self.begin is not None and cause is Cause.COMPLETE:
             self._not_confirmed("the part reports 'complete' for a motion without end", report)
             return
-        self.end = self._part.told(End(cause, made, left, report.position, int(report.cause)))
+        self.result = self._part._annotate(
+            MotionResult(cause, done, remaining, report.position, int(report.cause))
+        )
 
     def _not_confirmed(self, reason: str, report: Stopped | None = None) -> None:
         """Record that the motion is over, but its report is wrong or missing."""
         position = self._part.position if report is None else report.position
-        made = None if self.begin is None else signed((position - self.begin) % COUNTS)
-        where = f"{self._link.name}: {self._part.who}"
+        done = None if self.begin is None else signed((position - self.begin) % COUNTS)
+        where = f"{self._link.name}: {self._part._message_prefix}"
         finish = None if report is None else int(report.cause)
-        self.unknown = EndUnknown(where, reason, finish, made, self.asked, position)
+        self.result_error = EndUnknown(where, reason, finish, done, self.requested, position)
 
-    def look(self) -> None:
-        """Poll the part; set `end` or `unknown` if the motion is over."""
+    def _update(self) -> None:
+        """Poll the part; set `result` or `result_error` if the motion is over."""
         if self.over:
             return
         busy = self._part.status().busy
@@ -138,19 +141,21 @@ class Motion(Handle):
                 self._not_confirmed("the part is at standstill and reported no end")
 
     def poll(self) -> Progress | None:
-        """Return the current progress; `None` if the motor has stopped (then `end` is set).
+        """Return the current progress; `None` if the motor has stopped (then `result` is set).
 
         Raises:
             EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.
         """
-        self.look()
+        self._update()
         position = self._part.position
-        if self._confirmed() is not None:
+        if self._confirmed_result() is not None:
             return None
-        made = 0 if self.begin is None else abs(signed((position - self.begin) % COUNTS))
-        return Progress(position, made, self.asked, self._link.clock() - self._started)
+        done = 0 if self.begin is None else abs(signed((position - self.begin) % COUNTS))
+        return Progress(position, done, self.requested, self._link.clock() - self._started)
 
-    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+    def wait(
+        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
+    ) -> MotionResult:
         """Wait for the end and return it, for any cause.
 
         Args:
@@ -164,12 +169,12 @@ class Motion(Handle):
         """
         limit = None if timeout is None else self._link.clock() + timeout
         pause = PROGRESS_POLL if progress else SAFETY_POLL
-        while (end := self._confirmed()) is None:
-            left = pause if limit is None else min(pause, limit - self._link.clock())
-            if self._link.wait_event(max(0.0, left)) is not None:
+        while (end := self._confirmed_result()) is None:
+            remaining = pause if limit is None else min(pause, limit - self._link.clock())
+            if self._link.wait_event(max(0.0, remaining)) is not None:
                 self._part.window.collect()
             elif progress is None:
-                self.look()
+                self._update()
             elif (now := self.poll()) is not None:
                 progress(now)
             if not self.over and limit is not None and self._link.clock() >= limit:
@@ -183,7 +188,7 @@ class Motion(Handle):
 # side.
 
 
-class Searching(homing.Searching, Protocol):
+class HomingAxis(homing.HomingAxis, Protocol):
     """Members of an axis that homing needs, including those of a PPMC-312 only."""
 
     def search(self, direction: int, pps: Number | None = None, index: bool = False) -> AnyMotion: ...
@@ -199,7 +204,7 @@ class Homing(homing.Homing):
 
     def __init__(
         self,
-        axis: Searching,
+        axis: HomingAxis,
         direction: int,
         search_pps: Number | None,
         back_off: int,
@@ -210,11 +215,11 @@ class Homing(homing.Homing):
         self._part = axis
         self._index = index
 
-    def _search(self, direction: int) -> End:
+    def _search(self, direction: int) -> MotionResult:
         motion = self._part.search(direction, self._pps, self._index)
-        return self._judge(motion.wait(progress=self._progress))
+        return self._check_search(motion.wait(progress=self._progress))
 
-    def _judge(self, end: End) -> End:
+    def _check_search(self, end: MotionResult) -> MotionResult:
         if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             raise OriginNotFound(
                 "a limit switch came before the origin"
@@ -222,10 +227,10 @@ class Homing(homing.Homing):
                 + ": home in the other direction, or check the switch",
                 end,
             )
-        return self.found(end)
+        return self._check_found(end)
 
     def _approach(self, to_limit: bool) -> None:
         if to_limit:
             super()._approach(True)
         else:
-            self._judge(self._part.zero_return(self._towards).wait(progress=self._progress))
+            self._check_search(self._part.zero_return(self._towards).wait(progress=self._progress))

@@ -5,10 +5,10 @@ from __future__ import annotations
 from ...model.ppmc312.codes import Answer
 from .. import speeds
 from ..axis import CCW, CW, OnProgress
-from ..ending import Cause, End
+from ..capabilities import PULSE_ONLY
 from ..errors import NothingToStop, OutOfRange, ProtocolError
-from ..kind import PULSE_ONLY
 from ..link import Link
+from ..motion_result import Cause, MotionResult
 from ..part import Part
 from ..script import Script
 from . import blocks
@@ -17,7 +17,7 @@ from .blocks import Trigger
 from .core import MotionT, Settings
 from .errors import RegistrationRefused
 from .motion import Homing, Motion
-from .profile import KIND
+from .profile import CAPABILITIES
 from .window import Window
 
 # Registered instructions of a PPMC-312: overrides that wait for a position or an event, and event buffers.
@@ -71,7 +71,7 @@ class Overrides(Settings[MotionT]):
         self._register(blocks.run(direction, rate, pps is None, _trigger(None, event)))
 
     def _register(self, block: bytes) -> None:
-        response = self.window.ask(block)
+        response = self.window.execute(block)
         if response.code != Answer.REGISTERED:
             raise ProtocolError(f"{self.link.name}: nothing was registered: {response.raw.hex(' ')}")
 
@@ -138,21 +138,23 @@ class Axis(Overrides[MotionT]):
 
     # ------------------------------------------------------------------ moves that wait for their end
 
-    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
+    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> MotionResult:
         """Move with ramps and wait for the end.
 
         Raises:
-            LimitReached, AlarmStop, StoppedEarly: the move ended before all pulses were output.
+            LimitReached, AlarmStop, StoppedByCommand: the move ended before all pulses were output.
         """
         if pulses == 0:
-            return self.nothing_to_move()
+            return self._empty_move_result()
         return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
 
-    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
+    def move_to(self, position: int, progress: OnProgress | None = None) -> MotionResult:
         """Move with ramps to a position of the pulse counter and wait for the end."""
         return self.move(position - self.position, progress)
 
-    def move_constant(self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None) -> End:
+    def move_constant(
+        self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None
+    ) -> MotionResult:
         """Move at constant speed and wait for the end; raises the same errors as `move`."""
         return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
 
@@ -168,9 +170,9 @@ class Axis(Overrides[MotionT]):
         """Start a move at constant speed, without ramps."""
         return self._start(self.move_block(pulses, pps), _side(pulses), abs(pulses))
 
-    def nothing_to_move(self) -> End:
-        """Return the End of a move of 0 pulses."""
-        return self.told(End(Cause.COMPLETE, 0, 0, self.position, 0))
+    def _empty_move_result(self) -> MotionResult:
+        """Return the result of a move of 0 pulses."""
+        return self._annotate(MotionResult(Cause.COMPLETE, 0, 0, self.position, 0))
 
     def jog(
         self,
@@ -193,7 +195,7 @@ class Axis(Overrides[MotionT]):
             rate = self._search_rate(speed)
         return self._start(blocks.run(direction, rate, high), direction)
 
-    def step(self, direction: int) -> End:
+    def step(self, direction: int) -> MotionResult:
         """Output one pulse."""
         return self._start(blocks.single_step(direction), direction, 1).wait().check(1)
 
@@ -218,7 +220,7 @@ class Axis(Overrides[MotionT]):
         back_off: int = 100,
         progress: OnProgress | None = None,
         index: bool = False,
-    ) -> End:
+    ) -> MotionResult:
         """Find the origin switch, always from the same side, and set its edge to position 0.
 
         Args:
@@ -230,7 +232,7 @@ class Axis(Overrides[MotionT]):
             index: True if the origin is the first index of the encoder on the switch.
 
         Raises:
-            OriginNotFound, LimitReached, AlarmStop, StoppedEarly: homing did not succeed.
+            OriginNotFound, LimitReached, AlarmStop, StoppedByCommand: homing did not succeed.
         """
         return Homing(self, direction, search_pps, back_off, progress, index).run(fast, to_limit)
 
@@ -244,12 +246,12 @@ class Axis(Overrides[MotionT]):
 
         Raises:
             NothingToStop: the motor is stopped.
-            NotWhileBusy: the motor is on a ramp.
+            AxisBusy: the motor is on a ramp.
         """
         self.instruct(blocks.change(self.rate_of(pps), ramped))
 
-    def stop(self, wait: bool = True) -> End | None:
-        """Stop with a ramp; return the End, or `None` if wait is False.
+    def stop(self, wait: bool = True) -> MotionResult | None:
+        """Stop with a ramp; return the result, or `None` if wait is False.
 
         The call is no error if the motor has just stopped.
 
@@ -259,11 +261,11 @@ class Axis(Overrides[MotionT]):
         """
         return self._stop(False, wait)
 
-    def halt(self, wait: bool = True) -> End | None:
+    def halt(self, wait: bool = True) -> MotionResult | None:
         """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
         return self._stop(True, wait)
 
-    def brake(self, now: bool = False) -> None:
+    def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
         The call is no error if the motion has ended.
@@ -280,7 +282,7 @@ class Axis(Overrides[MotionT]):
 
     # ------------------------------------------------------------------ inside
 
-    def _stop(self, now: bool, wait: bool) -> End | None:
+    def _stop(self, now: bool, wait: bool) -> MotionResult | None:
         motion = self._motion
         if motion is None or motion.over:
             # Another program, an override or an event may have started a motion.
@@ -295,21 +297,21 @@ class Axis(Overrides[MotionT]):
             motion = self._motion
         else:
             motion.stop_ordered = True
-            self.brake(now)
+            self._request_stop(now)
         return motion.wait() if wait else None
 
-    def _start(self, block: bytes, direction: int, asked: int | None = None) -> MotionT:
+    def _start(self, block: bytes, direction: int, requested: int | None = None) -> MotionT:
         """Start a motion; its end may be reported in the same message as the response."""
         before, begin = self._motion, self.position
         self._mark = self.window.answers
-        self._motion = motion = self._make_motion(asked, direction, begin)
+        self._motion = motion = self._make_motion(requested, direction, begin)
         self.link.forget_events()
         try:
             data = self.instruct(block, 4)
         except BaseException:
             self._motion = before
             raise
-        motion.accepted(data[0] if data else None)
+        motion._on_start_response(data[0] if data else None)
         return motion
 
     def _search_rate(self, pps: speeds.Number | None) -> int:
@@ -320,7 +322,7 @@ class Axis(Overrides[MotionT]):
         return setup.table.rates[setup.table.sa]
 
     @property
-    def search_speed(self) -> speeds.Number:
+    def _default_speed(self) -> speeds.Number:
         """Default speed of searches and jogs in pps.
 
         Raises:
@@ -347,18 +349,18 @@ class Ppmc312(Axis[Motion], Part):
     tables, `Overrides` the overrides and events, `core.Core` the registers and outputs.
     """
 
-    kind = KIND
+    kind = CAPABILITIES
     link: Link
 
     def __init__(self, link: Link) -> None:
         self._straps = 0xFF
         super().__init__(link)
 
-    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> Motion:
-        return Motion(self, asked, direction, begin)
+    def _make_motion(self, requested: int | None, direction: int, begin: int | None) -> Motion:
+        return Motion(self, requested, direction, begin)
 
     def _make_window(self) -> Window:
-        return Window(self.link, self._arrived)
+        return Window(self.link, self._on_response)
 
     @property
     def axes(self) -> tuple[Ppmc312, ...]:
@@ -367,7 +369,7 @@ class Ppmc312(Axis[Motion], Part):
     def reset(self) -> None:
         """Reset the part with its pin, in any state: pulses end immediately, no table, position 0."""
         self.link.execute(Script().reset())
-        self.forget()
+        self._on_reset()
 
     def allow_run(self, on: bool) -> None:
         """Set the RUN input of the part with the board's strap; a switch at the pin can still hold it."""

@@ -21,10 +21,10 @@ from ...model.ppmc312.stages import DIVIDERS, LEAST_PULSES, STAGES, SettingError
 from ...parts import part
 from ...textfile import NotTextError, read_text
 from .. import speeds as units
+from ..capabilities import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Capabilities, SetupRequest
 from ..errors import OutOfRange
-from ..kind import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Kind, Wanted
 from . import blocks
-from .errors import refused
+from .errors import command_error
 
 # Free curves of the PPMC-312: 2 to 127 stages from a list or a CSV file.
 
@@ -83,7 +83,7 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
     try:
         table = tables.curve(rates, up, down if separate else None, clock.clk)
     except SettingError as error:
-        raise OutOfRange(f"free curve: {refused(0xF0, bytes([error.number]))}") from None
+        raise OutOfRange(f"free curve: {command_error(0xF0, bytes([error.number]))}") from None
     return Setup(
         clock,
         speeds[len(rows) - len(up)],
@@ -174,36 +174,36 @@ def _is_names(cells: Sequence[str]) -> bool:
 # Capabilities of a PPMC-312.
 
 
-class TableKind(Kind):
+class TableCapabilities(Capabilities):
     """Capabilities of a part with 16-bit rates.
 
     A speed is base clock / rate, and the base clock is a part of the table. The part has neither phase
     outputs nor straps that select anything.
     """
 
-    def plan(self, xtal_hz: int, wanted: Wanted) -> Setup:
-        self.check_axis(wanted.axis)
-        motor = wanted.half_step or wanted.phases != 4 or wanted.chop or wanted.positive_logic
-        for asked, what in (
+    def plan(self, xtal_hz: int, request: SetupRequest) -> Setup:
+        self.check_axis(request.axis)
+        motor = request.half_step or request.phases != 4 or request.chop or request.positive_logic
+        for requested, what in (
             (motor, PHASES),
-            (wanted.long_intervals, LONG),
-            (wanted.own_stop, OWN_STOP),
-            (wanted.curve is not None, FREE_CURVES),
+            (request.long_intervals, LONG),
+            (request.own_stop, OWN_STOP),
+            (request.curve is not None, FREE_CURVES),
         ):
-            if asked:
+            if requested:
                 self.need(what)
-        clocks = (wanted.base_clock, wanted.external_clock)
-        if wanted.curve is not None:
-            if wanted.sigmoid or wanted.own_stop:
+        clocks = (request.base_clock, request.external_clock)
+        if request.curve is not None:
+            if request.sigmoid or request.own_stop:
                 raise OutOfRange("a free curve has its own speeds and pulses: give either it or those")
-            return plan_file(xtal_hz, Path(wanted.curve), *clocks)
-        start, stop = wanted.start_pps, wanted.stop_pps
+            return plan_file(xtal_hz, Path(request.curve), *clocks)
+        start, stop = request.start_pps, request.stop_pps
         clock = choose_clock(xtal_hz, start if stop is None else min(start, stop), *clocks)
-        ramp = self.usual_ramp if wanted.ramp_pulses is None else wanted.ramp_pulses
-        return plan_setup(clock, start, wanted.high_pps, ramp, stop, wanted.down_pulses, wanted.sigmoid)
+        ramp = self.usual_ramp if request.ramp_pulses is None else request.ramp_pulses
+        return plan_setup(clock, start, request.high_pps, ramp, stop, request.down_pulses, request.sigmoid)
 
 
-KIND = TableKind(
+CAPABILITIES = TableCapabilities(
     part("ppmc312"),
     has=frozenset((COILS_OFF, OWN_STOP, CURVES, FREE_CURVES)),
     outputs=63,
@@ -370,7 +370,7 @@ pulses: 762 or more
     try:
         table = tables.build(*numbers, up, down, clock.clk, sigmoid, separate)
     except SettingError as error:
-        text = str(refused(0xF0, bytes([error.number])))
+        text = str(command_error(0xF0, bytes([error.number])))
         if error.number == 5:
             least = _least(numbers, sigmoid)
             which = f"{least[0]} up and {least[1]} down" if separate else f"{least[0]}"

@@ -36,10 +36,10 @@ class Window:
 
     def __init__(self, link: Link, arrived: Callable[[Response], None]) -> None:
         self._link = link
-        self._arrived = arrived
+        self._on_response = arrived
         self._bytes = bytearray()
-        self._left = 0
-        self._unsure = True
+        self._bytes_left = 0
+        self._state_unknown = True
         self._count = 0
         self.answers = 0
         """Number of responses so far. A report after a response is later than its instruction."""
@@ -50,17 +50,17 @@ class Window:
         Responses cause an interrupt, no response is partly read, and none is pending.
         """
         self._bytes.clear()
-        self._left = 0
+        self._bytes_left = 0
         # With DATASHEET timing the part accepts no byte for 1.6 ms after a reset. A faulty part is detected
         # later.
         self._link.attempt(Script().timeout(READY_MS).wait(CSR, NOT_WRITABLE, 0))
         self._link.execute(Script().write(CSR, INTERRUPT_ON_RESPONSE).read(CONTROL))
-        self._unsure = False
+        self._state_unknown = False
         self.collect()
 
     # ------------------------------------------------------------------ instructions
 
-    def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
+    def execute(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
         """Execute an instruction; return its response, or the first block of it.
 
         Args:
@@ -71,35 +71,35 @@ class Window:
             CommandRefused: the part rejected the instruction.
             Timeout, ProtocolError, LinkError: the transfer failed.
         """
-        if self._unsure:
+        if self._state_unknown:
             self.open()
         script = Script().wait(CSR, NOT_WRITABLE, 0)
         script.write(CONTROL, WINDOW).write(ADDRESS, start_address(block))
         script.write_many(WRITE, bus_order(block)).timeout(milliseconds)
-        answer = self._talk(self._reading(script, gives))
+        answer = self._exchange(self._append_read(script, gives))
         found = answer or self._await(milliseconds)
         if (error := found.error) is not None:
             raise error
         return found
 
-    def more(self) -> Response:
+    def next_block(self) -> Response:
         """Return the next block of a response of several blocks."""
         return self._await(ANSWER_MS)
 
     def _await(self, milliseconds: int) -> Response:
         """Return the response to the host; other responses may arrive before it."""
         for _ in range(MOST_REPORTS):
-            if (found := self._talk(self._reading(Script().timeout(milliseconds), 8))) is not None:
+            if (found := self._exchange(self._append_read(Script().timeout(milliseconds), 8))) is not None:
                 return found
         raise ProtocolError(f"{self._link.name}: reports without end instead of an answer: reset the part")
 
     def collect(self) -> None:
         """Read the pending responses. An unexpected response to the host is discarded."""
-        if self._unsure:
+        if self._state_unknown:
             self.open()
         for _ in range(MOST_REPORTS):
             before = self._count
-            self._talk(self._reading(Script().timeout(0), 8), patient=False)
+            self._exchange(self._append_read(Script().timeout(0), 8), patient=False)
             if self._count == before:
                 return
         raise ProtocolError(f"{self._link.name}: reports without end: reset the part")
@@ -107,7 +107,7 @@ class Window:
     # ------------------------------------------------------------------ inside
 
     @staticmethod
-    def _reading(script: Script, gives: int) -> Script:
+    def _append_read(script: Script, gives: int) -> Script:
         """Append the operations that read a response.
 
         The first bytes are always there; each following byte is read only if it is left.
@@ -117,7 +117,7 @@ class Window:
             script.wait(ADDRESS, MASK, LEFT).read(READ)
         return script
 
-    def _talk(self, script: Script, patient: bool = True) -> Response | None:
+    def _exchange(self, script: Script, patient: bool = True) -> Response | None:
         """Execute such a script, then read the rest of a response that it has begun.
 
         Args:
@@ -126,33 +126,33 @@ class Window:
         Returns:
             The response to the host, if any.
         """
-        self._unsure = True
+        self._state_unknown = True
         answer = self._link.attempt(script)
-        found = self._take(script, answer, patient)
-        while self._left:
-            rest = Script().read_many(READ, self._left)
-            found = self._feed(self._left, self._link.execute(rest).values[0]) or found
-        self._unsure = False
+        found = self._assemble(script, answer, patient)
+        while self._bytes_left:
+            rest = Script().read_many(READ, self._bytes_left)
+            found = self._feed(self._bytes_left, self._link.execute(rest).values[0]) or found
+        self._state_unknown = False
         return found
 
-    def _take(self, script: Script, answer: Answer, patient: bool) -> Response | None:
+    def _assemble(self, script: Script, answer: Answer, patient: bool) -> Response | None:
         """Assemble responses from the values of a script."""
-        found, left, heard = None, None, False
-        giving = [op for op in script.ops if op.gives]
+        found, left, received = None, None, False
+        giving = [op for op in script.ops if op.response_size]
         for op, value in zip(giving, answer.values, strict=False):
             if op.name == "WAIT" and op.code[0] & 15 == ADDRESS:
                 left = EMPTY - value[0]
             elif op.name != "WAIT" and left is not None:
-                found, heard = self._feed(left, value) or found, True
-        if answer.result is Result.TIMED_OUT and (heard or not patient):
+                found, received = self._feed(left, value) or found, True
+        if answer.result is Result.TIMED_OUT and (received or not patient):
             return found
         if answer.result is Result.TIMED_OUT and answer.failed is not None:
-            raise Timeout(f"{self._link.name}: {self._silence(answer)}")
-        self._link.judge(answer)
+            raise Timeout(f"{self._link.name}: {self._no_response_text(answer)}")
+        self._link.check_answer(answer)
         return found
 
     @staticmethod
-    def _silence(answer: Answer) -> str:
+    def _no_response_text(answer: Answer) -> str:
         assert answer.failed is not None
         if answer.failed.code[0] & 15 == CSR:
             return "the part takes no instruction: is it in reset, or busy with another program's one?"
@@ -168,7 +168,7 @@ class Window:
         for byte in data:
             self._bytes.append(byte)
             left -= 1
-            self._left = left
+            self._bytes_left = left
             if left == 0:
                 raw = bytes(reversed(self._bytes))
                 self._bytes.clear()
@@ -181,5 +181,5 @@ class Window:
                     found = response
                     self.answers += 1
                 else:
-                    self._arrived(response)
+                    self._on_response(response)
         return found

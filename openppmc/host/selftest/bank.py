@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model.single.codes import decode
-from ..bank.words import CONFIG, GO, INFO, MASK, PENDING, POSITION, POSITION_BYTES, SELECT, STOP
+from ..bank.registers import CONFIG, GO, INFO, MASK, PENDING, POSITION, POSITION_BYTES, SELECT, STOP
 from ..script import Identity, Script
 from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
-from .plan import MOVES, REGISTERS, SWITCHES, Section, Talk, Wire
+from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire
 
 ONCE, AN_AXIS = 32, 14
 """Number of levels of a record: of the bus and the shared pins, and of each axis."""
@@ -56,53 +56,53 @@ class PlanBank:
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
         axes = _axes(width)
 
-        def window(talk: Talk) -> None:
+        def window(access: PartAccess) -> None:
             for number in range(axes):
-                talk.run(Script().write(SELECT, number))
+                access.run(Script().write(SELECT, number))
                 for register in (CONFIG, MASK, PENDING, INFO, *range(POSITION, POSITION + POSITION_BYTES)):
-                    talk.read(register)
+                    access.read(register)
 
-        def together(talk: Talk) -> None:
+        def move_together(access: PartAccess) -> None:
             some = [axis(number) for number in range(min(SHOWN, axes))]
             for bus in some:
-                bus.initialise(talk)
-            talk.write(MASK, [(1 << len(some)) - 1])
+                bus.initialise(access)
+            access.write(MASK, [(1 << len(some)) - 1])
             for number, bus in enumerate(some):
-                bus.command(talk, RAMP | CCW * (number & 1), 9 + 3 * number, 0, 0)
-            talk.pause(0.003)
-            talk.write(GO, [(1 << len(some)) - 1])
+                bus.command(access, RAMP | CCW * (number & 1), 9 + 3 * number, 0, 0)
+            access.pause(0.003)
+            access.write(GO, [(1 << len(some)) - 1])
             for bus in some:
-                bus.ends(talk)
+                bus.read_end(access)
 
-        def stopped(talk: Talk) -> None:
+        def stopped(access: PartAccess) -> None:
             some = [axis(number) for number in range(min(SHOWN, axes))]
             for bus in some:
-                bus.initialise(talk)
-                bus.command(talk, CONTINUOUS, 199)
-            talk.write(STOP, [(1 << len(some)) - 1])
+                bus.initialise(access)
+                bus.command(access, CONTINUOUS, 199)
+            access.write(STOP, [(1 << len(some)) - 1])
             for bus in some:
-                bus.ends(talk)
+                bus.read_end(access)
 
         return [
             FIRST.registers(),
             Section("registers of the window", REGISTERS, window),
             *FIRST.codes(identity, records),
             *FIRST.moves(),
-            Section("group started in the same cycle", MOVES, together),
+            Section("group started in the same cycle", MOVES, move_together),
             Section("all stopped in the same cycle", MOVES, stopped),
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
         def by_axis(number: int, code: int) -> Any:
-            def play(talk: Talk) -> None:
+            def play(access: PartAccess) -> None:
                 other = axis(number)
                 for bus in (FIRST, other):
-                    bus.initialise(talk)
-                other.go(CONSTANT | CCW, 199, 0, 0, 0)(talk)
-                FIRST.command(talk, code, 199)
-                talk.pause(0.005)
-                other.go(CONSTANT, 199, 0, 0, 0)(talk)
-                FIRST.ends(talk)
+                    bus.initialise(access)
+                other.go(CONSTANT | CCW, 199, 0, 0, 0)(access)
+                FIRST.command(access, code, 199)
+                access.pause(0.005)
+                other.go(CONSTANT, 199, 0, 0, 0)(access)
+                FIRST.read_end(access)
 
             return play
 

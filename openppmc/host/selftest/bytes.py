@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from ...model.motion.codes import IBF, Command, Kind
 from ..script import Identity, Script
-from .plan import COMMANDS, MOVES, REGISTERS, Section, Talk
+from .plan import COMMANDS, MOVES, REGISTERS, PartAccess, Section
 
 DATA, COMMAND = 0, 1
 STOP, SLOW_STOP, FINISH = 0x40, 0x41, 0x80
@@ -70,49 +70,49 @@ class ByteBus:
 
     # ------------------------------------------------------------------ accesses
 
-    def command(self, talk: Talk, code: int, *data: int) -> None:
+    def command(self, access: PartAccess, code: int, *data: int) -> None:
         """Write a command with its data, then read the status twice."""
         if self.before is not None:
-            talk.run(self.before)
-        talk.write(COMMAND, [code])
+            access.run(self.before)
+        access.write(COMMAND, [code])
         if data:
-            self._until(talk, IBF)  # a data byte written too early would replace the command
-            talk.write(DATA, data)
-        talk.read(COMMAND, 2)
+            self._until(access, IBF)  # a data byte written too early would replace the command
+            access.write(DATA, data)
+        access.read(COMMAND, 2)
 
-    def _until(self, talk: Talk, bits: int) -> None:
+    def _until(self, access: PartAccess, bits: int) -> None:
         """Poll the status until these bits are 0, because a virtual board may be slow."""
         for _ in range(MOST_LOOKS):
-            if not talk.read(COMMAND)[0] & bits:
+            if not access.read(COMMAND)[0] & bits:
                 return
-            talk.pause(TABLE_S)
+            access.pause(TABLE_S)
 
     @property
     def setup(self) -> int:
         """Code of the default initialisation: 4 phases, full steps, internal clock."""
         return 2 | self.positive
 
-    def initialise(self, talk: Talk, code: int | None = None) -> None:
+    def initialise(self, access: PartAccess, code: int | None = None) -> None:
         """Execute the default initialisation or another one; wait until its table is complete."""
-        self.command(talk, (self.setup if code is None else code) | self.axis, *self.rates.data)
-        self._built(talk)
+        self.command(access, (self.setup if code is None else code) | self.axis, *self.rates.data)
+        self._is_built(access)
 
-    def _built(self, talk: Talk) -> None:
+    def _is_built(self, access: PartAccess) -> None:
         """Wait until the table is complete."""
-        talk.pause(self.rates.table if talk.slow else TABLE_S)
-        self._until(talk, self.building)
+        access.pause(self.rates.table if access.slow else TABLE_S)
+        self._until(access, self.building)
 
-    def ends(self, talk: Talk, seconds: float = LONGEST_MOVE_S) -> None:
+    def read_end(self, access: PartAccess, seconds: float = LONGEST_MOVE_S) -> None:
         """Wait for the end of a motion; read its finish status and remaining pulses."""
-        talk.until_interrupt(seconds)
-        self.command(talk, FINISH | self.axis)
-        talk.read(DATA)
-        self.command(talk, 0x83 | self.axis)
-        talk.read(DATA, 3)
+        access.until_interrupt(seconds)
+        self.command(access, FINISH | self.axis)
+        access.read(DATA)
+        self.command(access, 0x83 | self.axis)
+        access.read(DATA, 3)
 
     # ------------------------------------------------------------------ every code
 
-    def one(self, talk: Talk, code: int) -> None:
+    def one(self, access: PartAccess, code: int) -> None:
         """Play one code with its data; stop any motion and undo any change that it causes."""
         command = self.decode(code)
         kind, axis = command.kind, code & AXIS_2 if self.axis or command.axis else 0
@@ -121,16 +121,16 @@ class ByteBus:
             Kind.SWITCHING: (0x60, 0x50),
             Kind.OPERATION: (2, 0, 0) if command.parameters == 3 else (self.rates.slow, 2, 0, 0),
         }.get(kind, (5, 5, 5, 5))
-        self.command(talk, code, *data[: command.parameters])
+        self.command(access, code, *data[: command.parameters])
         if kind is Kind.OPERATION:
-            talk.pause(0.0015)
-            self.command(talk, STOP | axis)
+            access.pause(0.0015)
+            self.command(access, STOP | axis)
         elif kind is Kind.READ:
-            talk.read(DATA, 3)
+            access.read(DATA, 3)
         elif kind in (Kind.INITIALISE, Kind.EXCITATION_OFF):
-            self._built(talk)
-            self.command(talk, self.setup | axis, *self.rates.data)
-            self._built(talk)
+            self._is_built(access)
+            self.command(access, self.setup | axis, *self.rates.data)
+            self._is_built(access)
 
     def codes(self, identity: Identity, records: int, others: Sequence[ByteBus] = ()) -> list[Section]:
         """Return sections with every code, once without an initialisation and once with one.
@@ -144,15 +144,15 @@ class ByteBus:
         for first in range(0, 256, count):
             some = range(first, min(256, first + count))
 
-            def with_setup(talk: Talk, some: range = some) -> None:
+            def with_setup(access: PartAccess, some: range = some) -> None:
                 for bus in (self, *others):
-                    bus.initialise(talk)
+                    bus.initialise(access)
                 for code in some:
-                    self.one(talk, code)
+                    self.one(access, code)
 
-            def without(talk: Talk, some: range = some) -> None:
+            def without(access: PartAccess, some: range = some) -> None:
                 for code in some:
-                    self.command(talk, code)
+                    self.command(access, code)
 
             name = f"{some[0]:02X} to {some[-1]:02X}"
             found.append(Section(f"codes {name} before initialisation", COMMANDS, without))
@@ -161,19 +161,21 @@ class ByteBus:
 
     # ------------------------------------------------------------------ moves
 
-    def motion(self, *steps: Callable[[Talk], None], code: int | None = None) -> Callable[[Talk], None]:
+    def motion(
+        self, *steps: Callable[[PartAccess], None], code: int | None = None
+    ) -> Callable[[PartAccess], None]:
         """Return a function that initialises the axis and plays these steps."""
 
-        def play(talk: Talk) -> None:
-            self.initialise(talk, code)
+        def play(access: PartAccess) -> None:
+            self.initialise(access, code)
             for step in steps:
-                step(talk)
+                step(access)
 
         return play
 
     def go(
         self, code: int, *data: int, stop: int | None = None, after: float = 0.004
-    ) -> Callable[[Talk], None]:
+    ) -> Callable[[PartAccess], None]:
         """Return a function that plays a motion to its end.
 
         Args:
@@ -181,12 +183,12 @@ class ByteBus:
             after: seconds from the start to this command.
         """
 
-        def play(talk: Talk) -> None:
-            self.command(talk, code | self.axis, *data)
+        def play(access: PartAccess) -> None:
+            self.command(access, code | self.axis, *data)
             if stop is not None:
-                talk.pause(after)
-                self.command(talk, stop | self.axis)
-            self.ends(talk)
+                access.pause(after)
+                self.command(access, stop | self.axis)
+            self.read_end(access)
 
         return play
 
@@ -197,7 +199,7 @@ class ByteBus:
             pulse_only: also play pulses without phases.
         """
         go, slow = self.go, self.rates.slow
-        kinds: list[tuple[str, Callable[[Talk], None]]] = [
+        kinds: list[tuple[str, Callable[[PartAccess], None]]] = [
             ("single steps", self.motion(go(STEP), go(STEP | CCW), go(STEP))),
             ("ramp CW", self.motion(go(RAMP, 39, 0, 0))),
             ("ramp CCW", self.motion(go(RAMP | CCW, 30, 0, 0))),
@@ -224,9 +226,12 @@ class ByteBus:
             kinds.append(("pulses only", self.motion(go(PULSE_ONLY | RAMP, 20, 0, 0))))
         chopped = self.setup | self.chopped
         kinds.append(
-            ("at rest, chopped", self.motion(go(RAMP, 5, 0, 0), lambda talk: talk.pause(0.06), code=chopped))
+            (
+                "at rest, chopped",
+                self.motion(go(RAMP, 5, 0, 0), lambda access: access.pause(0.06), code=chopped),
+            )
         )
-        kinds.append(("at rest", self.motion(go(STEP), lambda talk: talk.pause(0.06))))
+        kinds.append(("at rest", self.motion(go(STEP), lambda access: access.pause(0.06))))
         return [Section(title, MOVES, play) for title, play in kinds]
 
     def registers(self) -> Section:
@@ -235,15 +240,15 @@ class ByteBus:
         The registers are read before and after the initialisation.
         """
 
-        def play(talk: Talk) -> None:
-            talk.read(COMMAND, 3)
-            talk.read(DATA, 2)
+        def play(access: PartAccess) -> None:
+            access.read(COMMAND, 3)
+            access.read(DATA, 2)
             for begin in (False, True):
                 if begin:
-                    self.initialise(talk)
+                    self.initialise(access)
                 for code in range(0x80, 0x88):
                     if self.decode(code | self.axis).kind is Kind.READ:
-                        self.command(talk, code | self.axis)
-                        talk.read(DATA, 3)
+                        self.command(access, code | self.axis)
+                        access.read(DATA, 3)
 
         return Section("status and registers", REGISTERS, play)

@@ -10,10 +10,10 @@ from typing import Any
 
 from ... import __version__
 from ...parts import by_number
-from ..kind import name_of
+from ..capabilities import name_of
 from ..link import Link
 from ..script import Build
-from .run import Findings, Outcome
+from .run import SectionResult, SelfTestResult
 
 BOARDS = {
     "ICEB": "iCEBreaker",
@@ -33,7 +33,7 @@ def board_name(build: Build | None) -> str:
     return BOARDS.get(letters, letters or "board")
 
 
-def verdict(found: Findings) -> str:
+def verdict(found: SelfTestResult) -> str:
     """Return the last line."""
     count = found.differences
     board = board_name(found.build)
@@ -48,7 +48,7 @@ def built(build: Build | None) -> str:
     return f"version {build.version}, sources {build.source or 'none'}{commit}"
 
 
-def _section(outcome: Outcome) -> dict[str, Any]:
+def _section(outcome: SectionResult) -> dict[str, Any]:
     return {
         "section": outcome.section.title,
         "kind": outcome.section.what,
@@ -57,13 +57,13 @@ def _section(outcome: Outcome) -> dict[str, Any]:
         "clk": outcome.clk,
         "edges": outcome.edges,
         "pulses": outcome.pulses,
-        "result": outcome.wrong or outcome.skipped or "no difference",
-        "good": not outcome.wrong,
+        "result": outcome.difference or outcome.skipped or "no difference",
+        "good": not outcome.difference,
         **({"report": outcome.report.splitlines()} if outcome.report else {}),
     }
 
 
-def values(link: Link, found: Findings, notes: list[str]) -> dict[str, Any]:
+def values(link: Link, found: SelfTestResult, notes: list[str]) -> dict[str, Any]:
     """Return all results for programs.
 
     Args:
@@ -121,9 +121,10 @@ def text(page: dict[str, Any], build: Build | None) -> str:
     lines += [f"{'note':<11} {note}" for note in page["notes"]]
     lines += ["", f"{'records':>8} {'edges':>6} {'pulses':>6}  section"]
     for one in page["sections"]:
-        told = "" if one["result"] == "no difference" else f": {one['result']}"
+        result_text = "" if one["result"] == "no difference" else f": {one['result']}"
         lines.append(
-            f"{one['records']:>8} {one['edges']:>6} {one['pulses']:>6}  {one['kind']}: {one['section']}{told}"
+            f"{one['records']:>8} {one['edges']:>6} {one['pulses']:>6}  {one['kind']}: "
+            f"{one['section']}{result_text}"
         )
     for one in page["sections"]:
         lines += ["", *one["report"]] if "report" in one else []

@@ -24,7 +24,7 @@ The time is above all processing times, except that of a table.
 """
 
 
-class Talk:
+class PartAccess:
     """Accesses to a part through a link.
 
     Attributes:
@@ -82,7 +82,7 @@ class Section:
 
     title: str
     what: str
-    play: Callable[[Talk], None]
+    play: Callable[[PartAccess], None]
     straps: int = 0xFF
 
     @property

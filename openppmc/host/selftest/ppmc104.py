@@ -8,7 +8,7 @@ from typing import Any
 from ...model.single.codes import decode
 from ..script import Identity
 from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
-from .plan import MOVES, SWITCHES, Section, Talk, Wire, timed
+from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, timed
 
 AUX_ON, AUX_OFF, AUX_OUTPUT = 0xC1, 0xC2, 0x86
 SLOW_CLOCK, LONG_INTERVALS = 0xFE, 0xFD
@@ -46,23 +46,23 @@ class Plan104:
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
-        def limit(talk: Talk) -> None:
-            BUS.initialise(talk)
-            BUS.command(talk, AUX_OFF)
-            BUS.command(talk, CONTINUOUS, 199)
-            talk.pause(0.005)
-            BUS.command(talk, AUX_ON)
-            BUS.ends(talk)
-            BUS.go(RAMP, 9, 0, 0)(talk)  # towards the active limit, so no pulse is output
-            BUS.go(RAMP | CCW, 9, 0, 0)(talk)
+        def limit(access: PartAccess) -> None:
+            BUS.initialise(access)
+            BUS.command(access, AUX_OFF)
+            BUS.command(access, CONTINUOUS, 199)
+            access.pause(0.005)
+            BUS.command(access, AUX_ON)
+            BUS.read_end(access)
+            BUS.go(RAMP, 9, 0, 0)(access)  # towards the active limit, so no pulse is output
+            BUS.go(RAMP | CCW, 9, 0, 0)(access)
 
-        def origin(talk: Talk) -> None:
-            BUS.initialise(talk)
-            BUS.command(talk, AUX_OUTPUT, 0)
-            BUS.command(talk, ORIGIN, 199)
-            talk.pause(0.005)
-            BUS.command(talk, AUX_OUTPUT, 1)
-            BUS.ends(talk)
+        def origin(access: PartAccess) -> None:
+            BUS.initialise(access)
+            BUS.command(access, AUX_OUTPUT, 0)
+            BUS.command(access, ORIGIN, 199)
+            access.pause(0.005)
+            BUS.command(access, AUX_OUTPUT, 1)
+            BUS.read_end(access)
 
         return [Section("limit CW by AUX*", SWITCHES, limit), Section("origin by AUXO0", SWITCHES, origin)]
 

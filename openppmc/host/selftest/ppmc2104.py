@@ -8,7 +8,7 @@ from typing import Any
 from ...model.ppmc2104.codes import CMND, decode
 from ..script import Identity, Script
 from .bytes import AXIS_2, CCW, CONSTANT, CONTINUOUS, DATA, ORIGIN, RAMP, ByteBus
-from .plan import MOVES, REGISTERS, SWITCHES, Section, Talk, Wire, timed
+from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire, timed
 
 BOTH_HIGH, FIRST_LOW, SECOND_LOW = 0xC1, 0xD1, 0xE1
 """Codes of the auxiliary outputs."""
@@ -42,21 +42,21 @@ class Plan2104:
         return [timed(identity)]
 
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
-        def errors(talk: Talk) -> None:
+        def errors(access: PartAccess) -> None:
             for bus in (FIRST, SECOND):
-                bus.command(talk, 0x43 | bus.axis)  # before the initialisation, so it is rejected
-                bus.command(talk, 0x86 | bus.axis)
-                talk.read(DATA)
+                bus.command(access, 0x43 | bus.axis)  # before the initialisation, so it is rejected
+                bus.command(access, 0x86 | bus.axis)
+                access.read(DATA)
 
-        def together(talk: Talk) -> None:
+        def move_together(access: PartAccess) -> None:
             for bus in (FIRST, SECOND):
-                bus.initialise(talk)
-            FIRST.command(talk, RAMP, 29, 0, 0)
-            SECOND.command(talk, CONSTANT | CCW | AXIS_2, 120, 9, 0, 0)
-            talk.pause(0.003)
-            talk.run(Script().straps(0xFF))
+                bus.initialise(access)
+            FIRST.command(access, RAMP, 29, 0, 0)
+            SECOND.command(access, CONSTANT | CCW | AXIS_2, 120, 9, 0, 0)
+            access.pause(0.003)
+            access.run(Script().straps(0xFF))
             for bus in (FIRST, SECOND):
-                bus.ends(talk)
+                bus.read_end(access)
 
         slow = FIRST.motion(FIRST.go(CONSTANT, 49, 5, 0, 0))
         return [
@@ -65,20 +65,20 @@ class Plan2104:
             *FIRST.codes(identity, records, [SECOND]),
             *FIRST.moves(),
             *(Section(f"axis 2: {one.title}", one.what, one.play) for one in SECOND.moves()),
-            Section("both axes from one edge of RUN on", MOVES, together, RUN_LOW),
+            Section("both axes from one edge of RUN on", MOVES, move_together, RUN_LOW),
             Section("slow base clock", MOVES, slow, SLOW_CLOCK),
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
         def play_of(code: int, low: int) -> Any:
-            def play(talk: Talk) -> None:
-                FIRST.initialise(talk)
-                FIRST.command(talk, BOTH_HIGH)
-                FIRST.command(talk, code, 199)
-                talk.pause(0.005)
-                FIRST.command(talk, low)
-                FIRST.ends(talk)
-                FIRST.go(RAMP, 9, 0, 0)(talk)
+            def play(access: PartAccess) -> None:
+                FIRST.initialise(access)
+                FIRST.command(access, BOTH_HIGH)
+                FIRST.command(access, code, 199)
+                access.pause(0.005)
+                FIRST.command(access, low)
+                FIRST.read_end(access)
+                FIRST.go(RAMP, 9, 0, 0)(access)
 
             return play
 

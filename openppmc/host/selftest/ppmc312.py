@@ -10,7 +10,7 @@ from ..ppmc312 import blocks
 from ..ppmc312.blocks import CCW, CW, WINDOW, block, bus_order, start_address
 from ..ppmc312.window import ADDRESS, CONTROL, CSR, EMPTY, INTERRUPT_ON_RESPONSE, READ, WRITE
 from ..script import Identity, Script
-from .plan import COMMANDS, MOVES, REGISTERS, SWITCHES, Section, Talk, Wire, timed
+from .plan import COMMANDS, MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire, timed
 
 LAYOUT = (
     *(("rst_n", 1), ("rs", 3), ("cs_n", 1), ("oe_n", 1), ("we_n", 1), ("d_i", 8)),
@@ -30,39 +30,39 @@ MOST_RESPONSES = 4
 CODES_A_SECTION = 32
 
 
-def ask(talk: Talk, instruction: bytes, seconds: float = 0.05) -> None:
+def execute(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> None:
     """Write an instruction and read all responses that arrive within this time."""
-    talk.link.forget_events()
-    talk.write(CONTROL, [WINDOW])
-    talk.write(ADDRESS, [start_address(instruction)])
-    talk.write(WRITE, bus_order(instruction))
-    answers(talk, seconds)
+    access.link.forget_events()
+    access.write(CONTROL, [WINDOW])
+    access.write(ADDRESS, [start_address(instruction)])
+    access.write(WRITE, bus_order(instruction))
+    read_responses(access, seconds)
 
 
-def answers(talk: Talk, seconds: float) -> None:
+def read_responses(access: PartAccess, seconds: float) -> None:
     """Wait for a response, read it and the following ones."""
-    talk.until_interrupt(seconds)
+    access.until_interrupt(seconds)
     for _ in range(MOST_RESPONSES):
-        talk.read(CSR)
-        left = EMPTY - talk.read(ADDRESS)[0]
+        access.read(CSR)
+        left = EMPTY - access.read(ADDRESS)[0]
         if not 0 < left <= WINDOW:
             return
-        talk.link.forget_events()  # discard the event of this response; the next response has its own
-        talk.read(READ, left)
-        talk.pause(0.001)
+        access.link.forget_events()  # discard the event of this response; the next response has its own
+        access.read(READ, left)
+        access.pause(0.001)
 
 
-def ready(talk: Talk, setting: Sequence[bytes] = SETTING) -> None:
+def prepare(access: PartAccess, setting: Sequence[bytes] = SETTING) -> None:
     """Switch the interrupt on responses on, and load the ramps."""
-    talk.pause(0.005)
-    talk.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
+    access.pause(0.005)
+    access.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
     for instruction in setting:
-        ask(talk, instruction, 0.3)
+        execute(access, instruction, 0.3)
 
 
-def played(
+def play_motions(
     *instructions: bytes, stop: bytes = b"", after: float = 0.02, setting: Sequence[bytes] = SETTING
-) -> Callable[[Talk], None]:
+) -> Callable[[PartAccess], None]:
     """Return a function that plays each of these motions to its end.
 
     Args:
@@ -70,26 +70,26 @@ def played(
         after: seconds from the start to the stop.
     """
 
-    def play(talk: Talk) -> None:
-        ready(talk, setting)
+    def play(access: PartAccess) -> None:
+        prepare(access, setting)
         for instruction in instructions:
-            ask(talk, instruction, 0.01)
+            execute(access, instruction, 0.01)
             if stop:
-                talk.pause(after)
-                ask(talk, stop, 0.01)
-            answers(talk, END_S)
+                access.pause(after)
+                execute(access, stop, 0.01)
+            read_responses(access, END_S)
 
     return play
 
 
-def registers(talk: Talk) -> None:
+def registers(access: PartAccess) -> None:
     """Read every register of the bus, before and after an instruction."""
     for _ in range(2):
         for register in range(8):
-            talk.read(register)
-        ready(talk)
+            access.read(register)
+        prepare(access)
     for code in (Code.VERSION, Code.POSITION_READ, Code.RUN_MONITOR, Code.STATUS):
-        ask(talk, blocks.read_position() if code is Code.POSITION_READ else block(code))
+        execute(access, blocks.read_position() if code is Code.POSITION_READ else block(code))
 
 
 SETTINGS = (
@@ -116,22 +116,22 @@ SETTINGS = (
 )
 
 
-def settings(talk: Talk) -> None:
+def settings(access: PartAccess) -> None:
     """Execute valid instructions that start no motion."""
-    ready(talk)
+    prepare(access)
     for instruction in SETTINGS:
-        ask(talk, instruction)
+        execute(access, instruction)
 
 
-def codes(first: int) -> Callable[[Talk], None]:
+def codes(first: int) -> Callable[[PartAccess], None]:
     """Return a function that writes codes without parameters; most of them are rejected."""
 
-    def play(talk: Talk) -> None:
-        ready(talk)
+    def play(access: PartAccess) -> None:
+        prepare(access)
         for code in range(first, first + CODES_A_SECTION):
-            ask(talk, block(code), 0.02)
+            execute(access, block(code), 0.02)
             if code in (Code.RESET, Code.STOP, Code.SLOW_STOP):
-                talk.pause(0.01)
+                access.pause(0.01)
 
     return play
 
@@ -152,17 +152,19 @@ class Plan312:
         rate = 300
         slow, now = blocks.slow_stop(), blocks.immediate_stop()
         moves = {
-            "single steps": played(blocks.single_step(CW), blocks.single_step(CCW)),
-            "ramp CW": played(blocks.acceleration(CW, 3 * PULSES)),
-            "ramp CCW": played(blocks.acceleration(CCW, 2 * PULSES)),
-            "linear ramp": played(blocks.acceleration(CW, 2 * PULSES), setting=LINEAR),
-            "triangles": played(blocks.acceleration(CW, 7), blocks.acceleration(CCW, 1)),
-            "constant speed": played(blocks.constant(CW, PULSES, rate), blocks.constant(CCW, PULSES, rate)),
-            "run, slowed down": played(blocks.run(CW, ramped=True), stop=slow),
-            "run CCW, stopped": played(blocks.run(CCW, rate), stop=now),
-            "search for an origin, stopped": played(blocks.origin_search(CW, rate), stop=now),
-            "zero return": played(blocks.acceleration(CW, PULSES), blocks.zero_return(CCW)),
-            "another speed during the motion": played(
+            "single steps": play_motions(blocks.single_step(CW), blocks.single_step(CCW)),
+            "ramp CW": play_motions(blocks.acceleration(CW, 3 * PULSES)),
+            "ramp CCW": play_motions(blocks.acceleration(CCW, 2 * PULSES)),
+            "linear ramp": play_motions(blocks.acceleration(CW, 2 * PULSES), setting=LINEAR),
+            "triangles": play_motions(blocks.acceleration(CW, 7), blocks.acceleration(CCW, 1)),
+            "constant speed": play_motions(
+                blocks.constant(CW, PULSES, rate), blocks.constant(CCW, PULSES, rate)
+            ),
+            "run, slowed down": play_motions(blocks.run(CW, ramped=True), stop=slow),
+            "run CCW, stopped": play_motions(blocks.run(CCW, rate), stop=now),
+            "search for an origin, stopped": play_motions(blocks.origin_search(CW, rate), stop=now),
+            "zero return": play_motions(blocks.acceleration(CW, PULSES), blocks.zero_return(CCW)),
+            "another speed during the motion": play_motions(
                 blocks.run(CW, rate), stop=blocks.change(220), after=0.005
             ),
         }
@@ -177,13 +179,13 @@ class Plan312:
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
-        def by_output(bit: int, motion: bytes) -> Callable[[Talk], None]:
-            def play(talk: Talk) -> None:
-                ready(talk)
-                ask(talk, blocks.outputs(0))
-                ask(talk, motion, 0.01)
-                ask(talk, blocks.outputs(bit))
-                answers(talk, END_S)
+        def by_output(bit: int, motion: bytes) -> Callable[[PartAccess], None]:
+            def play(access: PartAccess) -> None:
+                prepare(access)
+                execute(access, blocks.outputs(0))
+                execute(access, motion, 0.01)
+                execute(access, blocks.outputs(bit))
+                read_responses(access, END_S)
 
             return play
 

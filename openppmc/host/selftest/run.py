@@ -16,7 +16,7 @@ from ...errors import MissingExtraError
 from ..errors import LinkError, PpmcError
 from ..link import Link
 from ..script import RATES, Build, Result, Script
-from .plan import MOVES, SWITCHES, Plan, Section, Talk
+from .plan import MOVES, SWITCHES, PartAccess, Plan, Section
 from .recording import NoReset, Recorded, recording_of, reset_levels
 
 ECHOES, ECHO_BYTES = 8, 48
@@ -25,7 +25,7 @@ TRIES = 3
 
 If the PC is busy for a long time, a chopper or a clock may fill the recorder.
 """
-Tell = Callable[[str], None]
+PrintLine = Callable[[str], None]
 
 
 class NoRecorder(PpmcError):  # noqa: N818 - says what is missing
@@ -33,7 +33,7 @@ class NoRecorder(PpmcError):  # noqa: N818 - says what is missing
 
 
 @dataclass(frozen=True)
-class Outcome:
+class SectionResult:
     """Result of a section.
 
     Attributes:
@@ -49,14 +49,14 @@ class Outcome:
     clk: int
     edges: int
     pulses: int
-    wrong: str = ""
+    difference: str = ""
     report: str = ""
     skipped: str = ""
     full: bool = False
 
 
 @dataclass
-class Findings:
+class SelfTestResult:
     """Results of a self-test.
 
     Attributes:
@@ -67,7 +67,7 @@ class Findings:
     params: dict[str, Any] = field(default_factory=dict)
     recorder: Recorded | None = None
     rates: dict[int, int | None] = field(default_factory=dict)
-    outcomes: list[Outcome] = field(default_factory=list)
+    outcomes: list[SectionResult] = field(default_factory=list)
 
     @property
     def edges(self) -> int:
@@ -77,7 +77,7 @@ class Findings:
     @property
     def differences(self) -> int:
         """Number of sections with a difference."""
-        return sum(bool(outcome.wrong) for outcome in self.outcomes)
+        return sum(bool(outcome.difference) for outcome in self.outcomes)
 
 
 class SelfTest:
@@ -88,9 +88,9 @@ class SelfTest:
         tell: called with one line per step.
     """
 
-    def __init__(self, link: Link, plan: Plan, folder: Path, tell: Tell = lambda line: None) -> None:
-        self.link, self.plan, self.folder, self.tell = link, plan, folder, tell
-        self.found = Findings(link.build())
+    def __init__(self, link: Link, plan: Plan, folder: Path, tell: PrintLine = lambda line: None) -> None:
+        self.link, self.plan, self.folder, self._print_line = link, plan, folder, tell
+        self.results = SelfTestResult(link.build())
         self._params: list[dict[str, Any]] = []
 
     # ------------------------------------------------------------------ link
@@ -103,12 +103,12 @@ class SelfTest:
             if self.link.use_rate(baud):
                 for _ in range(ECHOES):
                     self.link.execute(Script().ident().read_many(1, ECHO_BYTES))
-                self.found.rates[baud] = self.link.repeats - before
+                self.results.rates[baud] = self.link.repeats - before
             else:
-                self.found.rates[RATES[code]] = None
+                self.results.rates[RATES[code]] = None
         self.link.use_rate(work)
-        good = [str(baud) for baud, repeats in self.found.rates.items() if repeats is not None]
-        self.tell(f"link: {', '.join(good)} baud")
+        good = [str(baud) for baud, repeats in self.results.rates.items() if repeats is not None]
+        self._print_line(f"link: {', '.join(good)} baud")
 
     # ------------------------------------------------------------------ recorder
 
@@ -120,8 +120,8 @@ class SelfTest:
                 f"{self.link.name}: this bitstream has no recorder, so no edge can be compared: load one "
                 "that was built with it (make bitstream BOARD=… RECORD=…, docs/boards.md)"
             )
-        info = Recorded.parse(self.link.judge(answer).values[0])
-        self.found.recorder = info
+        info = Recorded.parse(self.link.check_answer(answer).values[0])
+        self.results.recorder = info
         self._layout = self.plan.layout(info.width)
         if sum(width for _, width in self._layout) != info.width:
             raise NoRecorder(
@@ -154,32 +154,32 @@ class SelfTest:
         found = self.plan.sections(identity, width, info.most)
         return [*found, *(self.plan.switches(identity, width) if switches else ())]
 
-    def play(self, section: Section) -> Outcome:
+    def play(self, section: Section) -> SectionResult:
         """Record a section, compare it, and reset the part, so that its outputs are off.
 
         If the records did not fit into the recorder, the section is played again, because the PC may have
         been busy.
         """
         for left in reversed(range(TRIES)):
-            outcome = self._played(section)
+            outcome = self._record(section)
             if not (outcome.full and left):
                 break
-            self.tell(f"{section.what}: {section.title}: the recorder was full, once more")
-        self.found.outcomes.append(outcome)
-        what = outcome.wrong or outcome.skipped or f"{outcome.edges} edges, no difference"
-        self.tell(f"{section.what}: {section.title}: {what}")
+            self._print_line(f"{section.what}: {section.title}: the recorder was full, once more")
+        self.results.outcomes.append(outcome)
+        what = outcome.difference or outcome.skipped or f"{outcome.edges} edges, no difference"
+        self._print_line(f"{section.what}: {section.title}: {what}")
         return outcome
 
-    def _played(self, section: Section) -> Outcome:
+    def _record(self, section: Section) -> SectionResult:
         """Play a section once."""
         link = self.link
         link.forget_events()
         link.execute(Script().straps(section.straps).record(True).reset())
         try:
-            section.play(Talk(link))
+            section.play(PartAccess(link))
         finally:
             self.safe()
-        return self._judged(section, *self.fetch())
+        return self._check_records(section, *self.fetch())
 
     def safe(self) -> None:
         """End the recording, then reset the part: pulses end, phases are off.
@@ -191,30 +191,32 @@ class SelfTest:
         except LinkError:
             pass  # the board has disappeared; the first exception reports it
 
-    def _judged(self, section: Section, info: Recorded, samples: list[tuple[int, int]]) -> Outcome:
+    def _check_records(
+        self, section: Section, info: Recorded, samples: list[tuple[int, int]]
+    ) -> SectionResult:
         """Compare the records of a section with the golden model."""
         records = len(samples)
         try:
-            comparison = self._compared(samples)
+            comparison = self._compare(samples)
         except (NoReset, ValueError) as error:
-            return Outcome(section, records, 0, 0, 0, f"cannot be compared ({error})")
+            return SectionResult(section, records, 0, 0, 0, f"cannot be compared ({error})")
         end = comparison.recording.end
         count, pulses = comparison.edges_compared, comparison.pulses
         if comparison.mismatch is not None:
-            return Outcome(section, records, end, count, pulses, *self._difference(section, comparison))
+            return SectionResult(section, records, end, count, pulses, *self._difference(section, comparison))
         # Without the wire a motion does not end, and the recorder may be full.
-        if section.what == SWITCHES and not self._switched(comparison.recording):
+        if section.what == SWITCHES and not self._has_switched(comparison.recording):
             skipped = "no switch has moved: is the wire there?"
-            return Outcome(section, records, end, count, pulses, skipped=skipped)
+            return SectionResult(section, records, end, count, pulses, skipped=skipped)
         if info.full:
             full = f"the recorder was full after {records} records: build the bitstream with a larger RECORD"
-            return Outcome(section, records, end, count, pulses, full, full=True)
+            return SectionResult(section, records, end, count, pulses, full, full=True)
         skipped = ""
         if section.what == MOVES and not any(e.signal in MOTOR_PINS for e in comparison.recording.edges):
             skipped = "nothing has moved: is a limit or the alarm active?"
-        return Outcome(section, records, end, count, pulses, skipped=skipped)
+        return SectionResult(section, records, end, count, pulses, skipped=skipped)
 
-    def _compared(self, samples: list[tuple[int, int]]) -> Comparison:
+    def _compare(self, samples: list[tuple[int, int]]) -> Comparison:
         """Compare with the first parameters that match, and keep them."""
         if not self._params:
             reset = reset_levels(samples, self._layout)
@@ -240,7 +242,7 @@ class SelfTest:
                 self._params, found = [params], comparison
                 break
         assert found is not None
-        self.found.params = dict(found.recording.params)
+        self.results.params = dict(found.recording.params)
         return found
 
     def _difference(self, section: Section, comparison: Comparison) -> tuple[str, str]:
@@ -255,13 +257,13 @@ class SelfTest:
         try:
             write_report(comparison, folder)
         except OSError as error:
-            self.tell(f"{folder}: cannot be written ({error.strerror})")
+            self._print_line(f"{folder}: cannot be written ({error.strerror})")
         except MissingExtraError as missing:
-            self.tell(str(missing))
+            self._print_line(str(missing))
             shown = "compare.txt"
         return f"{text.splitlines()[0].partition(': ')[2]} ({folder}/{shown})", text
 
-    def _switched(self, recording: Recording) -> bool:
+    def _has_switched(self, recording: Recording) -> bool:
         """Return True if a switch has changed its level after the reset."""
         return any(change.pin in SWITCH_PINS and change.t for change in recording.stimulus)
 

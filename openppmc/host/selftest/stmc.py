@@ -12,7 +12,7 @@ from typing import Any
 from ...model.stmc.codes import READ_MAPS, decode
 from ..script import Identity, Script
 from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus, Rates
-from .plan import MOVES, SWITCHES, Section, Talk, Wire, timed
+from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, timed
 
 INSIDE = 0xFE
 """Straps that stop the step clock of the board; its edges would fill the recorder."""
@@ -43,10 +43,10 @@ class PlanStmc:
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
         found = [BUS.registers(), *BUS.codes(identity, records), *BUS.moves(pulse_only=False)]
 
-        def by_board(talk: Talk) -> None:
-            BUS.initialise(talk, EXTERNAL)
-            talk.run(Script().straps(OUTSIDE))
-            BUS.go(CONSTANT, 20, 3, 0, 0)(talk)
+        def by_board(access: PartAccess) -> None:
+            BUS.initialise(access, EXTERNAL)
+            access.run(Script().straps(OUTSIDE))
+            BUS.go(CONSTANT, 20, 3, 0, 0)(access)
 
         return [
             *(replace(section, straps=INSIDE) for section in found),
@@ -54,10 +54,10 @@ class PlanStmc:
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
-        def limit(talk: Talk) -> None:
-            BUS.initialise(talk)
-            BUS.go(CONTINUOUS, 20)(talk)
-            BUS.go(RAMP | CCW, 9, 0, 0)(talk)
+        def limit(access: PartAccess) -> None:
+            BUS.initialise(access)
+            BUS.go(CONTINUOUS, 20)(access)
+            BUS.go(RAMP | CCW, 9, 0, 0)(access)
 
         origin = BUS.motion(BUS.go(ORIGIN, 20))
         return [

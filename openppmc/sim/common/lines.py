@@ -274,7 +274,7 @@ S = TypeVar("S", bound=LineSpec)
 
 
 @dataclass(frozen=True)
-class LineKind(Generic[S]):
+class LineCapabilities(Generic[S]):
     """Functions and texts for the lines of a part.
 
     For the RTL: `parameters` returns the parameters of its `line_node`, including CLK_HZ. `arguments` returns
@@ -303,9 +303,9 @@ def line_parts() -> tuple[str, ...]:
     return tuple(row.name for row in parts.having("line", "machine"))
 
 
-def line_kind(part: str) -> LineKind[LineSpec]:
+def line_kind(part: str) -> LineCapabilities[LineSpec]:
     """Return the object that the `line.py` of the part defines."""
-    kind: LineKind[LineSpec] = parts.part(part).load("machine")
+    kind: LineCapabilities[LineSpec] = parts.part(part).load("machine")
     return kind
 
 

@@ -21,7 +21,7 @@ from ...model.pmc006.program import assemble
 from ...model.pmc006.settings import Settings, page_of
 from ...textfile import read_text
 from ..common.char_line import CharLine, LineStation
-from ..common.lines import LineKind, one_of, pace, positive, split_words, whole
+from ..common.lines import LineCapabilities, one_of, pace, positive, split_words, whole
 
 
 class Eeprom:
@@ -410,6 +410,6 @@ def arguments(spec: LineSpec, files: Path) -> list[str]:
     return words
 
 
-MACHINE = LineKind(
+MACHINE = LineCapabilities(
     parse_line, at_rate, KNOWN, NodeLine, parameters, arguments, sources=("pmc006/eeprom_24c32.sv",)
 )

@@ -16,7 +16,7 @@ from ...model.carrier.carrier import Plant
 from ...model.ppmc312.carrier import Carrier
 from ...model.ppmc312.part import Ppmc312
 from ..common.char_line import CharLine, LineStation
-from ..common.lines import LineKind, one_of, pace, positive, split_words, whole
+from ..common.lines import LineCapabilities, one_of, pace, positive, split_words, whole
 from ..common.machine import PLANT_WORDS, parse_machine
 from ..common.spec import PLACES
 
@@ -208,4 +208,4 @@ def arguments(spec: LineSpec, files: Path) -> list[str]:
     return words
 
 
-MACHINE = LineKind(parse_line, at_rate, KNOWN, StationLine, parameters, arguments)
+MACHINE = LineCapabilities(parse_line, at_rate, KNOWN, StationLine, parameters, arguments)

@@ -10,7 +10,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from openppmc.capture.ppmc312.words import Words312
+from openppmc.capture.ppmc312.mnemonics import Ppmc312Decoder
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up, draw_speed
 from openppmc.plot.signals import Run, Section, Speed, Trace, speeds
 from scripts.demo.demos import Demo, View
@@ -230,7 +230,7 @@ DEMO = Demo(
     part="ppmc312",
     module="cocotb_tests.ppmc312.demo",
     test="demo_blocks",
-    words=Words312(),
+    words=Ppmc312Decoder(),
     view=VIEW,
     marks=("free", "sigmoid", "linear", "override", "return"),
     own=draw,

@@ -178,14 +178,14 @@ def decode_alone(path: Path) -> None:
     The result has its seconds, those of a plain numpy pass, and the additional memory in bytes. A file for
     the golden model is also compared.
     """
-    from openppmc.capture.common.beside import compare
-    from openppmc.capture.common.decoding import decode, decoder
+    from openppmc.capture.common.compare import compare
+    from openppmc.capture.common.decoding import decode, part_decoder
     from openppmc.capture.common.files import read_capture
     from openppmc.capture.common.pinmap import PinMap
     from openppmc.capture.common.signals import US, numpy
 
     numpy()
-    decoder(PART)
+    part_decoder(PART)
     before = _status("VmRSS")
     Path("/proc/self/clear_refs").write_text("5")
     begin = time.process_time()

@@ -27,7 +27,7 @@ def test_axes_move_apart_and_together(board: SimBoard, tmp_path: Path) -> None:
         for axis in bank.axes:
             axis.initialise(**SETUP)  # type: ignore[arg-type]
         assert bank.axis[2].move(500).position == 500
-        bank.together({1: 300, 3: -200, 4: 50})
+        bank.move_together({1: 300, 3: -200, 4: 50})
         assert bank.positions() == {1: 300, 2: 500, 3: -200, 4: 50}
         assert [axis.position for axis in board.status().axes] == [4300, 4500, 3800, 37950]
         bank.link.pause(2.5)  # the log is written when the board is idle
@@ -43,7 +43,7 @@ def test_limits_and_stops(board: SimBoard) -> None:
             axis.initialise(**SETUP)  # type: ignore[arg-type]
         with pytest.raises(LimitReached, match="axis 4: slow-down limit"):
             bank.axis[4].move(3000)
-        assert bank.look((4,))[4].inputs.slow_cw and not bank.look((1,))[1].inputs.slow_cw
+        assert bank.snapshot((4,))[4].inputs.slow_cw and not bank.snapshot((1,))[1].inputs.slow_cw
         bank.axis[1].jog(CW, 1000)
         bank.axis[2].jog(CW, 2000)
         assert [end.cause for end in bank.stop_all().values()] == [Cause.STOP, Cause.STOP]

@@ -7,18 +7,18 @@ import pytest
 from openppmc.host import (
     CCW,
     CW,
+    AxisBusy,
     Cause,
     LimitReached,
     NothingToStop,
     NotInitialised,
-    NotWhileBusy,
     OutOfRange,
     Ppmc104,
     PpmcBank,
     WrongDevice,
     open_part,
 )
-from openppmc.host.bank.words import Config, bit_bytes, members
+from openppmc.host.bank.registers import Config, bit_bytes, members
 from openppmc.host.model_port import ModelPort
 from openppmc.host.script import Script
 from tests.bank.host.bench import SETUP, SPEC, at, frames, model, opened
@@ -80,7 +80,12 @@ def test_a_motion_of_another_program_goes_on() -> None:
         bank.link.pause(0.1)
         assert bank.status().busy == (3,)
         end = bank.axis[3].halt()
-        assert end is not None and end.cause is Cause.STOP and end.pulses is None and end.who == "axis 3: "
+        assert (
+            end is not None
+            and end.cause is Cause.STOP
+            and end.pulses is None
+            and end.message_prefix == "axis 3: "
+        )
 
 
 # ---------------------------------------------------------------------- one axis
@@ -123,7 +128,7 @@ def test_zero_and_home_are_of_this_object() -> None:
         axis.zero()
         end = axis.move(30)
         assert (end.position, end.pulses, axis.position) == (30, 30, 30)
-        assert bank.positions()[2] == bank.look((2,))[2].position == 30
+        assert bank.positions()[2] == bank.snapshot((2,))[2].position == 30
         seen: list[int] = []
         axis.move(2000, progress=lambda now: seen.append(now.position))
         assert all(30 < position <= 2030 for position in seen)
@@ -136,26 +141,26 @@ def test_zero_and_home_are_of_this_object() -> None:
 def test_positions_wrap_as_32_bits() -> None:
     with opened() as bank:
         axis = bank.axis[1]
-        assert axis.counted(-5) == -5
+        assert axis._position_of(-5) == -5
         axis._origin = (1 << 31) - 10
-        assert axis.counted(-(1 << 31) + 10) == 20
+        assert axis._position_of(-(1 << 31) + 10) == 20
         axis._origin = -(1 << 31) + 10
-        assert axis.counted((1 << 31) - 10) == -20
+        assert axis._position_of((1 << 31) - 10) == -20
 
 
 def test_limits_and_looks() -> None:
     with opened("cw3=4100,slow_cw3=4099") as bank:
         with pytest.raises(LimitReached, match="axis 3: .*limit.* ended the motion at position"):
             bank.axis[3].move(3000)
-        seen = bank.look()
+        seen = bank.snapshot()
         assert list(seen) == [1, 2, 3, 4]
         assert seen[3].inputs.limit_cw and not seen[1].inputs.limit_cw
         assert seen[3].position == bank.position(3) and not seen[3].status.busy
         assert bank.axis[3].inputs() == seen[3].inputs
         bank.axis[2].jog(CW, 2000)
-        assert [number for number, one in bank.look().items() if one.status.busy] == [2]
+        assert [number for number, one in bank.snapshot().items() if one.status.busy] == [2]
         assert bank.status().raw == bank.axis[2].status().raw << 8 == 0x0400
-        with pytest.raises(NotWhileBusy, match="axis 2: "):
+        with pytest.raises(AxisBusy, match="axis 2: "):
             bank.axis[2].start_move(5)
 
 
@@ -195,7 +200,7 @@ def test_looks_at_64_axes_take_few_frames() -> None:
     """
     with PpmcBank.open(SPEC.replace("axes=4", "axes=64,clk=64000000")) as bank:
         assert len(bank.axes) == 64 and bank.info().axes == 64
-        for what, most in ((bank.positions, 2), (bank.look, 3), (bank.status, 1), (bank.pending, 1)):
+        for what, most in ((bank.positions, 2), (bank.snapshot, 3), (bank.status, 1), (bank.pending, 1)):
             before = frames(bank)
             what()
             assert frames(bank) - before == most
@@ -236,7 +241,7 @@ def test_ends_of_several_axes_hide_no_other() -> None:
         begin = bank.link.clock()
         assert motions[2].wait().complete
         assert bank.link.clock() - begin < 0.33
-        assert [motion.end is not None and motion.end.complete for motion in motions] == [True] * 3
+        assert [motion.result is not None and motion.result.complete for motion in motions] == [True] * 3
         assert bank.pending() == ()
 
 

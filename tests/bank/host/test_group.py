@@ -6,12 +6,12 @@ import pytest
 
 from openppmc.host import (
     CW,
+    AxisBusy,
     Cause,
     GroupRefused,
     LimitReached,
-    Misused,
+    NotCalledError,
     NotInitialised,
-    NotWhileBusy,
     OutOfRange,
     PpmcBank,
 )
@@ -45,16 +45,16 @@ def test_a_group_begins_on_one_clk() -> None:
 def test_start_together_and_together() -> None:
     with opened() as bank:
         seen = pulses(bank)
-        motions = bank.start_together({2: 50, 1: -70})
+        motions = bank.start_moves({2: 50, 1: -70})
         assert list(motions) == [1, 2]
         assert [motion.wait().position for motion in motions.values()] == [-70, 50]
         assert seen[1][0] == seen[2][0]
-        ends = bank.together({3: 10, 4: 0, 1: 70}, pps=1000)
+        ends = bank.move_together({3: 10, 4: 0, 1: 70}, pps=1000)
         assert {number: end.position for number, end in ends.items()} == {1: 0, 3: 10, 4: 0}
         assert seen[3][0] == seen[1][70] and seen[3][1] - seen[3][0] == 16_000
-        assert {number: end.pulses for number, end in bank.together({1: 0}).items()} == {1: 0}
+        assert {number: end.pulses for number, end in bank.move_together({1: 0}).items()} == {1: 0}
         made: list[int] = []
-        bank.together({1: 4000, 2: 4000}, progress=lambda now: made.append(now.made))
+        bank.move_together({1: 4000, 2: 4000}, progress=lambda now: made.append(now.done))
         assert made and max(made) <= 4000
 
 
@@ -65,7 +65,7 @@ def test_16_axes_are_loaded_in_two_frames() -> None:
     with opened(axes=16) as bank:
         before = frames(bank)
         seen = pulses(bank)
-        motions = bank.start_together({number: 10 * number for number in bank.axis})
+        motions = bank.start_moves({number: 10 * number for number in bank.axis})
         assert frames(bank) - before == 6
         assert [motion.wait().position for motion in motions.values()] == [10 * n for n in bank.axis]
         assert len({clk[0] for clk in seen.values()}) == 1
@@ -75,7 +75,7 @@ def test_a_refused_load_moves_nothing() -> None:
     with opened() as bank:
         bank.axis[3].excitation_off()
         with pytest.raises(NotInitialised, match="axis 3: the part is not initialised"):
-            bank.start_together({1: 100, 3: 100, 4: 100})
+            bank.start_moves({1: 100, 3: 100, 4: 100})
         assert (mask(bank), bank.status().busy, bank.pending()) == (0, (), ())
         assert set(bank.positions().values()) == {0}
         assert bank.axis[1].move(5).complete
@@ -88,7 +88,7 @@ def test_an_exception_inside_moves_nothing() -> None:
             motion = bank.axis[1].start_move(100)
             _ = 1 / 0
         assert not any(seen.values()) and mask(bank) == 0
-        assert motion.end is not None and motion.end.cause is Cause.STOP and motion.end.pulses == 0
+        assert motion.result is not None and motion.result.cause is Cause.STOP and motion.result.pulses == 0
         assert bank.pending() == () and bank.axis[1].move(3).position == 3
 
 
@@ -101,7 +101,7 @@ def test_go_refused_by_an_axis() -> None:
                 at(bank.link, 1, Script().write(8, 0x01))
                 bank.axis[2].start_move(3000)
         assert list(told.value.refusals) == [2]
-        assert isinstance(told.value.refusals[2], NotWhileBusy)
+        assert isinstance(told.value.refusals[2], AxisBusy)
         assert bank.axis[1].motion is not None and bank.axis[1].motion.wait().position == 30
 
 
@@ -123,20 +123,22 @@ def test_a_held_motion_that_a_stop_ended_is_no_refusal() -> None:
             bank.axis[2].halt(wait=False)
         first, second = (bank.axis[number].motion for number in (1, 2))
         assert first is not None and first.wait().position == 30
-        assert second is not None and second.end is not None and second.end.cause is Cause.STOP
+        assert second is not None and second.result is not None and second.result.cause is Cause.STOP
 
 
 def test_the_early_end_of_one_stops_the_others() -> None:
     with opened("cw2=4300,slow_cw2=4200") as bank:
         with pytest.raises(LimitReached, match="axis 2: "):
-            bank.together({1: 20_000, 2: 20_000, 4: -3000})
+            bank.move_together({1: 20_000, 2: 20_000, 4: -3000})
         assert bank.status().busy == ()
         assert 0 < bank.position(1) < 5000 and -3000 < bank.position(4) < 0
 
 
 def test_waiting_inside_would_never_end() -> None:
     with opened() as bank:
-        with pytest.raises(Misused, match="axis 1: its group holds it until the end of the with block"):
+        with pytest.raises(
+            NotCalledError, match="axis 1: its group holds it until the end of the with block"
+        ):
             with bank.group((1,)):
                 bank.axis[1].move(10)
         assert model(bank).positions[0] == 4000
@@ -177,20 +179,20 @@ def test_groups_that_are_none(axes: object, text: str) -> None:
 def test_moves_that_are_none(moves: object, text: str) -> None:
     with opened() as bank:
         with pytest.raises(OutOfRange, match=text):
-            bank.start_together(moves)  # type: ignore[arg-type]
+            bank.start_moves(moves)  # type: ignore[arg-type]
         with pytest.raises(OutOfRange, match="outside"):
-            bank.start_together({1: 5}, pps=1)
+            bank.start_moves({1: 5}, pps=1)
         assert mask(bank) == 0 and bank.status().busy == ()
 
 
 def test_groups_of_moving_axes_and_in_groups() -> None:
     with opened() as bank:
         bank.axis[2].jog(CW, 2000)
-        with pytest.raises(NotWhileBusy, match="axis 2: "), bank.group((1, 2)):
+        with pytest.raises(AxisBusy, match="axis 2: "), bank.group((1, 2)):
             raise AssertionError("not entered")
         assert bank.status().busy == (2,) and mask(bank) == 0
         with pytest.raises(OutOfRange, match="a group is open already, of axes 1, 3"), bank.group((3, 1)):
-            bank.start_together({4: 10})
+            bank.start_moves({4: 10})
         assert bank.status().busy == (2,)
         bank.axis[2].halt()
 

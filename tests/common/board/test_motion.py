@@ -10,11 +10,11 @@ from openppmc.host import (
     CCW,
     CW,
     AlarmStop,
+    AxisBusy,
     Cause,
     CommandRefused,
     LimitReached,
     NotInitialised,
-    NotWhileBusy,
     OriginNotFound,
     Ppmc104,
 )
@@ -88,8 +88,8 @@ def test_hard_limit_stops(start_board: StartBoard) -> None:
         axis.initialise(**SETUP)
         with pytest.raises(LimitReached) as limit:
             axis.move_constant(10_000, 10_000)
-        assert Cause.LIMIT in limit.value.end.cause
-        assert limit.value.end.pulses == 1500
+        assert Cause.LIMIT in limit.value.result.cause
+        assert limit.value.result.pulses == 1500
         now = board.status()
         assert now.position == 38_500 and now.l1 and now.l3
         with pytest.raises(LimitReached):
@@ -105,9 +105,9 @@ def test_slow_down_limit_stops(start_board: StartBoard) -> None:
         axis.initialise(**SETUP)
         with pytest.raises(LimitReached) as limit:
             axis.move(10_000)
-        assert limit.value.end.cause is Cause.SLOW_LIMIT
+        assert limit.value.result.cause is Cause.SLOW_LIMIT
         assert 38_000 < board.status().position <= 38_401
-        assert limit.value.end.pulses == board.status().position - 37_000
+        assert limit.value.result.pulses == board.status().position - 37_000
 
 
 def test_alarm_stops(start_board: StartBoard) -> None:
@@ -128,7 +128,7 @@ def test_jog_and_stop(board: SimBoard, until: Wait) -> None:
         axis.initialise(**SETUP)
         axis.jog(CW, high=True)
         until(lambda: board.status().pulses > 2000, "2000 pulses made")
-        with pytest.raises(NotWhileBusy):
+        with pytest.raises(AxisBusy):
             axis.step(CW)
         before = board.status().pulses
         end = axis.stop()

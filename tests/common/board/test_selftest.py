@@ -16,7 +16,7 @@ from cocotb_tests.harness.paths import ROOT
 from openppmc import parts
 from openppmc.host.link import Link
 from openppmc.host.script import Script
-from openppmc.host.selftest.plan import REGISTERS, Section, Talk
+from openppmc.host.selftest.plan import REGISTERS, PartAccess, Section
 from openppmc.host.selftest.ppmc104 import PLAN
 from openppmc.host.selftest.run import TRIES, SelfTest
 
@@ -148,7 +148,7 @@ def test_recorder_filled_by_a_busy_pc(start_board: StartBoard, tmp_path: Path, l
     """A section that overflows the recorder is repeated, at most three times in total."""
     tries: list[int] = []
 
-    def play(talk: Talk) -> None:
+    def play(talk: PartAccess) -> None:
         tries.append(1)
         talk.run(Script().read_many(1, 1 if len(tries) > late else 200))
 
@@ -158,7 +158,7 @@ def test_recorder_filled_by_a_busy_pc(start_board: StartBoard, tmp_path: Path, l
         test.recorder()
         outcome = test.play(Section("status", REGISTERS, play))
     assert len(tries) == min(late + 1, TRIES) and len(told) == len(tries)
-    assert bool(outcome.wrong) == (late == TRIES) and test.found.outcomes == [outcome]
+    assert bool(outcome.difference) == (late == TRIES) and test.results.outcomes == [outcome]
     assert ("the recorder was full" in told[-1]) == (late == TRIES)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from vcd import VCDWriter
 
-from openppmc.capture.common.decoding import decoder
+from openppmc.capture.common.decoding import part_decoder
 
 from .sessions import CLK_HZ, PinLog
 
@@ -53,7 +53,7 @@ def probe(
     step = round(PS / rate)
     stretch = 1 - ppm * 1e-6
     source = random.Random(seed)
-    widths, lowest = dict(log.model.WIDTHS), decoder(log.part).pins.lowest
+    widths, lowest = dict(log.model.WIDTHS), part_decoder(log.part).pins.lowest
     ports: dict[str, tuple[int, list[tuple[int, int]]]] = {}
     for name, level in {**log.inputs, **log.outputs}.items():
         ports[name] = (level, [])

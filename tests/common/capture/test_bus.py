@@ -6,13 +6,13 @@ import random
 
 import pytest
 
-from openppmc.capture.common.kind import Access, Accesses
-from openppmc.capture.common.registers import Judged, Said, spoken, spoken_bytes
+from openppmc.capture.common.mnemonics import CommandDecoder, Exchange
+from openppmc.capture.common.part_decoder import Access, Accesses
+from openppmc.capture.common.registers import BusAccess, DecodedAccess, decoded_byte_lines, decoded_lines
 from openppmc.capture.common.signals import numpy
-from openppmc.capture.common.words import Exchange, Words
-from openppmc.capture.ppmc104.words import Words104
-from openppmc.capture.ppmc2104.words import Words2104
-from openppmc.capture.stmc.words import WordsStmc
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
+from openppmc.capture.ppmc2104.mnemonics import Ppmc2104Decoder
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 
 CODES = (0x2A, 0x43, 0x63, 0x4D, 0x42, 0x80, 0xA0, 0x83, 0xA3, 0xC3, 0x81, 0x40, 0x00, 0xFF)
 
@@ -33,23 +33,25 @@ def session(source: random.Random, count: int) -> Accesses:
     )
 
 
-def judge(row: Exchange) -> Judged:
+def judge(row: Exchange) -> DecodedAccess:
     """Return a result that depends on the bytes and not on a status."""
-    return Judged(len(row.sent) > 3, row.sent[:1] == [0x2A], len(row.answer))
+    return DecodedAccess(len(row.sent) > 3, row.sent[:1] == [0x2A], len(row.answer))
 
 
-@pytest.mark.parametrize("words", [Words104(), Words2104(), WordsStmc("SHEET")], ids=["104", "2104", "stmc"])
+@pytest.mark.parametrize(
+    "words", [Ppmc104Decoder(), Ppmc2104Decoder(), StmcDecoder("SHEET")], ids=["104", "2104", "stmc"]
+)
 @pytest.mark.parametrize("seed", range(5))
-def test_rows_at_once(words: Words, seed: int) -> None:
-    """`spoken_bytes` returns the lines of `exchanges` for accesses in any order."""
+def test_rows_at_once(words: CommandDecoder, seed: int) -> None:
+    """`decoded_byte_lines` returns the lines of `exchanges` for accesses in any order."""
     accesses = session(random.Random(f"accesses {seed}"), 3000)
-    one_by_one = spoken(
+    one_by_one = decoded_lines(
         accesses,
         words,
-        lambda one: Said(one.begin, "write" if one.write else "read", one.reg, one.byte),
+        lambda one: BusAccess(one.begin, "write" if one.write else "read", one.reg, one.byte),
         judge,
     )
-    assert spoken_bytes(accesses, words, judge) == one_by_one
+    assert decoded_byte_lines(accesses, words, judge) == one_by_one
     assert len(one_by_one) > 300 and len({line.text for line in one_by_one}) > 30
 
 

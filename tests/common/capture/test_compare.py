@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.capture.common.beside import Result, compare
+from openppmc.capture.common.compare import Result, compare
 from openppmc.capture.common.decoding import Decoded, decode
 from openppmc.capture.common.errors import CaptureError
 from openppmc.capture.common.files import read_capture

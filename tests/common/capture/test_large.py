@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.capture.common.beside import Result, match_edges
+from openppmc.capture.common.compare import Result, match_edges
 from openppmc.capture.common.signals import Channel, numpy
 from scripts.measure.bench.captures import COMPARED, EDGES, measure
 

@@ -161,7 +161,7 @@ def test_short_blocks_of_a_312(tmp_path: Path) -> None:
     words = [("we_n", 3, 0x1F), ("we_n", 5, 0x42), ("we_n", 3, 0x1E), ("we_n", 5, 9), ("we_n", 5, 7)]
     path = write_vcd(host_of_312(*words), tmp_path / "a.vcd")
     found = decode(read_capture(path), PinMap(), "ppmc312")
-    assert [line.strange for line in found.lines] == [True, True]
+    assert [line.invalid for line in found.lines] == [True, True]
 
 
 def test_many_reports_of_a_312(tmp_path: Path) -> None:

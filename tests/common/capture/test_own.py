@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.capture.common.beside import compare, learned
+from openppmc.capture.common.compare import clock_ratio, compare
 from openppmc.capture.common.decoding import decode
 from openppmc.capture.common.errors import CaptureError
 from openppmc.capture.common.files import read_capture
 from openppmc.capture.common.pinmap import PinMap
 from openppmc.capture.common.signals import US
 from openppmc.capture.common.vcd_file import core_comment
-from openppmc.capture.stmc.words import WordsStmc
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 
 from ..cli.command_line import Run
 from .analyser import Seen, probe, write_vcd
@@ -122,16 +122,16 @@ def test_what_a_switch_ended_tells_no_crystal() -> None:
     If all other moves are 60 ppm longer, the estimate is 60 ppm.
     """
     long, slack = 300_000 * US, US // 4
-    assert learned([(long, long)] * 3 + [(long, long + 50 * US)], slack) == 1.0
+    assert clock_ratio([(long, long)] * 3 + [(long, long + 50 * US)], slack) == 1.0
     fast = [(length, round(length * (1 + 60e-6))) for length in (long, long // 2, long // 3)]
-    assert abs(learned([*fast, (long, long + 90 * US)], slack) - 1 - 60e-6) < 1e-7
-    assert learned([], slack) == 1.0
+    assert abs(clock_ratio([*fast, (long, long + 90 * US)], slack) - 1 - 60e-6) < 1e-7
+    assert clock_ratio([], slack) == 1.0
 
 
 @pytest.mark.parametrize("read_map", ["FAMILY", "SHEET"])
 def test_words_of_an_stmc_follow_its_read_map(read_map: str) -> None:
     """The decoder names the reads of an STMC by its READ_MAP (R-01)."""
-    words = WordsStmc(read_map)
+    words = StmcDecoder(read_map)
     names = [words.command(code, ()) for code in (0x80, 0x81, 0x82, 0x83, 0x84)]
     reads = ["read finish status", "read inputs", "read outputs", "read remaining steps"]
     assert names == ([*reads, "command 84"] if read_map == "FAMILY" else [reads[0], "command 81", *reads[1:]])

@@ -15,7 +15,7 @@ import pytest
 from openppmc.cli import main
 from openppmc.cli.common.options import SetupValues
 from openppmc.cli.common.script import ScriptError, read_program
-from openppmc.cli.common.session import Guard, recall, remember, state_folder
+from openppmc.cli.common.session import Guard, load_setup, state_folder, store_setup
 from openppmc.host import Ppmc104, PpmcError
 from tests.common.cli.command_line import Run
 
@@ -168,19 +168,19 @@ def test_a_fault_of_the_program_is_one_line_too(run: Run, monkeypatch: pytest.Mo
 
 def test_the_setup_of_a_port_is_remembered(run: Run) -> None:
     values = SetupValues().merged({"start": 2000.0, "phases": 5})
-    remember("/dev/ttyUSB7", values.table())
-    assert SetupValues().merged(recall("/dev/ttyUSB7")) == values
-    assert recall("/dev/ttyUSB8") == {}
+    store_setup("/dev/ttyUSB7", values.table())
+    assert SetupValues().merged(load_setup("/dev/ttyUSB7")) == values
+    assert load_setup("/dev/ttyUSB8") == {}
     out = json.loads(run("--port", "/dev/ttyUSB7", "plan", "5", "--high", "9000", "--json").out)
     assert out["setup"]["start_pps"] == 2000
     assert out["setup"]["bytes"][0] == 0x0B
-    remember(FAST, values.table())
-    assert recall(FAST) == {}
+    store_setup(FAST, values.table())
+    assert load_setup(FAST) == {}
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"setup": 5}', '{"setup": {"bogus": 1}}'])
 def test_a_damaged_memory_is_told(run: Run, text: str) -> None:
-    remember("/dev/ttyUSB7", {})
+    store_setup("/dev/ttyUSB7", {})
     (file,) = state_folder().iterdir()
     file.write_text(text)
     outcome = run("--port", "/dev/ttyUSB7", "plan", "5")
@@ -345,7 +345,7 @@ def test_the_second_ctrl_c_is_not_patient(
             guard.count += again
 
         monkeypatch.setattr(axis, "stop", stop_and_ctrl_c)
-        text = guard.bring_to_rest(axis)
+        text = guard.stop_motors(axis)
         assert ("stopped at once" in text) == again
         assert text.endswith(f"position {axis.position}")
         assert least <= axis.position - before <= most

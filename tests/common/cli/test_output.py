@@ -248,7 +248,7 @@ def test_a_motor_stops_when_stdout_is_lost(monkeypatch: pytest.MonkeyPatch) -> N
         assert streams.guarded(run) == 1
         assert sys.stdout is full
     (motion,) = motions
-    assert motion.end is not None and motion.end.why == "stop command"
+    assert motion.result is not None and motion.result.cause_text == "stop command"
 
 
 @posix

@@ -15,7 +15,7 @@ from cocotb_tests.harness.paths import ROOT
 from openppmc import parts
 from openppmc.cli.app import Commands, app
 from openppmc.cli.common.group import BRIDGE, Command
-from openppmc.host.kind import kind_of
+from openppmc.host.capabilities import capabilities_of
 from openppmc.host.link import DEFAULT_BAUD
 
 ROWS = [pytest.param(row, id=f"{row.name}-{row.parts[0] or 'bridge'}") for row in Commands.rows]
@@ -47,8 +47,8 @@ def test_options_in_front_state_what_the_library_has() -> None:
     """The default rate in the help of --baud is that of the link; `axes` of a row is that of the device."""
     shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
     assert f"line rate in bit/s ({DEFAULT_BAUD};" in shown
-    rows = parts.having("number", "kind")
-    assert {row.name: row.axes for row in rows} == {row.name: kind_of(row.name).axes for row in rows}
+    rows = parts.having("number", "capabilities")
+    assert {row.name: row.axes for row in rows} == {row.name: capabilities_of(row.name).axes for row in rows}
 
 
 def test_a_misspelt_command_gets_the_nearest() -> None:

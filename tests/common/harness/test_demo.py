@@ -8,11 +8,11 @@ from cocotb_tests.harness import PARTS
 from cocotb_tests.harness.compare import compare_recording, replay
 from cocotb_tests.harness.dut_bench import new_model
 from cocotb_tests.harness.project import ProjectError
-from openppmc.capture.common.words import exchanges
-from openppmc.capture.ppmc104.words import Words104
-from openppmc.capture.ppmc312.words import Words312
-from openppmc.capture.ppmc2104.words import Words2104
-from openppmc.capture.stmc.words import WordsStmc
+from openppmc.capture.common.mnemonics import exchanges
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
+from openppmc.capture.ppmc312.mnemonics import Ppmc312Decoder
+from openppmc.capture.ppmc2104.mnemonics import Ppmc2104Decoder
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 from openppmc.check.records import Access, Change, Recording, steps
 from openppmc.parts import having
 from scripts.demo import waves
@@ -58,19 +58,19 @@ def accesses(script: str) -> list[Access]:
 )
 def test_bytes_of_the_2104_in_words(script, meaning, reply):
     """An exchange of a PPMC-2104 host is described as in the manual."""
-    (row,) = exchanges(Words2104(), accesses(script))
+    (row,) = exchanges(Ppmc2104Decoder(), accesses(script))
     assert (row.meaning, row.reply) == (meaning, reply)
 
 
 def test_remaining_pulses_know_the_end_of_their_axis():
     """With axis 1 stopped early and axis 2 complete, 0 remaining means one pulse for axis 1, 0 for axis 2."""
-    rows = exchanges(Words2104(), accesses("c80 rC3 cA0 r83 c83 r00 r00 r00 cA3 r00 r00 r00"))
+    rows = exchanges(Ppmc2104Decoder(), accesses("c80 rC3 cA0 r83 c83 r00 r00 r00 cA3 r00 r00 r00"))
     assert [row.reply for row in rows[2:]] == ["1 pulse not made", "no pulse left"]
 
 
 def test_bytes_of_the_104_in_words():
     """With the same codes for a PPMC-104, no axis is named and the error is in the status."""
-    rows = exchanges(Words104(), accesses("c43 d18 d00 d00 s04 c42 s94 c80 r83"))
+    rows = exchanges(Ppmc104Decoder(), accesses("c43 d18 d00 d00 s04 c42 s94 c80 r83"))
     assert [row.meaning for row in rows] == [
         "accelerate/decelerate, CW, 25 pulses",
         "single step, CW",
@@ -109,7 +109,7 @@ def test_bytes_of_the_104_in_words():
 )
 def test_bytes_of_the_stmc_in_words(script, meaning, reply):
     """An exchange with the read codes of the data sheet is described as in the manual."""
-    (row,) = exchanges(WordsStmc("SHEET"), accesses(script))
+    (row,) = exchanges(StmcDecoder("SHEET"), accesses(script))
     assert row.meaning == meaning
     assert row.reply.startswith(reply)
 
@@ -162,7 +162,7 @@ def registers(script: str) -> list[Access]:
 )
 def test_blocks_of_the_312_in_words(sent, got, meaning, reply):
     """An instruction and its response are described as in the manual."""
-    (row,) = Words312().exchanges(registers(f"> {sent}; p 14; p 10; < {got}"))
+    (row,) = Ppmc312Decoder().exchanges(registers(f"> {sent}; p 14; p 10; < {got}"))
     assert (row.meaning, row.reply) == (meaning, reply)
     assert (row.sent, row.answer) == (list(bytes.fromhex(sent)), list(bytes.fromhex(got)))
     assert row.statuses == [0x14, 0x10]
@@ -170,7 +170,7 @@ def test_blocks_of_the_312_in_words(sent, got, meaning, reply):
 
 def test_reports_of_the_312_are_rows_of_their_own():
     """A stop report after a response, and the report of an override, have their own rows."""
-    rows = Words312().exchanges(
+    rows = Ppmc312Decoder().exchanges(
         registers("> 03 02 84 00; < 03 01 84; p 14; < 23 06 E0 40 00000001; < 1B 02 82 00; < 23 02 F4 01")
     )
     assert [row.meaning for row in rows] == ["single pulse, CW", "interrupt", "interrupt", "interrupt"]
@@ -184,7 +184,7 @@ def test_reports_of_the_312_are_rows_of_their_own():
 
 def test_a_report_before_the_answer_has_its_own_row():
     """If an alarm is read first, the response still belongs to its instruction."""
-    rows = Words312().exchanges(registers("> 03 01 40; < 23 02 F4 00; < 03 02 40 12"))
+    rows = Ppmc312Decoder().exchanges(registers("> 03 01 40; < 23 02 F4 00; < 03 02 40 12"))
     assert [(row.meaning, row.reply) for row in rows] == [
         ("read version", "version 12"),
         ("interrupt", "ALARM 00"),

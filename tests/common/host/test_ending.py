@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from openppmc.host import Cause, End, LimitReached, StoppedEarly
+from openppmc.host import Cause, LimitReached, MotionResult, StoppedByCommand
 
 
 def test_messages_of_ends() -> None:
     """A message contains the pulses made if they are known: not for a motion that another program started."""
-    assert End(Cause.COMPLETE, 5, 0, 5, 0).check(5).complete
-    with pytest.raises(StoppedEarly, match="^stop command ended the motion at position 7 after 3 of 5 p"):
-        End(Cause.STOP, 3, 2, 7, 0).check(5)
+    assert MotionResult(Cause.COMPLETE, 5, 0, 5, 0).check(5).complete
+    with pytest.raises(StoppedByCommand, match="^stop command ended the motion at position 7 after 3 of 5 p"):
+        MotionResult(Cause.STOP, 3, 2, 7, 0).check(5)
     with pytest.raises(LimitReached, match="^axis 2: limit switch ended the motion at position 7: move away"):
-        End(Cause.LIMIT, None, 2, 7, 0, "axis 2: ").check()
+        MotionResult(Cause.LIMIT, None, 2, 7, 0, "axis 2: ").check()
     with pytest.raises(LimitReached, match="^limit switch ended the motion: move away"):
-        End(Cause.LIMIT, None, 2, None, 0).check()
+        MotionResult(Cause.LIMIT, None, 2, None, 0).check()

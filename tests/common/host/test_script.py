@@ -111,7 +111,9 @@ def test_answers_of_the_golden_model_fit_every_script(build: list[Callable[[Scri
         add(script)
     answer = parse_answer(script, ask(Bridge(Memory()), script))
     assert answer.result is Result.DONE
-    assert [len(value) for value in answer.values] == [op.gives for op in script.ops if op.gives]
+    assert [len(value) for value in answer.values] == [
+        op.response_size for op in script.ops if op.response_size
+    ]
 
 
 @given(st.lists(st.one_of(OPS), max_size=6), st.lists(st.one_of(OPS), max_size=3))
@@ -122,7 +124,7 @@ def test_a_script_that_fails_in_the_middle(
     script = Script()
     for add in before:
         add(script)
-    values = sum(1 for op in script.ops if op.gives)
+    values = sum(1 for op in script.ops if op.response_size)
     script.timeout(0).wait(1, 0xFF, 0x55)
     for add in after:
         add(script)
@@ -141,7 +143,7 @@ def test_a_bad_answer_never_gets_through_as_something_else(body: bytes) -> None:
     except BadAnswer:
         return
     if answer.result is Result.DONE:
-        assert len(body) == 1 + script.gives
+        assert len(body) == 1 + script.response_size
     else:
         assert answer.failed in script.ops
 
@@ -181,7 +183,7 @@ def test_patience_of_a_script_inside_another() -> None:
 
 def test_a_number_is_one_value() -> None:
     script = Script().read(1).read_number(4, 4).read(2)
-    assert bytes(script) == bytes([0x21, 0x24, 0x25, 0x26, 0x27, 0x22]) and script.gives == 6
+    assert bytes(script) == bytes([0x21, 0x24, 0x25, 0x26, 0x27, 0x22]) and script.response_size == 6
     assert parse_answer(script, b"\0abcdef").values == (b"a", b"bcde", b"f")
     for count in (0, 5):
         with pytest.raises(ValueError, match="count"):

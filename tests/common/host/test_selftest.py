@@ -10,7 +10,7 @@ from openppmc import __version__, parts, sources
 from openppmc.check.pins import pins_of
 from openppmc.check.records import Change
 from openppmc.check.replay import compare_recording, expected_edges, new_model
-from openppmc.cli.common.session import misfit
+from openppmc.cli.common.session import mismatch
 from openppmc.host.script import BadAnswer, Build, Identity
 from openppmc.host.selftest.page import board_name, built
 from openppmc.host.selftest.plan import Plan
@@ -159,7 +159,7 @@ def test_versions() -> None:
     assert built(build) == "version 1.2.3, sources 1a2b3c4d, commit deadbeef with changes"
     assert sources.build_define(data).endswith(data[::-1].hex())
     assert Build.parse(bytes(16)) is None and board_name(None) == "board"
-    assert "renew the package" in misfit(build, 104)
-    assert "renew the bitstream" in misfit(Build("0.0.1", False, "", "", ""), 104)
-    assert "other sources (1a2b3c4d)" in misfit(Build(__version__, False, "1a2b3c4d", "", ""), 104)
-    assert misfit(None, 104) == misfit(Build(__version__, False, "", "", "MODL"), 104) == ""
+    assert "renew the package" in mismatch(build, 104)
+    assert "renew the bitstream" in mismatch(Build("0.0.1", False, "", "", ""), 104)
+    assert "other sources (1a2b3c4d)" in mismatch(Build(__version__, False, "1a2b3c4d", "", ""), 104)
+    assert mismatch(None, 104) == mismatch(Build(__version__, False, "", "", "MODL"), 104) == ""

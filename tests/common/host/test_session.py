@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.frames import Deframer, Frame, GaveUp, Session, encode
+from openppmc.host.frames import Deframer, Frame, RetriesExhausted, Session, encode
 from openppmc.model.carrier.bridge import Bridge
 
 
@@ -49,9 +49,9 @@ def test_repeats_at_the_deadline_only_and_not_for_ever() -> None:
     assert session.tick(12.0) == line
     assert session.tick(12.1) == b""
     assert session.tick(14.0) == line
-    with pytest.raises(GaveUp) as gone:
+    with pytest.raises(RetriesExhausted) as gone:
         session.tick(16.0)
-    assert (gone.value.attempts, gone.value.naks, gone.value.heard) == (3, (), 0)
+    assert (gone.value.attempts, gone.value.naks, gone.value.received) == (3, (), 0)
     assert not session.busy
     assert session.repeats == 2
 

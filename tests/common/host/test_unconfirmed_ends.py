@@ -16,13 +16,13 @@ from openppmc.cli import main
 from openppmc.host import (
     CCW,
     CW,
+    AxisBusy,
     Cause,
-    End,
     EndUnknown,
     MotionError,
+    MotionResult,
     NothingToStop,
     NotInitialised,
-    NotWhileBusy,
     Pmc006,
     Ppmc104,
     Ppmc312,
@@ -32,8 +32,8 @@ from openppmc.host import (
     ProtocolError,
     Stmc,
 )
-from openppmc.host.ending import decode_end
 from openppmc.host.model_port import ModelPort
+from openppmc.host.motion_result import decode_end
 from openppmc.host.script import Script
 from tests.common.host.line_ports import Spoiled
 
@@ -100,8 +100,8 @@ def another_program(axis: Any) -> None:
     """Reset the device and make a shorter move of the same kind, as another program could."""
     reset_part(axis)
     axis.apply(axis.setup)
-    order = axis.move_order(30)
-    axis.link.execute(Script().call(order.code | axis.bit, *order.data))
+    order = axis._move_request(30)
+    axis.link.execute(Script().call(order.code | axis._code_bits, *order.data))
     axis.link.pause(1)
 
 
@@ -118,8 +118,8 @@ def test_a_reset_during_a_move_is_no_end(axis: Any, fault: Callable[[Any], None]
         with pytest.raises(EndUnknown, match="the end of the motion is not confirmed") as caught:
             motion.wait(5)
     assert isinstance(caught.value, ProtocolError)
-    assert caught.value.asked == 1000 and "\n" not in str(caught.value)
-    assert motion.over and motion.end is None
+    assert caught.value.requested == 1000 and "\n" not in str(caught.value)
+    assert motion.over and motion.result is None
     with pytest.raises(EndUnknown):
         motion.poll()
 
@@ -140,7 +140,7 @@ def test_a_reset_during_a_waited_call(axis: Any, fault: Callable[[Any], None]) -
         done = []
 
         def look(now: Any, done: list[int] = done) -> None:
-            if not done and now.made > 20:
+            if not done and now.done > 20:
                 done.append(1)
                 fault(axis)
 
@@ -169,7 +169,7 @@ def test_a_reset_of_other_motions(axis: Any, way: str) -> None:
     reset_part(axis)
     with pytest.raises(EndUnknown) as caught:
         motion.wait(5)
-    assert caught.value.asked == (500 if way == "constant" else None)
+    assert caught.value.requested == (500 if way == "constant" else None)
 
 
 def test_a_stop_of_a_motion_that_a_reset_ended(axis: Any) -> None:
@@ -218,7 +218,7 @@ def test_the_counter_is_not_cleared_during_a_motion(axis: Any) -> None:
     if hasattr(axis, "held"):
         axis.zero()
     else:
-        with pytest.raises(NotWhileBusy):
+        with pytest.raises(AxisBusy):
             axis.zero()
     axis.link.pause(2)
     axis.zero()
@@ -250,7 +250,7 @@ def test_axes_that_move_together(fault: Callable[[Any], None]) -> None:
     with opened("ppmc2104-x") as x:
         part = x.part
         part.y.initialise(1000, 5000, 100)
-        motions = part.start_together(3000, -2000)
+        motions = part.start_moves(3000, -2000)
         x.link.pause(0.1)
         fault(x)
         for motion in motions:
@@ -259,7 +259,7 @@ def test_axes_that_move_together(fault: Callable[[Any], None]) -> None:
         part.x.initialise(1000, 5000, 100)
         part.y.initialise(1000, 5000, 100)
         with pytest.raises(EndUnknown):
-            part.together(3000, -2000, progress=lambda now: fault(x))
+            part.move_together(3000, -2000, progress=lambda now: fault(x))
 
 
 @pytest.mark.parametrize("fault", [reset_part, replace_board])
@@ -268,7 +268,7 @@ def test_a_group_of_a_bank(fault: Callable[[Any], None]) -> None:
         bank = third._bank
         for one in bank.axes:
             one.initialise(1000, 5000, 100)
-        motions = bank.start_together({1: 1000, 2: -500, 4: 30})
+        motions = bank.start_moves({1: 1000, 2: -500, 4: 30})
         third.link.pause(0.1)
         fault(third)
         for motion in motions.values():
@@ -277,7 +277,7 @@ def test_a_group_of_a_bank(fault: Callable[[Any], None]) -> None:
         for one in bank.axes:
             one.initialise(1000, 5000, 100)
         with pytest.raises(EndUnknown):
-            bank.together({1: 3000, 2: -500}, progress=lambda now: fault(third))
+            bank.move_together({1: 3000, 2: -500}, progress=lambda now: fault(third))
 
 
 def test_one_axis_of_a_group_without_a_confirmed_end_stops_the_others() -> None:
@@ -293,8 +293,8 @@ def test_one_axis_of_a_group_without_a_confirmed_end_stops_the_others() -> None:
                 bank.axis[1].motion.begin += 7
 
         with pytest.raises(EndUnknown, match="axis 1: "):
-            bank.together({1: 600, 2: 90_000}, progress=look)
-        assert bank.axis[2].motion.end.cause is Cause.STOP
+            bank.move_together({1: 600, 2: 90_000}, progress=look)
+        assert bank.axis[2].motion.result.cause is Cause.STOP
         assert not bank.status().busy
 
 
@@ -317,8 +317,8 @@ def test_one_axis_of_a_ppmc2104_without_a_confirmed_end_stops_the_other() -> Non
             x.motion.begin = 7
 
         with pytest.raises(EndUnknown, match="axis 1: "):
-            part.together(600, 90_000, progress=look)
-        assert part.y.motion.end.cause is Cause.STOP
+            part.move_together(600, 90_000, progress=look)
+        assert part.y.motion.result.cause is Cause.STOP
 
 
 def test_stop_all_of_a_bank_that_was_reset() -> None:
@@ -386,7 +386,7 @@ def test_a_reset_of_the_other_parts(other: Any, begin: int, way: str) -> None:
         else:
             while motion.poll() is not None:
                 pass
-    assert motion.over and motion.end is None and caught.value.asked == 4000
+    assert motion.over and motion.result is None and caught.value.requested == 4000
     with pytest.raises(EndUnknown):
         motion.wait(5)
 
@@ -452,7 +452,7 @@ def test_each_finish_status(finish: int, operation: int) -> None:
             fits = remaining == 0 and moved == 10
         if good and fits:
             end = decode_end(finish, remaining, 10, 0, 77, operation, moved)
-            assert end.pulses == moved and end.left == 10 - moved
+            assert end.pulses == moved and end.remaining == 10 - moved
             assert end.complete is (moved == 10) and bool(end.cause) is not end.complete
         else:
             with pytest.raises(EndUnknown):
@@ -484,9 +484,12 @@ def test_the_counter_wraps() -> None:
 
 
 def test_an_end_that_contradicts_itself_is_not_complete() -> None:
-    assert End(Cause.COMPLETE, 5, 0, 5, 0x83).check(5).complete
-    for end, asked in ((End(Cause.COMPLETE, 3, 2, 3, 0), 5), (End(Cause.COMPLETE, 3, 0, 3, 0), 5)):
+    assert MotionResult(Cause.COMPLETE, 5, 0, 5, 0x83).check(5).complete
+    for end, asked in (
+        (MotionResult(Cause.COMPLETE, 3, 2, 3, 0), 5),
+        (MotionResult(Cause.COMPLETE, 3, 0, 3, 0), 5),
+    ):
         with pytest.raises(EndUnknown, match="3 of 5 pulses counted, position 3"):
             end.check(asked)
-    assert not End(Cause.COMPLETE, 3, 2, 3, 0).complete
+    assert not MotionResult(Cause.COMPLETE, 3, 2, 3, 0).complete
     assert not issubclass(EndUnknown, MotionError)

@@ -8,15 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.cli.common.view import Course, key_figures
+from openppmc.cli.common.presenter import Trajectory, key_figures
 from openppmc.host import units
 from openppmc.host.axis import chop_byte
+from openppmc.host.capabilities import SetupRequest
 from openppmc.host.errors import OutOfRange, PpmcError
-from openppmc.host.kind import Wanted
-from openppmc.host.ppmc104 import KIND as PPMC104
-from openppmc.host.ppmc2104.words import KIND as PPMC2104
-from openppmc.host.ppmc2104.words import half_us_byte, hold_byte
-from openppmc.host.stmc import KIND as STMC
+from openppmc.host.ppmc104 import CAPABILITIES as PPMC104
+from openppmc.host.ppmc2104.registers import CAPABILITIES as PPMC2104
+from openppmc.host.ppmc2104.registers import half_us_byte, hold_byte
+from openppmc.host.stmc import CAPABILITIES as STMC
 from openppmc.model.single.predict import predict_move
 
 XTAL = 16_000_000
@@ -101,22 +101,24 @@ def test_setup_bytes() -> None:
     clock = units.BaseClock.internal(XTAL)
     setup = units.plan_setup(clock, 50_000, 100_000, 4, 0x0A)
     assert bytes([setup.code]) + setup.data == bytes.fromhex("0A 09 04 04 00")
-    assert PPMC104.plan(XTAL, Wanted(50_000, 100_000, 4)) == setup
+    assert PPMC104.plan(XTAL, SetupRequest(50_000, 100_000, 4)) == setup
     external = {"external_clock": 100_000, "start_pps": 1000, "high_pps": 5000}
     assert (
-        PPMC104.plan(XTAL, Wanted(phases=5, half_step=True, positive_logic=False, chop=True, **external)).code
+        PPMC104.plan(
+            XTAL, SetupRequest(phases=5, half_step=True, positive_logic=False, chop=True, **external)
+        ).code
         == 0x37
     )
 
 
 def test_setup_bytes_of_the_ppmc2104() -> None:
     """P2104-INI-01, -INI-02: code 00ASCEMM; RL at least two above RH; rate 0 only with an external clock."""
-    setup = PPMC2104.plan(XTAL, Wanted(5000, 25_000, 10))
+    setup = PPMC2104.plan(XTAL, SetupRequest(5000, 25_000, 10))
     assert bytes([setup.code]) + setup.data == bytes.fromhex("02 63 13 0A 00")
     external = {"external_clock": 100_000, "start_pps": 1000, "high_pps": 100_000}
-    setup = PPMC2104.plan(XTAL, Wanted(phases=5, half_step=True, chop=True, axis=2, **external))
+    setup = PPMC2104.plan(XTAL, SetupRequest(phases=5, half_step=True, chop=True, axis=2, **external))
     assert (setup.code, setup.data) == (0x3F, bytes([99, 0, 200, 0]))
-    assert PPMC2104.plan(XTAL, Wanted(50_000, 250_000, 4, phases=3)).data[1] == 1
+    assert PPMC2104.plan(XTAL, SetupRequest(50_000, 250_000, 4, phases=3)).data[1] == 1
     for arguments, text in (
         (
             {"start_pps": 50_000, "high_pps": 500_000},
@@ -129,7 +131,7 @@ def test_setup_bytes_of_the_ppmc2104() -> None:
         ({"axis": 3}, "axis 3: a PPMC-2104 has axes 1 to 2"),
     ):
         with pytest.raises(OutOfRange, match=text):
-            PPMC2104.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
+            PPMC2104.plan(XTAL, SetupRequest(**arguments))  # type: ignore[arg-type]
     with pytest.raises(OutOfRange, match="axis 2: a PPMC-104 has one axis"):
         PPMC104.check_axis(2)
 
@@ -210,12 +212,14 @@ def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, strap
 def test_key_figures_and_course_of_the_stmc(n: int, pa: int, a: int, b: int) -> None:
     """Key figures and course of the STMC match the predictor; without ramp steps there is only one speed."""
     slow, fast = max(a, b), min(a, b)
-    setup = STMC.plan(XTAL, Wanted(12_500 / Fraction(slow), 12_500 / Fraction(fast), pa, base_clock=12_500))
+    setup = STMC.plan(
+        XTAL, SetupRequest(12_500 / Fraction(slow), 12_500 / Fraction(fast), pa, base_clock=12_500)
+    )
     assert setup.data == bytes([slow, fast, pa, 0])
     move = predict_move(setup.data, n, part="stmc")
-    figures, course = key_figures(setup, n, None), Course.of(setup, n, None)
+    figures, course = key_figures(setup, n, None), Trajectory.of(setup, n, None)
     assert figures["seconds"] == pytest.approx(move.seconds[-1], abs=1e-12)
     assert course.seconds == pytest.approx(move.seconds) and course.speeds == pytest.approx(move.speeds)
     assert figures["top_pps"] == pytest.approx(max(move.speeds, default=12_500 / (slow if pa else fast)))
-    constant = Course.of(setup, n, setup.clock.choose(12_500 / Fraction(b)))
+    constant = Trajectory.of(setup, n, setup.clock.choose(12_500 / Fraction(b)))
     assert constant.seconds[-1] == pytest.approx((n - 1) * b / 12_500)

@@ -12,14 +12,14 @@ from ophyd.sim import det
 from ophyd.utils import LimitError
 
 from openppmc.host import (
+    AxisBusy,
     Disconnected,
     EndUnknown,
     LimitReached,
     NotInitialised,
-    NotWhileBusy,
     OutOfRange,
     Pmc006Bus,
-    StoppedEarly,
+    StoppedByCommand,
     open_part,
 )
 from openppmc.host.part import Device
@@ -104,11 +104,11 @@ def test_stop_in_motion(success):
         motor = PpmcPositioner(device, name="x")
         motor.stop()  # no error without a motion
         move = motor.set(30_000)
-        with pytest.raises(NotWhileBusy, match="x is moving"):
+        with pytest.raises(AxisBusy, match="x is moving"):
             motor.set(5)
         motor.stop(success=success)
         error = move.exception(PATIENCE)
-        assert error is None if success else isinstance(error, StoppedEarly)
+        assert error is None if success else isinstance(error, StoppedByCommand)
         assert 0 < motor.position < 30_000 and not motor.moving
         assert ends(motor, 10) is None
 

@@ -42,7 +42,7 @@ PURE = {
     "predict": "from openppmc.model import predict_move; assert predict_move(bytes((9, 4, 4, 0)), 14)",
     "predict of the PPMC-312": "import openppmc.model.ppmc312.carrier",
     "host": "import openppmc.host, openppmc.host.selftest.run, openppmc.check",
-    "decode": "import openppmc.capture.common.files, openppmc.capture.common.beside",
+    "decode": "import openppmc.capture.common.files, openppmc.capture.common.compare",
     "every driver": "from openppmc.parts import PARTS, LAYER_OF\n"
     "for row in PARTS.values():\n"
     "    for column in ('model', 'predict', 'driver', 'kind', 'selftest', 'decode'):\n"

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
-from openppmc.capture.ppmc104.words import Words104
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.model.single.codes import decode
 from scripts.site.hooks import PARTS, run_links
 from scripts.site.sessions import sessions
@@ -49,7 +49,7 @@ def test_other_pages_stay_as_they_are():
 
 def test_words():
     """The tables of a device contain texts for codes, data and responses, and no unknown codes."""
-    found = tables("ppmc104", Words104())
+    found = tables("ppmc104", Ppmc104Decoder())
     assert found["codes"]["43"]["text"] == "accelerate/decelerate, CW"
     assert found["codes"]["43"]["fields"] == [{"name": "pulses", "bytes": 3, "plus": 1}]
     assert [field["name"] for field in found["codes"]["0A"]["fields"]] == ["RL", "RH", "PA"]

@@ -13,7 +13,7 @@ import pytest
 import serial
 
 from openppmc.host import BACKWARD, FORWARD, Disconnected, LimitReached, Pmc006, Pmc006Bus, PortError
-from openppmc.host.line import StationSilent
+from openppmc.host.line import StationNotResponding
 from openppmc.host.pmc006.wire import command, reply
 from openppmc.model.pmc006.program import assemble
 from openppmc.sim import SimError, SimLine, SpecError, start_line
@@ -121,7 +121,7 @@ def test_a_program_without_a_host(tmp_path: Path, until: Wait) -> None:
         with Pmc006.open(line.port, 7, patience=PATIENCE) as motor:
             assert motor.read_program() == assemble(SHUTTLE) and motor.offline == 1
             motor.halt_program()
-            motor.attend(0.2)
+            motor.process_reports(0.2)
             assert not motor.program_runs() and not motor.flags().busy
 
 
@@ -183,7 +183,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
         until(link.is_symlink, "a link to the port")
         with Pmc006Bus.open(str(link), patience=PATIENCE) as bus:
             assert bus.axis(2).version() == "V0.1.35"
-            with pytest.raises(StationSilent):
+            with pytest.raises(StationNotResponding):
                 bus.axis(3).version()
         process.send_signal(signal.SIGINT)
         assert process.wait(10) == 0 and not link.exists()
@@ -193,7 +193,10 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
 
 def test_wrong_rate_and_echo(line: SimLine) -> None:
     """At another rate the line receives invalid frames; an echo needs no option."""
-    with Pmc006.open(line.port, 1, baud=9600) as motor, pytest.raises(StationSilent, match="baud rate"):
+    with (
+        Pmc006.open(line.port, 1, baud=9600) as motor,
+        pytest.raises(StationNotResponding, match="baud rate"),
+    ):
         motor.version()
     with start_line("part=pmc006,address=1,echo=on") as echoing:
         with Pmc006.open(echoing.port, 1, patience=PATIENCE) as motor:

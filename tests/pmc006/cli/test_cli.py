@@ -95,7 +95,7 @@ def test_motions(run: Run) -> None:
 def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A running motor accepts other speeds and directions; as with a real line, all commands share it."""
     from openppmc.host import Pmc006Bus, line_port
-    from openppmc.host.pmc006.talk import Line
+    from openppmc.host.pmc006.station_link import Line
 
     port = line_port.ModelLine("speed=max,address=1", 9600, "pmc006")
     port.close = lambda: None  # type: ignore[method-assign]
@@ -259,14 +259,14 @@ def test_commands_of_a_line_belong_to_it(run: Run) -> None:
 @pytest.mark.parametrize("words", [("jog", "forward"), ("move", "-3000")])
 def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]) -> None:
     """The first Ctrl-C decelerates all motors."""
-    look, looks = Motion.look, iter(range(1000))
+    look, looks = Motion._update, iter(range(1000))
 
     def interrupt(motion: Motion) -> None:
         if next(looks) == 10:
             os.kill(os.getpid(), signal.SIGINT)
         look(motion)
 
-    monkeypatch.setattr(Motion, "look", interrupt)
+    monkeypatch.setattr(Motion, "_update", interrupt)
     outcome = run(*PART, *words, "--address", "1,2")
     assert outcome.code == 130
     at = r"controller 1: position -?\d+, controller 2: position -?\d+"

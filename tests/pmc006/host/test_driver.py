@@ -12,25 +12,31 @@ from openppmc.host import (
     BACKWARD,
     FORWARD,
     AlarmStop,
+    AxisBusy,
     Cause,
     EndUnknown,
     LimitReached,
     NothingToStop,
-    NotWhileBusy,
     OriginNotFound,
     OutOfRange,
     Pmc006,
     Pmc006Bus,
     PortError,
-    StoppedEarly,
+    StoppedByCommand,
     Timeout,
 )
-from openppmc.host.line import DuplicateAddress, StationSilent
+from openppmc.host.line import DuplicateAddress, StationNotResponding
 from openppmc.host.pmc006 import settings, wire
 from openppmc.host.pmc006 import wire as codes
 from openppmc.host.pmc006 import wire as errors
 from openppmc.host.pmc006.settings import SETTINGS, drive_current, setting
-from openppmc.host.pmc006.wire import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
+from openppmc.host.pmc006.wire import (
+    ExtStopActive,
+    MotorDisabled,
+    SettingRefused,
+    SpeedRefused,
+    StorageFailed,
+)
 from openppmc.model.pmc006.program import Instruction, Program, assemble
 from openppmc.model.pmc006.settings import LEGAL, PLACES
 from tests.pmc006.host.line_ports import SpoiledLine, one, several
@@ -118,7 +124,7 @@ def test_full_steps_are_called_1(motor: tuple[SpoiledLine, Pmc006]) -> None:
     with pytest.raises(OutOfRange, match=r"^microsteps 0: there are 1, 2, 4, .*, 128; 1 is the full step$"):
         part.microsteps = 0
     part.microsteps = 1
-    assert part.microsteps == 1 and part.ask(codes.Code.READ_MICROSTEPS) == 0
+    assert part.microsteps == 1 and part.execute(codes.Code.READ_MICROSTEPS) == 0
 
 
 def test_settings_explain_themselves() -> None:
@@ -149,7 +155,11 @@ def test_a_value_that_the_part_refuses_is_told(motor: tuple[SpoiledLine, Pmc006]
 
 def test_read_outs(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
-    assert part.version() == "V0.1.35" and part.where.endswith("controller 255") and part.who == ""
+    assert (
+        part.version() == "V0.1.35"
+        and part._location.endswith("controller 255")
+        and part._message_prefix == ""
+    )
     assert part.flags() == codes.Flags(False, False, False, True, False)
     assert part.modes() == codes.Modes(False, False, False, False, True, False)
     port.node().set_pins(gpi=0b10001)
@@ -166,7 +176,7 @@ def test_read_outs(motor: tuple[SpoiledLine, Pmc006]) -> None:
 def test_moves(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     seen: list[int] = []
-    assert part.move(300, progress=lambda now: seen.append(now.made)) == part.motion.end  # type: ignore[union-attr]
+    assert part.move(300, progress=lambda now: seen.append(now.done)) == part.motion.result  # type: ignore[union-attr]
     assert part.position == 300 and port.node().position == 4300 and seen
     end = part.move_to(-100, speed=2500)
     assert (end.cause, end.pulses, end.position, end.complete) == (Cause.COMPLETE, -400, -100, True)
@@ -186,7 +196,7 @@ def test_what_may_not_be_done_in_a_motion(motor: tuple[SpoiledLine, Pmc006]) -> 
     motion = part.start_move(300)
     assert motion.poll() is not None and part.motion is motion
     for call in (lambda: part.move(1), lambda: part.jog(FORWARD), part.zero):
-        with pytest.raises(NotWhileBusy, match="the motor is moving"):
+        with pytest.raises(AxisBusy, match="the motor is moving"):
             call()
     with pytest.raises(Timeout):
         motion.wait(timeout=0.01)
@@ -202,7 +212,7 @@ def test_free_runs(motor: tuple[SpoiledLine, Pmc006]) -> None:
     part.line.pause(0.05)
     end = part.stop()
     assert (
-        end is motion.end
+        end is motion.result
         and end is not None
         and end.cause is Cause.STOP
         and end.position == part.position > 30
@@ -210,9 +220,9 @@ def test_free_runs(motor: tuple[SpoiledLine, Pmc006]) -> None:
     assert not part.modes().running
     motion = part.jog(BACKWARD)
     part.halt()
-    assert motion.end is not None and motion.end.why == "stop command"
-    with pytest.raises(StoppedEarly, match="stop command ended the motion at position .*: start again"):
-        motion.end.check()
+    assert motion.result is not None and motion.result.cause_text == "stop command"
+    with pytest.raises(StoppedByCommand, match="stop command ended the motion at position .*: start again"):
+        motion.result.check()
     for stop in (part.stop, part.halt):
         with pytest.raises(NothingToStop, match="nothing to stop: the motor is at rest"):
             stop()
@@ -235,9 +245,9 @@ def test_a_move_is_stopped_with_its_ramp(motor: tuple[SpoiledLine, Pmc006]) -> N
     part.line.pause(0.12)
     end = part.stop()
     assert end is not None and end.cause is Cause.STOP and 300 < end.position == part.position < 900
-    assert part.max_speed == 4000 and motion.end is end and speeds == [300]
-    with pytest.raises(StoppedEarly, match=rf"after {end.position} of 100000 steps"):
-        end.check(motion.asked)
+    assert part.max_speed == 4000 and motion.result is end and speeds == [300]
+    with pytest.raises(StoppedByCommand, match=rf"after {end.position} of 100000 steps"):
+        end.check(motion.requested)
     part.max_speed = 300
     part.start_move(1000)
     assert part.stop() is not None and part.max_speed == 300
@@ -269,12 +279,12 @@ def test_emergency_stops(motor: tuple[SpoiledLine, Pmc006]) -> None:
         part.move(900)
     assert part.flags().stops == (2,) and part.on_switch(2) and not part.on_switch(1)
     for call in (lambda: part.move(-5), lambda: part.jog(BACKWARD)):
-        with pytest.raises(LockedByExt, match="EXT2 has stopped it: clear the flag"):
+        with pytest.raises(ExtStopActive, match="EXT2 has stopped it: clear the flag"):
             call()
     part.clear_stops((2,))
     assert part.move(-100).complete
     motion = part.jog(BACKWARD)
-    assert motion.wait().why == "EXT1"
+    assert motion.wait().cause_text == "EXT1"
     part.clear_stops()
     part.stops = 0
     assert part.move(50).complete
@@ -288,14 +298,14 @@ def test_emergency_stops(motor: tuple[SpoiledLine, Pmc006]) -> None:
 def test_refusals_say_why(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     part.free = 1
-    with pytest.raises(MotorFree, match="the motor is off-line"):
+    with pytest.raises(MotorDisabled, match="the motor is off-line"):
         part.move(5)
     part.free = 0
     with pytest.raises(SpeedRefused, match=r"maximum speed of 100 steps/s is below the start speed \(2000\)"):
         part.move(5, speed=100)
     motion = part.jog(FORWARD, speed=100)  # the setting does not affect a free run
     part.halt()
-    assert motion.end is not None
+    assert motion.result is not None
     port.node().part.desk.settings.vmax = 0  # a program can set this
     with pytest.raises(SpeedRefused, match="the maximum speed is 0"):
         part.jog(FORWARD)
@@ -311,7 +321,7 @@ def test_stalls(motor: tuple[SpoiledLine, Pmc006]) -> None:
         node.set_pins(bemf_valid=0)
         part.line.pause(0.002)
     end = motion.wait()
-    assert end.why == "stall" and end.position == part.stall_position and part.outputs == 0b10000
+    assert end.cause_text == "stall" and end.position == part.stall_position and part.outputs == 0b10000
     with pytest.raises(
         AlarmStop, match="stall ended the motion at position .*: remove what blocks the motor"
     ):
@@ -392,9 +402,9 @@ def test_the_example_program_of_the_rules() -> None:
         part.load_program(made)
         assert tuple(port.node().part.desk.program.words) == made.words and part.read_program() == made
         part.run_program()
-        part.attend(0.8)
+        part.process_reports(0.8)
         assert part.program_runs() and part.outputs == 0
-        part.attend(0.3)
+        part.process_reports(0.3)
         assert not part.program_runs() and (part.position, part.outputs, part.max_speed) == (600, 1, 3200)
 
 
@@ -451,19 +461,19 @@ def test_a_line_with_several() -> None:
         seen: list[int] = []
         found = bus.scan(progress=seen.append)
         assert [one.address for one in found] == [255, 5, 9] and seen[:2] == [255, 1] and len(seen) == 121
-        assert {one.version for one in found} == {"V0.1.35"} and not found[0].trouble
+        assert {one.version for one in found} == {"V0.1.35"} and not found[0].problem
         bus.check([5, 9])
-        with pytest.raises(StationSilent, match="controller 6: no reply to 4 frames: is it there"):
+        with pytest.raises(StationNotResponding, match="controller 6: no reply to 4 frames: is it there"):
             bus.check([6])
         five, nine = bus.axis(5), bus.axis(9)
         ends = bus.wait([five.start_move(60), nine.start_move(-90)])
         assert [end.position for end in ends] == [60, -90]
         five.jog(FORWARD)
         nine.start_move(300)
-        bus.attend(0.05)
+        bus.process_reports(0.05)
         ends = bus.stop([5, 9])
-        assert [end.why for end in ends] == ["stop command"] * 2 and bus.axis(255).position == 0
-        with pytest.raises(NotWhileBusy, match="controller 9: the motor is moving"):
+        assert [end.cause_text for end in ends] == ["stop command"] * 2 and bus.axis(255).position == 0
+        with pytest.raises(AxisBusy, match="controller 9: the motor is moving"):
             nine.jog(FORWARD)
             nine.jog(FORWARD)
         nine.halt()
@@ -474,7 +484,7 @@ def test_a_line_with_several() -> None:
 def test_the_first_that_answers() -> None:
     with Pmc006.open("model:speed=max,address=3+8") as part:
         assert part.address == 3 and part.axes == (part,) and part.link is part.line
-    with pytest.raises(StationSilent, match="no controller replies: are they powered"):
+    with pytest.raises(StationNotResponding, match="no controller replies: are they powered"):
         Pmc006.open("model:speed=max,baud=19200")
 
 
@@ -485,7 +495,7 @@ def test_other_builds_and_adapters() -> None:
             part.max_speed = part.start_speed = part.stop_speed = 3000
             assert part.move(3).complete and part.move(-70).position == -67
             assert part.counters.faults == 0
-    with Pmc006Bus.open("model:speed=max,echo=on,address=5") as bus, pytest.raises(StationSilent):
+    with Pmc006Bus.open("model:speed=max,echo=on,address=5") as bus, pytest.raises(StationNotResponding):
         bus.axis(6).version()
 
 

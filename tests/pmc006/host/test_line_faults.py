@@ -11,13 +11,13 @@ from collections.abc import Callable
 import pytest
 
 from openppmc.host import BACKWARD, FORWARD, Cause, Disconnected, NoAnswer, Pmc006, Pmc006Bus, PpmcError
-from openppmc.host.line import GarbledReply, LostReply, StationSilent
-from openppmc.host.pmc006.talk import Line
+from openppmc.host.line import CorruptReply, LostReply, StationNotResponding
+from openppmc.host.pmc006.station_link import Line
 from openppmc.host.pmc006.wire import (
+    ExtStopActive,
     Flags,
-    LockedByExt,
-    ProgramDiffers,
     ProgramRuns,
+    ProgramVerifyFailed,
     Receiver,
     Reply,
     StorageBusy,
@@ -111,7 +111,7 @@ def test_a_locked_start_is_no_start() -> None:
         part.stops = 1
         part.jog(BACKWARD).wait()
         port.plan = once("s", LOSE_REPLY)
-        with pytest.raises(LockedByExt):
+        with pytest.raises(ExtStopActive):
             part.move(40)
         assert port.node().position == 3995
 
@@ -198,7 +198,7 @@ def test_a_program_that_does_not_stay() -> None:
 
     with part:
         port.plan = plan
-        with pytest.raises(ProgramDiffers, match="word 0 of the program reads 00000101, not 00000001"):
+        with pytest.raises(ProgramVerifyFailed, match="word 0 of the program reads 00000101, not 00000001"):
             part.load_program(assemble("ROT 5"))
 
 
@@ -271,19 +271,19 @@ def test_the_eeprom_takes_its_time() -> None:
 @pytest.mark.parametrize(
     ("replies", "error", "text"),
     [
-        ([], StationSilent, r"played: controller 5: no reply to 5 frames: is it there and powered"),
+        ([], StationNotResponding, r"played: controller 5: no reply to 5 frames: is it there and powered"),
         (
             ["A5 7A 05 03"] * 5,
-            GarbledReply,
+            CorruptReply,
             "only garbled replies, 5 times: noise, another baud rate, or two",
         ),
-        (["00 FF 13"] * 5, GarbledReply, "only garbled replies"),
+        (["00 FF 13"] * 5, CorruptReply, "only garbled replies"),
         (
             [reply(6, 0).hex()] * 5,
-            GarbledReply,
+            CorruptReply,
             "another station replied, 5 times: does a second master talk",
         ),
-        ([reply(5, 99).hex()] * 5, GarbledReply, "only garbled replies"),
+        ([reply(5, 99).hex()] * 5, CorruptReply, "only garbled replies"),
     ],
 )
 def test_what_is_told(replies: list[str], error: type[Exception], text: str) -> None:
@@ -307,20 +307,20 @@ def test_replies_are_found_among_others() -> None:
         sent[:4],
     ):
         receiver = Receiver(5, sent)
-        got = [receiver.take(byte) for byte in before + mine]
+        got = [receiver.feed(byte) for byte in before + mine]
         assert got[-1] == Reply(5, -2) and set(got[:-1]) <= {None}, before
     receiver = Receiver(5, sent)
-    assert [receiver.take(byte) for byte in sent] == [None] * 8 and receiver.fault is None
+    assert [receiver.feed(byte) for byte in sent] == [None] * 8 and receiver.fault is None
 
 
 def test_two_with_one_address() -> None:
     """Equal replies of two controllers with one address overlap; different ones are garbled."""
     with Pmc006Bus.open("model:speed=max,address=3,twin=3") as bus:
-        assert bus.scan([3])[0].trouble == ""
+        assert bus.scan([3])[0].problem == ""
         for number, board in enumerate(bus.line.port.line.stations):  # type: ignore[attr-defined]
             board.part.desk.settings.exten = 1 + number
         found = bus.scan([3, 4])
-        assert len(found) == 1 and "two controllers with this address" in found[0].trouble
+        assert len(found) == 1 and "two controllers with this address" in found[0].problem
 
 
 def test_late_replies_do_not_answer_the_next_question() -> None:
@@ -331,7 +331,7 @@ def test_late_replies_do_not_answer_the_next_question() -> None:
     port, part = quick()
     with part:
         port.plan = lambda frame: LATE_REPLY
-        with pytest.raises(StationSilent):
+        with pytest.raises(StationNotResponding):
             part.flags()
         port.plan = once("j", LATE_REPLY)
         assert part.flags() == Flags.parse(8) and part.position == 0
@@ -383,5 +383,5 @@ def test_cut_replies_of_reads() -> None:
         port.plan = once("x", CUT_REPLY, 4)
         assert part.ports().inputs == 31 and part.counters.garbled == 4
         port.plan = once("x", CUT_REPLY, 5)
-        with pytest.raises(GarbledReply):
+        with pytest.raises(CorruptReply):
             part.ports()

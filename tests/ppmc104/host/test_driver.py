@@ -13,19 +13,19 @@ from openppmc.host import (
     CW,
     AlarmStop,
     AlreadyDecelerating,
-    BadRamp,
+    AxisBusy,
     Cause,
+    InvalidRamp,
     LimitReached,
     NothingToStop,
     NotInitialised,
-    NotWhileBusy,
     OriginNotFound,
     OutOfRange,
     Ppmc104,
     PpmcError,
     Progress,
     RampTooLong,
-    StoppedEarly,
+    StoppedByCommand,
     Timeout,
     UnexpectedData,
     UnexpectedDataBusy,
@@ -146,7 +146,7 @@ def test_impossible_setups_are_refused_before_the_part_hears_of_them(
 def test_moves(axis: Ppmc104) -> None:
     for pulses, at in ((1000, 1000), (-300, 700), (1, 701), (0, 701), (-1, 700)):
         end = axis.move(pulses)
-        assert (end.cause, end.pulses, end.left, end.position) == (Cause.COMPLETE, pulses, 0, at)
+        assert (end.cause, end.pulses, end.remaining, end.position) == (Cause.COMPLETE, pulses, 0, at)
         assert axis.position == at == motor(axis) - 4000
     assert axis.move_to(-25).pulses == -725
     assert axis.move_constant(20, 2000).position == -5
@@ -168,9 +168,9 @@ def test_progress(axis: Ppmc104) -> None:
     seen: list[Progress] = []
     axis.move(-3000, progress=seen.append)
     assert len(seen) >= 4
-    assert [now.made for now in seen] == sorted(now.made for now in seen)
-    assert all(now.asked == 3000 and now.position == -now.made for now in seen)
-    assert 0 < seen[0].made < seen[-1].made < 3000
+    assert [now.done for now in seen] == sorted(now.done for now in seen)
+    assert all(now.requested == 3000 and now.position == -now.done for now in seen)
+    assert 0 < seen[0].done < seen[-1].done < 3000
 
 
 def test_an_exception_from_progress_reaches_the_caller_and_stops_nothing(axis: Ppmc104) -> None:
@@ -293,11 +293,11 @@ def test_a_stopped_move_tells(axis: Ppmc104) -> None:
     axis.stop(wait=False)
     end = motion.wait()
     with pytest.raises(
-        StoppedEarly, match=r"stop command ended the motion at position \d+ after \d+ of 5000 pulses"
+        StoppedByCommand, match=r"stop command ended the motion at position \d+ after \d+ of 5000 pulses"
     ):
         end.check(5000)
     assert end.pulses is not None
-    assert end.pulses + end.left == 5000
+    assert end.pulses + end.remaining == 5000
 
 
 # ---------------------------------------------------------------------- switches
@@ -306,17 +306,17 @@ def test_a_stopped_move_tells(axis: Ppmc104) -> None:
 def test_limits(axis: Ppmc104) -> None:
     with pytest.raises(LimitReached, match="slow-down limit .* other direction") as caught:
         axis.move(100_000)
-    assert caught.value.end.cause is Cause.SLOW_LIMIT
+    assert caught.value.result.cause is Cause.SLOW_LIMIT
     assert motor(axis) == 38_000 + 201
     assert axis.inputs().active == ["slow cw"]
     with pytest.raises(LimitReached) as caught:
         axis.move_constant(100_000, 5000)
-    assert caught.value.end.cause is Cause.LIMIT
+    assert caught.value.result.cause is Cause.LIMIT
     assert motor(axis) == 40_000
     assert axis.inputs().active == ["limit cw", "slow cw"]
     with pytest.raises(LimitReached) as caught:
         axis.step(CW)
-    assert caught.value.end.pulses == 0
+    assert caught.value.result.pulses == 0
     assert axis.move(-50).pulses == -50, "away from the switch is free"
 
 
@@ -326,7 +326,7 @@ def test_alarm() -> None:
             AlarmStop, match="alarm input ended the motion at position 500 after 500 of 2000"
         ) as caught:
             axis.move(2000)
-        assert caught.value.end.cause is Cause.ALARM
+        assert caught.value.result.cause is Cause.ALARM
         assert axis.inputs().alarm
         with pytest.raises(AlarmStop):
             axis.home()
@@ -352,7 +352,7 @@ def test_home_towards_a_switch_that_is_not_there() -> None:
     with board("origin=-5000", start_pps=2000) as axis:
         with pytest.raises(OriginNotFound, match="limit switch came before the origin") as caught:
             axis.home(CCW)
-        assert caught.value.end.cause is Cause.LIMIT
+        assert caught.value.result.cause is Cause.LIMIT
 
 
 def test_fast_homing_without_a_slow_down_switch() -> None:
@@ -375,7 +375,7 @@ def test_every_error_number_is_raised_as_its_own_exception(axis: Ppmc104) -> Non
         (NothingToStop, 0x80, Script().call(0x40)),
         (UnexpectedData, 0xB0, Script().call(0xC1, 0x00)),
         (RampTooLong, 0xC0, Script().call(0x0A, 9, 4, 0xD5, 0x2B)),
-        (BadRamp, 0xD0, Script().call(0x0A, 4, 9, 4, 0)),
+        (InvalidRamp, 0xD0, Script().call(0x0A, 4, 9, 4, 0)),
     ]
     for kind, status, script in rest:
         with pytest.raises(kind) as caught:
@@ -383,7 +383,7 @@ def test_every_error_number_is_raised_as_its_own_exception(axis: Ppmc104) -> Non
         assert caught.value.status == status
     axis.jog(CW, high=True)
     busy: list[tuple[type[CommandRefused], int, Script]] = [
-        (NotWhileBusy, 0x94, Script().call(0x42)),
+        (AxisBusy, 0x94, Script().call(0x42)),
         (UnexpectedDataBusy, 0xE4, Script().call(0xC1, 0x00)),
         (AlreadyDecelerating, 0xF4, Script().call(0x41).call(0x41)),
     ]
@@ -412,7 +412,7 @@ def test_commands_during_a_motion(axis: Ppmc104) -> None:
         axis.auxi,
         axis.excitation_off,
     ):
-        with pytest.raises(NotWhileBusy):
+        with pytest.raises(AxisBusy):
             call()
     axis.aux(True)
     axis.auxo(5)
@@ -496,7 +496,7 @@ def test_excitation_off_right_after_a_start() -> None:
         axis.initialise(start_pps=5000, high_pps=9000)
         axis.move(1)
         motion = axis.start_move(300)
-        with pytest.raises(NotWhileBusy):
+        with pytest.raises(AxisBusy):
             axis.excitation_off()
         assert isinstance(axis.link.port, ModelPort)
         assert axis.link.port.board.part.outputs["aux_n"] == 1
@@ -512,7 +512,7 @@ def test_external_clock_that_does_not_run() -> None:
             motion.wait(timeout=0.5)
         end = axis.halt()
         assert end is not None
-        assert (end.pulses, end.left) == (0, 5)
+        assert (end.pulses, end.remaining) == (0, 5)
 
 
 def test_wrong_part() -> None:

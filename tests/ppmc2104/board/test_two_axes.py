@@ -12,10 +12,10 @@ from openppmc.host import (
     CCW,
     CW,
     Axis,
+    AxisBusy,
     Cause,
     LimitReached,
     NotInitialised,
-    NotWhileBusy,
     Ppmc104,
     Ppmc2104,
     WrongDevice,
@@ -95,7 +95,7 @@ def test_coordinated_start(start_board: StartBoard, tmp_path: Path, timing: str)
             part.y.initialise(start_pps=1000, high_pps=9000, ramp_pulses=40),
         )
         assert [setup.clock.csel for setup in setups] == [1, 0]
-        part.together(1000, -700)
+        part.move_together(1000, -700)
     board.close()
     begins = []
     for axis, setup, pulses in ((1, setups[0], 1000), (2, setups[1], 700)):
@@ -116,7 +116,7 @@ def test_fast_pulses_of_both(start_board: StartBoard, tmp_path: Path) -> None:
     board = start_board(part="ppmc2104", log=log, cw=99_000, slow_cw=99_000, cw2=99_000, slow_cw2=99_000)
     with Ppmc2104.open(board.port) as part:
         initialise(part)
-        ends = part.together(20_000, 20_001, 250_000, 250_000)
+        ends = part.move_together(20_000, 20_001, 250_000, 250_000)
         assert [end.position for end in ends] == [20_000, 20_001]
     board.close()
     for axis in (1, 2):
@@ -130,10 +130,10 @@ def test_a_limit_stops_both(start_board: StartBoard) -> None:
     with Ppmc2104.open(board.port) as part:
         initialise(part)
         with pytest.raises(LimitReached, match="axis 2: slow-down limit"):
-            part.together(20_000, 20_000)
+            part.move_together(20_000, 20_000)
         assert not any(part.status().busy)
-        assert part.x.motion is not None and part.x.motion.end is not None
-        assert part.x.motion.end.cause is Cause.STOP
+        assert part.x.motion is not None and part.x.motion.result is not None
+        assert part.x.motion.result.cause is Cause.STOP
     x, y = positions(board)
     assert 6000 < y <= 6401 and y <= x < 15_000
 
@@ -155,10 +155,10 @@ def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
     """Errors of one axis during motions of both do not change either motion."""
     with Ppmc2104.open(board.port) as part:
         initialise(part)
-        motions = part.start_together(3000, 3500)
+        motions = part.start_moves(3000, 3500)
         for _ in range(4):
             for axis in (part.x, part.y):
-                with pytest.raises(NotWhileBusy, match=f"axis {axis.number}"):
+                with pytest.raises(AxisBusy, match=f"axis {axis.number}"):
                     axis.remaining()
         assert [motion.wait().pulses for motion in motions] == [3000, 3500]
     assert positions(board) == (7000, 7500)
@@ -173,14 +173,14 @@ def test_unplugged_in_a_coordinated_move(board: SimBoard, until: Wait) -> None:
     """Without a host, both motors make their pulses; the next host reads the right positions."""
     part = Ppmc2104.open(board.port)
     initialise(part)
-    part.start_together(8000, -3000)
+    part.start_moves(8000, -3000)
     until(lambda: board.status().pulses > 1000, "motors turning")
     yank(part)
     with Ppmc2104.open(board.port) as again:
         until(lambda: not any(again.status().busy), "end of the moves")
         assert [again.x.position, again.y.position] == [8000, -3000]
         initialise(again)
-        assert again.together(-100, 100)[1].position == -2900
+        assert again.move_together(-100, 100)[1].position == -2900
 
 
 def test_host_dies_between_the_commands(board: SimBoard, until: Wait) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.cli.common.session import Guard, recall, remember
+from openppmc.cli.common.session import Guard, load_setup, store_setup
 from openppmc.host import CW, Ppmc2104
 from tests.common.cli.command_line import Run
 
@@ -49,9 +49,9 @@ def test_init_an_axis(run: Run) -> None:
 
 
 def test_set_ups_are_remembered_for_each_axis(run: Run) -> None:
-    remember("/dev/ttyUSB7", {"start": 2000.0})
-    remember("/dev/ttyUSB7", {"start": 3000.0, "logic": None}, 2)
-    assert (recall("/dev/ttyUSB7")["start"], recall("/dev/ttyUSB7", 2)["start"]) == (2000, 3000)
+    store_setup("/dev/ttyUSB7", {"start": 2000.0})
+    store_setup("/dev/ttyUSB7", {"start": 3000.0, "logic": None}, 2)
+    assert (load_setup("/dev/ttyUSB7")["start"], load_setup("/dev/ttyUSB7", 2)["start"]) == (2000, 3000)
 
 
 def test_status_of_both_and_of_one(run: Run) -> None:
@@ -196,7 +196,7 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
     with Ppmc2104.open(TWO) as part:
         for axis in (part.x, part.y):
             axis.initialise(start_pps=1000, high_pps=1200, ramp_pulses=11_000)
-        part.start_together(30_000, 30_000)
+        part.start_moves(30_000, 30_000)
         part.link.pause(2)
         before = [part.x.position, part.y.position]
         guard = Guard()
@@ -208,7 +208,7 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
             guard.count += again
 
         monkeypatch.setattr(part.x, "stop", stop_and_ctrl_c)
-        text = guard.bring_to_rest(part)
+        text = guard.stop_motors(part)
         assert ("stopped at once" in text) == again
         after = [part.x.position, part.y.position]
         assert text.endswith(f", axis 1: position {after[0]}, axis 2: position {after[1]}")

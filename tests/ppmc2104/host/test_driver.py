@@ -13,32 +13,32 @@ from openppmc.host import (
     CW,
     AlarmStop,
     AlreadyDecelerating,
-    BadRamp,
-    BadSwitching,
+    AxisBusy,
     Cause,
-    CutCommand,
+    IncompleteCommand,
+    InvalidChopperTimes,
+    InvalidRamp,
     LimitReached,
     Link,
     NothingToStop,
     NotInitialised,
-    NotWhileBusy,
     OutOfRange,
     Ppmc104,
     Ppmc2104,
     Progress,
     RampTooLong,
+    RateLimitExceeded,
     StartRefused,
-    StoppedEarly,
+    StoppedByCommand,
     Timeout,
-    TooFast,
     UnexpectedData,
-    UnknownCode,
+    UnknownCommand,
     WrongDevice,
     open_part,
 )
 from openppmc.host.errors import CommandRefused
 from openppmc.host.model_port import ModelPort
-from openppmc.host.ppmc2104.words import BY_NUMBER as BY_NUMBER_2104
+from openppmc.host.ppmc2104.registers import BY_NUMBER as BY_NUMBER_2104
 from openppmc.host.script import Script
 from openppmc.model.ppmc2104.carrier import Carrier
 
@@ -181,10 +181,10 @@ def test_an_axis_left_waiting_for_run_does_not_start() -> None:
     assert part.status().busy == (True, False)
     assert model(part).counts == [0, 50]
     for _ in range(2):
-        with pytest.raises(NotWhileBusy, match="axis 1"):
+        with pytest.raises(AxisBusy, match="axis 1"):
             part.x.move(5)
-        with pytest.raises(NotWhileBusy, match="axis 1"):
-            part.together(5, 5)
+        with pytest.raises(AxisBusy, match="axis 1"):
+            part.move_together(5, 5)
         assert part.y.move(50).complete and part.y.inputs().active == []
         part.link.pause(0.1)
         assert model(part).counts[0] == 0
@@ -201,7 +201,7 @@ def test_both_axes_are_axes(part: Ppmc2104) -> None:
     for n, axis in enumerate((part.x, part.y)):
         for pulses, at in ((1000, 1000), (-300, 700), (1, 701), (0, 701), (-1, 700)):
             end = axis.move(pulses)
-            assert (end.cause, end.pulses, end.left, end.position) == (Cause.COMPLETE, pulses, 0, at)
+            assert (end.cause, end.pulses, end.remaining, end.position) == (Cause.COMPLETE, pulses, 0, at)
             assert axis.position == at == model(part).positions[n] - 4000
         assert axis.move_to(-25).pulses == -725
         assert axis.move_constant(20, 2000).position == -5
@@ -226,7 +226,7 @@ def test_the_end_of_the_other_axis_does_not_hide_this_one(part: Ppmc2104) -> Non
     before = part.link.clock()
     end = long.wait()
     seconds = part.link.clock() - before
-    assert end.complete and short.end is not None and short.end.complete
+    assert end.complete and short.result is not None and short.result.complete
     assert seconds < 0.3, "the end came as a message, not by the look every half second"
 
 
@@ -239,7 +239,7 @@ def test_together_begins_on_one_clk(setups: tuple[dict[str, int], dict[str, int]
         for axis, setup in zip((part.x, part.y), setups, strict=True):
             axis.initialise(**{**SETUP, **setup})
         seen = first_pulses(part)
-        ends = part.together(1500, -900)
+        ends = part.move_together(1500, -900)
         assert [end.pulses for end in ends] == [1500, -900]
         assert [len(pulses) for pulses in seen] == [1500, 900]
         assert seen[0][0] == seen[1][0]
@@ -252,29 +252,29 @@ def test_together_begins_on_one_clk(setups: tuple[dict[str, int], dict[str, int]
 def test_together_at_constant_speeds(part: Ppmc2104) -> None:
     """In a coordinated start, one axis can use the slow base clock and the other the fast one."""
     seen = first_pulses(part)
-    part.together(40, 300, 1000, 100_000)
+    part.move_together(40, 300, 1000, 100_000)
     assert seen[0][0] == seen[1][0]
     assert {b - a for a, b in zip(seen[0], seen[0][1:], strict=False)} == {16_000}
     assert {b - a for a, b in zip(seen[1], seen[1][1:], strict=False)} == {160}
 
 
 def test_together_with_an_axis_that_does_not_move(part: Ppmc2104) -> None:
-    assert [end.pulses for end in part.together(0, 70)] == [0, 70]
-    assert [end.pulses for end in part.together(-70, 0)] == [-70, 0]
-    assert [end.pulses for end in part.together(0, 0)] == [0, 0]
+    assert [end.pulses for end in part.move_together(0, 70)] == [0, 70]
+    assert [end.pulses for end in part.move_together(-70, 0)] == [-70, 0]
+    assert [end.pulses for end in part.move_together(0, 0)] == [0, 0]
     with pytest.raises(OutOfRange, match="1 to 16777216"):
-        part.start_together(0, 5)
+        part.start_moves(0, 5)
 
 
 def test_together_stops_both_when_one_meets_a_limit() -> None:
     with board("slow_cw2=5000") as part:
         with pytest.raises(LimitReached, match="axis 2: slow-down limit ended the motion"):
-            part.together(20_000, 20_000)
-        assert part.x.motion is not None and part.x.motion.end is not None
-        assert part.x.motion.end.cause is Cause.STOP
+            part.move_together(20_000, 20_000)
+        assert part.x.motion is not None and part.x.motion.result is not None
+        assert part.x.motion.result.cause is Cause.STOP
         assert model(part).positions[1] == 5000 + 101
         assert model(part).positions[0] < 7000
-        assert part.together(-100, -100)[1].complete
+        assert part.move_together(-100, -100)[1].complete
 
 
 @pytest.mark.parametrize("blocked", [1, 2])
@@ -282,18 +282,18 @@ def test_together_with_a_blocked_axis_moves_neither(blocked: int) -> None:
     suffix = "" if blocked == 1 else "2"
     with board(f"start{suffix}=40000") as part:
         with pytest.raises(StartRefused, match=f"axis {blocked}: it may not start"):
-            part.together(500, 500)
+            part.move_together(500, 500)
         assert model(part).counts == [0, 0]
         assert not any(part.status().busy) and not part.status().error
         part.axis[3 - blocked].move(50)
-        assert part.together(-5, -5)[0].complete
+        assert part.move_together(-5, -5)[0].complete
         assert sum(model(part).counts) == 40
 
 
 def test_together_with_an_axis_that_is_busy(part: Ppmc2104) -> None:
     part.y.jog(CW, 2000)
-    with pytest.raises(NotWhileBusy, match="axis 2"):
-        part.together(50, 50)
+    with pytest.raises(AxisBusy, match="axis 2"):
+        part.move_together(50, 50)
     assert model(part).counts[0] == 0
     assert part.status().busy == (False, True), "the motion that was there goes on"
     part.y.stop()
@@ -301,13 +301,13 @@ def test_together_with_an_axis_that_is_busy(part: Ppmc2104) -> None:
 
 def test_progress_of_both(part: Ppmc2104) -> None:
     seen: list[Progress] = []
-    part.together(3000, 9000, progress=seen.append)
-    assert seen and {now.asked for now in seen} <= {3000, 9000}
+    part.move_together(3000, 9000, progress=seen.append)
+    assert seen and {now.requested for now in seen} <= {3000, 9000}
 
 
 def test_leaving_the_block_by_an_exception_brakes_both() -> None:
     with pytest.raises(ZeroDivisionError), board() as part:
-        part.start_together(30_000, -3_000)
+        part.start_moves(30_000, -3_000)
         part.link.pause(0.1)
         raise ZeroDivisionError
     machine = model(part)
@@ -365,14 +365,14 @@ def test_stop_while_the_part_waits_for_run(part: Ppmc2104) -> None:
         motion.wait(timeout=0.3)
     part.x.stop(wait=False)
     end = motion.wait(timeout=1)
-    assert (end.cause, end.pulses, end.left) == (Cause.STOP, 0, 500)
+    assert (end.cause, end.pulses, end.remaining) == (Cause.STOP, 0, 500)
 
 
 def test_a_stopped_move_tells(part: Ppmc2104) -> None:
     motion = part.y.start_move(15_000)
     part.link.pause(0.2)
     part.y.stop(wait=False)
-    with pytest.raises(StoppedEarly, match=r"axis 2: stop command ended the motion at position \d+"):
+    with pytest.raises(StoppedByCommand, match=r"axis 2: stop command ended the motion at position \d+"):
         motion.wait().check(15_000)
 
 
@@ -385,14 +385,14 @@ def test_limits_and_starts_on_them(part: Ppmc2104) -> None:
     assert model(part).position == 38_000 + 101
     with pytest.raises(LimitReached) as caught:
         part.x.move_constant(100_000, 5000)
-    assert caught.value.end.cause is Cause.LIMIT
+    assert caught.value.result.cause is Cause.LIMIT
     assert model(part).position == 40_000
     assert part.x.inputs().active == ["limit cw", "slow cw"]
     assert part.y.inputs().active == []
     # The part rejects such a start (error 7); for the user it is the same as on a PPMC-104.
     with pytest.raises(LimitReached, match="after 0 of 1 pulses") as caught:
         part.x.step(CW)
-    assert caught.value.end.pulses == 0
+    assert caught.value.result.pulses == 0
     assert not part.status().error
     assert part.x.move(-50).pulses == -50
 
@@ -434,14 +434,14 @@ def test_every_error_number_has_its_exception(part: Ppmc2104) -> None:
     link = part.link
     model(part).set_pins(bl_n=0b01)
     rest: list[tuple[int, type[CommandRefused], Script]] = [
-        (1, UnknownCode, Script().call(0xA7)),
+        (1, UnknownCommand, Script().call(0xA7)),
         (2, UnexpectedData, Script().call(0xF1, 0x00)),
-        (3, CutCommand, Script().post(1, b"\x63").call(0xA0)),
+        (3, IncompleteCommand, Script().post(1, b"\x63").call(0xA0)),
         (6, NothingToStop, Script().call(0x60)),
         (7, StartRefused, Script().call(0x6A)),
-        (9, BadRamp, Script().call(0x22, 5, 4, 100, 0)),
+        (9, InvalidRamp, Script().call(0x22, 5, 4, 100, 0)),
         (10, RampTooLong, Script().call(0x22, 9, 4, 0xD5, 0x2B)),
-        (11, BadSwitching, Script().call(0xA4, 0x3F, 0x80)),
+        (11, InvalidChopperTimes, Script().call(0xA4, 0x3F, 0x80)),
     ]
     part.y.move(3)
     for number, kind, script in rest:
@@ -451,7 +451,7 @@ def test_every_error_number_has_its_exception(part: Ppmc2104) -> None:
         assert not part.status().error
     part.y.jog(CW, 2000)
     for number, kind, script in (
-        (5, NotWhileBusy, Script().call(0x62)),
+        (5, AxisBusy, Script().call(0x62)),
         (8, AlreadyDecelerating, Script().call(0x61)),
     ):
         with pytest.raises(kind, match="^axis 2: "):
@@ -468,16 +468,16 @@ def test_every_error_number_has_its_exception(part: Ppmc2104) -> None:
 def test_too_fast_with_datasheet_timing() -> None:
     """With DATASHEET timing, rates above the limits return errors 12 and 13 (P2104-DS-30)."""
     with board("timing=DATASHEET", high_pps=10_000) as part:
-        with pytest.raises(TooFast, match="axis 1: .* one axis cannot run so fast"):
+        with pytest.raises(RateLimitExceeded, match="axis 1: .* one axis cannot run so fast"):
             part.x.start_constant(5, 250_000)
         assert part.x.move_constant(5, 20_000).complete
         part.y.jog(CW, 2000)
-        with pytest.raises(TooFast, match="axis 1: .* while the other axis is in use"):
+        with pytest.raises(RateLimitExceeded, match="axis 1: .* while the other axis is in use"):
             part.x.start_constant(5, 20_000)
         assert part.x.move_constant(5, 10_000).complete
         part.y.stop()
         seen = first_pulses(part)
-        assert part.together(100, 200)[0].complete
+        assert part.move_together(100, 200)[0].complete
         assert seen[0][0] == seen[1][0]
         assert part.x.home(fast=True).position == 0
         assert part.link.repeats == 0
@@ -512,7 +512,7 @@ def test_bad_arguments(part: Ppmc2104) -> None:
         lambda: part.auxo(4),
         lambda: part.x.switching(31, 100),
         lambda: part.x.hold_delay(100),
-        lambda: part.together(1 << 25, 5),
+        lambda: part.move_together(1 << 25, 5),
     ]
     for call in calls:
         with pytest.raises(OutOfRange):
@@ -532,9 +532,9 @@ def test_registers_and_auxiliary(part: Ppmc2104) -> None:
     for value, levels in ((0, 3), (1, 2), (2, 1), (3, 0)):
         part.auxo(value)
         assert model(part).part.outputs["auxo"] == levels
-    with pytest.raises(NotWhileBusy):
+    with pytest.raises(AxisBusy):
         part.x.outputs()
-    with pytest.raises(NotWhileBusy):
+    with pytest.raises(AxisBusy):
         part.x.excitation_off()
     part.x.stop()
 
@@ -549,7 +549,7 @@ def test_switching_and_hold_delay(part: Ppmc2104) -> None:
 
 
 def test_reset(part: Ppmc2104) -> None:
-    part.start_together(5000, 5000)
+    part.start_moves(5000, 5000)
     part.reset()
     assert part.status().raw == 0
     for axis in (part.x, part.y):
@@ -572,7 +572,7 @@ def test_noise_during_coordinated_starts(monkeypatch: pytest.MonkeyPatch) -> Non
 
         monkeypatch.setattr(port, "write", lossy)
         for turn in range(10):
-            ends = part.together(10, -20)
+            ends = part.move_together(10, -20)
             assert [end.position for end in ends] == [10 * (turn + 1), -20 * (turn + 1)]
         assert part.link.repeats > 3
         monkeypatch.setattr(port, "write", write)
@@ -590,7 +590,7 @@ def test_ctrl_c_in_the_middle_of_a_coordinated_start(part: Ppmc2104, monkeypatch
 
     monkeypatch.setattr(part.link.port, "read", strike)
     with pytest.raises(KeyboardInterrupt):
-        part.start_together(20_000, 20_000)
+        part.start_moves(20_000, 20_000)
     assert not any(part.status().busy)
     assert all(count < 1000 for count in model(part).counts)
-    assert part.together(5, 5)[0].complete
+    assert part.move_together(5, 5)[0].complete

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.host import CCW, CW, Cause, LimitReached, Ppmc312, StoppedEarly
+from openppmc.host import CCW, CW, Cause, LimitReached, Ppmc312, StoppedByCommand
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import EncoderChange, Executed, InPositionChange
 from openppmc.model.clock import Timebase
@@ -87,7 +87,7 @@ def test_overrides_and_events(start_board: StartBoard) -> None:
         part.load_curve(QUICK)
         part.override_speed(20_000, at=4000)
         part.override_stop(at=8000, slow=False)
-        with pytest.raises(StoppedEarly):
+        with pytest.raises(StoppedByCommand):
             part.move(20_000)
         assert part.position == 8000 and board.status().position == 12_000
         done = [part.next_report(), part.next_report()]
@@ -97,7 +97,7 @@ def test_overrides_and_events(start_board: StartBoard) -> None:
         assert part.next_report(1) == Executed(Source.EVENT, Code.STEP)
         part.allow_run(False)
         motion = part.start_move(-50)
-        assert motion.held
+        assert motion.waited_for_run
         part.allow_run(True)
         assert motion.wait(10).complete and part.position == 7951
         part.reset()

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, Cause, Disconnected, LimitReached, PortError, Ppmc312Bus
-from openppmc.host.line import LineEcho, StationSilent
+from openppmc.host.line import LineEcho, StationNotResponding
 from openppmc.sim import SimError, SimLine, SpecError, start_line
 
 from ...common.board.fixtures import ROOT, CommandLine, Wait, one_line
@@ -36,7 +36,7 @@ def line() -> Iterator[SimLine]:
 def test_sixteen_stations(line: SimLine) -> None:
     """All stations are found, initialised and moved together; the motors reach their positions."""
     with Ppmc312Bus.open(line.port, 83_333, patience=PATIENCE) as bus:
-        assert [(one.station, one.version, one.trouble) for one in bus.scan()] == [
+        assert [(one.station, one.version, one.problem) for one in bus.scan()] == [
             (number, 0x12, "") for number in range(16)
         ]
         for axis in bus.axes:
@@ -99,7 +99,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
         until(link.is_symlink, "a link to the port")
         with Ppmc312Bus.open(str(link), patience=PATIENCE) as bus:
             assert bus.axis(2).version() == 0x12
-            with pytest.raises(StationSilent):
+            with pytest.raises(StationNotResponding):
                 bus.axis(3).version()
         process.send_signal(signal.SIGINT)
         assert process.wait(10) == 0 and not link.exists()
@@ -109,7 +109,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
 
 def test_wrong_speed_and_echo(line: SimLine) -> None:
     """At another speed the line receives invalid frames; an echo is distinguished from a reply."""
-    with Ppmc312Bus.open(line.port, 19_200) as bus, pytest.raises(StationSilent, match="speed"):
+    with Ppmc312Bus.open(line.port, 19_200) as bus, pytest.raises(StationNotResponding, match="speed"):
         bus.axis(0).version()
     with start_line("stations=1,echo=on") as echoing:
         with Ppmc312Bus.open(echoing.port) as bus, pytest.raises(LineEcho):

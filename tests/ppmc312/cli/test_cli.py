@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.cli.common.session import recall
+from openppmc.cli.common.session import load_setup
 from tests.common.cli.command_line import Run
 
 PORT = "model:speed=max,part=ppmc312"
@@ -84,10 +84,10 @@ def test_the_table_comes_back_as_a_curve(run: Run, tmp_path: Path, curve: str) -
 
 
 def test_init_is_remembered(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, curve: str) -> None:
-    monkeypatch.setattr("openppmc.cli.common.session.lasting", lambda port: bool(port))
+    monkeypatch.setattr("openppmc.cli.common.session.stores_setup", lambda port: bool(port))
     monkeypatch.chdir(tmp_path)
     run("init", "--curve", "curve.csv")
-    assert recall(PORT)["curve"] == curve
+    assert load_setup(PORT)["curve"] == curve
     monkeypatch.chdir("/")
     assert json.loads(run("init", "--json").out)["shape"] == "free curve"
 

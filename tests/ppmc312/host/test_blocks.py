@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, CW, OutOfRange
-from openppmc.host.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
-from openppmc.host.kind import Wanted
+from openppmc.host.capabilities import SetupRequest
+from openppmc.host.errors import AxisBusy, CommandRefused, NotInitialised, StartRefused, UnknownCommand
 from openppmc.host.ppmc312 import answers, errors, profile
 from openppmc.host.ppmc312 import answers as registers
 from openppmc.host.ppmc312 import blocks as blocks312
 from openppmc.host.ppmc312 import profile as free
 from openppmc.host.ppmc312.answers import BadResponse, EventBuffer, Inputs, Response, Status
 from openppmc.host.ppmc312.blocks import Trigger
-from openppmc.host.ppmc312.profile import KIND as PPMC312
+from openppmc.host.ppmc312.profile import CAPABILITIES as PPMC312
 from openppmc.host.ppmc312.profile import base_clocks, plan_curve, plan_setup, read_stages
 from openppmc.model import Timebase, predict_move
 from openppmc.model.ppmc312 import stages as tables
@@ -141,15 +141,15 @@ def test_what_does_not_fit_is_told_before_it_is_sent(make: object) -> None:
 
 REFUSALS = [
     ("03 03 F1 00 01", NotInitialised, "no table"),
-    ("03 03 F1 00 04", NotWhileBusy, "busy"),
-    ("03 03 F1 00 08", NotWhileBusy, "busy"),
+    ("03 03 F1 00 04", AxisBusy, "busy"),
+    ("03 03 F1 00 08", AxisBusy, "busy"),
     ("03 03 F1 00 10", errors.InAlarm, "in alarm"),
     ("03 03 F1 00 20", errors.HeldByRun, "RUN"),
-    ("03 03 F1 01 02", errors.OutOfTurn, "did not expect"),
-    ("03 03 F1 02 01", errors.OutOfTurn, "did not expect"),
+    ("03 03 F1 01 02", errors.UnexpectedInstruction, "did not expect"),
+    ("03 03 F1 02 01", errors.UnexpectedInstruction, "did not expect"),
     ("03 01 F2", StartRefused, "limit switch"),
-    ("03 02 F5 46", UnknownCode, "does not know"),
-    ("03 02 F6 09", errors.BadBlock, "length"),
+    ("03 02 F5 46", UnknownCommand, "does not know"),
+    ("03 02 F6 09", errors.InvalidBlockLength, "length"),
     ("03 02 F7 00", errors.RegistrationRefused, "eight"),
     ("03 02 F7 01", errors.RegistrationRefused, "in use"),
     ("0B 02 F8 02", errors.EventFailed, "limit switch"),
@@ -254,12 +254,14 @@ def test_status_and_inputs() -> None:
 def test_base_clock_by_the_slowest_speed() -> None:
     """The planned base clock is the fastest with which 65 535 ticks are long enough for the slowest speed."""
     for slowest, clk in ((5000, 0), (123, 0), (122, 1), (15.3, 1), (7.7, 2), (4, 3), (1, 4), (0.3, 5)):
-        setup = PPMC312.plan(XTAL, Wanted(start_pps=slowest, high_pps=7000, ramp_pulses=9_000_000))
+        setup = PPMC312.plan(XTAL, SetupRequest(start_pps=slowest, high_pps=7000, ramp_pulses=9_000_000))
         assert setup.clock.clk == clk, slowest
-    own_stop = PPMC312.plan(XTAL, Wanted(start_pps=1000, stop_pps=100, high_pps=5000, ramp_pulses=20_000))
+    own_stop = PPMC312.plan(
+        XTAL, SetupRequest(start_pps=1000, stop_pps=100, high_pps=5000, ramp_pulses=20_000)
+    )
     assert own_stop.clock.clk == 1
-    assert PPMC312.plan(8_000_000, Wanted(start_pps=1000)).clock.hertz == 4_000_000
-    outside = PPMC312.plan(XTAL, Wanted(external_clock=100_000, start_pps=100, high_pps=500))
+    assert PPMC312.plan(8_000_000, SetupRequest(start_pps=1000)).clock.hertz == 4_000_000
+    outside = PPMC312.plan(XTAL, SetupRequest(external_clock=100_000, start_pps=100, high_pps=500))
     assert outside.clock.external and outside.blocks[0][3] == 6
 
 
@@ -334,7 +336,7 @@ def test_fewest_pulses_of_a_ramp(
 )
 def test_bad_setups_are_told_before_they_are_sent(arguments: dict[str, object], text: str) -> None:
     with pytest.raises(OutOfRange, match=text.replace("(", ".")):
-        PPMC312.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
+        PPMC312.plan(XTAL, SetupRequest(**arguments))  # type: ignore[arg-type]
 
 
 def test_prediction_of_a_move() -> None:
@@ -382,7 +384,7 @@ def test_free_curve_from_a_file(tmp_path: Path) -> None:
     stages = read_stages(path)
     assert stages == [(2500, 3, None), (5000, 4, 4), (10_000, 5, 6)]
     assert (
-        PPMC312.plan(XTAL, Wanted(curve=str(path), base_clock=1_000_000)).blocks
+        PPMC312.plan(XTAL, SetupRequest(curve=str(path), base_clock=1_000_000)).blocks
         == plan_curve(MEGAHERTZ, stages).blocks
     )
 
@@ -409,7 +411,7 @@ def test_bad_free_curves(tmp_path: Path, text: str, complaint: str) -> None:
     path = tmp_path / "curve.csv"
     path.write_text(text)
     with pytest.raises(OutOfRange, match=complaint):
-        PPMC312.plan(XTAL, Wanted(curve=str(path)))
+        PPMC312.plan(XTAL, SetupRequest(curve=str(path)))
 
 
 def test_a_curve_that_is_no_text(tmp_path: Path) -> None:

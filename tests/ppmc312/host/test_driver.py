@@ -12,20 +12,20 @@ from openppmc.host import (
     CCW,
     CW,
     AlarmStop,
+    AxisBusy,
     Cause,
     LimitReached,
     Link,
     NothingToStop,
     NotInitialised,
-    NotWhileBusy,
     OriginNotFound,
     OutOfRange,
     Ppmc104,
     Ppmc312,
     ProtocolError,
-    StoppedEarly,
+    StoppedByCommand,
     Timeout,
-    UnknownCode,
+    UnknownCommand,
     WrongDevice,
     open_part,
 )
@@ -45,17 +45,17 @@ from openppmc.host.ppmc312.answers import (
     Stopped,
 )
 from openppmc.host.ppmc312.errors import (
-    BadBlock,
     CurveRefused,
     EventFailed,
     HeldByRun,
     InAlarm,
-    OutOfTurn,
+    InvalidBlockLength,
     OverrideFailed,
     ParameterRefused,
     RateRefused,
     RegistrationRefused,
     TableRefused,
+    UnexpectedInstruction,
 )
 from openppmc.host.script import Script
 from openppmc.model.ppmc312.carrier import Carrier
@@ -156,7 +156,7 @@ def test_reports_that_come_first_are_not_lost(part: Ppmc312) -> None:
     part.link.pause(0.01)
     assert model(part).part.core.responses.any_waiting
     assert part.position == 2
-    assert part.motion is not None and part.motion.end is not None
+    assert part.motion is not None and part.motion.result is not None
     assert part.motion.wait().pulses == 2
 
 
@@ -209,7 +209,7 @@ def test_without_a_table() -> None:
         for act in (lambda: part.step(CW), lambda: part.move(5), part.read_table):
             with pytest.raises(NotInitialised):
                 act()
-        for act in (lambda: part.jog(CW), lambda: part.change_speed(5), lambda: part.search_speed):
+        for act in (lambda: part.jog(CW), lambda: part.change_speed(5), lambda: part._default_speed):
             with pytest.raises(OutOfRange, match="initialise first"):
                 act()
 
@@ -221,9 +221,9 @@ def test_what_the_part_itself_refuses(part: Ppmc312) -> None:
         (blocks.initial_setting(1, 1000, 200, 761), TableRefused, "2 pulses"),
         (blocks.initial_setting(1, 1000, 873, 2000), TableRefused, "too close"),
         (blocks.free_curve(1, [100, 200], [5, 4])[0][:3] + b"\x09\x00", CurveRefused, "2 to 127 stages"),
-        (blocks.block(0x46), UnknownCode, "does not know"),
-        (b"\x03\x09\x40", BadBlock, "length"),
-        (b"\x07\x01\x40", OutOfTurn, "did not expect"),
+        (blocks.block(0x46), UnknownCommand, "does not know"),
+        (b"\x03\x09\x40", InvalidBlockLength, "length"),
+        (b"\x07\x01\x40", UnexpectedInstruction, "did not expect"),
         (blocks.block(Code.POSITION_READ, b"\x07"), ParameterRefused, "operand"),
     ):
         with pytest.raises(kind, match=text):
@@ -235,7 +235,7 @@ def test_a_speed_outside_the_table(part: Ppmc312) -> None:
     for pps in (2490, 10_300):
         with pytest.raises(OutOfRange, match="outside 2500 to 10000 pps, the speeds of the table"):
             part.move_constant(5, pps)
-    assert part.rate_of(2500) == 400 and part.search_speed == 2500
+    assert part.rate_of(2500) == 400 and part._default_speed == 2500
 
 
 # ---------------------------------------------------------------------- motions
@@ -253,7 +253,13 @@ def test_pulses_of_a_move(part: Ppmc312) -> None:
 
 def test_ends(part: Ppmc312) -> None:
     end = part.move(-30)
-    assert (end.cause, end.pulses, end.left, end.position, end.finish) == (Cause.COMPLETE, -30, 0, -30, 0x40)
+    assert (end.cause, end.pulses, end.remaining, end.position, end.finish) == (
+        Cause.COMPLETE,
+        -30,
+        0,
+        -30,
+        0x40,
+    )
     assert part.move_to(10).pulses == 40 and part.move(0).pulses == 0
     assert part.step(CCW).position == 9
     for pulses in (1 << 32, -(1 << 32)):
@@ -268,10 +274,10 @@ def test_progress_and_timeout(part: Ppmc312) -> None:
     with pytest.raises(Timeout, match="motion still in progress after 0.2 s"):
         motion.wait(0.2)
     now = motion.poll()
-    assert now is not None and 0 < now.made == now.position < now.asked == 5000
+    assert now is not None and 0 < now.done == now.position < now.requested == 5000
     seen = []
     assert motion.wait(progress=seen.append).pulses == 5000
-    assert [p.made for p in seen] == sorted(p.made for p in seen) and len(seen) >= 2
+    assert [p.done for p in seen] == sorted(p.done for p in seen) and len(seen) >= 2
     assert motion.poll() is None
 
 
@@ -281,36 +287,36 @@ def test_only_what_the_state_allows(part: Ppmc312) -> None:
             act()
     motion = part.jog(CW, 2500)
     for act in (lambda: part.move(5), part.excitation_off, part.zero, lambda: part.apply(part.known_setup())):
-        with pytest.raises(NotWhileBusy):
+        with pytest.raises(AxisBusy):
             act()
-    assert motion.end is None and part.motion is motion
+    assert motion.result is None and part.motion is motion
     assert part.stop().cause is Cause.STOP  # type: ignore[union-attr]
 
 
 def test_stops_and_changes_of_speed(part: Ppmc312) -> None:
     """After stop a ramp of twelve pulses follows; at the stop speed there is no ramp (LOW)."""
     motion = part.jog(CW, high=True)
-    part.attend(0.05)
+    part.process_reports(0.05)
     end = part.stop()
-    assert end is not None and end.finish == Bit.SLOW and end.cause is Cause.STOP and motion.end == end
+    assert end is not None and end.finish == Bit.SLOW and end.cause is Cause.STOP and motion.result == end
     part.jog(CCW, 2500)
     assert part.stop().finish == Bit.LOW  # type: ignore[union-attr]
     part.jog(CW, high=True)
-    part.attend(0.05)
+    part.process_reports(0.05)
     assert part.halt().finish == Bit.STOP  # type: ignore[union-attr]
     part.jog(CCW, 2500)
     part.change_speed(10_000)
-    part.attend(0.05)
+    part.process_reports(0.05)
     with pytest.raises(OutOfRange, match="outside 2500 to 10000"):
         part.change_speed(10_200)
     part.change_speed(5000, ramped=False)
     motion = part.motion  # type: ignore[assignment]
     one = motion.poll()
-    part.attend(0.1)
+    part.process_reports(0.1)
     two = motion.poll()
     assert one is not None and two is not None
-    assert (two.made - one.made) / (two.seconds - one.seconds) == pytest.approx(5000, rel=0.03)
-    with pytest.raises(StoppedEarly, match="stop command ended the motion"):
+    assert (two.done - one.done) / (two.seconds - one.seconds) == pytest.approx(5000, rel=0.03)
+    with pytest.raises(StoppedByCommand, match="stop command ended the motion"):
         part.stop().check()  # type: ignore[union-attr]
 
 
@@ -323,11 +329,11 @@ def test_a_motion_of_another_program_is_stopped(part: Ppmc312) -> None:
 def test_leaving_by_an_error_decelerates() -> None:
     with pytest.raises(ZeroDivisionError), board() as part:
         motion = part.jog(CW, high=True)
-        part.attend(0.02)
+        part.process_reports(0.02)
         machine = model(part)
         raise ZeroDivisionError
     machine.run_until(machine.t + 160_000)
-    assert machine.part.state is State.NOR and motion.end is None
+    assert machine.part.state is State.NOR and motion.result is None
 
 
 def test_limits_and_alarm() -> None:
@@ -402,7 +408,9 @@ def test_overrides(part: Ppmc312) -> None:
     part.override_stop(at=400)
     part.override_stop(at=-50, slow=False)
     assert part.status().overrides == 3
-    with pytest.raises(StoppedEarly, match="stop command ended the motion at position 407 after 407 of 900"):
+    with pytest.raises(
+        StoppedByCommand, match="stop command ended the motion at position 407 after 407 of 900"
+    ):
         part.move(900)
     assert [part.next_report() for _ in range(3)] == [
         Executed(Source.OVERRIDE, Code.RAMP_CHANGE),
@@ -448,12 +456,12 @@ def test_overrides_by_event(part: Ppmc312) -> None:
     part.override_stop(event=1, slow=False)
     assert part.status().override_events == (1, 2)
     part.pulse_event(1)
-    part.attend(0.1)
+    part.process_reports(0.1)
     assert part.position == 40
     part.pulse_event(2)
-    part.attend(0.05)
+    part.process_reports(0.05)
     part.pulse_event(1)
-    part.attend(0.05)
+    part.process_reports(0.05)
     assert not part.status().busy and part.position < -100
     done = [report for report in part.reports if isinstance(report, Executed)]
     assert [report.code for report in done] == [Code.RAMP, Code.FOREVER_CONSTANT, Code.STOP]
@@ -472,11 +480,11 @@ def test_event_buffers(part: Ppmc312) -> None:
     assert part.event_buffer(1) == EventBuffer(0, (Code.OUTPUT, Code.RAMP))
     assert part.status().events == (1,)
     part.pulse_event(1)
-    part.attend(0.01)
+    part.process_reports(0.01)
     assert model(part).part.outputs["auxo_n"] == 0x3A
     assert part.event_buffer(1).following == 1
     part.pulse_event(1)
-    part.attend(0.1)
+    part.process_reports(0.1)
     assert part.position == -30
     assert part.event_delete(1) and part.event_delete(1) and not part.event_delete(1)
     for _ in range(4):
@@ -498,7 +506,7 @@ def test_the_end_of_another_motion_is_no_end_of_ours(part: Ppmc312, monkeypatch:
     part.event_add(1, blocks.single_step(CW))
     monkeypatch.setattr(part.link, "forget_events", lambda: part.pulse_event(1))
     motion = part.start_constant(200, 2500)
-    assert motion.end is None
+    assert motion.result is None
     assert part.next_report() == Executed(Source.EVENT, Code.STEP)
     assert part.next_report() == Stopped(Bit.NORMAL, 1)
     with pytest.raises(ProtocolError, match="201 of 200 pulses counted, position 201"):
@@ -557,7 +565,7 @@ def test_interlock(part: Ppmc312) -> None:
 def test_run_and_end(part: Ppmc312) -> None:
     part.allow_run(False)
     motion = part.start_move(30)
-    assert motion.held and part.status().state is State.WRN
+    assert motion.waited_for_run and part.status().state is State.WRN
     with pytest.raises(HeldByRun, match="a start waits for RUN"):
         part.stop()
     part.allow_run(True)
@@ -604,7 +612,7 @@ def test_reset(part: Ppmc312) -> None:
     for reset in (part.reset, part.software_reset):
         part.load_curve(TF, base_clock=1_000_000)
         part.jog(CW)
-        part.attend(0.05)
+        part.process_reports(0.05)
         reset()
         assert part.motion is None and part.setup is None and not part.reports
         assert part.status().state is State.INI and part.position == 0
@@ -634,7 +642,7 @@ def test_datasheet_timing() -> None:
         part.initialise(sigmoid=True, stop_pps=900)
         part.event_add(1, blocks.single_step(CW))
         part.pulse_event(1)
-        part.attend(0.05)
+        part.process_reports(0.05)
         assert part.position == 1
 
 

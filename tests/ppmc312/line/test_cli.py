@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.cli.common.session import lasting, recall
+from openppmc.cli.common.session import load_setup, stores_setup
 from openppmc.cli.ppmc312.line.session import line_options, parse_stations
 from openppmc.host.ppmc312.line.wire import SumMode
 from tests.common.cli.command_line import Run
@@ -102,7 +102,12 @@ def test_init_stop_reset(run: Run, tmp_path: Path) -> None:
     assert run(*PART, "stop").out == "nothing was moving\n"
     assert run(*PART, "reset", "--axis", "2").out == "station 2: reset\n"
     assert "2000 pulses" in run(*PART, "plan", "5000").out
-    assert recall(PORT) == {} and not lasting("sim") and not lasting("model:x") and lasting("simple")
+    assert (
+        load_setup(PORT) == {}
+        and not stores_setup("sim")
+        and not stores_setup("model:x")
+        and stores_setup("simple")
+    )
 
 
 @pytest.mark.parametrize(

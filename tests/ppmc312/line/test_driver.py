@@ -13,19 +13,19 @@ from openppmc.host import (
     CCW,
     CW,
     AlarmStop,
+    AxisBusy,
     Cause,
     LimitReached,
     NotInitialised,
-    NotWhileBusy,
     OriginNotFound,
     OutOfRange,
     PortError,
     Ppmc312Bus,
-    StoppedEarly,
+    StoppedByCommand,
     Timeout,
 )
+from openppmc.host.capabilities import SetupRequest
 from openppmc.host.errors import StartRefused
-from openppmc.host.kind import Wanted
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,
@@ -39,9 +39,9 @@ from openppmc.host.ppmc312.answers import (
     Stopped,
 )
 from openppmc.host.ppmc312.errors import (
-    BadBlock,
     HeldByRun,
     InAlarm,
+    InvalidBlockLength,
     ParameterRefused,
     RateRefused,
     RegistrationRefused,
@@ -75,7 +75,7 @@ def test_moves_of_one_station() -> None:
         axis = bus.axis(1)
         assert (axis.version(), axis.status().state) == (0x12, State.NOR)
         end = axis.move(50)
-        assert (end.cause, end.pulses, end.left, end.position) == (Cause.COMPLETE, 50, 0, 50)
+        assert (end.cause, end.pulses, end.remaining, end.position) == (Cause.COMPLETE, 50, 0, 50)
         assert axis.move_to(-20).pulses == -70
         assert axis.move_constant(30, 5000).complete and axis.position == 10
         assert axis.step(CCW).position == 9 and axis.move(0).pulses == 0
@@ -95,7 +95,7 @@ def test_several_stations_at_once() -> None:
         motions = [bus.axis(3).start_move(600), bus.axis(6).start_move(-1500)]
         ends = bus.wait(motions, progress=seen.append)
         assert [end.position for end in ends] == [600, -1500]
-        assert seen and seen[-1].asked == 2100 and 0 < seen[-1].made <= 2100
+        assert seen and seen[-1].requested == 2100 and 0 < seen[-1].done <= 2100
         assert bus.axis(3).status().state is State.NOR and not bus.wait([])
         motions = [bus.axis(3).jog(CW), bus.axis(6).jog(CCW, high=True)]
         with pytest.raises(Timeout, match=r"station 3, 6: motion still in progress after 0.05 s"):
@@ -110,21 +110,21 @@ def test_stops_and_changes_of_speed() -> None:
     with line() as bus:
         axis = bus.axis(1)
         axis.jog(CW, high=True)
-        bus.attend(0.05)
+        bus.process_reports(0.05)
         end = axis.stop()
         assert end is not None and end.cause is Cause.STOP and end.finish == Bit.SLOW
         axis.jog(CW, speed=5000)
         axis.change_speed(7000)
-        bus.attend(0.1)
+        bus.process_reports(0.1)
         axis.change_speed(4000, ramped=False)
         end = axis.halt()
         assert end is not None and end.finish == Bit.STOP
         motion = axis.start_move(4000)
-        axis.brake()
-        with pytest.raises(StoppedEarly, match=r"station 1: stop command ended the motion"):
-            motion.wait().check(motion.asked)
+        axis._request_stop()
+        with pytest.raises(StoppedByCommand, match=r"station 1: stop command ended the motion"):
+            motion.wait().check(motion.requested)
         motion = axis.start_move(4000)
-        with pytest.raises(NotWhileBusy, match="station 1: the part is busy"):
+        with pytest.raises(AxisBusy, match="station 1: the part is busy"):
             axis.step(CW)
         assert axis.motion is motion
         axis.halt()
@@ -180,7 +180,7 @@ def test_refusals_say_what_they_are() -> None:
             axis.instruct(blocks.run(CW, 20))
         with pytest.raises(ParameterRefused, match="station 0: the part refuses a value"):
             axis.instruct(blocks.block(0x06, b"\x02"))
-        with pytest.raises(BadBlock, match="up to 10 bytes"):
+        with pytest.raises(InvalidBlockLength, match="up to 10 bytes"):
             axis.instruct(blocks.event_register(1, bytes.fromhex("030984000000000000")))
         assert axis.error_code() == 0x48 and axis.error_code() == 0
         pins(bus, 0, run=0)
@@ -189,7 +189,7 @@ def test_refusals_say_what_they_are() -> None:
             axis.step(CW)
         with pytest.raises(HeldByRun):
             axis.error_counts()
-        assert axis.busy_now() and motion.end is None
+        assert axis.busy_now() and motion.result is None
         pins(bus, 0, run=1)
         assert motion.wait().complete and axis.poll() == [HoldExecuted()]
 
@@ -198,7 +198,7 @@ def test_only_the_bus_can() -> None:
     with line() as bus:
         axis = bus.axis(1)
         with pytest.raises(OutOfRange, match="free curves: a PPMC-312 in serial mode"):
-            axis.kind.plan(16_000_000, Wanted(curve="x.csv"))
+            axis.kind.plan(16_000_000, SetupRequest(curve="x.csv"))
         with pytest.raises(OutOfRange, match="free curves: only on the parallel bus"):
             axis.load_curve([(2500, 3), (5000, 4), (10_000, 5)])
         with pytest.raises(OutOfRange, match="deceleration of its own"):
@@ -208,7 +208,7 @@ def test_only_the_bus_can() -> None:
         with pytest.raises(OutOfRange, match="event buffer"):
             axis.event_buffer(1)
         with pytest.raises(OutOfRange, match="several blocks"):
-            axis.window.more()
+            axis.window.next_block()
         axis.initialise(1000, 8000, 4000, sigmoid=True)
 
 
@@ -244,7 +244,7 @@ def test_events() -> None:
         for wanted in (7, 6):
             pins(bus, 1, evt1_n=0)
             pins(bus, 1, evt1_n=1)
-            bus.attend(0.05)
+            bus.process_reports(0.05)
             assert axis.position == wanted
             assert axis.poll() == [Executed(Source.EVENT, None), Stopped(Bit.NORMAL, wanted)]
         assert axis.event_delete(2) and axis.event_delete(2) and not axis.event_delete(2)
@@ -319,7 +319,7 @@ def test_checksums_of_characters_and_echo() -> None:
     with Ppmc312Bus.open("model:speed=max,stations=1,sum=chars", sum_mode=SumMode.CHARS) as bus:
         assert bus.axis(0).version() == 0x12 and bus.axis(0).counters.faults == 0
     with Ppmc312Bus.open("model:speed=max,stations=1,echo=on", echo=True) as bus:
-        assert bus.axis(0).version() == 0x12 and not bus.poll([0]) and bus.line.stray == 0
+        assert bus.axis(0).version() == 0x12 and not bus.poll([0]) and bus.line.stray_bytes == 0
 
 
 def test_a_slower_crystal() -> None:

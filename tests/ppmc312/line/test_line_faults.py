@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from openppmc.host import CCW, CW, Cause, Disconnected, Ppmc312Bus, PpmcError, ProtocolError, Station312
-from openppmc.host.errors import LinkError, NothingToStop, UnknownCode
-from openppmc.host.line import DuplicateAddress, GarbledReply, LineEcho, LostReply, StationSilent
+from openppmc.host.errors import LinkError, NothingToStop, UnknownCommand
+from openppmc.host.line import CorruptReply, DuplicateAddress, LineEcho, LostReply, StationNotResponding
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import Alarm
 from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Played
@@ -52,7 +52,7 @@ def test_an_endless_start_with_a_lost_reply() -> None:
         assert sum(frame[1:3] == b"85" for frame in port.frames) == 1
         port.plan = once(0x81, LOSE_REPLY)
         end = axis.stop()
-        assert end is not None and motion.end == end
+        assert end is not None and motion.result == end
 
 
 def test_a_stop_whose_reply_is_lost_may_come_too_late() -> None:
@@ -185,7 +185,7 @@ def test_a_lost_poll_does_not_lose_the_end(fate: str) -> None:
         bus.line.pause(0.2)
         count = len(port.frames) + 1
         end = motion.wait()
-        assert end.why == "alarm input" and axis.poll() == [Alarm(0)]
+        assert end.cause_text == "alarm input" and axis.poll() == [Alarm(0)]
         assert axis.poll() == []
 
 
@@ -195,7 +195,7 @@ def test_a_reset_station_has_no_motion_any_more() -> None:
         axis = bus.axis(1)
         axis.initialise(*FAST)
         motion = axis.jog(CW)
-        bus.line.tell(1, b"\xff")
+        bus.line.send_instruction(1, b"\xff")
         bus.line.pause(0.01)
         with pytest.raises(ProtocolError, match="station 1: the end of the motion is not confirmed"):
             motion.wait()
@@ -278,7 +278,7 @@ def test_a_jump_is_no_motion() -> None:
 
 def test_positions_that_never_agree() -> None:
     port, axis = station(*[HERE, BLIND] * 3)
-    with pytest.raises(GarbledReply, match="station 1: 5 pairs of replies that do not agree"):
+    with pytest.raises(CorruptReply, match="station 1: 5 pairs of replies that do not agree"):
         axis.position  # noqa: B018
 
 
@@ -312,9 +312,11 @@ def test_a_noisy_line(seed: int) -> None:
 def test_nobody_there() -> None:
     port, bus = spoiled()
     with bus:
-        with pytest.raises(StationSilent, match="station 7: no reply to 5 frames: is it there and powered"):
+        with pytest.raises(
+            StationNotResponding, match="station 7: no reply to 5 frames: is it there and powered"
+        ):
             bus.axis(7).version()
-        with pytest.raises(StationSilent, match="no station 9"):
+        with pytest.raises(StationNotResponding, match="no station 9"):
             bus.check([1, 9])
         assert bus.axis(7).counters.silent == 5
         assert [one.station for one in bus.scan()] == [0, 1]
@@ -329,9 +331,9 @@ def test_two_stations_with_one_address() -> None:
     port, bus = spoiled("stations=3,start1=-10,twin=1")
     with bus:
         found = bus.scan()
-        assert [one.trouble != "" for one in found] == [False, True, False]
+        assert [one.problem != "" for one in found] == [False, True, False]
         assert [axis.number for axis in bus.axes] == [0, 1, 2]
-        assert "two stations with this address" in found[1].trouble
+        assert "two stations with this address" in found[1].problem
         with pytest.raises(DuplicateAddress, match="station 1: only garbled replies"):
             bus.check([0, 1])
 
@@ -340,7 +342,7 @@ def test_frames_that_never_arrive_whole() -> None:
     port, bus = spoiled()
     with bus:
         port.plan = lambda frame: BREAK_FRAME
-        with pytest.raises(GarbledReply, match="station 1 could not read 5 frames: check cable"):
+        with pytest.raises(CorruptReply, match="station 1 could not read 5 frames: check cable"):
             bus.axis(1).position  # noqa: B018
         assert bus.axis(1).counters.refused == 5
         port.plan = lambda frame: None
@@ -370,7 +372,7 @@ def station(*replies: str, echo: bool = False, option: bool = False) -> tuple[Pl
 
 def test_another_station_replies() -> None:
     port, axis = station(*["A2 31 32 4B"] * 5)
-    with pytest.raises(GarbledReply, match="another station replied, 5 times: does a second master talk"):
+    with pytest.raises(CorruptReply, match="another station replied, 5 times: does a second master talk"):
         axis.version()
     assert axis.counters.foreign == 5
     port, axis = station("A2 31 32 4B", "A1 31 32 4C")
@@ -381,15 +383,15 @@ def test_noise_in_front_of_a_reply_does_not_hurt() -> None:
     port, axis = station("00 7F 31 A1 31 32 4C")
     assert axis.version() == 0x12 and axis.counters.faults == 0
     port, axis = station("A1 31 32 4C 55 55", "A1 31 33 4B")
-    assert (axis.version(), axis.version()) == (0x12, 0x13) and axis.link.stray == 2
+    assert (axis.version(), axis.version()) == (0x12, 0x13) and axis.link.stray_bytes == 2
 
 
 def test_only_noise() -> None:
     port, axis = station(*["55" * 9] * 5)
-    with pytest.raises(GarbledReply, match="only garbled replies, 5 times: noise"):
+    with pytest.raises(CorruptReply, match="only garbled replies, 5 times: noise"):
         axis.version()
     port, axis = station(*["55" * 5000] * 5)
-    with pytest.raises(GarbledReply):
+    with pytest.raises(CorruptReply):
         axis.version()
 
 
@@ -412,7 +414,7 @@ def test_an_unknown_code_is_a_damaged_frame() -> None:
     port, axis = station("B1 34 37 07", "A1 31 32 4C")
     assert axis.version() == 0x12 and axis.counters.refused == 1
     port, axis = station(*["B1 34 37 07"] * 5)
-    with pytest.raises(UnknownCode, match="station 1"):
+    with pytest.raises(UnknownCommand, match="station 1"):
         axis.version()
 
 

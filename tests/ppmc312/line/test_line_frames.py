@@ -126,7 +126,7 @@ def _take(wire: str, gives: int = 1, mode: SumMode = SumMode.BINARY) -> Reply | 
     got: Reply | Fault | None = None
     for byte in bytes.fromhex(wire):
         assert got is None
-        got = receiver.take(byte)
+        got = receiver.feed(byte)
     return got
 
 
@@ -165,16 +165,16 @@ def test_broken_replies(wire: str, fault: Fault) -> None:
 
 def test_a_control_code_begins_anew() -> None:
     receiver = Receiver(1, 2)
-    assert [receiver.take(byte) for byte in b"\xa1a5"] == [None, None, None]
-    assert receiver.take(0xB1) is Fault.BROKEN
-    assert [receiver.take(byte) for byte in b"41"] == [None, None]
-    assert receiver.take(0x0D) == Reply(1, SPECIFIC, b"\x41")
+    assert [receiver.feed(byte) for byte in b"\xa1a5"] == [None, None, None]
+    assert receiver.feed(0xB1) is Fault.BROKEN
+    assert [receiver.feed(byte) for byte in b"41"] == [None, None]
+    assert receiver.feed(0x0D) == Reply(1, SPECIFIC, b"\x41")
 
 
 @given(st.integers(0, 15), st.binary(max_size=8), st.sampled_from(SumMode))
 def test_what_is_sent_is_received(station: int, data: bytes, mode: SumMode) -> None:
     receiver = Receiver(station, len(data), mode)
-    *before, last = [receiver.take(byte) for byte in frame(DATA | station, data, mode)]
+    *before, last = [receiver.feed(byte) for byte in frame(DATA | station, data, mode)]
     assert set(before) == {None} and last == Reply(station, DATA, data)
 
 
@@ -182,7 +182,7 @@ def test_what_is_sent_is_received(station: int, data: bytes, mode: SumMode) -> N
 def test_noise_never_raises(noise: bytes, gives: int) -> None:
     receiver = Receiver(3, gives)
     for byte in noise:
-        if isinstance(got := receiver.take(byte), Reply):
+        if isinstance(got := receiver.feed(byte), Reply):
             assert got.station == 3
             break
         if got in (Fault.BROKEN, Fault.FOREIGN):

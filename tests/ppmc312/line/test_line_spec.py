@@ -7,7 +7,7 @@ import doctest
 import pytest
 
 from openppmc.host.ppmc312.line import line as errors
-from openppmc.host.ppmc312.line import talk
+from openppmc.host.ppmc312.line import station_link
 from openppmc.host.ppmc312.line import wire as ascii
 from openppmc.host.ppmc312.line.wire import frame
 from openppmc.sim import part_of
@@ -101,7 +101,7 @@ def test_the_master_hears_itself_if_asked_for() -> None:
     assert heard("stations=1,echo=on", "80 7F").hex(" ").upper() == "80 7F 90 6F"
 
 
-@pytest.mark.parametrize("module", [ascii, errors, talk, lines, spec])
+@pytest.mark.parametrize("module", [ascii, errors, station_link, lines, spec])
 def test_examples_in_the_code(module: object) -> None:
     failed, attempted = doctest.testmod(module)  # type: ignore[arg-type]
     assert attempted and not failed

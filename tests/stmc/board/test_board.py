@@ -78,7 +78,7 @@ def test_switches(start_board: StartBoard) -> None:
         axis.initialise(**FAST)
         with pytest.raises(LimitReached) as caught:
             axis.move(1000)
-        assert caught.value.end.cause is Cause.SLOW_LIMIT and board.status().position == 1301
+        assert caught.value.result.cause is Cause.SLOW_LIMIT and board.status().position == 1301
         with pytest.raises(OriginNotFound):
             axis.search(CW).wait()
             axis.home(CW)

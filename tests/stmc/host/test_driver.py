@@ -18,12 +18,12 @@ from openppmc.host import (
     CW,
     AlarmStop,
     AlreadyDecelerating,
-    BadRamp,
+    AxisBusy,
     Cause,
+    InvalidRamp,
     LimitReached,
     NothingToStop,
     NotInitialised,
-    NotWhileBusy,
     OriginNotFound,
     OutOfRange,
     Ppmc104,
@@ -35,12 +35,12 @@ from openppmc.host import (
     speeds,
     stmc,
 )
+from openppmc.host.capabilities import SetupRequest
 from openppmc.host.errors import CommandRefused
-from openppmc.host.kind import Wanted
 from openppmc.host.model_port import ModelPort
 from openppmc.host.script import Script
-from openppmc.host.stmc import KIND as STMC
-from openppmc.host.stmc import refused as refused_stmc
+from openppmc.host.stmc import CAPABILITIES as STMC
+from openppmc.host.stmc import command_error as refused_stmc
 from openppmc.model.carrier.carrier import Plant
 from openppmc.model.stmc.carrier import Carrier
 
@@ -124,7 +124,7 @@ def test_bytes_of_an_initialisation() -> None:
         ({"start_pps": 345, "high_pps": 345, "phases": 3}, "19 8D 8D C8 00"),
     ]
     for arguments, wanted in examples:
-        setup = STMC.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
+        setup = STMC.plan(XTAL, SetupRequest(**arguments))  # type: ignore[arg-type]
         assert bytes([setup.code]) + setup.data == bytes.fromhex(wanted), arguments
 
 
@@ -255,7 +255,7 @@ def test_other_read_codes_are_not_sent(axis: Stmc, monkeypatch: pytest.MonkeyPat
 def test_moves(axis: Stmc) -> None:
     for steps, at in ((1000, 1000), (-300, 700), (0, 700), (-1, 699)):
         end = axis.move(steps)
-        assert (end.cause, end.pulses, end.left, end.position) == (Cause.COMPLETE, steps, 0, at)
+        assert (end.cause, end.pulses, end.remaining, end.position) == (Cause.COMPLETE, steps, 0, at)
         assert axis.position == at == model(axis).position - 4000
     assert axis.move_to(-25).pulses == -724
     assert axis.move_constant(20, 2000).position == -5
@@ -292,15 +292,15 @@ def test_limits() -> None:
     with board("start=37500,cw=38500") as axis:
         with pytest.raises(LimitReached, match="slow-down limit .* other direction") as caught:
             axis.move(100_000)
-        assert caught.value.end.cause is Cause.SLOW_LIMIT
+        assert caught.value.result.cause is Cause.SLOW_LIMIT
         assert model(axis).position == 38_000 + 201
         with pytest.raises(LimitReached) as caught:
             axis.move_constant(100_000, 5000)
-        assert caught.value.end.cause is Cause.LIMIT and model(axis).position == 38_500
+        assert caught.value.result.cause is Cause.LIMIT and model(axis).position == 38_500
         assert axis.inputs().active == ["limit cw", "slow cw"]
         with pytest.raises(LimitReached) as caught:
             axis.step(CW)
-        assert (caught.value.end.pulses, caught.value.end.left) == (0, 1)
+        assert (caught.value.result.pulses, caught.value.result.remaining) == (0, 1)
         with pytest.raises(OriginNotFound, match="a limit switch came before the origin"):
             axis.home(CW)
         assert axis.move(-50).pulses == -50, "away from the switch is free"
@@ -312,7 +312,7 @@ def test_motor_off() -> None:
         text = "MON input ended the motion at position 500 after 500 of 2000 pulses: switch the motor on"
         with pytest.raises(AlarmStop, match=text) as caught:
             axis.move(2000)
-        assert caught.value.end.why == "MON input"
+        assert caught.value.result.cause_text == "MON input"
         assert axis.inputs().active == ["motor off"]
         with pytest.raises(AlarmStop):
             axis.step(CCW)
@@ -354,7 +354,7 @@ def test_a_flag_on_the_other_side_is_not_found(axis: Stmc) -> None:
     model(axis).positions[0] = -100
     with pytest.raises(OriginNotFound, match="home in the other direction") as caught:
         axis.home(CCW)
-    assert caught.value.end.cause is Cause.SLOW_LIMIT and model(axis).position == -200
+    assert caught.value.result.cause is Cause.SLOW_LIMIT and model(axis).position == -200
 
 
 # ---------------------------------------------------------------------- errors
@@ -368,12 +368,12 @@ def test_every_error_number_is_raised_as_its_own_exception(axis: Stmc) -> None:
         (NothingToStop, 0x80, Script().call(0x40)),
         (NothingToStop, 0x80, Script().call(0xC0)),
         (UnexpectedData, 0xB0, Script().call(0x1A, 20, 5, 8, 0, 0)),
-        (BadRamp, 0xD0, Script().call(0x1A, 5, 20, 8, 0)),
-        (BadRamp, 0xD0, Script().call(0x44, 0, 4, 0, 0)),
+        (InvalidRamp, 0xD0, Script().call(0x1A, 5, 20, 8, 0)),
+        (InvalidRamp, 0xD0, Script().call(0x44, 0, 4, 0, 0)),
     ]
     busy: list[tuple[type[CommandRefused], int, Script]] = [
-        (NotWhileBusy, 0x94, Script().call(0x42)),
-        (NotWhileBusy, 0x94, Script().call(0x83)),
+        (AxisBusy, 0x94, Script().call(0x42)),
+        (AxisBusy, 0x94, Script().call(0x83)),
         (UnexpectedDataBusy, 0xE4, Script().call(0x41, 0x00)),
         (AlreadyDecelerating, 0xF4, Script().call(0x41)),
     ]
@@ -406,7 +406,7 @@ def test_reset_is_no_step(axis: Stmc) -> None:
 def test_during_a_motion(axis: Stmc) -> None:
     axis.jog(CW, 2000)
     for call in (lambda: axis.move(5), axis.initialise, axis.outputs, axis.remaining):
-        with pytest.raises(NotWhileBusy):
+        with pytest.raises(AxisBusy):
             call()
     assert axis.status().busy and axis.inputs().active == []
     axis.halt()

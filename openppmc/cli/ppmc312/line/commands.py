@@ -11,8 +11,8 @@ from ...common import output, show
 from ...common.board import BOARD
 from ...common.line_session import ending_after
 from ...common.options import Json, Side, check_seconds, with_setup
-from ...common.session import lasting, remember, setup_values
-from ..view import VIEW
+from ...common.session import setup_values, store_setup, stores_setup
+from ..presenter import PRESENTER
 from . import show as show_line
 from .session import Session, opened
 
@@ -37,10 +37,10 @@ def scan(as_json: Json = False) -> None:
     elif found:
         output.console.print(show_line.found_table(found))
         for one in found:
-            if one.trouble:
-                output.say(f"station {one.station}: {one.trouble}")
+            if one.problem:
+                output.print_line(f"station {one.station}: {one.problem}")
     else:
-        raise PpmcError(show_line.nobody(session.bus.line.name))
+        raise PpmcError(show_line.no_station_message(session.bus.line.name))
 
 
 def poll(
@@ -52,24 +52,24 @@ def poll(
 ) -> None:
     """ppmc312-serial: Poll stations, print reports until Ctrl-C."""
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
         for turn in range(count or 10**9):
             if turn:
                 session.guard.pause(session.bus, every)
             for one in axes:
                 session.guard.check()
                 for report in one.poll():
-                    output.say(show_line.report_line(one.number, report))
+                    output.print_line(show_line.report_line(one.number, report))
         for one in axes:
             state = "busy" if one.window.busy else "ready"
             lost = one.counters.lost_reports
-            output.say(f"station {one.number}: {state}" + (f", {lost} polls garbled" if lost else ""))
+            output.print_line(f"station {one.number}: {state}" + (f", {lost} polls garbled" if lost else ""))
 
 
 def status(axis: AnyAxis = None, as_json: Json = False) -> None:
     """Print position, switches and state of stations without side effects."""
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
         if as_json:
             output.print_json({one.number: show_line.status_values(one) for one in axes})
         else:
@@ -79,9 +79,9 @@ def status(axis: AnyAxis = None, as_json: Json = False) -> None:
 def reset(axis: Axis) -> None:
     """ppmc312-serial: Reset stations. Pulses end immediately; table and position are cleared."""
     with opened() as session:
-        for one in session.chosen(axis):
+        for one in session.selected_axes(axis):
             one.reset()
-            output.say(f"station {one.number}: reset")
+            output.print_line(f"station {one.number}: reset")
 
 
 # ---------------------------------------------------------------------- motions
@@ -102,17 +102,17 @@ def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any])
 def init(typed: dict[str, Any], axis: Axis, as_json: Json = False) -> None:
     """Initialise stations and store the set-up for this port."""
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
         setups = _initialise(session, axes, typed)
     for one in axes:
-        remember(BOARD.port, setup_values(typed, one.number).table(), one.number)
+        store_setup(BOARD.port, setup_values(typed, one.number).table(), one.number)
     if as_json:
-        values = {one.number: VIEW.setup_values(setup) for one, setup in zip(axes, setups, strict=True)}
+        values = {one.number: PRESENTER.setup_values(setup) for one, setup in zip(axes, setups, strict=True)}
         output.print_json(values)
         return
-    output.console.print(output.table(VIEW.setup_rows(setups[0])))
-    output.say(f"initialised: station{'s' if len(axes) > 1 else ''} {_list(axes)}")
-    if not lasting(BOARD.port):
+    output.console.print(output.table(PRESENTER.setup_rows(setups[0])))
+    output.print_line(f"initialised: station{'s' if len(axes) > 1 else ''} {_list(axes)}")
+    if not stores_setup(BOARD.port):
         output.note("(a virtual board is new each time; the set-up is not stored)")
 
 
@@ -127,7 +127,7 @@ def move(
 ) -> None:
     """Move stations by PULSES, all at the same time."""
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
         if not keep:
             _initialise(session, axes, typed)
         motions = []
@@ -137,7 +137,7 @@ def move(
             if away:
                 motions.append(one.start_move(away) if speed is None else one.start_constant(away, speed))
             else:
-                output.say(show.end_line(one.move(0)))
+                output.print_line(show.end_line(one.move(0)))
         _finish(session, motions, abs(pulses))
 
 
@@ -150,11 +150,11 @@ def _finish(session: Session, motions: list[Any], asked: int | None = None) -> N
     ends = session.bus.wait(motions, progress=session.guard.progress)
     session.guard.bar_off()
     for end in ends:
-        output.say(show.end_line(end))
+        output.print_line(show.end_line(end))
     show_line.reports(session.bus.axes)
     if asked is not None:
         for motion, end in zip(motions, ends, strict=True):
-            end.check(motion.asked)
+            end.check(motion.requested)
 
 
 @with_setup
@@ -171,13 +171,13 @@ def jog(
         raise typer.BadParameter("--speed and --ramped exclude each other; omit one")
     check_seconds(seconds)
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
         _initialise(session, axes, typed)
         motions = [one.jog(direction.code, speed, ramped) for one in axes]
         ends = session.bus.wait(motions, progress=ending_after(seconds, session.bus, session.guard, axes))
         session.guard.bar_off()
         for end in ends:
-            output.say(show.end_line(end))
+            output.print_line(show.end_line(end))
         show_line.reports(axes)
 
 
@@ -195,12 +195,12 @@ def home(
 ) -> None:
     """Find the origin switch of each station in turn, and set the position to 0 there."""
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
         _initialise(session, axes, typed)
         for one in axes:
             one.home(direction.code, search, fast, to_limit, progress=session.guard.progress, index=index)
             session.guard.bar_off()
-            output.say(f"{one.who}position {one.position}: origin found")
+            output.print_line(f"station {one.number}: position {one.position}: origin found")
 
 
 def stop(
@@ -209,12 +209,12 @@ def stop(
 ) -> None:
     """Stop stations that are still running; without --axis, all."""
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
         ends = session.bus.stop([one.number for one in axes], now)
         for end in ends:
-            output.say(show.end_line(end))
+            output.print_line(show.end_line(end))
         if not ends:
-            output.say("nothing was moving")
+            output.print_line("nothing was moving")
 
 
 def _list(axes: list[Station312]) -> str:

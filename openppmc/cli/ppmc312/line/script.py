@@ -9,15 +9,14 @@ from typing import Annotated, Any
 import typer
 
 from ....host import Ppmc312Bus, Station312
-from ....host.ppmc312.line.line import KIND
+from ....host.ppmc312.line.line import CAPABILITIES
 from ...common import output
 from ...common.options import with_setup
-from ...common.reading import Numbered, own_words
 from ...common.script import (
     OF_ALL_AXES,
     OF_AXES,
-    Player,
     ScriptError,
+    ScriptRunner,
     Step,
     check_speeds,
     check_steps,
@@ -25,13 +24,14 @@ from ...common.script import (
     read_file,
     read_program,
 )
+from ...common.script_parser import Numbered, part_commands
 from ...common.session import Guard, setup_values
 from . import show
 from .session import Session, opened
 
 
-class LineView:
-    """The methods of a view that a script needs, for stations."""
+class LinePresenter:
+    """The methods of a presenter that a script needs, for stations."""
 
     def busy(self, part: Ppmc312Bus, axes: Sequence[Station312]) -> tuple[Station312, ...]:
         """Return the stations that are moving."""
@@ -49,8 +49,8 @@ class LineSession:
         used: stations that the script names.
     """
 
-    kind = KIND
-    view = LineView()
+    kind = CAPABILITIES
+    presenter = LinePresenter()
 
     def __init__(self, session: Session, used: Sequence[int]) -> None:
         self.part, self.used = session.bus, used
@@ -65,7 +65,7 @@ class LineSession:
         """Return a station."""
         return self.part.axis(number)
 
-    def chosen(self, number: int | None) -> Sequence[Any]:
+    def selected_axes(self, number: int | None) -> Sequence[Any]:
         """Return the station with this number; for None all stations of the script."""
         return [self.axis(one) for one in ([number] if number is not None else self.used)]
 
@@ -83,7 +83,7 @@ def check_line(steps: Iterable[Step], name: str) -> None:
             raise ScriptError(
                 f"{where}two numbers: only for a part with two axes; write a line for each station"
             )
-        if step.word in own_words():
+        if step.word in part_commands():
             raise ScriptError(f"{where}{step.word}: not supported on a line")
         check_line(step.body, name)
 
@@ -97,19 +97,19 @@ def script(
     name, text = read_file(file)
     steps = read_program(text, name, numbered=Numbered(low=0))
     check_line(steps, name)
-    used = [number for number in check_steps(steps, name, KIND) if _names(steps, number)]
+    used = [number for number in check_steps(steps, name, CAPABILITIES) if _names(steps, number)]
     with opened() as session:
         session.bus.check(used)
         line = LineSession(session, used)
         values = {number: setup_values(typed, number) for number in used}
-        check_speeds(steps, dict(values), line.xtal_hz, name, KIND)
-        plans = {number: one.plan(line.xtal_hz, KIND, number) for number, one in values.items()}
+        check_speeds(steps, dict(values), line.xtal_hz, name, CAPABILITIES)
+        plans = {number: one.plan(line.xtal_hz, CAPABILITIES, number) for number, one in values.items()}
         for number, plan in plans.items():
             session.guard.check()
             line.axis(number).apply(plan)
-        Player(line, values, name, output.say).run(steps)
+        ScriptRunner(line, values, name, output.print_line).run(steps)
         session.guard.bar_off()
-        output.say(f"done, {positions(line.axis(number) for number in used)}")
+        output.print_line(f"done, {positions(line.axis(number) for number in used)}")
 
 
 def _names(steps: Iterable[Step], number: int) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ....host import Ppmc312Bus, Station312
-from ....host.ppmc312.line.bus import Found
+from ....host.ppmc312.line.bus import ScanResult
 from ....host.ppmc312.line.wire import STATIONS, SumMode
 from ...common import line_session
 from ...common.board import BOARD, LINE_WORDS
@@ -37,7 +37,7 @@ class Session:
     bus: Ppmc312Bus
     guard: Guard
 
-    def chosen(self, text: str | None) -> list[Station312]:
+    def selected_axes(self, text: str | None) -> list[Station312]:
         """Return the stations that --axis names, which must reply; without it, all that reply."""
         if text is not None:
             numbers = parse_stations(text)
@@ -46,13 +46,13 @@ class Session:
             numbers = [one.station for one in self.scan()]
         return [self.bus.axis(number) for number in numbers]
 
-    def scan(self) -> list[Found]:
+    def scan(self) -> list[ScanResult]:
         """Return all stations that reply; show a bar during the search."""
-        found = self.bus.scan(progress=self._scanning)
+        found = self.bus.scan(progress=self._on_scan_progress)
         self.guard.bar_off()
         return found
 
-    def _scanning(self, number: int) -> None:
+    def _on_scan_progress(self, number: int) -> None:
         self.guard.check()
         self.guard.count_bar("looking for stations", number, STATIONS)
 

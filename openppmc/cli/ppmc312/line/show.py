@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from ....host import PpmcError, Station312
 from ....host.ppmc312.answers import Alarm, Failed, Report
-from ....host.ppmc312.line.bus import Found
+from ....host.ppmc312.line.bus import ScanResult
 from ...common import output
-from ..view import axis_values, report_text
+from ..presenter import axis_values, report_text
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _HEADS = ("station", "version", "state", "position", "framing", "overrun", "checksum", "line faults")
 
 
-def found_table(found: Iterable[Found]) -> Table:
+def found_table(found: Iterable[ScanResult]) -> Table:
     """Return a table of stations with their error counters and those of the master."""
     from rich.table import Table
 
@@ -38,7 +38,7 @@ def found_table(found: Iterable[Found]) -> Table:
     return grid
 
 
-def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
+def found_values(found: Iterable[ScanResult]) -> list[dict[str, Any]]:
     """Return the values for JSON."""
     return [
         {
@@ -48,7 +48,7 @@ def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
             "position": one.position,
             "errors": None if one.errors is None else one.errors._asdict(),
             "line": asdict(one.counters),
-            "trouble": one.trouble,
+            "trouble": one.problem,
         }
         for one in found
     ]
@@ -92,7 +92,7 @@ def status_line(axis: Station312) -> str:
     )
 
 
-def nobody(port: str) -> str:
+def no_station_message(port: str) -> str:
     """Return the message for a line without a reply."""
     return f"{port}: no station replies; check power, speed (MOD, --baud), MODE and the two wires"
 
@@ -104,13 +104,13 @@ def report_line(number: int, report: Report) -> str:
     return text if text.startswith(who) else who + text
 
 
-def reports(axes: Iterable[Station312], tell: Callable[[str], None] = output.say) -> None:
-    """Pass each new report to `tell` as a line; then raise the first error among them."""
-    trouble: PpmcError | None = None
+def reports(axes: Iterable[Station312], print_line: Callable[[str], None] = output.print_line) -> None:
+    """Pass each new report to `print_line` as a line; then raise the first error among them."""
+    first_error: PpmcError | None = None
     for axis in axes:
         for report in axis.poll():
-            tell(report_line(axis.number, report))
+            print_line(report_line(axis.number, report))
             if isinstance(report, (Failed, Alarm)):
-                trouble = trouble or report.error
-    if trouble is not None:
-        raise trouble
+                first_error = first_error or report.error
+    if first_error is not None:
+        raise first_error

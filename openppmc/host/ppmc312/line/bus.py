@@ -13,12 +13,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ....lazy import Renamed
 from ...errors import CommandRefused
-from ...line import PATIENCE, DuplicateAddress, GarbledReply, LineBus, StationSilent
+from ...line import PATIENCE, CorruptReply, DuplicateAddress, LineBus, StationNotResponding
 from ...line_port import Counters
 from ...port import Port
 from ..answers import Report, Status
-from .line import KIND, XTAL_HZ, Line
+from .line import CAPABILITIES, XTAL_HZ, Line
 from .station import ErrorCounts, Station312
 from .wire import SPEEDS, STATIONS, VERSION, SumMode
 
@@ -29,7 +30,7 @@ SCAN_ATTEMPTS = 2
 
 
 @dataclass(frozen=True)
-class Found:
+class ScanResult:
     """Station found by `scan`.
 
     Attributes:
@@ -37,7 +38,7 @@ class Found:
         errors: error counters of the station, which the scan has cleared; `None` if they could not be read
             (motion, alarm).
         counters: counters of the master.
-        trouble: the problem, empty if there is no problem.
+        problem: the problem, empty if there is no problem.
     """
 
     station: int
@@ -46,13 +47,14 @@ class Found:
     position: int | None
     errors: ErrorCounts | None
     counters: Counters = field(repr=False)
-    trouble: str = ""
+    problem: str = ""
+    trouble = Renamed("problem")
 
 
 class Ppmc312Bus(LineBus[Line, Station312]):
     """Line (`line.Line`) with stations 0 to 15; see `host.line.LineBus`."""
 
-    kind = KIND
+    kind = CAPABILITIES
 
     @classmethod
     def open(
@@ -68,17 +70,17 @@ class Ppmc312Bus(LineBus[Line, Station312]):
         """Open a port; the arguments are those of `line.Line`. It sends nothing."""
         return cls(Line(spec, speed, sum_mode, echo, rs485, patience, xtal_hz))
 
-    def make(self, station: int) -> Station312:
+    def _make_station(self, station: int) -> Station312:
         return Station312(self.line, station)
 
-    def look_at(self, axis: Station312) -> None:
+    def _collect_reports(self, axis: Station312) -> None:
         axis.window.collect()
 
     # ------------------------------------------------------------------ search for stations
 
     def scan(
         self, stations: Iterable[int] = range(STATIONS), progress: Callable[[int], None] | None = None
-    ) -> list[Found]:
+    ) -> list[ScanResult]:
         """Return the stations of the line.
 
         An address without a station takes twice the time `patience`.
@@ -93,20 +95,20 @@ class Ppmc312Bus(LineBus[Line, Station312]):
             if progress is not None:
                 progress(number)
             axis = self._stations.get(number) or Station312(self.line, number)
-            if (one := self.look(axis)) is not None:
+            if (one := self._probe(axis)) is not None:
                 self._stations.setdefault(number, axis)
                 found.append(one)
         return found
 
-    def look(self, axis: Station312) -> Found | None:
+    def _probe(self, axis: Station312) -> ScanResult | None:
         """Return the state of one station, `None` if there is no station."""
-        counters, heard = axis.counters, axis.counters.garbled
+        counters, garbled_before = axis.counters, axis.counters.garbled
         try:
             version = axis.window.request(bytes([VERSION]), attempts=SCAN_ATTEMPTS).data[0]
-        except StationSilent:
+        except StationNotResponding:
             return None
-        except GarbledReply:
-            return Found(axis.number, None, None, None, None, counters, _GARBLED)
+        except CorruptReply:
+            return ScanResult(axis.number, None, None, None, None, counters, _GARBLED)
         try:
             status, position = axis.status(), axis.position
             axis.inputs()
@@ -114,23 +116,23 @@ class Ppmc312Bus(LineBus[Line, Station312]):
                 errors = axis.error_counts()
             except CommandRefused:
                 errors = None
-        except GarbledReply:
-            return Found(axis.number, version, None, None, None, counters, _GARBLED)
-        trouble = _NOISE if counters.garbled > heard else ""
-        return Found(axis.number, version, status, position, errors, counters, trouble)
+        except CorruptReply:
+            return ScanResult(axis.number, version, None, None, None, counters, _GARBLED)
+        problem = _NOISE if counters.garbled > garbled_before else ""
+        return ScanResult(axis.number, version, status, position, errors, counters, problem)
 
     def check(self, stations: Iterable[int]) -> None:
         """Check that all these stations reply.
 
-        Raises StationSilent, or DuplicateAddress after corrupt replies only.
+        Raises StationNotResponding, or DuplicateAddress after corrupt replies only.
         """
         for number in stations:
-            one = self.look(self.axis(number))
+            one = self._probe(self.axis(number))
             if one is None:
-                raise StationSilent(
+                raise StationNotResponding(
                     f"{self.line.name}: no station {number}: is it powered, are address and speed right?"
                 )
-            if one.trouble == _GARBLED:
+            if one.problem == _GARBLED:
                 raise DuplicateAddress(f"{self.line.name}: station {number}: {_GARBLED}")
 
     # ------------------------------------------------------------------ several stations

@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING
 
 from ....model.ppmc312.codes import Code, Source, State
 from ....parts import part
-from ...errors import CommandRefused, NotWhileBusy, OutOfRange, PortError, StartRefused, UnknownCode
-from ...kind import COILS_OFF, CURVES
+from ...capabilities import COILS_OFF, CURVES
+from ...errors import AxisBusy, CommandRefused, OutOfRange, PortError, StartRefused, UnknownCommand
 from ...line import PATIENCE, LineEcho, Master
-from ...line_port import Counters, Miss, open_line
+from ...line_port import Counters, MissingReply, open_line
 from ...port import Port
 from ...script import Identity
 from .. import profile
 from ..errors import (
     LIMIT,
     STATES,
-    BadBlock,
     EventFailed,
+    InvalidBlockLength,
     OverrideFailed,
     ParameterRefused,
     RateRefused,
@@ -49,21 +49,21 @@ if TYPE_CHECKING:
 # Capabilities of the stations of a line: PPMC-312 in serial mode.
 
 
-class LineKind(profile.TableKind):
+class LineCapabilities(profile.TableCapabilities):
     """Capabilities of a line. Stations are axes, and their numbers begin with 0."""
 
     def check_axis(self, axis: int) -> int:
         return station_number(axis)
 
 
-KIND = LineKind(
+CAPABILITIES = LineCapabilities(
     part("ppmc312-serial"),
     axes=STATIONS,
     has=frozenset((COILS_OFF, CURVES)),
-    outputs=profile.KIND.outputs,
-    alarm=profile.KIND.alarm,
-    origin_between=profile.KIND.origin_between,
-    usual_ramp=profile.KIND.usual_ramp,
+    outputs=profile.CAPABILITIES.outputs,
+    alarm=profile.CAPABILITIES.alarm,
+    origin_between=profile.CAPABILITIES.origin_between,
+    usual_ramp=profile.CAPABILITIES.usual_ramp,
 )
 
 
@@ -103,17 +103,17 @@ _SERIAL_PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
 _STOPPING = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
 
 
-def refused_serial(who: str, code: int, error: int, state: int | None = None) -> CommandRefused:
+def serial_command_error(prefix: str, code: int, error: int, state: int | None = None) -> CommandRefused:
     """Return the exception for error code `error` of a reply.
 
     Args:
-        who: prefix of the message.
+        prefix: prefix of the message.
         code: code of the instruction on the parallel bus.
         state: condition of the part, read after error 43.
 
-    >>> str(refused_serial("station 3: ", 0x82, 0x43, 0x10))
+    >>> str(serial_command_error("station 3: ", 0x82, 0x43, 0x10))
     'station 3: the part is in alarm: remove the cause, then clear the alarm (or reset)'
-    >>> str(refused_serial("", 0x82, 0x43, 0x02))
+    >>> str(serial_command_error("", 0x82, 0x43, 0x02))
     'the part was busy with a motion: try again'
     """
     kind: type[CommandRefused]
@@ -121,15 +121,15 @@ def refused_serial(who: str, code: int, error: int, state: int | None = None) ->
         kind, text = _SERIAL_PARAMETERS.get(code, (ParameterRefused, "the part refuses a value of this"))
     elif error == Error.STATUS:
         if state == State.NOR and code not in _STOPPING:
-            kind, text = NotWhileBusy, "the part was busy with a motion: try again"
+            kind, text = AxisBusy, "the part was busy with a motion: try again"
         else:
-            kind, text = STATES.get(state or 0, (NotWhileBusy, ""))
+            kind, text = STATES.get(state or 0, (AxisBusy, ""))
     elif error == Error.LIMIT:
         kind, text = StartRefused, LIMIT
     elif error == Error.COMMAND:
-        kind, text = UnknownCode, ""
+        kind, text = UnknownCommand, ""
     elif error == Error.SIZE:
-        kind, text = BadBlock, "an event buffer takes instructions of up to 10 bytes in serial mode"
+        kind, text = InvalidBlockLength, "an event buffer takes instructions of up to 10 bytes in serial mode"
     elif error == Error.REGISTRATION:
         kind, text = (
             RegistrationRefused,
@@ -137,14 +137,14 @@ def refused_serial(who: str, code: int, error: int, state: int | None = None) ->
         )
     else:
         kind, text = CommandRefused, f"the part refuses this (error {error:02X})"
-    return kind(error, who + (text or kind.text))
+    return kind(error, prefix + (text or kind.text))
 
 
-def failed_serial(who: str, by: Source) -> CommandRefused:
+def serial_failure(prefix: str, by: Source) -> CommandRefused:
     """Return the exception for an override interruption (4B) or event interruption (4A)."""
     if by is Source.OVERRIDE:
-        return OverrideFailed(0, f"{who}an override was not carried out; the others are dropped")
-    return EventFailed(0, f"{who}an event's instruction was not carried out; its buffer is empty now")
+        return OverrideFailed(0, f"{prefix}an override was not carried out; the others are dropped")
+    return EventFailed(0, f"{prefix}an event's instruction was not carried out; its buffer is empty now")
 
 
 XTAL_HZ = 16_000_000
@@ -197,7 +197,9 @@ class Line(Master[Reply]):
 
     # ------------------------------------------------------------------ frames
 
-    def exchange(self, station: int, data: bytes | None, gives: int = 1, extra: float = 0.0) -> Reply | Miss:
+    def exchange(
+        self, station: int, data: bytes | None, gives: int = 1, extra: float = 0.0
+    ) -> Reply | MissingReply:
         """Send a frame and return its reply.
 
         Args:
@@ -209,12 +211,12 @@ class Line(Master[Reply]):
             LineEcho, Disconnected: the line or the port failed.
         """
         sent = self._frame(station, data)
-        got = self.ask(station, sent, Receiver(station, gives, self.sum_mode), extra)
-        if isinstance(got, Miss) and got.heard.startswith(sent) and not self.echo:
+        got = self.request(station, sent, Receiver(station, gives, self.sum_mode), extra)
+        if isinstance(got, MissingReply) and got.received.startswith(sent) and not self.echo:
             raise LineEcho(f"{self.name}: the line hears its own bytes: say so (--line echo, echo=True)")
         return got
 
-    def tell(self, station: int, data: bytes | None) -> bytes:
+    def send_instruction(self, station: int, data: bytes | None) -> bytes:
         """Send a frame, discard its echo, if any, and return the frame.
 
         Bytes received earlier are discarded.

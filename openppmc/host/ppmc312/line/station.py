@@ -6,15 +6,15 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from ....model.ppmc312.codes import Cause, Code, Source, State
-from ...ending import End
-from ...line import POLL_EVERY, StationSilent, wait_all
+from ...line import POLL_EVERY, StationNotResponding, wait_all
 from ...line_port import Counters
 from ...motion import Progress
+from ...motion_result import MotionResult
 from ..answers import Executed, Report, Status, Stopped, signed
 from ..motion import Motion
 from ..part import Axis
-from .line import KIND, Line
-from .talk import ATTEMPTS, Talk
+from .line import CAPABILITIES, Line
+from .station_link import ATTEMPTS, StationLink
 from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 
 _MOST_PPS = 4_000_000
@@ -46,24 +46,25 @@ class SerialMotion(Motion):
         """Number of the station."""
         return self._part.number
 
-    def now(self) -> Progress:
+    def _current_progress(self) -> Progress:
         """Return the progress now, or at the end of the motion."""
-        position = self._part.position if self.end is None else self.end.position or 0
-        made = 0 if self.begin is None else abs(signed((position - self.begin) % (1 << 32)))
-        return Progress(position, made, self.asked, self._link.clock() - self._started)
+        position = self._part.position if self.result is None else self.result.position or 0
+        done = 0 if self.begin is None else abs(signed((position - self.begin) % (1 << 32)))
+        return Progress(position, done, self.requested, self._link.clock() - self._started)
 
-    def stopped(self, report: Stopped) -> None:
-        """Process the report of the end, and compare it with the order.
+    def _on_stop_report(self, report: Stopped) -> None:
+        """Process the report of the end, and compare it with the request.
 
-        A damaged order or position may look valid. Therefore the position is read again if they do not agree.
+        A damaged request or position may look valid. Therefore the position is read again if they do not
+        agree.
         """
-        super().stopped(report)
-        if self.unknown is not None:
-            self.unknown = None
-            super().stopped(Stopped(report.cause, self._part.position))
+        super()._on_stop_report(report)
+        if self.result_error is not None:
+            self.result_error = None
+            super()._on_stop_report(Stopped(report.cause, self._part.position))
 
-    def look(self) -> None:
-        """Poll the station; set `end` or `unknown` if the motion is over."""
+    def _update(self) -> None:
+        """Poll the station; set `result` or `result_error` if the motion is over."""
         window = self._part.window
         window.collect()
         if not self.over and not window.busy:
@@ -72,9 +73,11 @@ class SerialMotion(Motion):
             if cause is None:
                 self._not_confirmed("the station is at standstill and knows of no motion")
             else:
-                self.stopped(window.stopped(cause))
+                self._on_stop_report(window.stop_report(cause))
 
-    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+    def wait(
+        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
+    ) -> MotionResult:
         return wait_all([self], timeout, progress)[0]
 
 
@@ -83,27 +86,28 @@ class Station312(Axis[SerialMotion]):
 
     Free curves, tables and event buffers cannot be accessed on the line (OutOfRange). Reports are read by
     polling the station. After a lost reply, an instruction is repeated only if that has no side effect
-    (`Doubt`). LostReply is raised where the driver cannot know whether the instruction was executed.
+    (`LostReplyResolver`). LostReply is raised where the driver cannot know whether the instruction was
+    executed.
 
     Args:
         number: 0 to 15.
     """
 
-    kind = KIND
+    kind = CAPABILITIES
     link: Line
-    window: Talk
+    window: StationLink
 
     def __init__(self, line: Line, number: int) -> None:
         self.number = station_number(number)
-        self.who = f"station {number}: "
+        self._message_prefix = f"station {number}: "
         self._slow_override = False
         super().__init__(line)
 
-    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> SerialMotion:
-        return SerialMotion(self, asked, direction, begin)
+    def _make_motion(self, requested: int | None, direction: int, begin: int | None) -> SerialMotion:
+        return SerialMotion(self, requested, direction, begin)
 
-    def _make_window(self) -> Talk:
-        return Talk(self.link, self)
+    def _make_window(self) -> StationLink:
+        return StationLink(self.link, self)
 
     @property
     def counters(self) -> Counters:
@@ -112,19 +116,19 @@ class Station312(Axis[SerialMotion]):
 
     # ------------------------------------------------------------------ reports
 
-    def hear(self, report: Report) -> None:
+    def _on_report(self, report: Report) -> None:
         """Process a report that a poll returned."""
         if isinstance(report, Executed) and report.by is Source.OVERRIDE and self._slow_override:
             if self._motion is not None:
                 self._motion.stop_ordered = True
-        self._heard(report)
+        self._store_report(report)
 
     def poll(self) -> list[Report]:
         """Poll the station until no report is pending; return all reports, oldest first.
 
         Reports that were fetched before are not included.
 
-        Ends of motions that this object started are in their `end` instead.
+        Ends of motions that this object started are in their `result` instead.
         """
         self.window.collect()
         taken = list(self.reports)
@@ -142,7 +146,7 @@ class Station312(Axis[SerialMotion]):
                 return None
             self.link.pause(POLL_EVERY)
 
-    def attend(self, seconds: float) -> None:
+    def process_reports(self, seconds: float) -> None:
         end = self.link.clock() + seconds
         while (left := end - self.link.clock()) > 0:
             self.window.collect()
@@ -155,21 +159,21 @@ class Station312(Axis[SerialMotion]):
 
     def status(self) -> Status:
         """Return the status; it is read until two successive reads are equal."""
-        return self.window.twice(super().status)
+        return self.window.read_consistently(super().status)
 
     # ------------------------------------------------------------------ instructions of the line only
 
     def error_code(self) -> int:
         """Return the last error code that the station replied (42 to 49), 0 for no error.
 
-        Reading clears it. Raises NotWhileBusy while the motor is moving.
+        Reading clears it. Raises AxisBusy while the motor is moving.
         """
         return self.window.read(ERROR_CODE)[0]
 
     def error_counts(self) -> ErrorCounts:
         """Return the counters of framing errors, overruns and checksum errors of the station.
 
-        Reading clears them. Raises NotWhileBusy while the motor is moving.
+        Reading clears them. Raises AxisBusy while the motor is moving.
         """
         return ErrorCounts(*self.window.read(ERROR_COUNTS))
 
@@ -186,19 +190,19 @@ class Station312(Axis[SerialMotion]):
         Pulses end immediately, there is no table, and the position is 0.
         """
         for _ in range(ATTEMPTS):
-            sent = self.link.tell(self.number, bytes([Code.RESET]))
+            sent = self.link.send_instruction(self.number, bytes([Code.RESET]))
             self.link.pause(self.link.seconds(len(sent)) + self.link.patience / 4)
             if self.window.status().state is State.INI:
-                self.forget()
+                self._on_reset()
                 return
-        raise StationSilent(f"{self.who}no reset in {ATTEMPTS} attempts: check the cable")
+        raise StationNotResponding(f"{self._message_prefix}no reset in {ATTEMPTS} attempts: check the cable")
 
     def software_reset(self) -> None:
         """Reset the station as `reset` does, because a line has no other reset."""
         self.reset()
 
-    def forget(self) -> None:
-        super().forget()
+    def _on_reset(self) -> None:
+        super()._on_reset()
         self._slow_override = False
 
     # ------------------------------------------------------------------ inside
@@ -222,14 +226,14 @@ class Station312(Axis[SerialMotion]):
             fastest = float(setup.clock.speed(setup.table.high)) if setup else _MOST_PPS
             return way <= 1 + fastest * (self.link.clock() - times[-2]) and self.window.status().busy
 
-        return self.window.twice(read, agree)
+        return self.window.read_consistently(read, agree)
 
     def _register(self, block: bytes) -> None:
         """Register an override; the reply only confirms that the station has accepted it."""
         self.instruct(block)
         self._slow_override |= block[2] == Code.SLOW_STOP
 
-    def _start(self, block: bytes, direction: int, asked: int | None = None) -> SerialMotion:
+    def _start(self, block: bytes, direction: int, requested: int | None = None) -> SerialMotion:
         # Pending reports are older than this motion.
         self.window.collect()
-        return super()._start(block, direction, asked)
+        return super()._start(block, direction, requested)

@@ -15,7 +15,7 @@ openppmc.host.errors.OutOfRange: free curves: only on the parallel bus
 >>> frame(POLL | 1).hex(" "), frame(INSTRUCTION | 1, bytes.fromhex("061f")).hex(" ")
 ('81 7e', '91 30 36 31 66 49')
 >>> receiver = Receiver(1)
->>> [receiver.take(byte) for byte in bytes.fromhex("A1 61 35 39")]
+>>> [receiver.feed(byte) for byte in bytes.fromhex("A1 61 35 39")]
 [None, None, None, Reply(station=1, kind=160, data=b'\xa5')]
 """
 
@@ -107,12 +107,12 @@ class Receiver:
     """
 
     def __init__(self, station: int, gives: int = 1, mode: SumMode = SumMode.BINARY) -> None:
-        self._station, self._gives, self._mode = station, gives, mode
+        self._station, self._data_length, self._mode = station, gives, mode
         self._control: int | None = None
         self._digits = bytearray()
 
-    def take(self, byte: int) -> Reply | Fault | None:
-        """Process a byte; see `host.line.Listener`."""
+    def feed(self, byte: int) -> Reply | Fault | None:
+        """Process a byte; see `host.line.ReplyReceiver`."""
         if byte & 0x80:
             # A control code always starts a new frame, as in the station.
             broken = self._control is not None
@@ -133,7 +133,7 @@ class Receiver:
     def _length(self, kind: int) -> int:
         """Return the number of data bytes of the reply, as far as it is known."""
         if kind == DATA:
-            return self._gives
+            return self._data_length
         if kind == SPECIFIC:
             code = int(self._digits[:2].decode("ascii"), 16) if len(self._digits) >= 2 else 0
             return _SPECIFIC_BYTES.get(code, 1)

@@ -60,7 +60,7 @@ class Line(NamedTuple):
     Attributes:
         t: ps of its beginning.
         data: bytes as they were on the bus or line.
-        strange: True if the line is invalid for the part.
+        invalid: True if the line is invalid for the part.
         initialises: True if the state of the part, or of this axis, is known from the end of the line on.
         end: ps at which the last of its bytes was over.
     """
@@ -68,7 +68,7 @@ class Line(NamedTuple):
     t: int
     data: str
     text: str
-    strange: bool = False
+    invalid: bool = False
     initialises: bool = False
     end: int = 0
     axis: int = 0
@@ -91,17 +91,17 @@ class Wires:
     params: dict[str, object] = field(default_factory=dict)
 
 
-class Train(NamedTuple):
+class PulseTrain(NamedTuple):
     """Pulses of an axis.
 
     Attributes:
         times: in ps.
-        ways: direction of each pulse (1 = CCW), `None` if it is unknown.
+        directions: direction of each pulse (1 = CCW), `None` if it is unknown.
     """
 
     axis: int
     times: Column
-    ways: Column | None
+    directions: Column | None
 
 
 class Needs(NamedTuple):
@@ -112,11 +112,11 @@ class Needs(NamedTuple):
 
 
 @dataclass(frozen=True)
-class DecodeKind:
+class PartDecoder:
     """Capture functions of a part.
 
     Attributes:
-        called: name of the part in messages.
+        title: name of the part in messages.
         pins: names for the map; the data bus is `d` if it is one bus.
         inputs: inputs of the model with their idle levels.
         needs: returns the required pins.
@@ -130,19 +130,19 @@ class DecodeKind:
         parameters: returns parameters of the model that the capture contains.
         prelude: brings a new model to the beginning of a capture.
         axis_of: returns the axis of a bit of a port, 0: all axes.
-        rests: levels of the outputs in a reset.
+        reset_levels: levels of the outputs in a reset.
         initialised: True if nothing can be compared without a reset or an initialisation.
         pause: ps at a 16 MHz crystal between two moves; more if the pulses are that slow. The slowest rate of
             a byte makes 2.05 ms.
     """
 
-    called: str
+    title: str
     pins: Pins
     inputs: Mapping[str, int]
     needs: Callable[[Wires], Needs]
     lines: Callable[[Wires], list[Line]]
     stimulus: Callable[[Wires], Iterable[tuple[int, dict[str, int]]]]
-    trains: Callable[[Wires], list[Train]]
+    trains: Callable[[Wires], list[PulseTrain]]
     host_pins: frozenset[str]
     outputs: tuple[str, ...]
     phases: tuple[str, ...] = ()
@@ -152,5 +152,5 @@ class DecodeKind:
     axis_of: Callable[[str, int], int] = lambda port, bit: 0
     initialised: bool = True
     pause: int = 2_200_000_000
-    unnamed: str = "commands"
-    rests: Mapping[str, int] = field(default_factory=dict)
+    row_noun: str = "commands"
+    reset_levels: Mapping[str, int] = field(default_factory=dict)

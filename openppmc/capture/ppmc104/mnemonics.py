@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..common.words import OneAxisWords
+from ..common.mnemonics import OneAxisDecoder
 
 ERRORS = (
     "undefined command, or a stop at rest",
@@ -16,8 +16,8 @@ ERRORS = (
 )
 
 
-class Words104(OneAxisWords):
-    """Words of a PPMC-104: one axis, error numbers in the status register."""
+class Ppmc104Decoder(OneAxisDecoder):
+    """Decoder for the bytes of a PPMC-104: one axis, error numbers in the status register."""
 
     errors = ERRORS
     reads = {

@@ -19,7 +19,7 @@ CAUSES = ((0x40, "a stop command"), (0x20, "ALM"), (0x10, "the limit"), (0x08, "
 END_STATUS, INPUTS, OUTPUTS, REMAINING = 0x80, 0x81, 0x82, 0x83
 
 
-class Words:
+class CommandDecoder:
     """Meaning of the bytes of a part.
 
     Subclasses define status, setting, the other codes, and pins.
@@ -124,8 +124,8 @@ class Words:
         return ""
 
 
-class OneAxisWords(Words):
-    """Words of a part with one axis.
+class OneAxisDecoder(CommandDecoder):
+    """Decoder for a part with one axis.
 
     Its status register has an error number, or a number of expected bytes.
 
@@ -164,7 +164,7 @@ class Exchange:
         t: time of the command in cycles.
     """
 
-    words: Words
+    decoder: CommandDecoder
     t: int
     sent: list[int] = field(default_factory=list)
     answer: list[int] = field(default_factory=list)
@@ -174,19 +174,19 @@ class Exchange:
     @property
     def read(self) -> int:
         """Code without its axis; -1 without a code."""
-        return self.sent[0] & ~self.words.axis(self.sent[0]) if self.sent else -1
+        return self.sent[0] & ~self.decoder.axis(self.sent[0]) if self.sent else -1
 
     @property
     def meaning(self) -> str:
         """Bytes sent as text."""
-        return self.words.command(self.sent[0], self.sent[1:]) if self.sent else "read the status register"
+        return self.decoder.command(self.sent[0], self.sent[1:]) if self.sent else "read the status register"
 
     @property
     def reply(self) -> str:
         """Response as text; without one, the last status."""
         if self.sent and self.answer:
-            return self.words.answer(self.read, self.answer, self.stopped)
-        return self.words.status(self.polls[-1]) if self.polls else ""
+            return self.decoder.answer(self.read, self.answer, self.stopped)
+        return self.decoder.status(self.polls[-1]) if self.polls else ""
 
     @property
     def statuses(self) -> list[int]:
@@ -198,7 +198,7 @@ class Exchange:
         return [byte for index, byte in enumerate(taken) if index == 0 or byte != taken[index - 1]]
 
 
-def exchanges(words: Words, accesses: Iterable[Any]) -> list[Exchange]:
+def exchanges(decoder: CommandDecoder, accesses: Iterable[Any]) -> list[Exchange]:
     """Group the accesses of a host (t, kind, reg, byte) into exchanges.
 
     Each exchange begins with a command byte.
@@ -207,11 +207,11 @@ def exchanges(words: Words, accesses: Iterable[Any]) -> list[Exchange]:
     stopped: dict[int, bool] = {}
     for access in accesses:
         if access.kind == "write" and access.reg == 1:
-            was = stopped.get(words.axis(access.byte), False)
-            rows.append(Exchange(words, access.t, [access.byte], stopped=was))
+            was = stopped.get(decoder.axis(access.byte), False)
+            rows.append(Exchange(decoder, access.t, [access.byte], stopped=was))
             continue
         if not rows:
-            rows.append(Exchange(words, access.t))
+            rows.append(Exchange(decoder, access.t))
         if access.kind == "write":
             rows[-1].sent.append(access.byte)
         elif access.reg == 1:
@@ -219,5 +219,5 @@ def exchanges(words: Words, accesses: Iterable[Any]) -> list[Exchange]:
         else:
             rows[-1].answer.append(access.byte)
             if rows[-1].read == END_STATUS:
-                stopped[words.axis(rows[-1].sent[0])] = bool(access.byte & 0x78)
+                stopped[decoder.axis(rows[-1].sent[0])] = bool(access.byte & 0x78)
     return rows

@@ -1,4 +1,4 @@
-"""Parser for lines of script files: common words and words of parts (column `words`)."""
+"""Parser for lines of script files: common commands and those of parts (column `script_commands`)."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from functools import cache
 from typing import Any, NamedTuple, Protocol
 
 from ... import parts
-from ...host.kind import AUX, Kind
+from ...host.capabilities import AUX, Capabilities
 from .options import MOST_AXES, Logic, SetupValues, Side
 
 
 @dataclass(frozen=True)
-class OwnWord:
-    """Word that only some parts support.
+class PartCommand:
+    """Command of script files that only some parts support.
 
     Attributes:
-        lacks: returns why this kind of part does not support the word with these values; empty if it does.
-        do: executes the word; it is called only if `lacks` returns an empty text.
+        unsupported_reason: returns why a part does not support the word with these values; empty if it does.
+        execute: executes the command; it is called only if `unsupported_reason` returns an empty text.
     """
 
-    read: Reader
-    lacks: Callable[[Kind, Values], str]
-    do: Callable[[Any, Values], None]
+    parse: Reader
+    unsupported_reason: Callable[[Capabilities, Values], str]
+    execute: Callable[[Any, Values], None]
 
 
 class _HasAux(Protocol):
@@ -40,23 +40,23 @@ def _read_aux(words: list[str]) -> Values:
     text = first(words, "on or off")
     if text not in ("on", "off"):
         raise ValueError(f"{text!r} is neither on nor off")
-    none_left(words)
+    check_no_more_words(words)
     return {"on": text == "on"}
 
 
 def _read_outputs(words: list[str]) -> Values:
     value = whole(first(words, "value"), "outputs", 0, 63)
-    none_left(words)
+    check_no_more_words(words)
     return {"value": value}
 
 
-def _lacks_aux(kind: Kind, values: Values) -> str:
+def _unsupported_aux(kind: Capabilities, values: Values) -> str:
     if AUX in kind.has:
         return ""
     return f"a {kind} has no output AUX" + ("; use auxo" if kind.outputs else "")
 
 
-def _lacks_outputs(kind: Kind, values: Values) -> str:
+def _unsupported_outputs(kind: Capabilities, values: Values) -> str:
     if not kind.outputs:
         return f"a {kind} has no auxiliary outputs"
     if values["value"] > kind.outputs:
@@ -64,27 +64,27 @@ def _lacks_outputs(kind: Kind, values: Values) -> str:
     return ""
 
 
-def _do_aux(part: _HasAux, values: Values) -> None:
+def _execute_aux(part: _HasAux, values: Values) -> None:
     part.aux(values["on"])
 
 
-def _do_outputs(part: _HasOutputs, values: Values) -> None:
+def _execute_outputs(part: _HasOutputs, values: Values) -> None:
     part.auxo(values["value"])
 
 
 _SOME = {
-    "aux": OwnWord(_read_aux, _lacks_aux, _do_aux),
-    "auxo": OwnWord(_read_outputs, _lacks_outputs, _do_outputs),
+    "aux": PartCommand(_read_aux, _unsupported_aux, _execute_aux),
+    "auxo": PartCommand(_read_outputs, _unsupported_outputs, _execute_outputs),
 }
 
 
 @cache
-def own_words() -> dict[str, OwnWord]:
-    """Return the words that only some parts support, including those of column `words`."""
+def part_commands() -> dict[str, PartCommand]:
+    """Return the words that only some parts support, including those of column `script_commands`."""
     own = dict(_SOME)
     for row in parts.folders():
-        if row.words:
-            more: dict[str, OwnWord] = row.load("words")
+        if row.script_commands:
+            more: dict[str, PartCommand] = row.load("script_commands")
             assert not own.keys() & more.keys(), f"{row.name}: a word that another part also defines"
             own |= more
     return own
@@ -92,12 +92,12 @@ def own_words() -> dict[str, OwnWord]:
 
 MOST_TURNS = 1_000_000
 Values = dict[str, Any]
-"""Operands of a line, by the names that `Player` uses."""
+"""Operands of a line, by the names that `ScriptRunner` uses."""
 Reader = Callable[[list[str]], Values]
 """Parses and consumes the words after the first one. Raises ValueError."""
 
 
-def none_left(words: list[str]) -> None:
+def check_no_more_words(words: list[str]) -> None:
     """Raise ValueError if the line has more words."""
     if words:
         raise ValueError(f"{words[0]!r} does not belong here")
@@ -177,7 +177,7 @@ def read_axis(words: list[str], numbered: Numbered = AXES) -> int | None:
 def read_repeat(words: list[str]) -> Values:
     """Return the number of repetitions."""
     turns = whole(first(words, "number of repetitions"), "count", 1, MOST_TURNS)
-    none_left(words)
+    check_no_more_words(words)
     return {"turns": turns}
 
 
@@ -212,7 +212,7 @@ def _move(words: list[str]) -> Values:
     pulses = whole(first(words, "number of pulses"), "pulses", -most, most)
     second = whole(words.pop(0), "pulses", -most, most) if words and "=" not in words[0] else None
     values = {"pulses": pulses, "second": second, "speed": read_speed(words)}
-    none_left(words)
+    check_no_more_words(words)
     return values
 
 
@@ -221,7 +221,7 @@ def _move_to(words: list[str]) -> Values:
     values = {"position": whole(first(words, "position"), "position", *ends), "second": None}
     if words:
         values["second"] = whole(words.pop(0), "position", *ends)
-    none_left(words)
+    check_no_more_words(words)
     return values
 
 
@@ -232,7 +232,7 @@ def _jog(words: list[str]) -> Values:
     if first(words, "for SECONDS") != "for":
         raise ValueError("jog needs: jog cw|ccw [ramped | speed=PPS] for SECONDS")
     seconds = number(first(words, "seconds"), "seconds", 0, 86_400)
-    none_left(words)
+    check_no_more_words(words)
     return {"side": side, "ramped": ramped, "speed": speed, "seconds": seconds}
 
 
@@ -240,24 +240,24 @@ def _home(words: list[str]) -> Values:
     side = _side(words) if words and words[0].lower() in ("cw", "ccw") else Side.CCW.code
     approach = words.pop(0) if words and words[0] in ("fast", "to-limit") else ""
     values = {"side": side, "approach": approach, "speed": read_speed(words)}
-    none_left(words)
+    check_no_more_words(words)
     return values
 
 
 def _wait(words: list[str]) -> Values:
     seconds = number(first(words, "seconds"), "seconds", 0, 86_400)
-    none_left(words)
+    check_no_more_words(words)
     return {"seconds": seconds}
 
 
 def _step(words: list[str]) -> Values:
     values = {"side": _side(words)}
-    none_left(words)
+    check_no_more_words(words)
     return values
 
 
 def _plain(words: list[str]) -> Values:
-    none_left(words)
+    check_no_more_words(words)
     return {}
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..errors import PortError
-from ..line import PATIENCE, Listener, Master
-from ..line_port import Miss, open_line
+from ..line import PATIENCE, Master, ReplyReceiver
+from ..line_port import MissingReply, open_line
 from ..port import Port
 from .wire import Receiver, Reply, address_number, command
 
@@ -60,27 +60,29 @@ class Line(Master[Reply]):
         self.check_patience(patience)
         port = open_line(spec, baud, PART, rs485) if isinstance(spec, str) else spec
         super().__init__(port, baud, False, patience)
-        self.doubtful: set[int] = set()
+        self.unsynchronised: set[int] = set()
 
-    def exchange(self, address: int, code: int, data: int = 0, answers: int | None = None) -> Reply | Miss:
+    def exchange(
+        self, address: int, code: int, data: int = 0, answers: int | None = None
+    ) -> Reply | MissingReply:
         """Send a frame and return its reply. Raises Disconnected.
 
         Args:
             answers: address of the reply, `None` if it is the same.
         """
         sent = command(address_number(address), code, data)
-        got = self.ask(address, sent, Receiver(address if answers is None else answers, sent))
-        if isinstance(got, Miss) and not got.heard:
-            self.doubtful.add(address)
+        got = self.request(address, sent, Receiver(address if answers is None else answers, sent))
+        if isinstance(got, MissingReply) and not got.received:
+            self.unsynchronised.add(address)
         return got
 
-    def settle(self) -> None:
+    def wait_until_idle(self) -> None:
         """Wait until no controller holds an incomplete frame and no more bytes arrive."""
         self.pause(DROPPED_AFTER / self.baud)
 
-    def _missed(self, listener: Listener[Reply], heard: bytes) -> Miss:
+    def _missing_reply(self, listener: ReplyReceiver[Reply], heard: bytes) -> MissingReply:
         assert isinstance(listener, Receiver)
-        return Miss(listener.fault, heard if listener.fault else b"")
+        return MissingReply(listener.fault, heard if listener.fault else b"")
 
 
 ATTEMPTS = 5
@@ -89,7 +91,7 @@ _CHECK = "is it there and powered, are address, baud rate and wires right?"
 _OTHERS = "noise, another baud rate, or two controllers with this address"
 
 
-class Talk(Checked):
+class StationLink(Checked):
     """Communication with one controller; see `pmc006.Pmc006`.
 
     Attributes:
@@ -112,12 +114,12 @@ class Talk(Checked):
         self.unsaved = {}
 
     @property
-    def who(self) -> str:
+    def _message_prefix(self) -> str:
         """Prefix of messages about this controller; empty if it is the only one."""
         return "" if self.alone else f"controller {self.address}: "
 
     @property
-    def where(self) -> str:
+    def _location(self) -> str:
         """Line and address, for messages."""
         return f"{self.line.name}: controller {self.address}"
 
@@ -128,12 +130,12 @@ class Talk(Checked):
 
     # ------------------------------------------------------------------ instructions
 
-    def ask(
+    def execute(
         self,
         code: int,
         data: int = 0,
         good: Callable[[int], bool] = lambda value: True,
-        settle: Callable[[], int | None] = lambda: None,
+        resolve: Callable[[], int | None] = lambda: None,
         sure: bool = True,
         risky: bool = False,
     ) -> int:
@@ -142,67 +144,68 @@ class Talk(Checked):
         Args:
             good: returns True for data that a reply can have. Other data mean a damaged reply, or the reply
                 to another instruction.
-            settle: called after each attempt without a reply. It returns the reply if the instruction was
+            resolve: called after each attempt without a reply. It returns the reply if the instruction was
                 executed, or `None` if it was not executed and may be repeated. It may raise an exception.
             sure: if False, data that are not good are returned after they were received twice.
             risky: True if it matters whether the instruction was executed.
 
         Raises:
-            StationSilent, GarbledReply: no valid reply was received.
+            StationNotResponding, CorruptReply: no valid reply was received.
             LostReply: the controller is silent after a risky instruction.
         """
-        misses: list[Miss] = []
+        misses: list[MissingReply] = []
         odd: list[int] = []
-        if not self._in_step(misses):
-            raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)
+        if not self._synchronise(misses):
+            raise unanswered(self._location, misses, len(misses), _CHECK, _OTHERS)
         for attempt in range(ATTEMPTS):
             self.counters.repeated += attempt > 0
             got = self.line.exchange(self.address, code, data)
-            if not isinstance(got, Miss):
+            if not isinstance(got, MissingReply):
                 if good(got.value) or (not sure and got.value in odd):
                     return got.value
                 odd.append(got.value)
                 if not sure:
                     continue
                 self.counters.garbled += 1
-                got = Miss(Fault.BROKEN, b"?")
+                got = MissingReply(Fault.BROKEN, b"?")
             misses.append(got)
-            self.line.settle()
-            if not self._in_step(misses):
+            self.line.wait_until_idle()
+            if not self._synchronise(misses):
                 if risky:
-                    raise self.lost("the controller has been silent since")
+                    raise self._lost_reply("the controller has been silent since")
                 break
-            if (done := settle()) is not None:
+            if (done := resolve()) is not None:
                 return done
-        raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)
+        raise unanswered(self._location, misses, len(misses), _CHECK, _OTHERS)
 
-    def _in_step(self, misses: list[Miss]) -> bool:
+    def _synchronise(self, misses: list[MissingReply]) -> bool:
         """Restore the order of replies after a silence; return False if that fails.
 
         A reply does not identify its instruction, so a late reply would be taken for the reply to the next
         one. Set the word pointer, whose value is not used, until the reply returns the same value. Silences
         are added to `misses`.
         """
-        if self.address not in self.line.doubtful:
+        if self.address not in self.line.unsynchronised:
             return True
         for _ in range(_TRIES):
             self._mark = self._mark % _MARKS + 1
             got = self.line.exchange(self.address, Code.POINTER, self._mark)
-            if isinstance(got, Miss):
+            if isinstance(got, MissingReply):
                 misses.append(got)
-                self.line.settle()
+                self.line.wait_until_idle()
             elif got.value == self._mark:
-                self.line.doubtful.discard(self.address)
+                self.line.unsynchronised.discard(self.address)
                 return True
         return False
 
     def _bits(self, code: Code, bits: int) -> int:
-        return self.ask(code, good=lambda value: 0 <= value < 1 << bits)
+        return self.execute(code, good=lambda value: 0 <= value < 1 << bits)
 
-    def lost(self, why: str) -> LostReply:
+    def _lost_reply(self, reason: str) -> LostReply:
         """Return the exception for an instruction that may or may not have been executed."""
         return LostReply(
-            f"{self.who}the reply to an instruction was lost, it may have been carried out; {why}: check "
+            f"{self._message_prefix}the reply to an instruction was lost, it may have been carried out; "
+            f"{reason}: check "
             "the status of the controller before you repeat the instruction"
         )
 
@@ -223,22 +226,22 @@ class Talk(Checked):
     @property
     def position(self) -> int:
         """Position in steps, forward positive. The call is allowed at any time."""
-        return self.ask(Code.POSITION)
+        return self.execute(Code.POSITION)
 
     def version(self) -> str:
         """Return the firmware version, for example V0.1.35."""
-        value = self.ask(Code.VERSION) & 0xFFFFFFFF
+        value = self.execute(Code.VERSION) & 0xFFFFFFFF
         return f"V{value >> 16}.{value >> 8 & 0xFF}.{value & 0xFF}"
 
-    def is_there(self) -> bool:
-        """Return True if the controller replies; poll once, or twice after noise. Raises GarbledReply."""
-        misses: list[Miss] = []
+    def _is_connected(self) -> bool:
+        """Return True if the controller replies; poll once, or twice after noise. Raises CorruptReply."""
+        misses: list[MissingReply] = []
         while len(misses) < 2:
             got = self.line.exchange(self.address, Code.STATUS_1)
-            if not isinstance(got, Miss):
+            if not isinstance(got, MissingReply):
                 return True
-            if not got.heard:
+            if not got.received:
                 return False
             misses.append(got)
-            self.line.settle()
-        raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)
+            self.line.wait_until_idle()
+        raise unanswered(self._location, misses, len(misses), _CHECK, _OTHERS)

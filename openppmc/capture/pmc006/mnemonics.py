@@ -9,7 +9,7 @@ from typing import Any
 
 from openppmc.model.pmc006.line import command, reply
 
-from ..common.words import Words
+from ..common.mnemonics import CommandDecoder
 
 MEANINGS = {
     "A": "program pointer {}",
@@ -108,8 +108,8 @@ class Exchange006:
         return f"{self.got:08X}" if self.letter == "W" else str(signed(self.got))
 
 
-class Words006(Words):
-    """Words of a PMC006B4, with steps and pps."""
+class Pmc006Decoder(CommandDecoder):
+    """Decoder for the bytes of a PMC006B4, with steps and pps."""
 
     unit, speed, rate = "step", "thousand pps", "pps"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...model.stmc import codes
-from ..common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, OneAxisWords
+from ..common.mnemonics import END_STATUS, INPUTS, OUTPUTS, REMAINING, OneAxisDecoder
 
 ERRORS = (
     "undefined command, or a stop at rest",
@@ -19,8 +19,8 @@ ERRORS = (
 )
 
 
-class WordsStmc(OneAxisWords):
-    """Words of a J105 STMC: one axis with divisors, error numbers in the status register.
+class StmcDecoder(OneAxisDecoder):
+    """Decoder for the bytes of a J105 STMC: one axis with divisors, error numbers in the status register.
 
     Args:
         read_map: name of the set of read codes.

@@ -1,8 +1,8 @@
 """Output of a device on the command line, and functions that only some devices support.
 
-The table of parts names the view of a part (column `view`); a part without one has `RampView`, that of the
-PPMC-104. A forecast is computed from the golden model's ramp before the move. `--at POSITION:WHAT` sets an
-override, an action of the device when it passes a position.
+The table of parts names the presenter of a part (column `presenter`); a part without one has `RampPresenter`,
+that of the PPMC-104. A forecast is computed from the golden model's ramp before the move. `--at
+POSITION:WHAT` sets an override, an action of the device when it passes a position.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from ...errors import needs
-from ...host import End, speeds
+from ...host import MotionResult, speeds
 from ...host import speeds as units
 from ...host.axis import OnProgress
+from ...host.capabilities import Capabilities
 from ...host.errors import OutOfRange
-from ...host.kind import Kind
 from ...host.link import Link
 from ...host.part import AnyAxis
 from ...model.motion.codes import ENDLESS
@@ -99,15 +99,15 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
 
 
 @dataclass(frozen=True)
-class Course:
+class Trajectory:
     """Move to draw: times of its pulses in s, speed of each interval in pps."""
 
     seconds: list[float]
     speeds: list[float]
 
     @classmethod
-    def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
-        """Compute the course, with the ramp of the set-up or at `speed`.
+    def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Trajectory:
+        """Compute the trajectory, with the ramp of the set-up or at `speed`.
 
         Args:
             pulses: 1 or more.
@@ -124,14 +124,14 @@ class Course:
         return cls(seconds, [speeds[count] for count in counts])
 
 
-def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
+def plot_move(trajectory: Callable[[int], Trajectory], pulses: int, path: Path) -> None:
     """Write a plot of the speed over time as PNG, SVG or PDF.
 
     Raises OutOfRange for a move that is too long to draw and for a file suffix that the plotter does not
     support.
 
     Args:
-        course: computes the course of a number of pulses.
+        trajectory: computes the trajectory of a number of pulses.
     """
     needs("plot", "a plot", "matplotlib")
     from ...plot.profile import FORMATS, draw_profile
@@ -140,7 +140,7 @@ def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
         raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses; choose a shorter move")
     if path.suffix.lower() not in FORMATS:
         raise OutOfRange(f"{path}: unsupported suffix of a plot; use {', '.join(FORMATS)}")
-    draw_profile(course(abs(pulses)), f"{pulses} pulses", path)
+    draw_profile(trajectory(abs(pulses)), f"{pulses} pulses", path)
 
 
 class Status(Protocol):
@@ -155,7 +155,7 @@ class WithStatus(Protocol):
     """Part with a status."""
 
     @property
-    def kind(self) -> Kind: ...
+    def kind(self) -> Capabilities: ...
     @property
     def link(self) -> Link: ...
     def status(self) -> Status:
@@ -166,7 +166,7 @@ PartT = TypeVar("PartT", bound=WithStatus)
 SetupT = TypeVar("SetupT")
 
 
-class View(ABC, Generic[PartT, SetupT]):
+class Presenter(ABC, Generic[PartT, SetupT]):
     """Output and additional functions of a part.
 
     PartT: driver of the part. SetupT: plan of its kind. Speeds are in pps, times in s. An optional method
@@ -200,11 +200,10 @@ class View(ABC, Generic[PartT, SetupT]):
 
     def busy(self, part: PartT, axes: Sequence[AnyAxis]) -> tuple[AnyAxis, ...]:
         """Return the axes that are moving."""
-        status = part.status().raw
-        return tuple(axis for axis in axes if status & axis.busy)
+        return tuple(axis for axis in axes if self.status_values(part, axis)["moving"])
 
-    def reports(self, part: PartT, tell: Callable[[str], None]) -> None:
-        """Pass each new report to `tell` as a line; then raise the first error among them."""
+    def reports(self, part: PartT, print_line: Callable[[str], None]) -> None:
+        """Pass each new report to `print_line` as a line; then raise the first error among them."""
 
     # ------------------------------------------------------------------ plans
 
@@ -225,7 +224,7 @@ class View(ABC, Generic[PartT, SetupT]):
         """
 
     @abstractmethod
-    def course(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> Course:
+    def trajectory(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> Trajectory:
         """Return the move to draw.
 
         Args:
@@ -241,14 +240,14 @@ class View(ABC, Generic[PartT, SetupT]):
         if overrides:
             raise OutOfRange(f"overrides: a {part.kind} does not have that")
 
-    def together(
+    def move_together(
         self,
         part: PartT,
         pulses: Mapping[int, int],
         pps: float | None,
         progress: OnProgress,
         pulse_only: bool = False,
-    ) -> Sequence[End]:
+    ) -> Sequence[MotionResult]:
         """Move several axes, which start at the same time, and wait.
 
         Args:
@@ -256,7 +255,7 @@ class View(ABC, Generic[PartT, SetupT]):
         """
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
 
-    def halt_all(self, part: PartT) -> list[End] | None:
+    def halt_all(self, part: PartT) -> list[MotionResult] | None:
         """Stop all axes immediately, at the same time, and return their ends.
 
         Returns None if the part does not support this.
@@ -288,8 +287,8 @@ class View(ABC, Generic[PartT, SetupT]):
         raise OutOfRange(f"table: a {part.kind} does not have that")
 
 
-class RampView(View[PartT, speeds.Setup]):
-    """View of the parts with the ramp of the PPMC family."""
+class RampPresenter(Presenter[PartT, speeds.Setup]):
+    """Presenter of the parts with the ramp of the PPMC family."""
 
     def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
         status: Any = part.status()
@@ -315,16 +314,16 @@ class RampView(View[PartT, speeds.Setup]):
     def figures(self, setup: speeds.Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
         return key_figures(setup, pulses, speed)
 
-    def course(self, setup: speeds.Setup, pulses: int, speed: speeds.Speed | None) -> Course:
-        return Course.of(setup, pulses, speed)
+    def trajectory(self, setup: speeds.Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
+        return Trajectory.of(setup, pulses, speed)
 
 
-AnyView = View[Any, Any]
-"""View of a part of any type."""
-_USUAL: AnyView = RampView[WithStatus]()
+AnyPresenter = Presenter[Any, Any]
+"""Presenter of a part of any type."""
+_USUAL: AnyPresenter = RampPresenter[WithStatus]()
 
 
-def view_of(kind: Kind) -> AnyView:
-    """Return the view of the parts of this kind."""
-    view: AnyView = kind.row.load("view") if kind.row.view else _USUAL
-    return view
+def presenter_of(kind: Capabilities) -> AnyPresenter:
+    """Return the presenter of the parts with these capabilities."""
+    presenter: AnyPresenter = kind.row.load("presenter") if kind.row.presenter else _USUAL
+    return presenter

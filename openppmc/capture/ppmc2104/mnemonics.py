@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..common.words import Words
+from ..common.mnemonics import CommandDecoder
 
 FLAGS = (
     (0x20, "CMND2"),
@@ -16,8 +16,8 @@ FLAGS = (
 )
 
 
-class Words2104(Words):
-    """Words of a PPMC-2104: two axes, error numbers in a separate register."""
+class Ppmc2104Decoder(CommandDecoder):
+    """Decoder for the bytes of a PPMC-2104: two axes, error numbers in a separate register."""
 
     reads = {
         0x80: ("read end status", 1),

@@ -12,8 +12,8 @@ from typing import Any
 
 from ...host import Ppmc312, speeds
 from ...host.axis import OnProgress
+from ...host.capabilities import Capabilities
 from ...host.errors import OutOfRange
-from ...host.kind import Kind
 from ...host.part import AnyAxis
 from ...host.ppmc312 import blocks
 from ...host.ppmc312.answers import (
@@ -30,13 +30,13 @@ from ...host.ppmc312.answers import (
 from ...host.ppmc312.core import TableRead
 from ...host.ppmc312.motion import SHAPES
 from ...host.ppmc312.part import Axis
-from ...host.ppmc312.profile import KIND, Setup
+from ...host.ppmc312.profile import CAPABILITIES, Setup
 from ...model.ppmc312.codes import Code, Source
 from ...model.ppmc312.stages import Plan, constant, ramped
 from ..common import show
 from ..common.options import Side
-from ..common.reading import OwnWord, Values
-from ..common.view import Course, Override, View, parse_override
+from ..common.presenter import Override, Presenter, Trajectory, parse_override
+from ..common.script_parser import PartCommand, Values
 
 LONGEST_MOVE = (1 << 32) - 1
 
@@ -46,11 +46,11 @@ def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
         raise OutOfRange(f"{pulses} pulses: a move has 1 to {LONGEST_MOVE} pulses either way")
     if speed is None:
         return ramped(setup.table, setup.table.high, pulses)
-    return constant(setup.table, setup.rate_of(speed.asked), pulses)
+    return constant(setup.table, setup.rate_of(speed.requested), pulses)
 
 
 def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-    """Return the figures of an undisturbed move, as `view.key_figures` does.
+    """Return the figures of an undisturbed move, as `presenter.key_figures` does.
 
     The ramps are computed interval by interval, the plateau in closed form.
     """
@@ -80,8 +80,8 @@ def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, 
     return values
 
 
-def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
-    """Compute the course, with the ramps of the table or at `speed`.
+def trajectory(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
+    """Compute the trajectory, with the ramps of the table or at `speed`.
 
     Args:
         pulses: 1 or more.
@@ -89,7 +89,7 @@ def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
     rates = [step.rate for step in _plan(setup, pulses, speed).steps()[:-1]]
     period = float(setup.clock.period)
     seconds = [ticks * period for ticks in accumulate(rates, initial=0)]
-    return Course(seconds, [1 / (rate * period) for rate in rates])
+    return Trajectory(seconds, [1 / (rate * period) for rate in rates])
 
 
 MOST = 8
@@ -258,21 +258,21 @@ def _whole(text: str) -> int:
         raise ValueError(f"{text!r} is not a whole number") from None
 
 
-def _count(words: list[str], wanted: int) -> None:
-    if len(words) != wanted:
-        raise ValueError(f"{wanted} word{'s' if wanted != 1 else ''} expected here, not {len(words)}")
+def _count(words: list[str], expected: int) -> None:
+    if len(words) != expected:
+        raise ValueError(f"{expected} word{'s' if expected != 1 else ''} expected here, not {len(words)}")
 
 
-def _lacks(kind: Kind, values: Values) -> str:
+def _unsupported_reason(kind: Capabilities, values: Values) -> str:
     """Return why another part does not support the word; empty for a PPMC-312."""
-    return "" if kind is KIND else f"a {kind} has neither overrides nor events"
+    return "" if kind is CAPABILITIES else f"a {kind} has neither overrides nor events"
 
 
-def _do_at(part: Ppmc312, values: Values) -> None:
+def _execute_at(part: Ppmc312, values: Values) -> None:
     register(part, [values["override"]])
 
 
-def _do_event(part: Ppmc312, values: Values) -> None:
+def _execute_event(part: Ppmc312, values: Values) -> None:
     if values["what"] == "delete":
         while part.event_delete(values["event"]):
             pass
@@ -280,11 +280,11 @@ def _do_event(part: Ppmc312, values: Values) -> None:
         part.event_add(values["event"], _block(part, values["what"], values.get("value", 0)))
 
 
-def _do_pulse(part: Ppmc312, values: Values) -> None:
+def _execute_pulse(part: Ppmc312, values: Values) -> None:
     part.pulse_event(values["event"])
 
 
-def _do_watch(part: Ppmc312, values: Values) -> None:
+def _execute_watch(part: Ppmc312, values: Values) -> None:
     part.watch_encoder(values["distance"])
 
 
@@ -298,16 +298,16 @@ def _block(part: Ppmc312, what: str, value: int) -> bytes:
     return blocks.immediate_stop() if what == "halt" else blocks.slow_stop()
 
 
-WORDS = {
-    "at": OwnWord(read_at, _lacks, _do_at),
-    "event": OwnWord(read_event, _lacks, _do_event),
-    "pulse": OwnWord(read_pulse, _lacks, _do_pulse),
-    "watch": OwnWord(read_watch, _lacks, _do_watch),
+SCRIPT_COMMANDS = {
+    "at": PartCommand(read_at, _unsupported_reason, _execute_at),
+    "event": PartCommand(read_event, _unsupported_reason, _execute_event),
+    "pulse": PartCommand(read_pulse, _unsupported_reason, _execute_pulse),
+    "watch": PartCommand(read_watch, _unsupported_reason, _execute_watch),
 }
 
 
-class PartView(View[Ppmc312, Setup]):
-    """View of a part with ramp tables, an encoder, overrides and unsolicited reports."""
+class PartPresenter(Presenter[Ppmc312, Setup]):
+    """Presenter of a part with ramp tables, an encoder, overrides and unsolicited reports."""
 
     def status_values(self, part: Ppmc312, axis: AnyAxis) -> dict[str, Any]:
         return axis_values(part)
@@ -336,8 +336,8 @@ class PartView(View[Ppmc312, Setup]):
     def figures(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
         return figures(setup, pulses, speed)
 
-    def course(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
-        return course(setup, pulses, speed)
+    def trajectory(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
+        return trajectory(setup, pulses, speed)
 
     def prepare(self, part: Ppmc312, overrides: Sequence[Override], encoder: int | None) -> None:
         if encoder is not None:
@@ -361,4 +361,4 @@ class PartView(View[Ppmc312, Setup]):
         return table_lines(part.read_table(), part.known_setup())
 
 
-VIEW = PartView()
+PRESENTER = PartPresenter()

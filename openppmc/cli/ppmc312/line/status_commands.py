@@ -20,7 +20,7 @@ def info(as_json: Json = False) -> None:
     with opened() as session:
         line, found = session.bus.line, session.scan()
     if not found:
-        raise PpmcError(show.nobody(line.name))
+        raise PpmcError(show.no_station_message(line.name))
     values = {
         "port": line.name,
         "part": "ppmc312-serial",
@@ -49,7 +49,7 @@ def monitor(
 ) -> None:
     """Show position and switches until Ctrl-C."""
     with opened() as session:
-        axes = session.chosen(axis)
+        axes = session.selected_axes(axis)
 
         def lines() -> Iterator[str]:
             for one in axes:

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from ...parts import part
 from .. import speeds
+from ..capabilities import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateCapabilities, SetupRequest
 from ..errors import BY_NUMBER, CommandRefused, NothingToStop, PpmcError
-from ..kind import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind, Wanted
 from ..registers import Inputs, Status
 
 # Errors of an axis of a bank.
@@ -19,15 +19,15 @@ from ..registers import Inputs, Status
 NOTHING_HELD = "GO found no motion that it holds: start one while it is in the group"
 
 
-def refused(status: int, number: int) -> CommandRefused:
+def command_error(status: int, number: int) -> CommandRefused:
     """Return the exception for a status byte with ERR = 1 of the axis with this number."""
     kind = BY_NUMBER[status >> 4 & 7]
     return kind(status, f"axis {number}: {kind.text}")
 
 
-def go_refused(status: int, number: int) -> CommandRefused:
+def go_error(status: int, number: int) -> CommandRefused:
     """Return the exception for a status byte with ERR = 1 after GO (BANK-GRP-02)."""
-    error = refused(status, number)
+    error = command_error(status, number)
     return NothingToStop(status, f"axis {number}: {NOTHING_HELD}") if type(error) is NothingToStop else error
 
 
@@ -80,7 +80,7 @@ class Config(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Look:
+class AxisSnapshot:
     """State of an axis at one time.
 
     Attributes:
@@ -137,16 +137,16 @@ SIZES = (4, 8, 16, 32, 64)
 """Supported numbers of axes (BANK-GEN-01)."""
 
 
-class BankKind(RateKind):
+class BankCapabilities(RateCapabilities):
     """Capabilities of a PPMC-104 without those that BANK-GEN-03 excludes."""
 
-    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> speeds.BaseClock:
-        if wanted.external_clock is not None:
+    def ramp_clock(self, xtal_hz: int, request: SetupRequest) -> speeds.BaseClock:
+        if request.external_clock is not None:
             self.need("external clock")
-        return super().ramp_clock(xtal_hz, wanted)
+        return super().ramp_clock(xtal_hz, request)
 
 
-KIND = BankKind(
+CAPABILITIES = BankCapabilities(
     part("bank"),
     axes=SIZES[-1],
     has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER)),

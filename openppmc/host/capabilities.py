@@ -2,7 +2,7 @@
 
 This module has the members that all parts share.
 
-The capabilities of each part are `KIND` in its folder (`openppmc.parts`, column `kind`).
+The capabilities of each part are `CAPABILITIES` in its folder (`openppmc.parts`, column `capabilities`).
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Protocol, cast
 from ..model.motion.codes import PA_MAX, PA_MIN
 from ..parts import Row, by_number, part
 from . import speeds as units
-from .ending import ALARM_INPUT
 from .errors import OutOfRange
+from .motion_result import ALARM_INPUT
 
 POSITIVE = "positive logic"
 LONG = "long intervals"
@@ -30,7 +30,7 @@ CURVES = "ramps of other shapes"
 
 
 @dataclass(frozen=True)
-class Wanted:
+class SetupRequest:
     """Request for an initialisation; names and units are those of `initialise` of the drivers.
 
     Attributes:
@@ -82,7 +82,7 @@ class AnySetup(Protocol):
 
 
 @dataclass(frozen=True)
-class Kind:
+class Capabilities:
     """Capabilities of one part.
 
     Attributes:
@@ -141,7 +141,7 @@ class Kind:
         ramp.choose(pps)
         return ramp
 
-    def plan(self, xtal_hz: int, wanted: Wanted) -> AnySetup:
+    def plan(self, xtal_hz: int, request: SetupRequest) -> AnySetup:
         """Return the set-up for an initialisation, with the values that are reached.
 
         Raises:
@@ -150,9 +150,9 @@ class Kind:
         raise OutOfRange(f"plan: a {self} does not have that")
 
 
-def kind_of(name: str) -> Kind:
+def capabilities_of(name: str) -> Capabilities:
     """Return the capabilities of the part with this name. Raises UnknownPartError."""
-    return cast(Kind, part(name).load("kind"))
+    return cast(Capabilities, part(name).load("capabilities"))
 
 
 def name_of(number: int) -> str:
@@ -168,8 +168,8 @@ AXIS_BIT = 0x20
 
 
 @dataclass(frozen=True)
-class RateKind(Kind):
-    """Capabilities of a part with rate bytes; see `Kind`.
+class RateCapabilities(Capabilities):
+    """Capabilities of a part with rate bytes; see `Capabilities`.
 
     Attributes:
         lengths: shortest and longest ramp in pulses.
@@ -190,28 +190,28 @@ class RateKind(Kind):
             return ramp
         return units.any_clock(xtal_hz, pps, ramp.vsel, ramp.csel, self.least_rate)
 
-    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> units.BaseClock:
+    def ramp_clock(self, xtal_hz: int, request: SetupRequest) -> units.BaseClock:
         """Return the base clock of an initialisation. Raises OutOfRange."""
-        if wanted.external_clock is not None:
-            return units.BaseClock.external_pin(wanted.external_clock)
-        vsel = int(not wanted.long_intervals)
-        return units.choose_clock(xtal_hz, wanted.start_pps, wanted.base_clock, vsel, self.least_rate)
+        if request.external_clock is not None:
+            return units.BaseClock.external_pin(request.external_clock)
+        vsel = int(not request.long_intervals)
+        return units.choose_clock(xtal_hz, request.start_pps, request.base_clock, vsel, self.least_rate)
 
-    def plan(self, xtal_hz: int, wanted: Wanted) -> units.Setup:
-        for asked, what in (
-            (wanted.positive_logic, POSITIVE),
-            (wanted.long_intervals, LONG),
-            (wanted.own_stop, OWN_STOP),
-            (wanted.sigmoid or wanted.curve is not None, CURVES),
+    def plan(self, xtal_hz: int, request: SetupRequest) -> units.Setup:
+        for requested, what in (
+            (request.positive_logic, POSITIVE),
+            (request.long_intervals, LONG),
+            (request.own_stop, OWN_STOP),
+            (request.sigmoid or request.curve is not None, CURVES),
         ):
-            if asked:
+            if requested:
                 self.need(what)
-        clock = self.ramp_clock(xtal_hz, wanted)
-        code = units.motor_bits(wanted.phases, wanted.half_step)
+        clock = self.ramp_clock(xtal_hz, request)
+        code = units.motor_bits(request.phases, request.half_step)
         if POSITIVE in self.has:
-            code |= (wanted.positive_logic is not False) << 3 | clock.external << 4 | wanted.chop << 5
+            code |= (request.positive_logic is not False) << 3 | clock.external << 4 | request.chop << 5
         else:
-            code |= clock.external << 3 | wanted.chop << 4 | (self.check_axis(wanted.axis) - 1) * AXIS_BIT
-        ramp = self.usual_ramp if wanted.ramp_pulses is None else wanted.ramp_pulses
-        speeds = (wanted.start_pps, wanted.high_pps, ramp)
+            code |= clock.external << 3 | request.chop << 4 | (self.check_axis(request.axis) - 1) * AXIS_BIT
+        ramp = self.usual_ramp if request.ramp_pulses is None else request.ramp_pulses
+        speeds = (request.start_pps, request.high_pps, ramp)
         return units.plan_setup(clock, *speeds, code, self.rate_gap, self.lengths)

@@ -12,28 +12,30 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
+from ...lazy import renamed
 from ...model.motion.codes import IBF, OBF
 from ...model.ppmc2104.codes import BUSY, CMND, ERROR, Error
 from ...parts import part
+from ..capabilities import COILS_OFF, PULSE_ONLY, RateCapabilities
 from ..errors import (
     AlreadyDecelerating,
-    BadRamp,
+    AxisBusy,
     CommandRefused,
+    InvalidRamp,
     NothingToStop,
     NotInitialised,
-    NotWhileBusy,
     OutOfRange,
     RampTooLong,
     StartRefused,
     UnexpectedData,
-    UnknownCode,
+    UnknownCommand,
 )
-from ..kind import COILS_OFF, PULSE_ONLY, RateKind
 from ..speeds import Number, exact, nearby
 
 
-class CutCommand(CommandRefused):
+class IncompleteCommand(CommandRefused):
     """Error 3 of the PPMC-2104: a command while the part waits for the data of another one."""
 
     text = (
@@ -42,13 +44,13 @@ class CutCommand(CommandRefused):
     )
 
 
-class BadSwitching(CommandRefused):
+class InvalidChopperTimes(CommandRefused):
     """Error 11 of the PPMC-2104: invalid chopper times."""
 
     text = "the part refuses these chopper times: 32 us or more each at a 16 MHz crystal"
 
 
-class TooFast(CommandRefused):
+class RateLimitExceeded(CommandRefused):
     """Errors 12 and 13 of the PPMC-2104 with DATASHEET timing: the speed is too high."""
 
     text = (
@@ -57,15 +59,15 @@ class TooFast(CommandRefused):
 
 
 BY_NUMBER: dict[int, tuple[type[CommandRefused], str]] = {
-    Error.UNDEFINED: (UnknownCode, ""),
+    Error.UNDEFINED: (UnknownCommand, ""),
     Error.UNASKED_DATA: (UnexpectedData, ""),
-    Error.DATA_OUTSTANDING: (CutCommand, ""),
+    Error.DATA_OUTSTANDING: (IncompleteCommand, ""),
     Error.NOT_INITIALISED: (
         NotInitialised,
         "it is not initialised (power-up, reset or excitation off): initialise it first",
     ),
     Error.NOT_WHILE_BUSY: (
-        NotWhileBusy,
+        AxisBusy,
         "it is busy with a motion: wait for its end or stop it first",
     ),
     Error.NOTHING_TO_STOP: (NothingToStop, "nothing to stop: it is at rest"),
@@ -76,22 +78,22 @@ BY_NUMBER: dict[int, tuple[type[CommandRefused], str]] = {
         "halt it at once",
     ),
     Error.BAD_RATE: (
-        BadRamp,
+        InvalidRamp,
         "the part refuses this ramp or speed: it needs 4 pulses or more, a start rate at least 2 above the "
         "high rate, and no rate 0 with an internal base clock",
     ),
     Error.PA_TOO_LARGE: (RampTooLong, ""),
-    Error.BAD_SWITCHING: (BadSwitching, ""),
-    Error.RATE_ONE_AXIS: (TooFast, ""),
+    Error.BAD_SWITCHING: (InvalidChopperTimes, ""),
+    Error.RATE_ONE_AXIS: (RateLimitExceeded, ""),
     Error.RATE_TWO_AXES: (
-        TooFast,
+        RateLimitExceeded,
         "the part refuses this speed while the other axis is in use (DATASHEET timing): choose a lower one, "
         "or wait until the other axis rests",
     ),
 }
 
 
-def refused(number: int, status: int, axis: int) -> CommandRefused:
+def command_error(number: int, status: int, axis: int) -> CommandRefused:
     """Return the exception for a value of the error register of an axis, 1 to 13."""
     kind, text = BY_NUMBER[number]
     return kind(status, f"axis {axis}: {text or kind.text}")
@@ -142,13 +144,13 @@ def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, F
         OutOfRange: the time is out of range; the message states the range.
     """
     unit = Fraction(8_000_000, xtal_hz)
-    asked = exact(microseconds, f"{phase} time")
+    requested = exact(microseconds, f"{phase} time")
     low, high = 64 * unit, 255 * unit
-    if not low <= asked <= high:
+    if not low <= requested <= high:
         raise OutOfRange(
             f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
         )
-    byte = int(asked / unit + Fraction(1, 2))
+    byte = int(requested / unit + Fraction(1, 2))
     return byte, byte * unit
 
 
@@ -159,18 +161,18 @@ def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
         OutOfRange: the time is out of range, 128 to 32 768 us at 16 MHz; the message states the range.
     """
     unit = Fraction(2048_000_000, xtal_hz)
-    asked = exact(microseconds, "hold delay")
-    if not unit <= asked <= 256 * unit:
+    requested = exact(microseconds, "hold delay")
+    if not unit <= requested <= 256 * unit:
         raise OutOfRange(
             f"hold delay {nearby(microseconds)} us is outside {nearby(unit)} to {nearby(256 * unit)} us"
         )
-    byte = int(asked / unit + Fraction(1, 2)) - 1
+    byte = int(requested / unit + Fraction(1, 2)) - 1
     return byte, (byte + 1) * unit
 
 
 # ---------------------------------------------------------------------- capabilities
 
-KIND = RateKind(
+CAPABILITIES = RateCapabilities(
     part("ppmc2104"),
     axes=2,
     has=frozenset((PULSE_ONLY, COILS_OFF)),
@@ -178,3 +180,14 @@ KIND = RateKind(
     least_rate=1,
     rate_gap=2,
 )
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed(
+        __name__,
+        {
+            "BadSwitching": "InvalidChopperTimes",
+            "CutCommand": "IncompleteCommand",
+            "TooFast": "RateLimitExceeded",
+        },
+    )

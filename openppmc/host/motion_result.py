@@ -1,4 +1,4 @@
-"""End of a motion, decoded from finish status and remaining pulses, and its exceptions. Pure."""
+"""Result of a motion, decoded from finish status and remaining pulses, and its exceptions. Pure."""
 
 # ruff: noqa: N818
 
@@ -6,7 +6,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Flag
+from typing import TYPE_CHECKING
 
+from ..lazy import Renamed, renamed
 from ..model.motion.codes import (
     ENDLESS,
     FINISH_ALARM,
@@ -26,11 +28,13 @@ ALARM_INPUT = ("alarm input", "clear the drive's alarm")
 
 
 class MotionError(PpmcError):
-    """A motion ended in another way than requested; `end` holds position and cause."""
+    """A motion ended in another way than requested; `result` holds position and cause."""
 
-    def __init__(self, message: str, end: End) -> None:
+    end = Renamed("result")
+
+    def __init__(self, message: str, result: MotionResult) -> None:
         super().__init__(message)
-        self.end = end
+        self.result = result
 
 
 class LimitReached(MotionError):
@@ -41,7 +45,7 @@ class AlarmStop(MotionError):
     """The alarm input ended the motion."""
 
 
-class StoppedEarly(MotionError):
+class StoppedByCommand(MotionError):
     """A stop command ended a motion before all its pulses were output."""
 
 
@@ -58,9 +62,11 @@ class EndUnknown(ProtocolError):
     Attributes:
         finish: finish status that was read, `None` if the part has none or did not report one.
         pulses: counted since the start of the motion, CW positive, `None` if unknown.
-        asked: pulses of the move, `None` for endless motions and for those of another program.
+        requested: pulses of the move, `None` for endless motions and for those of another program.
         position: current pulse counter, `None` without one.
     """
+
+    asked = Renamed("requested")
 
     def __init__(
         self,
@@ -68,14 +74,14 @@ class EndUnknown(ProtocolError):
         reason: str,
         finish: int | None = None,
         pulses: int | None = None,
-        asked: int | None = None,
+        requested: int | None = None,
         position: int | None = None,
         unit: str = "pulses",
     ) -> None:
-        self.finish, self.pulses, self.asked, self.position = finish, pulses, asked, position
+        self.finish, self.pulses, self.requested, self.position = finish, pulses, requested, position
         known = [reason]
         if pulses is not None:
-            of = "" if asked is None else f" of {asked}"
+            of = "" if requested is None else f" of {requested}"
             known.append(f"{abs(pulses)}{of} {unit} counted")
         if position is not None:
             known.append(f"position {position}")
@@ -100,9 +106,9 @@ class Cause(Flag):
     ORIGIN = 0x01
 
     def __str__(self) -> str:
-        return self.words(ALARM_INPUT[0])
+        return self.describe(ALARM_INPUT[0])
 
-    def words(self, alarm: str) -> str:
+    def describe(self, alarm: str) -> str:
         """Return the cause as text.
 
         Args:
@@ -123,66 +129,71 @@ _CAUSE_BITS = FINISH_STOP | FINISH_ALARM | FINISH_LIMIT | FINISH_SLOW
 
 
 @dataclass(frozen=True)
-class End:
-    """End of a motion.
+class MotionResult:
+    """Result of a motion.
 
     Attributes:
         pulses: pulses output, CW positive; `None` for a motion that another program started.
-        left: pulses not output (of endless operations: of 2^24).
+        remaining: pulses not output (of endless operations: of 2^24).
         position: pulse counter after the motion, `None` if the bridge has none.
         finish: finish status byte.
-        who: message prefix, which names the axis if the part has several.
+        message_prefix: prefix of messages, which names the axis if the part has several.
         alarm: name of the alarm input of the part, and the advice for it.
     """
 
     cause: Cause
     pulses: int | None
-    left: int
+    remaining: int
     position: int | None
     finish: int
-    who: str = field(default="", compare=False)
+    message_prefix: str = field(default="", compare=False)
     alarm: tuple[str, str] = field(default=ALARM_INPUT, compare=False, repr=False)
     unit = "pulses"
+    left = Renamed("remaining")
 
     @property
-    def why(self) -> str:
+    def cause_text(self) -> str:
         """Cause as text."""
-        return self.cause.words(self.alarm[0])
+        return self.cause.describe(self.alarm[0])
 
     @property
     def complete(self) -> bool:
         """True if all pulses were output: no other cause, and no pulse is left."""
-        return self.cause is Cause.COMPLETE and self.left == 0
+        return self.cause is Cause.COMPLETE and self.remaining == 0
 
-    def check(self, asked: int | None = None) -> End:
+    def check(self, requested: int | None = None) -> MotionResult:
         """Return the end itself if the motion is complete.
 
         Args:
-            asked: pulses of the move, without a sign.
+            requested: pulses of the move, without a sign.
 
         Raises:
-            LimitReached, AlarmStop, StoppedEarly: something ended the motion.
+            LimitReached, AlarmStop, StoppedByCommand: something ended the motion.
             EndUnknown: nothing ended the motion, but the pulses are not those of the move.
         """
         if self.cause is Cause.COMPLETE:
-            wrong = asked is not None and self.pulses is not None and abs(self.pulses) != asked
-            if self.left or wrong:
-                reason = f"no cause, {self.left} {self.unit} left"
-                raise EndUnknown(self.who, reason, self.finish, self.pulses, asked, self.position, self.unit)
+            wrong = requested is not None and self.pulses is not None and abs(self.pulses) != requested
+            if self.remaining or wrong:
+                reason = f"no cause, {self.remaining} {self.unit} left"
+                raise EndUnknown(
+                    self.message_prefix, reason, self.finish, self.pulses, requested, self.position, self.unit
+                )
             return self
         where = "" if self.position is None else f" at position {self.position}"
-        of = "" if asked is None else f" of {asked}"
-        kind, advice = self.trouble()
-        made = "" if self.pulses is None else f" after {abs(self.pulses)}{of} {self.unit}"
-        raise kind(f"{self.who}{self.why} ended the motion{where}{made}: {advice}", self)
+        of = "" if requested is None else f" of {requested}"
+        kind, advice = self.error_and_advice()
+        moved_pulses = "" if self.pulses is None else f" after {abs(self.pulses)}{of} {self.unit}"
+        raise kind(
+            f"{self.message_prefix}{self.cause_text} ended the motion{where}{moved_pulses}: {advice}", self
+        )
 
-    def trouble(self) -> tuple[type[MotionError], str]:
+    def error_and_advice(self) -> tuple[type[MotionError], str]:
         """Return exception class and advice for an end that is not complete."""
         if Cause.ALARM in self.cause:
             return AlarmStop, f"{self.alarm[1]}, then home again if steps may be lost"
         if self.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             return LimitReached, "move away from the switch in the other direction"
-        return StoppedEarly, "start again with the pulses that are left"
+        return StoppedByCommand, "start again with the pulses that are left"
 
 
 def decode_end(
@@ -194,7 +205,7 @@ def decode_end(
     operation: int | None = None,
     moved: int | None = None,
     where: str = "",
-) -> End:
+) -> MotionResult:
     """Decode finish status and remaining pulses if they confirm each other.
 
     Rules: P104-RD-03, P104-END-04..06, P2104-END-04..06, STMC-FIN-01, STMC-REM-01.
@@ -215,8 +226,8 @@ def decode_end(
     """
 
     def unknown(reason: str) -> EndUnknown:
-        asked = None if total == ENDLESS else total
-        return EndUnknown(where, reason, finish, moved, asked, position)
+        requested = None if total == ENDLESS else total
+        return EndUnknown(where, reason, finish, moved, requested, position)
 
     number = finish & 7
     if (
@@ -231,10 +242,20 @@ def decode_end(
         # pulse earlier.
         searched_all = remaining == 0 and moved is not None and abs(moved) == total
         cause = Cause.COMPLETE if searched_all else Cause.ORIGIN
-    left = remaining + 1 if cause else 0
-    if (not cause and remaining) or (total is not None and left > total):
+    pulses_left = remaining + 1 if cause else 0
+    if (not cause and remaining) or (total is not None and pulses_left > total):
         raise unknown(f"finish status 0x{finish:02X} with {remaining} remaining pulses")
-    made = None if total is None else (left - total if direction else total - left)
-    if made is not None and moved is not None and (made - moved) % COUNTS:
-        raise unknown(f"finish status 0x{finish:02X} says {abs(made)} pulses")
-    return End(cause, made, left, position, finish)
+    moved_pulses = None if total is None else (pulses_left - total if direction else total - pulses_left)
+    if moved_pulses is not None and moved is not None and (moved_pulses - moved) % COUNTS:
+        raise unknown(f"finish status 0x{finish:02X} says {abs(moved_pulses)} pulses")
+    return MotionResult(cause, moved_pulses, pulses_left, position, finish)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed(
+        __name__,
+        {
+            "End": "MotionResult",
+            "StoppedEarly": "StoppedByCommand",
+        },
+    )

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, overload
 from ...check.replay import new_model
 from .decoding import Decoded
 from .errors import CaptureError
-from .kind import DecodeKind, Train
+from .part_decoder import PartDecoder, PulseTrain
 from .pulses import moves, unchopped
 from .signals import BLOCK, SECOND, US, Bits, Channel, joined, level_at, level_code, level_type, merged, numpy
 
@@ -159,11 +159,11 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
     begin, starts, reset = _begin(decoded)
     first = _run(decoded, begin, 1.0)
     ratio = _ratio(decoded, first, begin)
-    result = _judge(decoded, first, begin, starts, reset, tolerance)
+    result = _check(decoded, first, begin, starts, reset, tolerance)
     if ratio != 1.0:
-        learned = _judge(decoded, _run(decoded, begin, ratio), begin, starts, reset, tolerance)
-        if len(learned.differences) <= len(result.differences):
-            result = learned
+        corrected = _check(decoded, _run(decoded, begin, ratio), begin, starts, reset, tolerance)
+        if len(corrected.differences) <= len(result.differences):
+            result = corrected
             result.ppm = (ratio - 1) * 1e6
     return result
 
@@ -199,7 +199,7 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
     for line in decoded.lines:
         if line.initialises:
             first.setdefault(line.axis, line.end)
-    if not decoded.kind.initialised:
+    if not decoded.decoder.initialised:
         return 0, {0: 0}, False
     if not first:
         raise CaptureError(
@@ -211,22 +211,22 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
 
 
 @dataclass
-class _Played:
+class _ModelEdges:
     """Outputs of the model in ps of the capture."""
 
     outputs: dict[str, Channel]
 
 
-def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
+def _run(decoded: Decoded, begin: int, ratio: float) -> _ModelEdges:
     """Drive a new model with the inputs.
 
     Args:
         ratio: time of the model divided by time of the capture.
     """
-    kind, wires = decoded.kind, decoded.wires
-    straps = kind.straps(wires)
+    decoder, wires = decoded.decoder, decoded.wires
+    straps = decoder.straps(wires)
     clk_hz = _clk_hz(decoded)
-    params = {**kind.parameters(wires), **wires.params}
+    params = {**decoder.parameters(wires), **wires.params}
     params.pop("ADR", None)
     params |= {"CLK_HZ": clk_hz, "TIMING": decoded.timing}
     try:
@@ -242,17 +242,17 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
     inputs = _inputs(decoded)
     first = {port: 1 if port == "rst_n" else level_at(one, begin) for port, one in inputs.items()}
     model.pins(1, **first)
-    kind.prelude(model, wires)
+    decoder.prelude(model, wires)
     if "rst_n" in inputs and not level_at(inputs["rst_n"], begin):
         model.pins(lead, rst_n=0)
-    seen = _Outputs(model, kind, lead, lambda t: begin + round((t - lead) / scale))
-    events = merge(_events(inputs), kind.stimulus(wires), key=itemgetter(0))
+    seen = _Outputs(model, decoder, lead, lambda t: begin + round((t - lead) / scale))
+    events = merge(_events(inputs), decoder.stimulus(wires), key=itemgetter(0))
     after = dropwhile(lambda event: event[0] <= begin, events)
     for t, group in groupby(after, key=lambda event: edge(event[0])):
         seen.run(t - 1)
         model.pins(t, **{pin: level for _, levels in group for pin, level in levels.items()})
     seen.run(edge(wires.end))
-    return _Played(seen.channels())
+    return _ModelEdges(seen.channels())
 
 
 def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]]]:
@@ -268,11 +268,11 @@ def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]
 class _Outputs:
     """Outputs of a model in columns; the list of the model is cleared when they are fetched."""
 
-    def __init__(self, model: Any, kind: DecodeKind, lead: int, stamp: Callable[[int], int]) -> None:
-        self.model, self.kind, self.lead, self.stamp = model, kind, lead, stamp
+    def __init__(self, model: Any, decoder: PartDecoder, lead: int, stamp: Callable[[int], int]) -> None:
+        self.model, self.decoder, self.lead, self.stamp = model, decoder, lead, stamp
         self.initial = dict(model.log.initial)
-        self.times = {name: array("q") for name in kind.outputs}
-        self.levels = {name: array(level_code(kind.pins.widths[name])) for name in kind.outputs}
+        self.times = {name: array("q") for name in decoder.outputs}
+        self.levels = {name: array(level_code(decoder.pins.widths[name])) for name in decoder.outputs}
 
     def run(self, until: int) -> None:
         """Run the model, and fetch its edges before there are too many."""
@@ -304,10 +304,10 @@ class _Outputs:
             name: Channel.of(
                 self.initial[name],
                 np.frombuffer(self.times[name], np.int64),
-                np.frombuffer(self.levels[name], level_type(self.kind.pins.widths[name])),
-                self.kind.pins.widths[name],
+                np.frombuffer(self.levels[name], level_type(self.decoder.pins.widths[name])),
+                self.decoder.pins.widths[name],
             )
-            for name in self.kind.outputs
+            for name in self.decoder.outputs
         }
 
 
@@ -335,26 +335,26 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
     Bits that were not captured are inactive.
     """
     found: dict[str, Channel] = {}
-    kind = decoded.kind
+    decoder = decoded.decoder
     for port, places in decoded.wires.bits.items():
-        if port not in kind.inputs or port in kind.host_pins:
+        if port not in decoder.inputs or port in decoder.host_pins:
             continue
         whole = decoded.wires.ports.get(port)
         if whole is None:
-            idle, width = kind.inputs[port], kind.pins.widths[port]
+            idle, width = decoder.inputs[port], decoder.pins.widths[port]
             whole = joined([places.get(bit, Channel(idle >> bit & 1)) for bit in range(width)])
         found[port] = whole
     return found
 
 
-def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
+def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
     The ratio is measured in long moves that both have in common; without such moves it is 1.
     """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
-    theirs = decoded.kind.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
+    theirs = decoded.decoder.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
     # Both ends of a move may be a sample off, so a smaller difference has no meaning.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
@@ -362,10 +362,10 @@ def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
         for mine, other in zip(moves([a], decoded.pause), moves([b], decoded.pause), strict=False):
             if mine.pulses == other.pulses and mine.pulses > 20:
                 alike.append((mine.end - mine.begin, other.end - other.begin))
-    return learned(alike, slack)
+    return clock_ratio(alike, slack)
 
 
-def learned(alike: list[tuple[int, int]], slack: int) -> float:
+def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
     The ratio is measured in the lengths of moves of both in ps, and is 1 if they do not define it.
@@ -396,46 +396,48 @@ def _bits(channel: Channel) -> Mapping[int, Channel]:
     return Bits(channel)
 
 
-def _since(trains: Iterable[Train], begin: int) -> list[Train]:
+def _since(trains: Iterable[PulseTrain], begin: int) -> list[PulseTrain]:
     found = []
     for one in trains:
         at = int(one.times.searchsorted(begin))
-        found.append(Train(one.axis, one.times[at:], None if one.ways is None else one.ways[at:]))
+        found.append(
+            PulseTrain(one.axis, one.times[at:], None if one.directions is None else one.directions[at:])
+        )
     return found
 
 
-def _judge(
-    decoded: Decoded, played: _Played, begin: int, starts: dict[int, int], reset: bool, tolerance: int
+def _check(
+    decoded: Decoded, played: _ModelEdges, begin: int, starts: dict[int, int], reset: bool, tolerance: int
 ) -> Result:
-    kind, wires = decoded.kind, decoded.wires
+    decoder, wires = decoded.decoder, decoded.wires
     result = Result(begin=starts[0])
-    for port in kind.outputs:
+    for port in decoder.outputs:
         places = wires.bits.get(port)
         if places is None:
             continue
-        if port in kind.phases and not reset and not _same_place(port, places, played, starts, kind):
+        if port in decoder.phases and not reset and not _same_place(port, places, played, starts, decoder):
             result.skipped[port] = (
                 "the capture begins in the middle, with the phases in another place than the model"
             )
             continue
         theirs = _bits(played.outputs[port])
-        if port in kind.phases:
+        if port in decoder.phases:
             window = min(US, tolerance // 2)
-            places, theirs = (unchopped(one, kind.pins.widths[port], window) for one in (places, theirs))
+            places, theirs = (unchopped(one, decoder.pins.widths[port], window) for one in (places, theirs))
         for bit, channel in sorted(places.items()):
-            name = f"{port}[{bit + kind.pins.low(port)}]" if kind.pins.widths[port] > 1 else port
-            start = starts.get(kind.axis_of(port, bit), starts[0])
+            name = f"{port}[{bit + decoder.pins.low(port)}]" if decoder.pins.widths[port] > 1 else port
+            start = starts.get(decoder.axis_of(port, bit), starts[0])
             known = len(result.differences)
             match_edges(name, channel, theirs[bit], start, wires.end, tolerance, reset, result)
             if len(result.differences) == known:
-                axis = kind.axis_of(port, bit)
+                axis = decoder.axis_of(port, bit)
                 begins = [one.begin for one in decoded.moves if axis in (0, one.axis) and one.begin > start]
                 points = [*([start + 2 * tolerance] if reset else []), *begins]
                 _constant(name, channel, theirs[bit], points, tolerance, result)
             result.pins.append(name)
     if not result.pins:
         raise CaptureError(
-            f"{decoded.capture}: no output of {kind.called} is in the map: there is nothing to compare"
+            f"{decoded.capture}: no output of {decoder.title} is in the map: there is nothing to compare"
         )
     if not result.compared and not result.differences:
         raise CaptureError(
@@ -446,10 +448,14 @@ def _judge(
 
 
 def _same_place(
-    port: str, places: Mapping[int, Channel], played: _Played, starts: dict[int, int], kind: DecodeKind
+    port: str,
+    places: Mapping[int, Channel],
+    played: _ModelEdges,
+    starts: dict[int, int],
+    decoder: PartDecoder,
 ) -> bool:
     """Return True if chip and model have the same phases at the beginning of the comparison."""
-    start = starts.get(kind.axis_of(port, 0), starts[0]) + SETTLED
+    start = starts.get(decoder.axis_of(port, 0), starts[0]) + SETTLED
     return all(
         level_at(channel, start) == level_at(played.outputs[port].bit(bit), start)
         for bit, channel in places.items()
@@ -493,11 +499,11 @@ def match_edges(
             part = (mine[:WINDOW].tolist(), levels[:WINDOW].tolist())
             parts = (*part, other[:WINDOW].tolist(), theirs[:WINDOW].tolist())
             more = (len(mine) > WINDOW, len(other) > WINDOW)
-            i, j = _unlike(name, parts, more, end, tolerance, result)
+            i, j = _differs(name, parts, more, end, tolerance, result)
             mine, levels, other, theirs = mine[i:], levels[i:], other[j:], theirs[j:]
 
 
-def _unlike(
+def _differs(
     name: str,
     sides: tuple[list[int], list[int], list[int], list[int]],
     more: tuple[bool, bool],

@@ -13,8 +13,8 @@ from typing import Protocol, TypeVar
 
 from ....model.ppmc312.codes import MOTION_STARTS, OV, Cause, Code, Source, State
 from ...errors import CommandRefused, NoAnswer, OutOfRange, ProtocolError
-from ...line import GarbledReply, LostReply, unanswered
-from ...line_port import Fault, Miss
+from ...line import CorruptReply, LostReply, unanswered
+from ...line_port import Fault, MissingReply
 from ..answers import (
     Alarm,
     EncoderChange,
@@ -31,7 +31,7 @@ from ..answers import (
 )
 from ..motion import Motion
 from ..window import ANSWER_MS, SHORTEST
-from .line import Error, Line, failed_serial, refused_serial
+from .line import Error, Line, serial_command_error, serial_failure
 from .wire import (
     BUSY,
     DATA,
@@ -55,8 +55,8 @@ _REGISTERED = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
 _DELETE = 2
 
 
-class Asking(Protocol):
-    """Members of a `Talk` that `Doubt` needs.
+class StationState(Protocol):
+    """Members of a `StationLink` that `LostReplyResolver` needs.
 
     Attributes:
         answers: number of responses of the station so far.
@@ -70,27 +70,27 @@ class Asking(Protocol):
     def collect(self) -> None: ...
 
 
-class Reporting(Protocol):
-    """Members of a station (`station.Station312`) that `Doubt` needs."""
+class StationAccess(Protocol):
+    """Members of a station (`station.Station312`) that `LostReplyResolver` needs."""
 
     @property
-    def who(self) -> str: ...
+    def _message_prefix(self) -> str: ...
     @property
-    def window(self) -> Asking: ...
+    def window(self) -> StationState: ...
     @property
     def motion(self) -> Motion | None: ...
     @property
     def position(self) -> int: ...
 
 
-class Doubt:
+class LostReplyResolver:
     """Check of one instruction block whose reply may get lost.
 
     Attributes:
         repeated: True if a reply to it was lost.
     """
 
-    def __init__(self, station: Reporting, block: bytes) -> None:
+    def __init__(self, station: StationAccess, block: bytes) -> None:
         self._station = station
         self._block = block
         self.repeated = False
@@ -105,7 +105,7 @@ class Doubt:
     def _is_override(self) -> bool:
         return self._block[2] in _REGISTERED and bool(self._block[3] & OV)
 
-    def settle(self) -> bool:
+    def resolve(self) -> bool:
         """Return whether the instruction was executed. Raises LostReply if that is unknown."""
         self.repeated = True
         code = self._block[2]
@@ -122,22 +122,22 @@ class Doubt:
                 return self._buffered(now)
             return self._registered(now)
         except NoAnswer as error:
-            raise self._lost("the station has been silent since") from error
+            raise self._lost_reply("the station has been silent since") from error
 
-    def explain(self, refusal: CommandRefused) -> Exception:
+    def error_for(self, refusal: CommandRefused) -> Exception:
         """Return the exception to raise for a rejection.
 
         A rejection of a repeated change of speed does not show whether the first one was executed.
         """
         if self.repeated and self._block[2] == Code.RAMP_CHANGE:
-            return self._lost(f"sent again, it was refused ({refusal})")
+            return self._lost_reply(f"sent again, it was refused ({refusal})")
         return refusal
 
     def _started(self) -> bool:
         """Detect a started motion by the state, by the report of its end, or by the position."""
         station, motion = self._station, self._motion
         if motion is None or self._was_busy:
-            raise self._lost("it is not known what the motor did before")
+            raise self._lost_reply("it is not known what the motor did before")
         if station.window.status().busy:
             return True
         station.window.answers += 1  # from now on the end of this motion may be reported
@@ -151,7 +151,7 @@ class Doubt:
             return True
         if added == 0 and not now.busy and not now.override_events:
             return False  # no override can have been executed in the meantime
-        raise self._lost("overrides may have happened meanwhile")
+        raise self._lost_reply("overrides may have happened meanwhile")
 
     def _buffered(self, now: Status) -> bool:
         assert self._before is not None
@@ -159,15 +159,16 @@ class Doubt:
         filled, was = number in now.events, number in self._before.events
         if self._block[3] & _DELETE:
             if was and filled:
-                raise self._lost(f"event buffer {number} still holds something")
+                raise self._lost_reply(f"event buffer {number} still holds something")
             return was
         if was:
-            raise self._lost(f"event buffer {number} held something before")
+            raise self._lost_reply(f"event buffer {number} held something before")
         return filled
 
-    def _lost(self, why: str) -> LostReply:
+    def _lost_reply(self, reason: str) -> LostReply:
         return LostReply(
-            f"{self._station.who}the reply to an instruction was lost, it may have been carried out; {why}: "
+            f"{self._station._message_prefix}the reply to an instruction was lost, it may have been "
+            f"carried out; {reason}: "
             "check the status of the station before you repeat the instruction"
         )
 
@@ -192,16 +193,16 @@ _CHECK = "is it there and powered, are speed (MOD), address and the two wires ri
 _OTHERS = "noise, another speed or checksum rule, or two stations with this address"
 
 
-class Station(Reporting, Protocol):
-    """Members of a station (`station.Station312`) that `Talk` needs."""
+class Station(StationAccess, Protocol):
+    """Members of a station (`station.Station312`) that `StationLink` needs."""
 
     @property
     def number(self) -> int: ...
     def status(self) -> Status: ...
-    def hear(self, report: Report) -> None: ...
+    def _on_report(self, report: Report) -> None: ...
 
 
-class Talk:
+class StationLink:
     """Transport of instructions to a station; see `ppmc312.core.Instructions`.
 
     Attributes:
@@ -224,13 +225,13 @@ class Talk:
         """Prepare for a station that was reset; it responds as before."""
         self._alarmed = False
 
-    def more(self) -> Response:
+    def next_block(self) -> Response:
         """Raise OutOfRange, because no response has a second block on a line."""
         raise OutOfRange("answers of several blocks: only on the parallel bus")
 
     # ------------------------------------------------------------------ instructions
 
-    def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
+    def execute(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
         """Execute an instruction; return its response in the form of the parallel bus.
 
         Args:
@@ -239,21 +240,21 @@ class Talk:
         Raises:
             CommandRefused: the station rejected the instruction.
             LostReply: it is unknown whether the instruction was executed.
-            StationSilent, GarbledReply, LinkError: the line failed.
+            StationNotResponding, CorruptReply, LinkError: the line failed.
         """
         data = line_data(block)
-        unsure = Doubt(self._station, block)
-        reply = self.request(data, max(0, milliseconds - ANSWER_MS) / 1000, unsure.settle)
+        resolver = LostReplyResolver(self._station, block)
+        reply = self.request(data, max(0, milliseconds - ANSWER_MS) / 1000, resolver.resolve)
         self.answers += 1
         error = reply.error
         if error is None:
             return response(block, reply)
-        if unsure.repeated and block[2] in _STOPPING and error == Error.STATUS and self._ended():
+        if resolver.repeated and block[2] in _STOPPING and error == Error.STATUS and self._ended():
             return response(block, reply)
         if block[2] == Code.EVENT_SET and block[3] & 2 and error == Error.REGISTRATION:
             return Response(bytes([3, 2, Code.EVENT_SET, 5]))
         state = self._station.status().raw if error == Error.STATUS else None
-        raise unsure.explain(refused_serial(self._station.who, block[2], error, state))
+        raise resolver.error_for(serial_command_error(self._station._message_prefix, block[2], error, state))
 
     def read(self, code: int) -> bytes:
         """Execute a read instruction that only the line has. Raises the error of the station."""
@@ -261,7 +262,7 @@ class Talk:
         if reply.error is None:
             return reply.data
         state = self.status().raw if reply.error == Error.STATUS else None
-        raise refused_serial(self._station.who, code, reply.error, state)
+        raise serial_command_error(self._station._message_prefix, code, reply.error, state)
 
     def _ended(self) -> bool:
         """Return True if the motion of this object is over."""
@@ -273,33 +274,33 @@ class Talk:
         self,
         data: bytes | None,
         extra: float = 0.0,
-        settle: Callable[[], bool] = lambda: False,
+        resolve: Callable[[], bool] = lambda: False,
         attempts: int = ATTEMPTS,
     ) -> Reply:
         """Send a frame and return its reply; repeat the frame until its attempts are used up.
 
         Args:
             data: code and data, `None` for a poll.
-            settle: called after a lost reply. If it returns True, the instruction was executed and is not
+            resolve: called after a lost reply. If it returns True, the instruction was executed and is not
                 repeated. It may raise an exception.
 
         Raises:
-            StationSilent, GarbledReply: no valid reply was received.
+            StationNotResponding, CorruptReply: no valid reply was received.
         """
         counters = self._line.counters[self._number]
-        misses: list[Miss] = []
+        misses: list[MissingReply] = []
         refusal: Reply | None = None
         gives = 1 if data is None else DATA_BYTES.get(data[0], 0)
         for attempt in range(attempts):
             counters.repeated += attempt > 0
             got = self._line.exchange(self._number, data, gives, extra)
-            if not isinstance(got, Miss) and not plausible(data, got):
+            if not isinstance(got, MissingReply) and not plausible(data, got):
                 # The checksum does not cover the highest bit of a byte.
                 counters.garbled += 1
-                got = Miss(Fault.BROKEN, got.data or b"?")
-            if isinstance(got, Miss):
+                got = MissingReply(Fault.BROKEN, got.data or b"?")
+            if isinstance(got, MissingReply):
                 misses.append(got)
-                if settle():
+                if resolve():
                     return Reply(self._number, READY, b"")
             elif got.error in DAMAGED:
                 counters.refused += 1  # no instruction was executed
@@ -310,14 +311,14 @@ class Talk:
             return refusal
         raise unanswered(f"{self._line.name}: station {self._number}", misses, attempts, _CHECK, _OTHERS)
 
-    def twice(self, read: Callable[[], T], agree: Callable[[T, T], bool] = eq) -> T:
+    def read_consistently(self, read: Callable[[], T], agree: Callable[[T, T], bool] = eq) -> T:
         """Return a value on which two successive reads agree.
 
         A damaged reply may look valid: the checksum has seven bits, which do not cover the highest bit of a
         byte.
 
         Raises:
-            GarbledReply: the reads do not agree.
+            CorruptReply: the reads do not agree.
         """
         last = read()
         for _ in range(ATTEMPTS):
@@ -327,7 +328,7 @@ class Talk:
             self._line.counters[self._number].garbled += 1
             last = now
         where = f"{self._line.name}: station {self._number}"
-        raise GarbledReply(f"{where}: {ATTEMPTS} pairs of replies that do not agree: {_OTHERS}")
+        raise CorruptReply(f"{where}: {ATTEMPTS} pairs of replies that do not agree: {_OTHERS}")
 
     # ------------------------------------------------------------------ polls
 
@@ -340,25 +341,25 @@ class Talk:
             if reply.kind in (BUSY, READY):
                 self.busy = reply.kind == BUSY
                 break
-            self._station.hear(self._report(reply))
+            self._station._on_report(self._report(reply))
         else:
             raise ProtocolError(f"{self._line.name}: station {self._number} reports without end: reset it")
         if counters.faults != before:
             counters.lost_reports += 1
-            self._look_for_alarm()
+            self._check_alarm()
 
-    def _look_for_alarm(self) -> None:
+    def _check_alarm(self) -> None:
         """Read the state, because the report of an alarm may have been in a lost reply."""
         alarmed = self._station.status().state is State.ABN
         if alarmed and not self._alarmed:
-            self._station.hear(Alarm(0))
+            self._station._on_report(Alarm(0))
         self._alarmed = alarmed
 
     def end_status(self) -> Cause | None:
         """Return the cause of the last end of a motion, `None` before the first since the reset."""
         return END_CODES.get(self.request(bytes([END_STATUS])).data[0])
 
-    def stopped(self, cause: Cause) -> Stopped:
+    def stop_report(self, cause: Cause) -> Stopped:
         """Return the end of a motion with the position, which the report on the line does not contain."""
         return Stopped(cause, self._station.position)
 
@@ -366,19 +367,19 @@ class Talk:
         """Return the report in a reply to a poll."""
         code = reply.data[0]
         if reply.kind == DATA:
-            return self.stopped(END_CODES[code])
+            return self.stop_report(END_CODES[code])
         if code == INPUTS_CHANGED:
             return InputChange(reply.data[2], bool(reply.data[1]))
         if code in _FAILED:
             by = _FAILED[Error(code)]
-            return Failed(by, failed_serial(self._station.who, by))
+            return Failed(by, serial_failure(self._station._message_prefix, by))
         report = _REPORTS[code]
         self._alarmed |= isinstance(report, Alarm)
         return report
 
     def status(self) -> Status:
         """Return the status without counting a response as `ask` does."""
-        return self.twice(lambda: Status.parse(self.request(bytes([Code.STATUS])).data))
+        return self.read_consistently(lambda: Status.parse(self.request(bytes([Code.STATUS])).data))
 
 
 _REPORTS: dict[int, Report] = {

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..common.words import Words
+from ..common.mnemonics import CommandDecoder
 
 OV, DIR, IDX, LE, FO = 0x04, 0x40, 0x10, 0x10, 0x08
 CLOCKS = ("8 MHz", "1 MHz", "500 kHz", "250 kHz", "62.5 kHz", "15.6 kHz", "EXTCK", "EXTCK falling")
@@ -181,8 +181,8 @@ class Row:
         return [byte for index, byte in enumerate(self.polls) if index == 0 or byte != self.polls[index - 1]]
 
 
-class Words312(Words):
-    """Words of a PPMC-312: blocks instead of single bytes."""
+class Ppmc312Decoder(CommandDecoder):
+    """Decoder for the bytes of a PPMC-312: blocks instead of single bytes."""
 
     def exchanges(self, accesses: Iterable[Any]) -> list[Row]:
         """Group register accesses into instructions and reports."""
