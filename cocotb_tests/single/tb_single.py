@@ -270,7 +270,11 @@ async def proc_time_datasheet(dut, name):
     """In DATASHEET, start, first pulse, end and opening of the mailbox occur at their times."""
     clk, xtal, bits, low, high, timed = VARIANTS[name]
     u = BlockDriver(
-        dut, f"proc_time_{name}", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o", BlockDriver.FREE
+        dut,
+        f"proc_time_{name}",
+        BLOCKS,
+        "act_o open_o go_o end_delay_o phase_init_o ready_o",
+        BlockDriver.FREE,
     )
     await u.reset()
 
