@@ -101,7 +101,7 @@ def test_what_has_no_pin(tmp_path: Path) -> None:
     ):
         assert words in joined
     assert "assign s = part_s[2:1];" in re.sub(r" +", " ", text)
-    assert "assign lamp_n = ~lamps[1];" in re.sub(r" +", " ", text)
+    assert "assign lamp_n = ~leds[1];" in re.sub(r" +", " ", text)
     assert "// No device is there.\n  assign usb_dp = 1'b0;" in text
     assert ".lock_i(1'b1)" in joined and ".req_ni(!btn)" in joined
 
