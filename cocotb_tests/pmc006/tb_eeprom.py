@@ -83,7 +83,7 @@ class Master:
 async def p006_eeprom_device(dut: Any) -> None:
     """With random traffic, both devices pull the lines in the same cycles."""
     rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
-    stretch = int(dut.StretchClk.value)
+    stretch = int(dut.StretchCycles.value)
     model = Eeprom24C32(CLK_HZ, device=int(dut.Device.value), write_us=WRITE_CLK, stretch_us=stretch)
     dut.clk_i.value, dut.on_i.value = 0, 1
     t, before, pulls = 0, (1, 1), (0, 0)

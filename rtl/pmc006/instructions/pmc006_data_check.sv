@@ -58,14 +58,14 @@ module pmc006_data_check
     endcase
   endfunction
 
-  function automatic data_limits_t data_limits(logic program_op, logic [7:0] op);
+  function automatic data_limits_t data_limits(logic is_program, logic [7:0] op);
     data_limits_t lim;
     lim = '{has_limits: 1'b1, low: 9'd0, high: 14'd1, access : reg_access(op)};
     unique case (op)
       I_OFFLINE, I_RUN, I_AUTODEC, I_DIR, I_FREE: lim.high = 14'd1;
       I_POINTER: lim.high = 14'd199;
       I_TRIGGER: lim.high = 14'd3;
-      I_EXTEN: lim.high = program_op ? 14'd1 : 14'd3;
+      I_EXTEN: lim.high = is_program ? 14'd1 : 14'd3;
       I_VSTART, I_VSTOP: begin
         lim.low  = 9'd65;
         lim.high = 14'd3000;
@@ -91,9 +91,9 @@ module pmc006_data_check
       end
       I_MSTEP: lim.high = 14'd128;
       I_DEC: lim.high = 14'd5;
-      I_ACC: lim.high = program_op ? 14'd6 : 14'd5;
+      I_ACC: lim.high = is_program ? 14'd6 : 14'd5;
       I_VMAX: begin
-        lim.low  = program_op ? 9'd0 : 9'd1;
+        lim.low  = is_program ? 9'd0 : 9'd1;
         lim.high = 14'd16_000;
       end
       I_ADDR: begin
