@@ -12,7 +12,7 @@ module ppmc_bank
     parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
     parameter int unsigned CLK_HZ     = 100_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,   // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter bit          PHASE_IDLE = 1'b1          // level of s until the first initialisation
+    parameter bit          PHASE_IDLE = 1'b1          // level of s before the first initialisation
 ) (
     input  wire logic              clk,
     input  wire logic              rst_n,
@@ -24,15 +24,15 @@ module ppmc_bank
     input  wire logic [       7:0] d_i,
     output logic      [       7:0] d_o,
     output logic                   d_oe,
-    output logic                   int_n,   // L: a motion has ended
-    // switches, L = active, one bit for each axis
+    output logic                   int_n,   // low: at least one interrupt is pending
+    // switches, active low, one bit for each axis
     input  wire logic [  AXES-1:0] l1_n,    // CW limit
     input  wire logic [  AXES-1:0] l2_n,    // CCW limit
     input  wire logic [  AXES-1:0] l3_n,    // CW slow-down limit
     input  wire logic [  AXES-1:0] l4_n,    // CCW slow-down limit
     input  wire logic [  AXES-1:0] cnp_n,   // origin
     input  wire logic [  AXES-1:0] alm_n,   // alarm
-    // motors, one bit for each axis; five bits S5..S1
+    // motors, one bit for each axis; s: five bits S5..S1 for each axis
     output logic      [5*AXES-1:0] s,
     output logic      [  AXES-1:0] hold,
     output logic      [  AXES-1:0] pout_n,
@@ -58,12 +58,12 @@ module ppmc_bank
     $fatal(1, "ppmc_bank: CLK_HZ too low for so many axes: 16 * CLK_HZ / XTAL_HZ >= AXES and >= 8");
   end
 
-  logic rst;
+  logic rst_core_n;
 
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   logic [6*AXES-1:0] unused_meta, levels;
@@ -72,7 +72,7 @@ module ppmc_bank
       .Width(6 * AXES)
   ) u_sync (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .d_i   ({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
       .q1_o  (unused_meta),
       .q2_o  (levels)
@@ -83,69 +83,69 @@ module ppmc_bank
   localparam int unsigned Quantum = 4 * CLK_HZ / XTAL_HZ;  // quantum in cycles
   localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);  // bits of the slowest interval
 
-  logic go, go_now, stop, stopping, answer_we, call, calm;
+  logic go, go_active, stop, stop_active, read_data_we, irq_set, irq_clear;
   logic [5:0][RoundBits-1:0] axis;
-  logic [Round-1:0] turn;
+  logic [Round-1:0] last_stage;
   logic [6:0] clear;
   logic unused_clear;
-  logic [RoundBits-1:0] at;
-  logic [TimeBits-1:0] due;
-  mail_t mail;
-  progress_t progress;
+  logic [RoundBits-1:0] at_cycle;
+  logic [TimeBits-1:0] go_delay;
+  in_buf_t in_buf;
+  read_progress_t read_progress;
   logic [1:0] config_n;
-  status_t status;
+  axis_status_t status;
   logic [31:0] position;
-  answer_t answer;
-  order_t order;
-  seen_t seen;
+  read_data_t read_data;
+  pin_cmd_t pin_cmd;
+  pin_status_t pin_status;
   logic [AXES-1:0] mask, pending_q;
 
   assign unused_clear = ^{clear[5], clear[2:0]};
 
   ppmc_bank_scheduler #(
       .RoundBits(RoundBits),
-      .Width    (20 * Quantum),
-      .TimeBits (TimeBits)
-  ) u_round (
+      .WidthCycles(20 * Quantum),
+      .TimeBits(TimeBits)
+  ) u_scheduler (
       .clk_i  (clk),
-      .rst_ni (rst),
+      .rst_ni (rst_core_n),
       .go_i   (go),
       .stop_i (stop),
       .axis_o (axis),
-      .turn_o (turn),
+      .last_stage_o (last_stage),
       .clear_o(clear),
-      .go_o   (go_now),
-      .due_o  (due),
-      .stop_o (stopping)
+      .go_o   (go_active),
+      .go_delay_o  (go_delay),
+      .stop_o (stop_active)
   );
 
   ppmc_bank_window #(
       .Axes     (AXES),
       .RoundBits(RoundBits)
   ) u_window (
-      .clk_i      (clk),
-      .rst_ni     (rst),
-      .a_i        (a),
-      .cs_ni      (cs_n),
-      .rd_ni      (rd_n),
-      .wr_ni      (wr_n),
+      .clk_i          (clk),
+      .rst_ni         (rst_core_n),
+      .a_i            (a),
+      .cs_ni          (cs_n),
+      .rd_ni          (rd_n),
+      .wr_ni          (wr_n),
       .d_i,
       .d_o,
-      .d_oe_o     (d_oe),
-      .ready_i    (!clear[6]),
-      .axis_i     (axis[0]),
-      .mail_o     (mail),
-      .progress_o (progress),
-      .config_no  (config_n),
-      .done_axis_i(axis[5]),
-      .status_i   (status),
-      .position_i (position),
-      .answer_we_i(answer_we),
-      .answer_i   (answer),
-      .map_i      (pending_q),
-      .mask_o     (mask),
-      .go_o       (go),
-      .stop_o     (stop)
+      .d_oe_o         (d_oe),
+      .ready_i        (!clear[6]),
+      .axis_i         (axis[0]),
+      .in_buf_o       (in_buf),
+      .read_progress_o(read_progress),
+      .config_no      (config_n),
+      .done_axis_i    (axis[5]),
+      .status_i       (status),
+      .position_i     (position),
+      .read_data_we_i (read_data_we),
+      .read_data_i    (read_data),
+      .map_i          (pending_q),
+      .mask_o         (mask),
+      .go_o           (go),
+      .stop_o         (stop)
   );
 
   ppmc_bank_engine #(
@@ -154,40 +154,41 @@ module ppmc_bank
       .PhaseIdle(PHASE_IDLE),
       .RoundBits(RoundBits)
   ) u_engine (
-      .clk_i      (clk),
-      .rst_ni     (rst),
-      .axis_i     (axis),
-      .clear_i    (clear[4:3]),
-      .mail_i     (mail),
-      .progress_i (progress),
-      .config_ni  (config_n),
-      .go_i       (go_now),
-      .due_i      (due),
-      .seen_i     (seen),
-      .status_o   (status),
-      .position_o (position),
-      .answer_we_o(answer_we),
-      .answer_o   (answer),
-      .order_o    (order),
-      .at_o       (at),
-      .call_o     (call),
-      .calm_o     (calm)
+      .clk_i          (clk),
+      .rst_ni         (rst_core_n),
+      .axis_i         (axis),
+      .clear_i        (clear[4:3]),
+      .in_buf_i       (in_buf),
+      .read_progress_i(read_progress),
+      .config_ni      (config_n),
+      .go_i           (go_active),
+      .go_delay_i     (go_delay),
+      .pin_status_i   (pin_status),
+      .status_o       (status),
+      .position_o     (position),
+      .read_data_we_o (read_data_we),
+      .read_data_o    (read_data),
+      .pin_cmd_o      (pin_cmd),
+      .at_cycle_o     (at_cycle),
+      .irq_set_o      (irq_set),
+      .irq_clear_o    (irq_clear)
   );
 
   // ---- axes ----------------------------------------------------------------------------------------
 
-  seen_t views[AXES];
+  pin_status_t axis_pin_status[AXES];
 
-  // AND and OR need half the cells of a multiplexer. turn marks the axis in the last stage. The axis in stage
+  // AND and OR need half the cells of a multiplexer. last_stage marks the axis in stage 5. The axis in stage
   // 2 is three axes after it.
   always_comb begin
-    seen = '0;
-    for (int unsigned i = 0; i < AXES; i++) seen |= views[i] & {$bits(seen_t) {turn[(i+Round-3)%Round]}};
+    pin_status = '0;
+    for (int unsigned i = 0; i < AXES; i++)
+    pin_status |= axis_pin_status[i] & {$bits(pin_status_t) {last_stage[(i+Round-3)%Round]}};
   end
 
   for (genvar i = 0; i < AXES; i++) begin : g_axis
-    assign views[i].mask = mask[i];
-    assign views[i].switches = '{
+    assign axis_pin_status[i].in_group = mask[i];
+    assign axis_pin_status[i].switches = '{
             limit_cw: !levels[i],
             limit_ccw: !levels[AXES+i],
             slow_cw: !levels[2*AXES+i],
@@ -199,34 +200,34 @@ module ppmc_bank
     ppmc_bank_pins #(
         .RoundBits(RoundBits),
         .PhaseIdle(PHASE_IDLE)
-    ) u_cell (
+    ) u_pins (
         .clk_i     (clk),
-        .rst_ni    (rst),
-        .clock_i   (axis[0]),
-        .load_i    (turn[i]),
-        .order_i   (order),
-        .at_i      (at),
-        .stop_i    (stopping),
-        .switches_i(views[i].switches),
-        .armed_o   (views[i].armed),
-        .emitted_o (views[i].emitted),
-        .stopped_o (views[i].stop),
-        .alarm_o   (views[i].alarm),
-        .limit_o   (views[i].limit),
+        .rst_ni    (rst_core_n),
+        .cycle_i   (axis[0]),
+        .load_i    (last_stage[i]),
+        .pin_cmd_i (pin_cmd),
+        .at_cycle_i(at_cycle),
+        .stop_i    (stop_active),
+        .switches_i(axis_pin_status[i].switches),
+        .armed_o   (axis_pin_status[i].armed),
+        .emitted_o (axis_pin_status[i].emitted),
+        .stopped_o (axis_pin_status[i].stop),
+        .alarm_o   (axis_pin_status[i].alarm),
+        .limit_o   (axis_pin_status[i].limit),
         .s_o       (s[5*i+:5]),
         .hold_o    (hold[i]),
         .pout_no   (pout_n[i]),
         .dir_o     (dir[i])
     );
 
-    always_ff @(posedge clk or negedge rst) begin
-      if (!rst) pending_q[i] <= 1'b0;
-      else if (turn[i] && (call || calm)) pending_q[i] <= call;
+    always_ff @(posedge clk or negedge rst_core_n) begin
+      if (!rst_core_n) pending_q[i] <= 1'b0;
+      else if (last_stage[i] && (irq_set || irq_clear)) pending_q[i] <= irq_set;
     end
   end
 
-  always_ff @(posedge clk or negedge rst) begin
-    if (!rst) int_n <= 1'b1;
+  always_ff @(posedge clk or negedge rst_core_n) begin
+    if (!rst_core_n) int_n <= 1'b1;
     else int_n <= pending_q == '0;
   end
 

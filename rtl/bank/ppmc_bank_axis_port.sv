@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_axis_port: maps the 16 registers of one axis of a bank to the four address lines of the UART bridge;
-//         register 0x3 selects the axis.
+// ppmc_bank_axis_port: maps the 16 registers of one axis of a bank to the four address lines of the UART
+//         bridge; register 0x3 selects the axis.
 // Rules:  register map in docs/bank/carrier.md; forwards strobes as BANK-WIN-04 requires.
-// Timing: combinational, except for the selected axis. This axis changes during the write strobe at register
-//         0x3 and is stable from GapClk - 1 cycles before the next strobe on. The bank receives no strobe at
-//         0x3 and no strobe for axes 64 .. 255.
+// Timing: combinational, except for the selected axis. axis_o changes during the write strobe at register 0x3
+//         and is stable from (gap of ppmc_strobe_master - 1) cycles before the next strobe on. The bank
+//         receives no strobe at 0x3 and no strobe for axes 64 .. 255.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -24,23 +24,23 @@ module ppmc_bank_axis_port (
     output logic      [7:0] axis_o     // selected axis
 );
 
-  localparam logic [3:0] Choice = 4'h3;
+  localparam logic [3:0] AxisSelect = 4'h3;
 
-  logic own, none;
+  logic is_select, no_axis;
 
-  assign own   = a_i == Choice;
-  assign none  = axis_o[7:6] != '0;  // the window ends at axis 63
-  assign cs_no = cs_ni || own || none;
-  assign a_o   = {axis_o[5:0], a_i};
-  assign d_o   = own ? axis_o : none ? '1 : bank_d_i;
+  assign is_select = a_i == AxisSelect;
+  assign no_axis = axis_o[7:6] != '0;  // the window ends at axis 63
+  assign cs_no = cs_ni || is_select || no_axis;
+  assign a_o = {axis_o[5:0], a_i};
+  assign d_o = is_select ? axis_o : no_axis ? '1 : bank_d_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) axis_o <= '0;
-    else if (own && !cs_ni && !wr_ni) axis_o <= d_i;
+    else if (is_select && !cs_ni && !wr_ni) axis_o <= d_i;
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(bank_win_04_stands, cs_no || $past(a_o) == a_o)
+  `PPMC_ASSERT(bank_win_04_address_stable, cs_no || $past(a_o) == a_o)
 `endif
 
 endmodule

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_carrier: all blocks of a board with a bank except clock generator and pads: the bank and its host
-//         interface. This is either the UART bridge with a view of one axis, or an SPI slave with the
-//         complete window.
+//         interface. This is either the UART bridge with the registers of one selected axis, or an SPI
+//         slave with the complete window.
 // Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
 //         (from 0) has bit a of each port, and bits 5 a to 5 a + 4 of s (S1 to S5).
 // Timing: that of ppmc_bank; the inputs need no external synchroniser.
@@ -41,7 +41,7 @@ module ppmc_bank_carrier #(
     output logic      [  AXES-1:0] pout_n,
     output logic      [  AXES-1:0] dir,
     // LEDs, 1 = on
-    output logic                   led_link,    // a script or a frame is running, or an answer is being sent
+    output logic                   led_link,    // a script or a frame is running, or a response is being sent
     output logic                   led_moving,  // at least one motor is moving
     output logic                   led_switch   // a limit or an alarm is active
 );
@@ -130,11 +130,11 @@ module ppmc_bank_carrier #(
     logic host_cs_n;
     logic [3:0] host_a;
     logic [7:0] to_host, axis, straps;
-    logic [AxisBits-1:0] n;  // axis for op PINS
+    logic [AxisBits-1:0] pins_axis;  // axis that op PINS reads
 
     logic [Watch-1:0] watch;
 
-    assign n = axis[AxisBits-1:0];
+    assign pins_axis = axis[AxisBits-1:0];
     assign watch = {
       {s, hold, dir, pout_n, int_n, part_oe, from_part},
       {in_alm_n, in_cnp_n, in_l4_n, in_l3_n, in_l2_n, in_l1_n},
@@ -151,33 +151,40 @@ module ppmc_bank_carrier #(
         .Watch   (Watch),
         .Record  (RECORD)
     ) u_host (
-        .clk_i      (clk),
-        .rst_ni     (rst_n),
-        .rxd_i      (uart_rxd),
-        .txd_o      (uart_txd),
-        .cs_ni      (1'b1),
-        .rd_ni      (1'b1),
-        .wr_ni      (1'b1),
-        .a_i        ('0),
-        .d_i        ('0),
+        .clk_i(clk),
+        .rst_ni(rst_n),
+        .rxd_i(uart_rxd),
+        .txd_o(uart_txd),
+        .cs_ni(1'b1),
+        .rd_ni(1'b1),
+        .wr_ni(1'b1),
+        .a_i('0),
+        .d_i('0),
         .part_rst_no(part_rst_n),
-        .part_cs_no (host_cs_n),
-        .part_rd_no (part_rd_n),
-        .part_wr_no (part_wr_n),
-        .part_a_o   (host_a),
-        .part_d_o   (to_part),
-        .part_d_i   (to_host),
-        .int_ni     (int_n),
-        .straps_o   (straps),
-        .switches_ni({alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]}),
-        .hold_i     (hold[n]),
-        .pout_ni    (1'b1),
-        .dir_i      (1'b0),
-        .watch_i    (watch),
-        .link_o     (led_link)
+        .part_cs_no(host_cs_n),
+        .part_rd_no(part_rd_n),
+        .part_wr_no(part_wr_n),
+        .part_a_o(host_a),
+        .part_d_o(to_part),
+        .part_d_i(to_host),
+        .int_ni(int_n),
+        .straps_o(straps),
+        .switches_ni({
+          alm_n[pins_axis],
+          cnp_n[pins_axis],
+          l4_n[pins_axis],
+          l3_n[pins_axis],
+          l2_n[pins_axis],
+          l1_n[pins_axis]
+        }),
+        .hold_i(hold[pins_axis]),
+        .pout_ni(1'b1),
+        .dir_i(1'b0),
+        .watch_i(watch),
+        .link_o(led_link)
     );
 
-    ppmc_bank_axis_port u_view (
+    ppmc_bank_axis_port u_axis_port (
         .clk_i   (clk),
         .rst_ni  (part_rst_n),
         .cs_ni   (host_cs_n),

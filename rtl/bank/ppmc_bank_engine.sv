@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine: pipeline that serves one axis a cycle: reads its state, decides, writes it back.
+// ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, decides, and
+//         writes the state back.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_update.
-// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters each cycle:
-//         0 address    1 RAM    2 compare    3 plan    4 step    5 write; order_o is loaded
-//         6 the order is valid in the cell: first cycle at whose end an edge can be ordered
-//         The rate is read two cycles earlier, because the address of a threshold contains the rate.
+// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters in each cycle:
+//         0 address    1 RAM    2 compare    3 plan    4 update    5 write; pin_cmd_o is
+//         loaded    6 the command is valid in the pin block: first cycle at whose end an edge can be ordered
+//         The interval is read two cycles earlier, because the address of a threshold contains the rate.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -15,30 +16,30 @@ module ppmc_bank_engine
 #(
     parameter int unsigned Quantum   = 25,    // quantum in cycles
     parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
-    parameter bit          PhaseIdle = 1'b1,
-    parameter int unsigned RoundBits = 5
+    parameter bit          PhaseIdle = 1'b1,  // level of s before the first initialisation
+    parameter int unsigned RoundBits = 5      // a round is 2^RoundBits cycles
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [5:0][RoundBits-1:0] axis_i,  // axis of the visit in stage 0, 1 …
+    input wire logic [5:0][RoundBits-1:0] axis_i,  // axes in stages 0 to 5
     input wire logic [4:3] clear_i,  // the visits in stages 3 and 4 reset their axes
     // from the window
-    input wire mail_t mail_i,  // stage 1: input buffer
-    input wire progress_t progress_i,  // stage 1: bytes of the answer that were read
+    input wire in_buf_t in_buf_i,  // stage 1: input buffer
+    input wire read_progress_t read_progress_i,  // stage 1: response bytes read by the host
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] due_i,  // W minus the cycles since GO
-    // from cells and switches
-    input wire seen_t seen_i,  // stage 2: pin cell and switches
+    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: W minus the cycles since GO
+    // from pin blocks and switches
+    input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
-    output status_t status_o,  // status register
+    output axis_status_t status_o,  // status register
     output logic [31:0] position_o,  // position
-    output logic answer_we_o,  // write answer_o
-    output answer_t answer_o,  // answer to a read command
-    output order_t order_o,  // order to the pin cell
-    output logic [RoundBits-1:0] at_o,  // cycle of order_o in the round
-    output logic call_o,  // set the pending interrupt of the axis
-    output logic calm_o  // clear the pending interrupt of the axis
+    output logic read_data_we_o,  // write read_data_o
+    output read_data_t read_data_o,  // response to a read command
+    output pin_cmd_t pin_cmd_o,  // command to the pin block
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of pin_cmd_o in the round
+    output logic irq_set_o,  // set the pending interrupt of the axis
+    output logic irq_clear_o  // clear the pending interrupt of the axis
 );
 
   localparam int unsigned Round = 1 << RoundBits;
@@ -49,145 +50,149 @@ module ppmc_bank_engine
   // Small FPGAs have few block RAMs. With few axes, the memory with the fewest bits is therefore built from
   // logic. Only an attribute uses this parameter, and simulation ignores attributes.
   // verilator lint_off UNUSEDPARAM
-  localparam string PaceStyle = (Round > 8) ? "block" : "logic";
+  localparam string IntervalStyle = (Round > 8) ? "block" : "logic";
   // verilator lint_on UNUSEDPARAM
 
   typedef logic [RoundBits-1:0] axis_t;
 
   // ---- memories ------------------------------------------------------------------------------------
 
-  // early_t: state that the comparisons need; late_t: state that only later stages need.
+  // state_s1_t is read in stage 1, because the comparisons need it; state_s2_t is read in stage 2.
   typedef struct packed {
-    logic [TimeBits-1:0] rem;      // cycles to the awaited edge
-    walk_t               walk;
-    setting_t            setting;
-    command_t            command;
-  } early_t;
+    logic [TimeBits-1:0] cycles_left;  // cycles to the awaited edge
+    motion_state_t       motion;
+    init_state_t         init_state;
+    parser_t             parser;
+  } state_s1_t;
 
   typedef struct packed {
-    rest_t               rest;
-    logic [HoldBits-1:0] left;
-    logic [31:0]         position;
-  } late_t;
+    output_state_t       outputs;
+    logic [HoldBits-1:0] hold_left;  // remaining rounds of the hold time, minus 1
+    logic [31:0]         position;   // CW pulses minus CCW pulses
+  } state_s2_t;
 
-  (* ram_style = "block", no_rw_check *)early_t earlies[Round];
-  (* ram_style = "block", no_rw_check *)late_t  lates  [Round];
-  (* ram_style = PaceStyle, no_rw_check *)pace_t  paces  [Round];
-  // These words are written when a byte sets them, not by each visit, so a visit does not carry them through.
-  (* ram_style = "block", no_rw_check *)words_t words  [Round];
-  (* ram_style = "block", no_rw_check *)ramp_t  ramps  [Round];
-  (* ram_style = "block", no_rw_check *)units_t chops  [Round];
+  (* ram_style = "block", no_rw_check *) state_s1_t state1_mem[Round];
+  (* ram_style = "block", no_rw_check *) state_s2_t state2_mem[Round];
+  (* ram_style = IntervalStyle, no_rw_check *) interval_t interval_mem[Round];
+  // A visit writes these words only when a byte sets them, so they do not pass through all stages.
+  (* ram_style = "block", no_rw_check *) last_cmd_t last_cmd_mem[Round];
+  (* ram_style = "block", no_rw_check *) ramp_t ramp_mem[Round];
+  (* ram_style = "block", no_rw_check *) chop_units_t chop_units_mem[Round];
 
   initial
     for (int unsigned i = 0; i < Round; i++) begin
-      earlies[i] = '0;
-      lates[i]   = '0;
-      paces[i]   = '0;
-      words[i]   = '0;
-      ramps[i]   = '0;
-      chops[i]   = '0;
+      state1_mem[i] = '0;
+      state2_mem[i] = '0;
+      interval_mem[i] = '0;
+      last_cmd_mem[i] = '0;
+      ramp_mem[i] = '0;
+      chop_units_mem[i] = '0;
     end
 
-  words_t words1_q, words2_q, words3_q;
-  ramp_t ramp1_q, ramp2_q, ramp3_q, ramp4_q;
-  units_t units3_q, units4_q;
-  early_t early1_q, early2_q, early3_q, early4_q, early, early5_q;
-  late_t late2_q, late3_q, late4_q, late, late5_q;
-  pace_t pace_r_q, pace0_q, pace1_q, pace2_q, pace3_q, pace4_q, pace, pace5_q;
-  logic [7:0] probe0_q;
+  last_cmd_t last_cmd_s1_q, last_cmd_s2_q, last_cmd_s3_q;
+  ramp_t ramp_s1_q, ramp_s2_q, ramp_s3_q, ramp_s4_q;
+  chop_units_t chop_units_s3_q, chop_units_s4_q;
+  state_s1_t state1_s1_q, state1_s2_q, state1_s3_q, state1_s4_q, state1_d, state1_s5_q;
+  state_s2_t state2_s2_q, state2_s3_q, state2_s4_q, state2_d, state2_s5_q;
+  interval_t interval_pre_q, interval_s0_q, interval_s1_q, interval_s2_q, interval_s3_q, interval_s4_q;
+  interval_t interval_d, interval_s5_q;
+  logic [7:0] lookup_rate_s0_q;
   logic [StepBits-1:0] threshold;
-  logic [TimeBits-1:0] after, after3_q;
+  logic [TimeBits-1:0] after_low, after_low_s3_q;
 
   always_ff @(posedge clk_i) begin
-    pace_r_q <= paces[axis_i[0]+axis_t'(2)];
-    early1_q <= earlies[axis_i[0]];
-    late2_q <= lates[axis_i[1]];
-    earlies[axis_i[5]] <= early5_q;
-    lates[axis_i[5]] <= late5_q;
-    paces[axis_i[5]] <= pace5_q;
-    words1_q <= words[axis_i[0]];
-    ramp1_q <= ramps[axis_i[0]];
-    units3_q <= chops[axis_i[2]];
-    // pace0_q.down = 1 (deceleration): the threshold of the next slower rate is compared.
-    pace0_q <= pace_r_q;
-    probe0_q <= pace_r_q.rate + 8'(pace_r_q.down);
-    pace1_q <= pace0_q;
-    pace2_q <= pace1_q;
-    {early2_q, words2_q, ramp2_q} <= {early1_q, words1_q, ramp1_q};
-    late3_q <= late2_q;
+    interval_pre_q <= interval_mem[axis_i[0]+axis_t'(2)];
+    state1_s1_q <= state1_mem[axis_i[0]];
+    state2_s2_q <= state2_mem[axis_i[1]];
+    state1_mem[axis_i[5]] <= state1_s5_q;
+    state2_mem[axis_i[5]] <= state2_s5_q;
+    interval_mem[axis_i[5]] <= interval_s5_q;
+    last_cmd_s1_q <= last_cmd_mem[axis_i[0]];
+    ramp_s1_q <= ramp_mem[axis_i[0]];
+    chop_units_s3_q <= chop_units_mem[axis_i[2]];
+    // interval_s0_q.decel = 1: the threshold of the next slower rate is compared.
+    interval_s0_q <= interval_pre_q;
+    lookup_rate_s0_q <= interval_pre_q.rate + 8'(interval_pre_q.decel);
+    interval_s1_q <= interval_s0_q;
+    interval_s2_q <= interval_s1_q;
+    {state1_s2_q, last_cmd_s2_q, ramp_s2_q} <= {state1_s1_q, last_cmd_s1_q, ramp_s1_q};
+    state2_s3_q <= state2_s2_q;
   end
 
   ppmc_bank_interval_rom #(
       .Quantum (Quantum),
       .Round   (Round),
       .TimeBits(TimeBits)
-  ) u_times (
+  ) u_interval_rom (
       .clk_i,
-      .pace_i(pace0_q),
-      .rest_o(after)
+      .interval_i (interval_s0_q),
+      .after_low_o(after_low)
   );
 
   // ---- stage 2: comparisons ------------------------------------------------------------------------
 
-  mail_t mail2_q, mail3_q;
-  progress_t progress2_q, progress3_q, progress4_q;
+  in_buf_t in_buf_s2_q, in_buf_s3_q;
+  read_progress_t read_progress_s2_q, read_progress_s3_q, read_progress_s4_q;
   logic unused_bits;
-  logic [1:0] config2_q, config3_q, config4_q;
-  seen_t seen3_q, seen4_q;
-  facts_t facts3_q;
-  logic new3_q, reached, moves, booked;
-  axis_t booked_for;
-  decoded_t decoded3_q;
-  error_e value3_q;
-  logic [TimeBits-1:0] due3_q;
-  walk_t walk2;
+  logic [1:0] config_n_s2_q, config_n_s3_q, config_n_s4_q;
+  pin_status_t pin_status_s3_q, pin_status_s4_q;
+  compare_t compare_s3_q;
+  logic in_buf_new_s3_q, threshold_reached, ramp_motion, build_busy;
+  axis_t build_axis;
+  decoded_t decoded_s3_q;
+  error_e value_s3_q;
+  logic [TimeBits-1:0] go_delay_s3_q;
+  motion_state_t motion_s2;
 
-  assign unused_bits = &{1'b0, early4_q, ramp4_q, progress4_q, walk2};
-  assign walk2 = early2_q.walk;
-  assign reached = {walk2.climb[StepBits-1:0], !pace2_q.down} >= {threshold, pace2_q.down};
-  assign moves = walk2.busy && walk2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
+  assign unused_bits = &{1'b0, state1_s4_q, ramp_s4_q, read_progress_s4_q, motion_s2};
+  assign motion_s2 = state1_s2_q.motion;
+  assign threshold_reached =
+      {motion_s2.ramp_level[StepBits-1:0], !interval_s2_q.decel} >= {threshold, interval_s2_q.decel};
+  assign ramp_motion =
+      motion_s2.busy && motion_s2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
 
   always_ff @(posedge clk_i) begin
-    {mail2_q, progress2_q, config2_q} <= {mail_i, progress_i, config_ni};
-    {mail3_q, progress3_q, config3_q} <= {mail2_q, progress2_q, config2_q};
-    {early3_q, pace3_q, after3_q} <= {early2_q, pace2_q, after};
-    {words3_q, ramp3_q} <= {words2_q, ramp2_q};
-    seen3_q <= seen_i;
-    due3_q <= due_i;
-    new3_q <= mail2_q.seq != early2_q.command.taken;
-    decoded3_q <= decode(mail2_q.data);
-    value3_q <= ppmc104_pkg::judge({mail2_q.data, words2_q.params});
-    facts3_q.fire <= early2_q.rem[TimeBits-1:RoundBits] == '0;
-    if (pace2_q.down)
-      facts3_q.more <= moves && (walk2.run || (walk2.low && !walk2.last)) && !reached
-                                       && pace2_q.rate != ramp2_q.slow;
+    {in_buf_s2_q, read_progress_s2_q, config_n_s2_q} <= {in_buf_i, read_progress_i, config_ni};
+    {in_buf_s3_q, read_progress_s3_q, config_n_s3_q} <= {in_buf_s2_q, read_progress_s2_q, config_n_s2_q};
+    {state1_s3_q, interval_s3_q, after_low_s3_q} <= {state1_s2_q, interval_s2_q, after_low};
+    {last_cmd_s3_q, ramp_s3_q} <= {last_cmd_s2_q, ramp_s2_q};
+    pin_status_s3_q <= pin_status_i;
+    go_delay_s3_q <= go_delay_i;
+    in_buf_new_s3_q <= in_buf_s2_q.seq != state1_s2_q.parser.ack_seq;
+    decoded_s3_q <= decode(in_buf_s2_q.data);
+    value_s3_q <= ppmc104_pkg::judge({in_buf_s2_q.data, last_cmd_s2_q.params});
+    compare_s3_q.edge_in_round <= state1_s2_q.cycles_left[TimeBits-1:RoundBits] == '0;
+    if (interval_s2_q.decel)
+      compare_s3_q.rate_mismatch <= ramp_motion
+          && (motion_s2.more_pulses || (motion_s2.pulse_low && !motion_s2.last_ordered))
+          && !threshold_reached && interval_s2_q.rate != ramp_s2_q.slow;
     else
-      facts3_q.more <= moves && walk2.run && !walk2.low && !walk2.held && reached
-                                         && pace2_q.rate != ramp2_q.fast;
-    facts3_q.zero  <= walk2.slack == '0;
-    facts3_q.minus <= walk2.slack[24];
-    facts3_q.foot  <= walk2.climb[14:1] == '0;
-    facts3_q.full  <= walk2.climb[StepBits-1:0] == ramp2_q.steps + 1'b1;
-    facts3_q.go    <= go_i;
-    facts3_q.built <= !(booked && booked_for == axis_i[2]);
+      compare_s3_q.rate_mismatch <= ramp_motion && motion_s2.more_pulses && !motion_s2.pulse_low
+          && !motion_s2.held && threshold_reached && interval_s2_q.rate != ramp_s2_q.fast;
+    compare_s3_q.margin_zero  <= motion_s2.decel_margin == '0;
+    compare_s3_q.margin_negative <= motion_s2.decel_margin[24];
+    compare_s3_q.ramp_bottom  <= motion_s2.ramp_level[14:1] == '0;
+    compare_s3_q.ramp_top  <= motion_s2.ramp_level[StepBits-1:0] == ramp_s2_q.steps + 1'b1;
+    compare_s3_q.go    <= go_i;
+    compare_s3_q.table_idle <= !(build_busy && build_axis == axis_i[2]);
   end
 
   // ---- stage 3: plan -------------------------------------------------------------------------------
 
-  plan_t plan, plan4_q;
-  logic take, take4_q, anew, anew4_q;
-  logic [7:0] code, code4_q;
-  logic [31:0] params, params4_q;
-  logic [TimeBits-1:0] add, add4_q;
-  ppmc_code_pkg::asking_t asking, asking3;
-  command_t command3, command4_q;
+  decision_t decision, decision_s4_q;
+  logic take, take_s4_q, restart_time, restart_time_s4_q;
+  logic [7:0] code, code_s4_q;
+  logic [31:0] params, params_s4_q;
+  logic [TimeBits-1:0] add_cycles, add_cycles_s4_q;
+  ppmc_code_pkg::asking_t asking, asking_s3;
+  parser_t parser_s3, parser_s4_q;
 
-  assign command3 = early3_q.command;
-  assign asking3 = '{
-          error: command3.error,
-          number: command3.number,
-          code: words3_q.code,
-          params: {words3_q.params, 8'd0}
+  assign parser_s3 = state1_s3_q.parser;
+  assign asking_s3 = '{
+          error: parser_s3.error,
+          number: parser_s3.number,
+          code: last_cmd_s3_q.code,
+          params: {last_cmd_s3_q.params, 8'd0}
       };
 
   ppmc_bank_plan #(
@@ -195,29 +200,29 @@ module ppmc_bank_engine
       .Round   (Round),
       .TimeBits(TimeBits)
   ) u_plan (
-      .walk_i   (early3_q.walk),
-      .pace_i   (pace3_q),
-      .setting_i(early3_q.setting),
-      .rest_i   (late3_q.rest),
-      .over_i   (late3_q.left == '0),
-      .seen_i   (seen3_q),
-      .facts_i  (facts3_q),
-      .free_i   (!booked),
-      .extra_i  (config3_q[1]),
-      .mail_i   (mail3_q),
-      .new_i    (new3_q),
-      .decoded_i(decoded3_q),
-      .value_i  (value3_q),
-      .asking_i (asking3),
-      .asking_o (asking),
-      .take_o   (take),
-      .code_o   (code),
-      .params_o (params),
-      .due_i    (due3_q),
-      .after_i  (after3_q),
-      .plan_o   (plan),
-      .anew_o   (anew),
-      .add_o    (add)
+      .motion_i      (state1_s3_q.motion),
+      .interval_i    (interval_s3_q),
+      .init_state_i  (state1_s3_q.init_state),
+      .outputs_i     (state2_s3_q.outputs),
+      .hold_end_i    (state2_s3_q.hold_left == '0),
+      .pin_status_i  (pin_status_s3_q),
+      .compare_i     (compare_s3_q),
+      .builder_free_i(!build_busy),
+      .extra_time_i  (config_n_s3_q[1]),
+      .in_buf_i      (in_buf_s3_q),
+      .in_buf_new_i  (in_buf_new_s3_q),
+      .decoded_i     (decoded_s3_q),
+      .value_i       (value_s3_q),
+      .asking_i      (asking_s3),
+      .asking_o      (asking),
+      .take_o        (take),
+      .code_o        (code),
+      .params_o      (params),
+      .go_delay_i    (go_delay_s3_q),
+      .after_low_i   (after_low_s3_q),
+      .decision_o    (decision),
+      .restart_time_o(restart_time),
+      .add_cycles_o  (add_cycles)
   );
 
   ppmc_bank_tables #(
@@ -226,116 +231,121 @@ module ppmc_bank_engine
   ) u_tables (
       .clk_i,
       .rst_ni,
-      .book_i     (plan.init && !clear_i[3]),
-      .book_axis_i(axis_i[3]),
-      .slow_i     (params[7:0]),
-      .fast_i     (params[15:8]),
-      .steps_i    (params[16+:StepBits]),
-      .booked_o   (booked),
-      .for_o      (booked_for),
-      .axis_i     (axis_i[0]),
-      .rate_i     (probe0_q),
-      .threshold_o(threshold)
+      .build_start_i(decision.init && !clear_i[3]),
+      .build_axis_i (axis_i[3]),
+      .slow_i       (params[7:0]),
+      .fast_i       (params[15:8]),
+      .steps_i      (params[16+:StepBits]),
+      .build_busy_o (build_busy),
+      .build_axis_o (build_axis),
+      .axis_i       (axis_i[0]),
+      .rate_i       (lookup_rate_s0_q),
+      .threshold_o  (threshold)
   );
 
   always_ff @(posedge clk_i) begin
-    {early4_q, pace4_q, late4_q, seen4_q} <= {early3_q, pace3_q, late3_q, seen3_q};
-    {progress4_q, config4_q} <= {progress3_q, config3_q};
-    {plan4_q, code4_q, params4_q, anew4_q, add4_q} <= {clear_i[3] ? '0 : plan, code, params, anew, add};
-    {take4_q, ramp4_q, units4_q} <= {take, ramp3_q, units3_q};
-    command4_q <= '{
-        taken: take ? mail3_q.seq : command3.taken,
+    {state1_s4_q, interval_s4_q, state2_s4_q, pin_status_s4_q} <= {
+      state1_s3_q, interval_s3_q, state2_s3_q, pin_status_s3_q
+    };
+    {read_progress_s4_q, config_n_s4_q} <= {read_progress_s3_q, config_n_s3_q};
+    {decision_s4_q, code_s4_q, params_s4_q, restart_time_s4_q, add_cycles_s4_q} <= {
+      clear_i[3] ? '0 : decision, code, params, restart_time, add_cycles
+    };
+    {take_s4_q, ramp_s4_q, chop_units_s4_q} <= {take, ramp_s3_q, chop_units_s3_q};
+    parser_s4_q <= '{
+        ack_seq: take ? in_buf_s3_q.seq : parser_s3.ack_seq,
         error: asking.error,
         number: asking.number
     };
   end
 
-  // ---- stage 4: step -------------------------------------------------------------------------------
+  // ---- stage 4: update -----------------------------------------------------------------------------
 
-  order_t  order;
-  answer_t answer;
-  logic call, calm;
+  pin_cmd_t   pin_cmd;
+  read_data_t read_data;
+  logic irq_set, irq_clear;
   init_code_t init;
   logic unused_words;
 
-  assign init = init_code_t'(code4_q);
+  assign init = init_code_t'(code_s4_q);
   assign unused_words = ^{init, asking};
 
   ppmc_bank_update #(
       .HoldRounds(HoldRounds),
       .HoldBits  (HoldBits)
-  ) u_step (
-      .plan_i    (plan4_q),
-      .seen_i    (seen4_q),
-      .code_i    (code4_q),
-      .params_i  (params4_q),
-      .config_ni (config4_q),
-      .read_seq_i(progress4_q.seq),
-      .walk_i    (early4_q.walk),
-      .pace_i    (pace4_q),
-      .setting_i (early4_q.setting),
-      .units_i   (units4_q),
-      .chop_i    (ramp4_q.chop),
-      .slow_i    (ramp4_q.slow),
-      .rest_i    (late4_q.rest),
-      .left_i    (late4_q.left),
-      .position_i(late4_q.position),
-      .walk_o    (early.walk),
-      .pace_o    (pace),
-      .setting_o (early.setting),
-      .rest_o    (late.rest),
-      .left_o    (late.left),
-      .position_o(late.position),
-      .order_o   (order),
-      .answer_o  (answer),
-      .call_o    (call),
-      .calm_o    (calm)
+  ) u_update (
+      .decision_i  (decision_s4_q),
+      .pin_status_i(pin_status_s4_q),
+      .code_i      (code_s4_q),
+      .params_i    (params_s4_q),
+      .config_ni   (config_n_s4_q),
+      .read_seq_i  (read_progress_s4_q.seq),
+      .motion_i    (state1_s4_q.motion),
+      .interval_i  (interval_s4_q),
+      .init_state_i(state1_s4_q.init_state),
+      .chop_units_i(chop_units_s4_q),
+      .chop_i      (ramp_s4_q.chop),
+      .slow_i      (ramp_s4_q.slow),
+      .outputs_i   (state2_s4_q.outputs),
+      .hold_left_i (state2_s4_q.hold_left),
+      .position_i  (state2_s4_q.position),
+      .motion_o    (state1_d.motion),
+      .interval_o  (interval_d),
+      .init_state_o(state1_d.init_state),
+      .outputs_o   (state2_d.outputs),
+      .hold_left_o (state2_d.hold_left),
+      .position_o  (state2_d.position),
+      .pin_cmd_o   (pin_cmd),
+      .read_data_o (read_data),
+      .irq_set_o   (irq_set),
+      .irq_clear_o (irq_clear)
   );
 
-  assign early.rem = (anew4_q ? '0 : early4_q.rem) + add4_q;
-  assign early.command = command4_q;
+  assign state1_d.cycles_left = (restart_time_s4_q ? '0 : state1_s4_q.cycles_left) + add_cycles_s4_q;
+  assign state1_d.parser = parser_s4_q;
 
   always_ff @(posedge clk_i) begin
-    if (take4_q) words[axis_i[4]] <= '{code: code4_q, params: params4_q[31:8]};
-    if (plan4_q.init)
-      ramps[axis_i[4]] <= '{
+    if (take_s4_q) last_cmd_mem[axis_i[4]] <= '{code: code_s4_q, params: params_s4_q[31:8]};
+    if (decision_s4_q.init)
+      ramp_mem[axis_i[4]] <= '{
           chop: init.chop,
-          slow: params4_q[7:0],
-          fast: params4_q[15:8],
-          steps: params4_q[16+:StepBits]
+          slow: params_s4_q[7:0],
+          fast: params_s4_q[15:8],
+          steps: params_s4_q[16+:StepBits]
       };
-    if (plan4_q.switching) chops[axis_i[4]] <= params4_q[31:16];
+    if (decision_s4_q.switching) chop_units_mem[axis_i[4]] <= params_s4_q[31:16];
   end
 
-  // ---- stage 5: write, order -----------------------------------------------------------------------
+  // ---- stage 5: write, command ---------------------------------------------------------------------
 
-  localparam early_t EarlyReset = '0;
-  localparam late_t LateReset = '{
-      rest: '{hold: 1'b1, on: 1'b1, pair: 1'b1, positive: !PhaseIdle, default: '0},
-      left: '0,
+  localparam state_s1_t State1Reset = '0;
+  localparam state_s2_t State2Reset = '{
+      outputs: '{hold: 1'b1, phases_on: 1'b1, two_phases: 1'b1, positive: !PhaseIdle, default: '0},
+      hold_left: '0,
       position: '0
   };
 
   always_ff @(posedge clk_i) begin
-    early5_q    <= clear_i[4] ? EarlyReset : early;
-    late5_q     <= clear_i[4] ? LateReset : late;
-    pace5_q     <= clear_i[4] ? '0 : pace;
-    answer_o    <= clear_i[4] ? '0 : answer;
-    answer_we_o <= clear_i[4] || plan4_q.read;
-    order_o     <= clear_i[4] ? '0 : order;
-    // The order is executed immediately, or rem cycles after the first cycle in which an edge can be ordered.
-    at_o        <= axis_i[0] + axis_t'(2) + (order.sets && !plan4_q.toggle ? '0 : axis_t'(early4_q.rem));
-    call_o      <= call && !clear_i[4];
-    calm_o      <= calm && !clear_i[4];
+    state1_s5_q <= clear_i[4] ? State1Reset : state1_d;
+    state2_s5_q <= clear_i[4] ? State2Reset : state2_d;
+    interval_s5_q <= clear_i[4] ? '0 : interval_d;
+    read_data_o <= clear_i[4] ? '0 : read_data;
+    read_data_we_o <= clear_i[4] || decision_s4_q.read;
+    pin_cmd_o <= clear_i[4] ? '0 : pin_cmd;
+    // The command is executed in the first possible cycle, or cycles_left cycles after this cycle.
+    at_cycle_o     <= axis_i[0] + axis_t'(2)
+        + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
+    irq_set_o <= irq_set && !clear_i[4];
+    irq_clear_o <= irq_clear && !clear_i[4];
   end
 
   assign status_o = '{
-          taken: early5_q.command.taken,
-          error: early5_q.command.error,
-          number: early5_q.command.number,
-          busy: early5_q.walk.busy
+          ack_seq: state1_s5_q.parser.ack_seq,
+          error: state1_s5_q.parser.error,
+          number: state1_s5_q.parser.number,
+          busy: state1_s5_q.motion.busy
       };
-  assign position_o = late5_q.position;
+  assign position_o = state2_s5_q.position;
 
 endmodule
 

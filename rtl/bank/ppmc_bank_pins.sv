@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins: pins of one axis of a bank. Executes each order of a visit in the cycle of the order, and
-//         suppresses pulses when a switch ends the motion.
+// ppmc_bank_pins: pins of one axis of a bank. Executes each command of a visit in its cycle, and outputs no
+//         pulse when a switch or STOP ends the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
-// Timing: an order is valid in the cell from the cycle after load_i on. It is executed at the end of the
-//         cycle in which clock_i = at_i; halt is executed at the end of the first cycle. A switch acts in the
-//         cycle in which it is active on switches_i.
+// Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
+//         cycle in which cycle_i = at_cycle_q; halt is executed at the end of the first cycle. A switch acts
+//         in the cycle in which it is active on switches_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,16 +13,16 @@ module ppmc_bank_pins
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned RoundBits = 5,
-    parameter bit          PhaseIdle = 1'b1  // level of s_o until the first order
+    parameter bit          PhaseIdle = 1'b1  // level of s_o before the first command
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [RoundBits-1:0] clock_i,  // number of the cycle in the round
-    // orders
-    input wire logic load_i,  // the order is for this axis
-    input wire order_t order_i,  // pin changes
-    input wire logic [RoundBits-1:0] at_i,  // cycle of the pin changes
-    input wire logic stop_i,  // end every motion
+    input wire logic [RoundBits-1:0] cycle_i,  // number of the cycle in the round
+    // command
+    input wire logic load_i,  // pin_cmd_i is for this axis
+    input wire pin_cmd_t pin_cmd_i,  // immediate halt, and pin changes of the next round
+    input wire logic [RoundBits-1:0] at_cycle_i,  // cycle of the pin changes
+    input wire logic stop_i,  // end every running motion
     input wire switches_t switches_i,  // synchronous levels
     // status for the visits
     output logic armed_o,  // pulses may be output
@@ -37,35 +37,36 @@ module ppmc_bank_pins
     output logic dir_o  // 0 = CW
 );
 
-  order_t order_q;
-  logic [RoundBits-1:0] at_q;
-  logic given;  // the order that is loaded has a pulse
-  logic now, limit, halt, ends, pulse, rise, set, unused_slow;
+  pin_cmd_t pin_cmd_q;
+  logic [RoundBits-1:0] at_cycle_q;
+  logic loads_pulse;  // a command with a pulse is loaded
+  // cycle_hit: the command is executed in this cycle; end_motion: a cause ends the motion in this cycle
+  logic cycle_hit, limit, halt, end_motion, pulse, pulse_end, set_pins, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
-  assign given = load_i && order_i.pulse;
-  assign now = at_q == clock_i;
-  assign limit = order_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
-  assign halt = order_q.halt || stop_i;
-  assign ends = halt || limit || switches_i.alarm || (switches_i.origin && order_q.search);
-  assign pulse = now && order_q.pulse && armed_o && !ends;
-  assign rise = now && order_q.rise;
-  assign set = now && order_q.sets;
+  assign loads_pulse = load_i && pin_cmd_i.pulse;
+  assign cycle_hit = at_cycle_q == cycle_i;
+  assign limit = pin_cmd_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+  assign halt = pin_cmd_q.halt || stop_i;
+  assign end_motion = halt || limit || switches_i.alarm || (switches_i.origin && pin_cmd_q.search);
+  assign pulse = cycle_hit && pin_cmd_q.pulse && armed_o && !end_motion;
+  assign pulse_end = cycle_hit && pin_cmd_q.pulse_end;
+  assign set_pins = cycle_hit && pin_cmd_q.set_pins;
 
-  // The action of an order (pulse, rise or sets) may still be pending when the next order is loaded. Then it
-  // is executed in exactly this cycle.
+  // The action of a command (pulse, pulse_end or set_pins) may still be pending when the next command is
+  // loaded. Then it is executed in exactly this cycle.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      order_q                       <= '0;
-      at_q                          <= '0;
+      pin_cmd_q                     <= '0;
+      at_cycle_q                    <= '0;
       armed_o                       <= 1'b0;
       emitted_o                     <= 1'b1;
       {stopped_o, alarm_o, limit_o} <= '0;
     end else begin
-      order_q.halt <= 1'b0;
-      if (load_i) {order_q, at_q} <= {order_i, at_i};
-      if (set || ends || (pulse && !order_q.arm)) armed_o <= set && order_q.arm;
-      if (given || pulse || set) emitted_o <= !given;
+      pin_cmd_q.halt <= 1'b0;
+      if (load_i) {pin_cmd_q, at_cycle_q} <= {pin_cmd_i, at_cycle_i};
+      if (set_pins || end_motion || (pulse && !pin_cmd_q.arm)) armed_o <= set_pins && pin_cmd_q.arm;
+      if (loads_pulse || pulse || set_pins) emitted_o <= !loads_pulse;
       if (armed_o) {stopped_o, alarm_o, limit_o} <= {halt, switches_i.alarm, limit};
     end
   end
@@ -77,17 +78,18 @@ module ppmc_bank_pins
       pout_no <= 1'b1;
       dir_o   <= 1'b0;
     end else begin
-      if (pulse || rise) pout_no <= order_q.rise;
-      if (pulse || set) s_o <= order_q.s;
-      if (set) {hold_o, dir_o} <= {order_q.hold, order_q.ccw};
+      if (pulse || pulse_end) pout_no <= pin_cmd_q.pulse_end;
+      if (pulse || set_pins) s_o <= pin_cmd_q.s;
+      if (set_pins) {hold_o, dir_o} <= {pin_cmd_q.hold, pin_cmd_q.ccw};
     end
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(
-      bank_one_order,
-      !(order_q.pulse && order_q.rise) && !(order_q.pulse && order_q.sets) && !(order_q.rise && order_q.sets))
-  `PPMC_ASSERT(bank_mot_02, !(pulse && ends))
+  logic one_pin_action;
+  assign one_pin_action = !(pin_cmd_q.pulse && pin_cmd_q.pulse_end)
+      && !(pin_cmd_q.pulse && pin_cmd_q.set_pins) && !(pin_cmd_q.pulse_end && pin_cmd_q.set_pins);
+  `PPMC_ASSERT(bank_one_pin_action, one_pin_action)
+  `PPMC_ASSERT(bank_mot_02, !(pulse && end_motion))
   `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
 `endif
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pkg: types that the blocks of a bank exchange for one axis, and the state of an axis in RAM.
+// ppmc_bank_pkg: register numbers of a bank, types that its blocks exchange for one axis, and the state of
+//         an axis in RAM.
 // Rules:  BANK-GEN-01..04, BANK-WIN-01..03.
 `default_nettype none
 
@@ -27,42 +28,43 @@ package ppmc_bank_pkg;
   // Byte in the input buffer. It is new while seq differs from that of the byte accepted last.
   typedef struct packed {
     logic [1:0] seq;
-    logic       command;
+    logic       is_command;  // 1: command, 0: parameter
     logic [7:0] data;
-  } mail_t;
+  } in_buf_t;
 
-  // Number of bytes of an answer that the host has read; seq is that of the answer.
+  // Progress of the host in reading a response; seq is that of the response.
   typedef struct packed {
     logic [1:0] seq;
-    logic [1:0] done;  // bytes read
-  } progress_t;
+    logic [1:0] bytes_read;
+  } read_progress_t;
 
+  // Response to a read command.
   typedef struct packed {
     logic [1:0]  seq;
     logic [1:0]  bytes;  // number of bytes: 0, 1 or 3
     logic [23:0] data;   // first byte in the low bits
-  } answer_t;
+  } read_data_t;
 
   // Status register of an axis, and seq of the byte that the axis accepted last.
   typedef struct packed {
-    logic [1:0] taken;
+    logic [1:0] ack_seq;
     logic       error;
-    logic [2:0] number;
+    logic [2:0] number;   // error number, or number of missing parameters
     logic       busy;
-  } status_t;
+  } axis_status_t;
 
-  // State of the command unit, in addition to words_t.
+  // State of the command unit, in addition to last_cmd_t.
   typedef struct packed {
-    logic [1:0] taken;   // seq of the byte accepted last
+    logic [1:0] ack_seq;  // seq of the byte accepted last
     logic       error;
-    logic [2:0] number;  // error number, or number of missing parameters
-  } command_t;
+    logic [2:0] number;   // error number, or number of missing parameters
+  } parser_t;
 
   // Last command and its parameters, written with each accepted byte.
   typedef struct packed {
     logic [7:0]  code;
     logic [23:0] params;  // the last one in the high bits
-  } words_t;
+  } last_cmd_t;
 
   // Settings of an initialisation, written when its last byte is accepted.
   typedef struct packed {
@@ -76,134 +78,136 @@ package ppmc_bank_pkg;
   typedef struct packed {
     logic [7:0] off;
     logic [7:0] on;
-  } units_t;
+  } chop_units_t;
 
   // Timing of the running interval.
   typedef struct packed {
-    logic       slow;   // base clock of 125 kHz
-    logic       extra;  // extra time of 7.5 us
-    logic       down;   // the deceleration has begun
-    logic [7:0] rate;   // of the running interval; while accelerating, after the low time: of the next one
-  } pace_t;
+    logic       slow_base;   // base clock of 125 kHz
+    logic       extra_time;  // extra time of 7.5 us
+    logic       decel;       // the deceleration has begun
+    // Rate of the running interval. While accelerating, after the low time: rate of the next interval.
+    logic [7:0] rate;
+  } interval_t;
 
-  // State of a motion. At standstill, slack is the number of remaining pulses that a host reads, and climb is
-  // the number of remaining units of a chopper phase.
+  // State of a motion. At standstill, decel_margin is the number of remaining pulses that a host reads, and
+  // ramp_level is the number of remaining units of a chopper phase.
   typedef struct packed {
     logic        busy;
-    logic        run;        // pulses are left to be ordered
-    logic        last;       // the last pulse has been ordered
-    logic        held;       // waits for GO
-    logic        low;        // from the order of a pulse to the order of its end
-    logic        forced;     // deceleration was requested
-    logic        natural;    // deceleration has begun by pulse count
-    logic        flag_stop;  // deceleration was requested by a command
-    logic        flag_slow;  // deceleration was requested by a slow-down limit
-    logic [2:0]  op;         // operation
-    logic        pout_only;
-    logic        ccw;
-    logic        silent;     // no interrupt at the end
-    logic [24:0] slack;      // pulses after the next one - 1 - index of the running interval
-    logic [14:0] climb;      // index of the running interval + 1
-  } walk_t;
+    logic        more_pulses;    // at least one more pulse must be ordered
+    logic        last_ordered;   // the last pulse has been ordered
+    logic        held;           // waits for GO
+    logic        pulse_low;      // from the order of a pulse to the order of its end
+    logic        decel_forced;   // deceleration was requested
+    logic        decel_natural;  // deceleration has begun by pulse count
+    logic        flag_stop;      // deceleration was requested by a command
+    logic        flag_slow;      // deceleration was requested by a slow-down limit
+    logic [2:0]  op;             // operation
+    logic        pout_only;      // POUT mode: the phases do not change
+    logic        ccw;            // direction is CCW
+    logic        silent;         // no interrupt at the end
+    logic [24:0] decel_margin;   // pulses after the next one - 1 - index of the running interval
+    logic [14:0] ramp_level;     // index of the running interval + 1
+  } motion_state_t;
 
   // Progress of an initialisation.
   typedef struct packed {
     logic initialised;
     logic building;     // the ramp table is being built
-  } setting_t;
+  } init_state_t;
 
-  // Phases, chopper and end of the last motion.
+  // Phases, chopper, finish status, and sequence number of the last response.
   typedef struct packed {
-    logic       hold;
-    logic       chop;        // chop at standstill
-    logic       on;          // state of the chopper: phases on
-    logic       programmed;  // the times of the chopper are set by the host
-    logic [1:0] motor;
-    logic       half;
-    logic       positive;
-    logic       pair;        // see ppmc_motion_pkg
-    logic [5:1] pattern;
-    logic       fresh;       // finish status not read yet
-    cause_t     cause;
-    logic [1:0] seq;         // seq of the answer loaded last
-  } rest_t;
+    logic       hold;             // level of the pin hold
+    logic       chop;             // chop at standstill
+    logic       phases_on;        // state of the chopper: phases on
+    logic       chop_programmed;  // the host has set the times of the chopper
+    logic [1:0] motor;            // motor_e
+    logic       half;             // half step
+    logic       positive;         // 0: s is inverted
+    logic       two_phases;       // see ppmc_motion_pkg
+    logic [5:1] pattern;          // phases, 1 = on
+    logic       finish_unread;    // finish status not read yet
+    cause_t     cause;            // cause of the end of the last motion
+    logic [1:0] read_data_seq;    // seq of the response stored last
+  } output_state_t;
 
-  // State of the pin cell and switches of an axis, as a visit samples them.
+  // State of the pin block and switches of an axis, as sampled by a visit.
   typedef struct packed {
     logic      armed;     // pulses may be output
     logic      emitted;   // the last ordered pulse has been output
-    logic      stop;      // cause of armed = 0: stop
+    logic      stop;      // cause of armed = 0: STOP or a stop command
     logic      alarm;     // cause of armed = 0: alarm
     logic      limit;     // cause of armed = 0: limit
-    logic      mask;      // member of the group
+    logic      in_group;  // member of the group
     switches_t switches;
-  } seen_t;
+  } pin_status_t;
 
-  // Order of a visit to the pin cell: executed immediately, or in one cycle of the next round.
+  // Command of a visit to the pin block. halt is executed immediately; pulse, pulse_end and set_pins are
+  // executed in one cycle of the next round, and at most one of them is 1.
   typedef struct packed {
-    logic       halt;    // no more pulses, immediately
-    logic       pulse;   // a pulse begins; at most one of pulse, rise, sets is 1
-    logic       rise;    // the pulse ends
-    logic       sets;    // the other pins change
-    logic       arm;     // with sets: pulses may follow; with pulse: another pulse may follow
-    logic       search;  // the origin ends the motion
-    logic       ccw;     // level of dir; selects the limit
-    logic       hold;
-    logic [5:1] s;       // pin levels
-  } order_t;
+    logic       halt;       // no more pulses
+    logic       pulse;      // a pulse begins
+    logic       pulse_end;  // the pulse ends
+    logic       set_pins;   // the other pins change
+    logic       arm;        // with set_pins: pulses may follow; with pulse: another pulse may follow
+    logic       search;     // the origin ends the motion
+    logic       ccw;        // level of dir; selects the limit
+    logic       hold;       // level of hold
+    logic [5:1] s;          // levels of s
+  } pin_cmd_t;
 
   // Comparisons of a visit, made one cycle before the decisions.
   typedef struct packed {
-    logic fire;   // the awaited edge is in the next round
-    logic more;   // the rate is not yet the rate of its index
-    logic zero;   // walk_t.slack is 0
-    logic minus;  // walk_t.slack is negative
-    logic foot;   // walk_t.climb is 0 or 1
-    logic full;   // the running interval has index PA
-    logic go;     // GO acts in this cycle
-    logic built;  // no table is being built for this axis
-  } facts_t;
+    logic edge_in_round;    // the awaited edge is in the next round
+    logic rate_mismatch;    // the rate is not yet the rate of its index
+    logic margin_zero;      // motion_state_t.decel_margin is 0
+    logic margin_negative;  // motion_state_t.decel_margin is negative
+    logic ramp_bottom;      // motion_state_t.ramp_level is 0 or 1
+    logic ramp_top;         // the running interval has index PA
+    logic go;               // GO is active for this visit
+    logic table_idle;       // no table is being built for this axis
+  } compare_t;
 
   // Decisions of a visit.
   typedef struct packed {
-    logic       start;      // an operation starts
-    logic       proceed;    // GO: pulse 1 is scheduled
-    logic       refuse;     // GO: no operation is waiting
-    logic       finish;     // a motion ends
-    logic       ready;      // an initialisation is complete
-    logic       init;       // an initialisation begins
-    logic       first;      // with init: first one since reset or Excitation OFF
-    logic       exc_off;
-    logic       switching;  // the times of the chopper are set
-    logic       read;       // a read command
-    logic [2:0] select;     // data selected by the read command
-    logic       halt;       // a stop command that acts immediately
-    logic       kill;       // the pin cell has ended the motion
-    logic       undo;       // with kill: the last ordered pulse was not output
-    logic       flag_stop;  // deceleration by a command
-    logic       flag_slow;  // deceleration by a slow-down limit
-    logic       pulse;      // a pulse is ordered
-    logic       last;       // with pulse: last pulse
-    logic       up;         // with pulse: index + 1
-    logic       back;       // with pulse: index - 1
-    logic       turn;       // with pulse: the deceleration begins
-    logic       natural;    // with pulse: deceleration by pulse count
-    logic       rise;       // the end of a low time is ordered
-    logic       probe;      // the rate changes by one
-    logic       toggle;     // an edge of the chopper is ordered
-    logic       unit;       // one unit of the chopper phase has passed
-    logic       rest;       // the hold time is running
-    logic       hold;       // the hold time has ended
-  } plan_t;
+    logic       start;          // an operation starts
+    logic       go_accept;      // GO: pulse 1 is scheduled
+    logic       go_reject;      // GO: no operation is waiting
+    logic       finish;         // a motion ends
+    logic       init_done;      // an initialisation is complete
+    logic       init;           // an initialisation begins
+    logic       first_init;     // with init: first one since reset or Excitation OFF
+    logic       exc_off;        // Excitation OFF
+    logic       switching;      // the times of the chopper are set
+    logic       read;           // a read command
+    logic [2:0] read_select;    // data selected by the read command
+    logic       halt;           // a stop command that acts immediately
+    logic       abort_motion;   // the pin block has ended the motion
+    logic       cancel_pulse;   // with abort_motion: the last ordered pulse was not output
+    logic       flag_stop;      // deceleration by a command
+    logic       flag_slow;      // deceleration by a slow-down limit
+    logic       pulse;          // a pulse is ordered
+    logic       last_pulse;     // with pulse: last pulse
+    logic       level_up;       // with pulse: ramp_level + 1
+    logic       level_down;     // with pulse: ramp_level - 1
+    logic       decel_point;    // with pulse: the deceleration begins
+    logic       decel_natural;  // with pulse: deceleration by pulse count
+    logic       pulse_end;      // the end of a low time is ordered
+    logic       rate_next;      // the rate changes by one
+    logic       chop_edge;      // an edge of the chopper is ordered
+    logic       chop_unit;      // one unit of the chopper phase has passed
+    logic       hold_running;   // the hold time is running
+    logic       hold_end;       // the hold time has ended
+  } decision_t;
 
   // Command set of the PPMC-104 without the commands that a bank does not have (BANK-GEN-03).
   function automatic decoded_t decode(logic [7:0] code);
     decoded_t d;
-    logic refused;
+    logic unsupported;
     d = ppmc104_pkg::decode(code);
-    refused = d.kind inside {KindAuxOut, KindAuxOn, KindAuxOff} || (d.kind == KindInit && code[4])
+    unsupported = d.kind inside {KindAuxOut, KindAuxOn, KindAuxOff} || (d.kind == KindInit && code[4])
         || (d.kind == KindRead && code[2:0] == SEL_AUX_IN);
-    if (refused) d = '{kind: KindUndefined, params: 3'd0};
+    if (unsupported) d = '{kind: KindUndefined, params: 3'd0};
     return d;
   endfunction
 

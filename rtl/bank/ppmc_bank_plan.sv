@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_plan: decisions of a visit: whether the byte is accepted, the effect of byte and switches on the
-//         motion, the edge to order from the pin cell, and the cycles to the next edge.
+//         motion, the edge to order from the pin block, and the cycles to the next edge.
 // Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
 //         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
 // Timing: combinational.
-// Times:  rem in ppmc_bank_engine is the number of cycles from the visit to the awaited edge. All values
-//         added to it are reduced by a round, because the next visit is one round later.
+// How:    cycles_left of state_s1_t is the number of cycles from the visit to the awaited edge. All values
+//         added to it are reduced by Round, because the next visit is one round later.
 `default_nettype none
 
 module ppmc_bank_plan
@@ -16,80 +16,83 @@ module ppmc_bank_plan
 #(
     parameter int unsigned Quantum  = 25,  // quantum in cycles
     parameter int unsigned Round    = 32,  // round in cycles
-    parameter int unsigned TimeBits = 20
+    parameter int unsigned TimeBits = 20   // bits of an interval in cycles
 ) (
     // axis
-    input  wire walk_t                   walk_i,     // state of the motion
-    input  wire pace_t                   pace_i,     // interval of the motion
-    input  wire setting_t                setting_i,  // progress of the initialisation
-    input  wire rest_t                   rest_i,     // phases, chopper, end of the last motion
-    input  wire logic                    over_i,     // the hold time ends with this visit
-    input  wire seen_t                   seen_i,     // pin cell and switches
-    input  wire facts_t                  facts_i,    // comparisons of this visit
-    input  wire logic                    free_i,     // a ramp table may be built
+    input wire motion_state_t motion_i,  // state of the motion
+    input wire interval_t interval_i,  // timing of the running interval
+    input wire init_state_t init_state_i,  // progress of the initialisation
+    input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
+    input wire logic hold_end_i,  // the hold time ends with this visit
+    input wire pin_status_t pin_status_i,  // pin block and switches
+    input wire compare_t compare_i,  // comparisons of this visit
+    input wire logic builder_free_i,  // a ramp table may be built
     // command unit
-    input  wire logic                    extra_i,    // vsel = L in CONFIG
-    input  wire mail_t                   mail_i,     // byte of the host
-    input  wire logic                    new_i,      // mail_i has not been accepted yet
-    input  wire decoded_t                decoded_i,  // mail_i.data as a code
-    input  wire error_e                  value_i,    // error in an initialisation that mail_i completes
-    input  wire asking_t                 asking_i,   // state before this byte
-    output asking_t                      asking_o,   // state after this byte
-    output logic                         take_o,     // the byte is accepted
-    output logic          [         7:0] code_o,     // code of the actions in plan_o
-    output logic          [        31:0] params_o,   // parameters of code_o
+    input wire logic extra_time_i,  // vsel = L in CONFIG
+    input wire in_buf_t in_buf_i,  // byte of the host
+    input wire logic in_buf_new_i,  // in_buf_i is not yet accepted
+    input wire decoded_t decoded_i,  // in_buf_i.data as a code
+    input wire error_e value_i,  // error in an initialisation that in_buf_i completes
+    input wire asking_t asking_i,  // state before this byte
+    output asking_t asking_o,  // state after this byte
+    output logic take_o,  // the byte is accepted
+    output logic [7:0] code_o,  // code of the actions in plan_o
+    output logic [31:0] params_o,  // parameters of code_o
     // decisions
-    input  wire logic     [TimeBits-1:0] due_i,      // W minus the cycles since GO
-    input  wire logic     [TimeBits-1:0] after_i,    // see ppmc_bank_interval_rom
-    output plan_t                        plan_o,     // decisions of the visit
-    output logic                         anew_o,     // restart rem from 0
-    output logic          [TimeBits-1:0] add_o       // cycles to add to rem
+    input wire logic [TimeBits-1:0] go_delay_i,  // W minus the cycles since GO
+    input wire logic [TimeBits-1:0] after_low_i,  // cycles after the low time, minus Round
+    output decision_t decision_o,  // decisions of the visit
+    output logic restart_time_o,  // restart cycles_left from 0
+    output logic [TimeBits-1:0] add_cycles_o  // cycles to add to cycles_left
 );
 
-  localparam int unsigned Width = 20 * Quantum;  // W in cycles
-  localparam int unsigned Half = 4 * Quantum;  // half a fast base clock in cycles
+  localparam int unsigned WidthCycles = 20 * Quantum;  // W in cycles
+  localparam int unsigned HalfBaseCycles = 4 * Quantum;  // half a fast base clock in cycles
 
-  typedef logic [TimeBits-1:0] clk_t;
+  typedef logic [TimeBits-1:0] cycles_t;
 
   action_t act;
-  logic kill, undo, finish, ready, proceed, refuse, unit, toggle;
-  logic ramp, finished, inits, completes, open, unused_stop, unused_bits;
-  logic dec, halt, slow, counts, forced, fast_plain, grows, pulse, rests;
+  logic abort_motion, cancel_pulse, finish, init_done, go_accept, go_reject, chop_unit, chop_edge;
+  logic has_ramp, pulses_done, is_init, last_init_byte, accept_ok, unused_stop, unused_bits;
+  logic decelerating, halt, slow_limit, slow_limit_enabled, decel_forced;
+  logic fast_no_extra, low_may_grow, pulse, hold_waiting;
 
-  assign unused_bits = &{1'b0, walk_i, setting_i, rest_i, seen_i, mail_i, act};
+  assign unused_bits = &{1'b0, motion_i, init_state_i, outputs_i, pin_status_i, in_buf_i, act};
 
   // ---- events since the last visit -----------------------------------------------------------------
 
   always_comb begin
-    ramp = walk_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
-    kill = walk_i.busy && !seen_i.armed && (walk_i.run || !seen_i.emitted);
-    undo = kill && !seen_i.emitted;
-    finish = walk_i.busy && (kill ? undo || !walk_i.low : !walk_i.run && !walk_i.low);
-    ready = setting_i.building && facts_i.built;
-    proceed = facts_i.go && seen_i.mask && walk_i.held && walk_i.run && !kill;
-    refuse = facts_i.go && seen_i.mask && !proceed;
-    unit = !walk_i.busy && rest_i.chop && facts_i.fire && !ready;
-    toggle = unit && walk_i.climb == '0;
+    has_ramp = motion_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
+    abort_motion = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || !pin_status_i.emitted);
+    cancel_pulse = abort_motion && !pin_status_i.emitted;
+    finish = motion_i.busy && (abort_motion ? cancel_pulse || !motion_i.pulse_low
+        : !motion_i.more_pulses && !motion_i.pulse_low);
+    init_done = init_state_i.building && compare_i.table_idle;
+    go_accept = compare_i.go && pin_status_i.in_group
+        && motion_i.held && motion_i.more_pulses && !abort_motion;
+    go_reject = compare_i.go && pin_status_i.in_group && !go_accept;
+    chop_unit = !motion_i.busy && outputs_i.chop && compare_i.edge_in_round && !init_done;
+    chop_edge = chop_unit && motion_i.ramp_level == '0;
   end
 
   // ---- the byte ------------------------------------------------------------------------------------
 
-  assign finished = !walk_i.run || kill;
-  assign inits = asking_i.code[7:6] == 2'b00;
-  assign completes = inits && !mail_i.command && !asking_i.error && asking_i.number == 3'd1;
-  assign open = !finish && !setting_i.building && !(facts_i.go && seen_i.mask) && !toggle
-      && (free_i || !completes);
-  assign take_o = new_i && open;
-  assign code_o = mail_i.command ? mail_i.data : asking_i.code;
-  assign params_o = {mail_i.data, asking_i.params[31:8]};
+  assign pulses_done = !motion_i.more_pulses || abort_motion;
+  assign is_init = asking_i.code[7:6] == 2'b00;
+  assign last_init_byte = is_init && !in_buf_i.is_command && !asking_i.error && asking_i.number == 3'd1;
+  assign accept_ok = !finish && !init_state_i.building && !(compare_i.go && pin_status_i.in_group)
+      && !chop_edge && (builder_free_i || !last_init_byte);
+  assign take_o = in_buf_new_i && accept_ok;
+  assign code_o = in_buf_i.is_command ? in_buf_i.data : asking_i.code;
+  assign params_o = {in_buf_i.data, asking_i.params[31:8]};
 
   asking_t asking;
   always_comb begin
     asking_o = asking;
-    if (refuse) begin
+    if (go_reject) begin
       asking_o.error  = 1'b1;
-      asking_o.number = setting_i.initialised ? ErrUndefined : ErrNotReady;
-      if (walk_i.busy && !finish) asking_o.number = ErrBusy;
+      asking_o.number = init_state_i.initialised ? ErrUndefined : ErrNotReady;
+      if (motion_i.busy && !finish) asking_o.number = ErrBusy;
     end
   end
 
@@ -97,16 +100,16 @@ module ppmc_bank_plan
       .Aux(1'b0)
   ) u_judge (
       .take_i        (take_o),
-      .command_i     (mail_i.command),
-      .byte_i        (mail_i.data),
-      .data_i        (mail_i.data),
+      .command_i     (in_buf_i.is_command),
+      .byte_i        (in_buf_i.data),
+      .data_i        (in_buf_i.data),
       .decoded_i,
       .value_i,
-      .judged_i      (inits),
-      .busy_i        (walk_i.busy),
-      .ramp_i        (ramp),
-      .decelerating_i(walk_i.forced || walk_i.natural || finished),
-      .initialised_i (setting_i.initialised),
+      .judged_i      (is_init),
+      .busy_i        (motion_i.busy),
+      .ramp_i        (has_ramp),
+      .decelerating_i(motion_i.decel_forced || motion_i.decel_natural || pulses_done),
+      .initialised_i (init_state_i.initialised),
       .asking_i,
       .asking_o      (asking),
       .act_o         (act),
@@ -116,102 +119,114 @@ module ppmc_bank_plan
   // ---- the motion ----------------------------------------------------------------------------------
 
   always_comb begin
-    plan_o.kill    = kill;
-    plan_o.undo    = undo;
-    plan_o.finish  = finish;
-    plan_o.ready   = ready;
-    plan_o.proceed = proceed;
-    plan_o.refuse  = refuse;
-    plan_o.unit    = unit;
-    plan_o.toggle  = toggle;
-    fast_plain = !pace_i.slow && !pace_i.extra;
-    slow = walk_i.ccw ? seen_i.switches.slow_ccw : seen_i.switches.slow_cw;
-    halt = act.halt || (act.decel && !ramp);
-    dec = walk_i.forced || walk_i.natural || finished;
-    counts = ramp && !dec && !halt && (!walk_i.pout_only || facts_i.full);
-    plan_o.halt = halt;
-    plan_o.flag_stop = act.decel && ramp && !dec;
-    plan_o.flag_slow = slow && counts;
-    forced = walk_i.forced || plan_o.flag_stop || plan_o.flag_slow;
+    decision_o.abort_motion = abort_motion;
+    decision_o.cancel_pulse = cancel_pulse;
+    decision_o.finish = finish;
+    decision_o.init_done = init_done;
+    decision_o.go_accept = go_accept;
+    decision_o.go_reject = go_reject;
+    decision_o.chop_unit = chop_unit;
+    decision_o.chop_edge = chop_edge;
+    fast_no_extra = !interval_i.slow_base && !interval_i.extra_time;
+    slow_limit = motion_i.ccw ? pin_status_i.switches.slow_ccw : pin_status_i.switches.slow_cw;
+    halt = act.halt || (act.decel && !has_ramp);
+    decelerating = motion_i.decel_forced || motion_i.decel_natural || pulses_done;
+    slow_limit_enabled = has_ramp && !decelerating && !halt && (!motion_i.pout_only || compare_i.ramp_top);
+    decision_o.halt = halt;
+    decision_o.flag_stop = act.decel && has_ramp && !decelerating;
+    decision_o.flag_slow = slow_limit && slow_limit_enabled;
+    decel_forced = motion_i.decel_forced || decision_o.flag_stop || decision_o.flag_slow;
 
-    pulse = walk_i.run && !walk_i.held && !walk_i.low && !kill && facts_i.fire && !facts_i.more;
-    plan_o.pulse = pulse && !halt;
+    pulse = motion_i.more_pulses && !motion_i.held && !motion_i.pulse_low && !abort_motion
+        && compare_i.edge_in_round && !compare_i.rate_mismatch;
+    decision_o.pulse = pulse && !halt;
     // A low time that may still become longer does not end before its length is known.
-    grows = facts_i.more && fast_plain && !walk_i.last && pace_i.rate < 8'd3;
-    plan_o.rise = walk_i.low && facts_i.fire && !grows && !undo;
-    plan_o.probe = facts_i.more && !plan_o.rise && !undo;
-    plan_o.back = ramp && (forced || facts_i.minus);
-    plan_o.up = ramp && !forced && !pace_i.down && !facts_i.minus && !facts_i.zero && !facts_i.full;
-    plan_o.turn = ramp && !pace_i.down && (forced || facts_i.minus || facts_i.zero);
-    plan_o.natural = ramp && (facts_i.minus || (facts_i.zero && !facts_i.full));
-    plan_o.last = (plan_o.back && facts_i.foot) || (facts_i.zero && walk_i.climb == '0);
+    low_may_grow =
+        compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered && interval_i.rate < 8'd3;
+    decision_o.pulse_end = motion_i.pulse_low && compare_i.edge_in_round && !low_may_grow && !cancel_pulse;
+    decision_o.rate_next = compare_i.rate_mismatch && !decision_o.pulse_end && !cancel_pulse;
+    decision_o.level_down = has_ramp && (decel_forced || compare_i.margin_negative);
+    decision_o.level_up = has_ramp && !decel_forced && !interval_i.decel
+        && !compare_i.margin_negative && !compare_i.margin_zero && !compare_i.ramp_top;
+    decision_o.decel_point = has_ramp && !interval_i.decel
+        && (decel_forced || compare_i.margin_negative || compare_i.margin_zero);
+    decision_o.decel_natural =
+        has_ramp && (compare_i.margin_negative || (compare_i.margin_zero && !compare_i.ramp_top));
+    decision_o.last_pulse = (decision_o.level_down && compare_i.ramp_bottom)
+        || (compare_i.margin_zero && motion_i.ramp_level == '0);
 
-    plan_o.start = act.start;
-    plan_o.init = act.init;
-    plan_o.first = act.init && !setting_i.initialised;
-    plan_o.exc_off = act.exc_off;
-    plan_o.switching = act.switching;
-    plan_o.read = act.read;
-    plan_o.select = mail_i.data[2:0];
-    rests = !walk_i.busy && !rest_i.hold && !act.start;
-    plan_o.rest = rests && !over_i;
-    plan_o.hold = rests && over_i && !toggle;
+    decision_o.start = act.start;
+    decision_o.init = act.init;
+    decision_o.first_init = act.init && !init_state_i.initialised;
+    decision_o.exc_off = act.exc_off;
+    decision_o.switching = act.switching;
+    decision_o.read = act.read;
+    decision_o.read_select = in_buf_i.data[2:0];
+    hold_waiting = !motion_i.busy && !outputs_i.hold && !act.start;
+    decision_o.hold_running = hold_waiting && !hold_end_i;
+    decision_o.hold_end = hold_waiting && hold_end_i && !chop_edge;
   end
 
   // ---- cycles to the next edge ---------------------------------------------------------------------
 
-  // Low time at a rate: W, except for the rates 0 to 2 with halves.
-  function automatic clk_t low_time(logic [7:0] rate, logic halves);
+  // Low time at a rate, minus Round: half the interval if halves = 1 and the rate is 0 to 2, else W.
+  function automatic cycles_t low_time(logic [7:0] rate, logic halves);
     unique case ({
       halves && rate[7:2] == '0, rate[1:0]
     })
-      3'b100:  return clk_t'(Half - Round);
-      3'b101:  return clk_t'(2 * Half - Round);
-      3'b110:  return clk_t'(3 * Half - Round);
-      default: return clk_t'(Width - Round);
+      3'b100:  return cycles_t'(HalfBaseCycles - Round);
+      3'b101:  return cycles_t'(2 * HalfBaseCycles - Round);
+      3'b110:  return cycles_t'(3 * HalfBaseCycles - Round);
+      default: return cycles_t'(WidthCycles - Round);
     endcase
   endfunction
 
-  // Difference to the low time of the next slower rate.
-  function automatic clk_t longer(logic [7:0] rate, logic halves);
-    if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return -clk_t'(Round);
-    return (rate[1:0] == 2'd2) ? clk_t'(Width - 3 * Half - Round) : clk_t'(Half - Round);
+  // Low time of the next slower rate minus the low time of this rate, minus Round.
+  function automatic cycles_t low_time_increase(logic [7:0] rate, logic halves);
+    if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return -cycles_t'(Round);
+    return (rate[1:0] == 2'd2) ? cycles_t'(WidthCycles - 3 * HalfBaseCycles - Round)
+        : cycles_t'(HalfBaseCycles - Round);
   endfunction
 
-  // Fixed time of a chopper phase.
-  function automatic clk_t phase(logic on, logic host, logic extra);
+  // Fixed time of a chopper phase, minus Round. on: ON phase; programmed: the host has set the units; extra:
+  // vsel = L.
+  function automatic cycles_t chop_time(logic on, logic programmed, logic extra);
     unique case ({
-      on, host, extra
+      on, programmed, extra
     })
-      3'b100, 3'b101: return clk_t'(ppmc104_pkg::CHOP_ON_DEFAULT * Quantum - Round);
-      3'b000, 3'b001: return clk_t'(ppmc104_pkg::CHOP_OFF_DEFAULT * Quantum - Round);
-      3'b110:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum - Round);
-      3'b010:         return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_H * Quantum - Round);
-      3'b111:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_L * Quantum - Round);
-      default:        return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_L * Quantum - Round);
+      3'b100, 3'b101: return cycles_t'(ppmc104_pkg::CHOP_ON_DEFAULT * Quantum - Round);
+      3'b000, 3'b001: return cycles_t'(ppmc104_pkg::CHOP_OFF_DEFAULT * Quantum - Round);
+      3'b110:         return cycles_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum - Round);
+      3'b010:         return cycles_t'(ppmc104_pkg::CHOP_OFF_VSEL_H * Quantum - Round);
+      3'b111:         return cycles_t'(ppmc104_pkg::CHOP_ON_VSEL_L * Quantum - Round);
+      default:        return cycles_t'(ppmc104_pkg::CHOP_OFF_VSEL_L * Quantum - Round);
     endcase
   endfunction
 
   // The decisions of the byte are applied last, because they are timing-critical. After a halt no edge is
   // scheduled.
   always_comb begin
-    anew_o = plan_o.start || proceed || finish || ready;
-    add_o  = -clk_t'(Round);
-    if (proceed) begin
-      add_o = due_i;
-    end else if (finish || ready || toggle) begin
-      add_o = phase(toggle ? !rest_i.on : 1'b1, rest_i.programmed, extra_i);
-    end else if (unit) begin
-      add_o = clk_t'(ppmc104_pkg::CHOP_UNIT * Quantum - Round);
-    end else if (plan_o.rise) begin
-      add_o = after_i;
+    restart_time_o = decision_o.start || go_accept || finish || init_done;
+    add_cycles_o   = -cycles_t'(Round);
+    if (go_accept) begin
+      add_cycles_o = go_delay_i;
+    end else if (finish || init_done || chop_edge) begin
+      add_cycles_o =
+          chop_time(chop_edge ? !outputs_i.phases_on : 1'b1, outputs_i.chop_programmed, extra_time_i);
+    end else if (chop_unit) begin
+      add_cycles_o = cycles_t'(ppmc104_pkg::CHOP_UNIT * Quantum - Round);
+    end else if (decision_o.pulse_end) begin
+      add_cycles_o = after_low_i;
     end else if (pulse) begin
-      add_o = low_time(pace_i.rate, fast_plain);
-    end else if (plan_o.probe && pace_i.down) begin
-      if (walk_i.low) add_o = longer(pace_i.rate, fast_plain && !walk_i.last);
-      else add_o = pace_i.slow ? clk_t'(32 * Quantum - Round) : clk_t'(8 * Quantum - Round);
+      add_cycles_o = low_time(interval_i.rate, fast_no_extra);
+    end else if (decision_o.rate_next && interval_i.decel) begin
+      if (motion_i.pulse_low)
+        add_cycles_o = low_time_increase(interval_i.rate, fast_no_extra && !motion_i.last_ordered);
+      else
+        add_cycles_o =
+            interval_i.slow_base ? cycles_t'(32 * Quantum - Round) : cycles_t'(8 * Quantum - Round);
     end
-    if (plan_o.start || (pulse && plan_o.last)) add_o = clk_t'(Width - Round);
+    if (decision_o.start || (pulse && decision_o.last_pulse)) add_cycles_o = cycles_t'(WidthCycles - Round);
   end
 
 endmodule

@@ -1,62 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_scheduler: selects the axis of each visit, and extends reset, GO and STOP to a round so that they act
-//         on all axes.
+// ppmc_bank_scheduler: selects the axis of each visit, and extends reset, GO and STOP to a round, so that
+//         they act on all axes.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
-// Timing: axis 0 is in stage 0 in the first cycle after reset. go_o is high for one round, from the cycle
-//         after go_i; stop_o is high for one round plus one cycle, from the cycle after stop_i.
+// Timing: axis 0 is in stage 0 in the first cycle after reset. clear_o covers one visit of every axis. go_o
+//         is high for one round, from the cycle after go_i; stop_o is high for one round plus one cycle,
+//         from the cycle after stop_i.
 `default_nettype none
 
 module ppmc_bank_scheduler #(
-    parameter  int unsigned RoundBits = 5,
-    parameter  int unsigned Width     = 500,            // W in cycles
-    parameter  int unsigned TimeBits  = 20,
-    parameter  int unsigned Stages    = 6,              // stages of a visit, numbered from 0
-    localparam int unsigned Round     = 1 << RoundBits
+    parameter  int unsigned RoundBits   = 5,
+    parameter  int unsigned WidthCycles = 500,            // W in cycles
+    parameter  int unsigned TimeBits    = 20,
+    parameter  int unsigned Stages      = 6,              // stages of a visit, numbered from 0
+    localparam int unsigned Round       = 1 << RoundBits
 ) (
-    input  wire logic                               clk_i,
-    input  wire logic                               rst_ni,
-    input  wire logic                               go_i,     // GO is written at the next edge
-    input  wire logic                               stop_i,   // STOP is written at the next edge
-    output logic      [  Stages-1:0][RoundBits-1:0] axis_o,   // axis of the visit in each stage
-    output logic      [   Round-1:0]                turn_o,   // bit i: axis i is in the last stage
-    output logic      [    Stages:0]                clear_o,  // bit i: the visit in stage i resets its axis
-    output logic                                    go_o,     // GO is active for the visits
-    output logic      [TimeBits-1:0]                due_o,    // W minus the cycles since GO
-    output logic                                    stop_o    // end every motion
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic go_i,  // GO is written at the next edge
+    input wire logic stop_i,  // STOP is written at the next edge
+    output logic [Stages-1:0][RoundBits-1:0] axis_o,  // axis of the visit in each stage
+    output logic [Round-1:0] last_stage_o,  // bit i: axis i is in the last stage
+    output logic [Stages:0] clear_o,  // bit i: reset the axis in stage i
+    output logic go_o,  // GO is active for the visits of this cycle
+    output logic [TimeBits-1:0] go_delay_o,  // W minus the cycles since GO
+    output logic stop_o  // end every running motion
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      axis_o  <= '0;
-      turn_o  <= Round'(1) << (Round - Stages + 1);
+      axis_o <= '0;
+      last_stage_o <= Round'(1) << (Round - Stages + 1);
       clear_o <= '1;
     end else begin
-      axis_o  <= {axis_o[Stages-2:0], axis_o[0] + 1'b1};
-      turn_o  <= {turn_o[Round-2:0], turn_o[Round-1]};
+      axis_o <= {axis_o[Stages-2:0], axis_o[0] + 1'b1};
+      last_stage_o <= {last_stage_o[Round-2:0], last_stage_o[Round-1]};
       clear_o <= {clear_o[Stages-1:0], clear_o[0] && axis_o[0] != '1};
     end
   end
 
-  // Cycles for which go_o and stop_o stay high after this one.
+  // Number of further cycles for which go_o and stop_o stay high.
   logic [RoundBits-1:0] go_left_q;
-  logic [RoundBits:0] stop_left_q;  // one more than a round: an operation that starts last is armed by then
-  logic again_q;  // another GO is pending
+  logic [RoundBits:0] stop_left_q;  // a round + 1: the last operation to start is armed by then
+  logic go_pending_q;  // another GO was written during go_o
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {go_o, again_q, stop_o} <= '0;
+      {go_o, go_pending_q, stop_o} <= '0;
       {go_left_q, stop_left_q} <= '0;
-      due_o <= '0;
+      go_delay_o <= '0;
     end else begin
       if (go_o && go_left_q != '0) begin
-        again_q   <= again_q || go_i;
-        go_left_q <= go_left_q - 1'b1;
-        due_o     <= due_o - 1'b1;
+        go_pending_q <= go_pending_q || go_i;
+        go_left_q    <= go_left_q - 1'b1;
+        go_delay_o   <= go_delay_o - 1'b1;
       end else begin
-        go_o      <= go_i || again_q;
-        again_q   <= go_i && again_q;
-        go_left_q <= '1;
-        due_o     <= TimeBits'(Width - 1);
+        go_o         <= go_i || go_pending_q;
+        go_pending_q <= go_i && go_pending_q;
+        go_left_q    <= '1;
+        go_delay_o   <= TimeBits'(WidthCycles - 1);
       end
       stop_o      <= stop_i || (stop_o && stop_left_q != '0);
       stop_left_q <= stop_i ? (RoundBits + 1)'(Round) : stop_left_q - 1'b1;

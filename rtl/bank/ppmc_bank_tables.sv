@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_tables: ramp tables of all axes in one RAM, and one builder that fills them.
 // Rules:  P104-RMP-02, P104-INI-07, BANK-INI-01, BANK-HSK-05.
-// Timing: book_i is accepted in a cycle with booked_o = 0; the table is complete when booked_o falls.
+// Timing: build_start_i is accepted in a cycle with build_busy_o = 0; the table is complete when build_busy_o
+//         is deasserted.
 //         threshold_o is valid two cycles after axis_i and rate_i.
 `default_nettype none
 
@@ -12,17 +13,17 @@ module ppmc_bank_tables #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // build
-    input  wire logic                book_i,       // build a table from the inputs below
-    input  wire logic [AxisBits-1:0] book_axis_i,  // axis of the table to build
-    input  wire logic [         7:0] slow_i,       // start-up rate
-    input  wire logic [         7:0] fast_i,       // high-speed rate
-    input  wire logic [StepBits-1:0] steps_i,      // acceleration pulses PA
-    output logic                     booked_o,     // a build is in progress
-    output logic      [AxisBits-1:0] for_o,        // axis of the running build
+    input  wire logic                build_start_i,  // build a table from the values below
+    input  wire logic [AxisBits-1:0] build_axis_i,   // axis of the table to build
+    input  wire logic [         7:0] slow_i,         // start-up rate
+    input  wire logic [         7:0] fast_i,         // high-speed rate
+    input  wire logic [StepBits-1:0] steps_i,        // acceleration pulses PA
+    output logic                     build_busy_o,   // a build is in progress
+    output logic      [AxisBits-1:0] build_axis_o,   // axis of the running build
     // look up
-    input  wire logic [AxisBits-1:0] axis_i,       // axis of the look-up
-    input  wire logic [         7:0] rate_i,       // r
-    output logic      [StepBits-1:0] threshold_o   // first index with a rate below r
+    input  wire logic [AxisBits-1:0] axis_i,         // axis of the look-up
+    input  wire logic [         7:0] rate_i,         // r
+    output logic      [StepBits-1:0] threshold_o     // first index with a rate below r
 );
 
   logic start_q, busy, we;
@@ -30,15 +31,15 @@ module ppmc_bank_tables #(
   logic [StepBits-1:0] steps_q, wdata;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {booked_o, start_q} <= '0;
+    if (!rst_ni) {build_busy_o, start_q} <= '0;
     else begin
-      start_q  <= book_i;
-      booked_o <= book_i || (booked_o && (start_q || busy));
+      start_q <= build_start_i;
+      build_busy_o <= build_start_i || (build_busy_o && (start_q || busy));
     end
   end
 
   always_ff @(posedge clk_i) begin
-    if (book_i) {for_o, slow_q, fast_q, steps_q} <= {book_axis_i, slow_i, fast_i, steps_i};
+    if (build_start_i) {build_axis_o, slow_q, fast_q, steps_q} <= {build_axis_i, slow_i, fast_i, steps_i};
   end
 
   ppmc_ramp_builder #(
@@ -62,7 +63,7 @@ module ppmc_bank_tables #(
   ) u_tables (
       .clk_i,
       .we_i   (we),
-      .waddr_i({for_o, waddr}),
+      .waddr_i({build_axis_o, waddr}),
       .wdata_i(wdata),
       .raddr_i({axis_i, rate_i}),
       .rdata_o(threshold_o)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_update: executes the decisions of a visit: next state of the axis, order to the pin cell, answer
-//         for the host.
+// ppmc_bank_update: executes the decisions of a visit: next state of the axis, command to the pin block,
+//         response to the host.
 // Rules:  P104-PRO-01..04, P104-OPR-01..05, P104-END-01..07, P104-RD-02..07, P104-INI-05..08, P104-AUX-03/04,
 //         P104-PHS-01..06, P104-SW-02..05; BANK-WIN-07, BANK-MOT-01..04.
 // Timing: combinational.
@@ -15,205 +15,222 @@ module ppmc_bank_update
     parameter int unsigned HoldRounds = 106_250,  // rounds from the end of a motion to HOLD
     parameter int unsigned HoldBits = 17  // bits of left_i
 ) (
-    input  wire plan_t                   plan_i,      // decisions of the visit
-    input  wire seen_t                   seen_i,      // pin cell and switches
-    input  wire logic     [         7:0] code_i,      // code of the action
-    input  wire logic     [        31:0] params_i,    // parameters of code_i
-    input  wire logic     [         1:0] config_ni,   // vsel and csel, inverted
-    input  wire logic     [         1:0] read_seq_i,  // seq of the answer that the host has read last
+    input wire decision_t decision_i,  // decisions of the visit
+    input wire pin_status_t pin_status_i,  // pin block and switches
+    input wire logic [7:0] code_i,  // code of the command
+    input wire logic [31:0] params_i,  // parameters of code_i
+    input wire logic [1:0] config_ni,  // vsel and csel, inverted
+    input wire logic [1:0] read_seq_i,  // seq of the response that the host has read last
     // state before the visit
-    input  wire walk_t                   walk_i,      // state of the motion
-    input  wire pace_t                   pace_i,      // interval of the motion
-    input  wire setting_t                setting_i,   // progress of the initialisation
-    input  wire units_t                  units_i,     // units of the chopper
-    input  wire logic                    chop_i,      // chopping at standstill, from the initialisation
-    input  wire logic     [         7:0] slow_i,      // start-up rate
-    input  wire rest_t                   rest_i,      // phases, chopper, end of the last motion
-    input  wire logic     [HoldBits-1:0] left_i,      // remaining rounds of the hold time, minus 1
-    input  wire logic     [        31:0] position_i,  // CW pulses minus CCW pulses
+    input wire motion_state_t motion_i,  // state of the motion
+    input wire interval_t interval_i,  // interval of the motion
+    input wire init_state_t init_state_i,  // progress of the initialisation
+    input wire chop_units_t chop_units_i,  // units of the chopper phases
+    input wire logic chop_i,  // chopping at standstill, from the initialisation
+    input wire logic [7:0] slow_i,  // start-up rate
+    input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
+    input wire logic [HoldBits-1:0] hold_left_i,  // remaining rounds of the hold time, minus 1
+    input wire logic [31:0] position_i,  // CW pulses minus CCW pulses
     // state after the visit
-    output walk_t                        walk_o,      // state of the motion
-    output pace_t                        pace_o,      // interval of the motion
-    output setting_t                     setting_o,   // progress of the initialisation
-    output rest_t                        rest_o,      // phases, chopper, end of the last motion
-    output logic          [HoldBits-1:0] left_o,      // remaining rounds of the hold time, minus 1
-    output logic          [        31:0] position_o,  // CW pulses minus CCW pulses
+    output motion_state_t motion_o,  // state of the motion
+    output interval_t interval_o,  // interval of the motion
+    output init_state_t init_state_o,  // progress of the initialisation
+    output output_state_t outputs_o,  // phases, chopper, end of the last motion
+    output logic [HoldBits-1:0] hold_left_o,  // remaining rounds of the hold time, minus 1
+    output logic [31:0] position_o,  // CW pulses minus CCW pulses
     // outputs
-    output order_t                       order_o,     // order to the pin cell
-    output answer_t                      answer_o,    // answer to a read command, with plan_i.read
-    output logic                         call_o,      // set the pending interrupt of the axis
-    output logic                         calm_o       // clear the pending interrupt of the axis
+    output pin_cmd_t pin_cmd_o,  // command to the pin block
+    output read_data_t read_data_o,  // response to a read command, with decision_i.read
+    output logic irq_set_o,  // set the pending interrupt of the axis
+    output logic irq_clear_o  // clear the pending interrupt of the axis
 );
 
   op_code_t   code;
   init_code_t init;  // code_i as the code of an initialisation
-  logic ramped, unused_bits;
+  logic has_ramp, unused_bits;
 
-  assign unused_bits = &{1'b0, plan_i, seen_i, code, init};
+  assign unused_bits = &{1'b0, decision_i, pin_status_i, code, init};
   assign code = op_code_t'(code_i);
   assign init = init_code_t'(code_i);
-  assign ramped = code.op inside {OP_ACC_DEC, OP_CONT_HIGH};
+  assign has_ramp = code.op inside {OP_ACC_DEC, OP_CONT_HIGH};
 
   // ---- motion --------------------------------------------------------------------------------------
 
-  logic [24:0] slack_add;
-  logic [24:0] slack;  // with finish: remaining pulses minus 1
-  logic down;  // climb decreases by 1
-  logic ccw, counts;  // ccw: direction of a pulse that is added or removed; counts: there is such a pulse
+  logic [24:0] margin_add;
+  logic [24:0] decel_margin;  // with finish: remaining pulses minus 1
+  logic count_down;  // ramp_level decreases by 1
+  logic position_changes;  // a pulse is added or removed
+  logic ccw;  // direction of this pulse
 
-  assign ccw    = walk_i.ccw ^ plan_i.undo;
-  assign counts = plan_i.pulse || plan_i.undo;
+  assign ccw    = motion_i.ccw ^ decision_i.cancel_pulse;
+  assign position_changes = decision_i.pulse || decision_i.cancel_pulse;
 
   always_comb begin
-    slack_add = '0;
-    if (plan_i.finish) slack_add = {{10{walk_i.climb[14]}}, walk_i.climb};
-    else if (plan_i.pulse && !plan_i.back) slack_add = plan_i.up ? -25'd2 : -25'd1;
-    slack = walk_i.slack + slack_add + 25'(plan_i.undo);
+    margin_add = '0;
+    if (decision_i.finish) margin_add = {{10{motion_i.ramp_level[14]}}, motion_i.ramp_level};
+    else if (decision_i.pulse && !decision_i.level_down) margin_add = decision_i.level_up ? -25'd2 : -25'd1;
+    decel_margin = motion_i.decel_margin + margin_add + 25'(decision_i.cancel_pulse);
 
-    down = plan_i.unit || (plan_i.pulse && plan_i.back);
-    walk_o = walk_i;
-    walk_o.slack = slack;
-    walk_o.climb = walk_i.climb + {{14{down}}, down || (plan_i.pulse && plan_i.up)};
-    walk_o.forced = walk_i.forced || plan_i.flag_stop || plan_i.flag_slow;
-    walk_o.flag_stop = walk_i.flag_stop || plan_i.flag_stop;
-    walk_o.flag_slow = walk_i.flag_slow || plan_i.flag_slow;
-    if (plan_i.proceed) walk_o.held = 1'b0;
-    if (plan_i.rise || plan_i.undo) walk_o.low = 1'b0;
-    if (plan_i.kill) walk_o.run = 1'b0;
-    if (plan_i.pulse) begin
-      walk_o.low     = 1'b1;
-      walk_o.run     = !plan_i.last;
-      walk_o.last    = plan_i.last;
-      walk_o.natural = walk_i.natural || plan_i.natural;
+    count_down = decision_i.chop_unit || (decision_i.pulse && decision_i.level_down);
+    motion_o = motion_i;
+    motion_o.decel_margin = decel_margin;
+    motion_o.ramp_level = motion_i.ramp_level
+        + {{14{count_down}}, count_down || (decision_i.pulse && decision_i.level_up)};
+    motion_o.decel_forced = motion_i.decel_forced || decision_i.flag_stop || decision_i.flag_slow;
+    motion_o.flag_stop = motion_i.flag_stop || decision_i.flag_stop;
+    motion_o.flag_slow = motion_i.flag_slow || decision_i.flag_slow;
+    if (decision_i.go_accept) motion_o.held = 1'b0;
+    if (decision_i.pulse_end || decision_i.cancel_pulse) motion_o.pulse_low = 1'b0;
+    if (decision_i.abort_motion) motion_o.more_pulses = 1'b0;
+    if (decision_i.pulse) begin
+      motion_o.pulse_low     = 1'b1;
+      motion_o.more_pulses   = !decision_i.last_pulse;
+      motion_o.last_ordered  = decision_i.last_pulse;
+      motion_o.decel_natural = motion_i.decel_natural || decision_i.decel_natural;
     end
-    if (plan_i.finish) begin
-      walk_o.busy = 1'b0;
-      walk_o.run  = 1'b0;
-      if (slack[24]) walk_o.slack = '0;
+    if (decision_i.finish) begin
+      motion_o.busy = 1'b0;
+      motion_o.more_pulses = 1'b0;
+      if (decel_margin[24]) motion_o.decel_margin = '0;
     end
-    if (plan_i.finish || plan_i.ready) walk_o.climb = {7'd0, rest_i.programmed ? units_i.on : 8'd0};
-    if (plan_i.toggle) begin
-      walk_o.climb = '0;
-      if (rest_i.programmed) walk_o.climb[7:0] = rest_i.on ? units_i.off : units_i.on;
+    if (decision_i.finish || decision_i.init_done)
+      motion_o.ramp_level = {7'd0, outputs_i.chop_programmed ? chop_units_i.on : 8'd0};
+    if (decision_i.chop_edge) begin
+      motion_o.ramp_level = '0;
+      if (outputs_i.chop_programmed)
+        motion_o.ramp_level[7:0] = outputs_i.phases_on ? chop_units_i.off : chop_units_i.on;
     end
-    if (plan_i.start) begin
-      walk_o = '{
+    if (decision_i.start) begin
+      motion_o = '{
           busy: 1'b1,
-          run: 1'b1,
-          held: seen_i.mask,
+          more_pulses: 1'b1,
+          held: pin_status_i.in_group,
           op: code.op,
           pout_only: code.pout_only,
           ccw: code.ccw,
           silent: code.silent,
-          slack: 25'h0FFFFFF,
+          decel_margin: 25'h0FFFFFF,
           default: '0
       };
-      if (code.op inside {OP_ACC_DEC, OP_CONSTANT}) walk_o.slack = {1'b0, params_i[31:8]};
-      if (code.op == OP_SINGLE) walk_o.slack = '0;
+      if (code.op inside {OP_ACC_DEC, OP_CONSTANT}) motion_o.decel_margin = {1'b0, params_i[31:8]};
+      if (code.op == OP_SINGLE) motion_o.decel_margin = '0;
     end
 
-    pace_o = pace_i;
-    if (plan_i.probe) pace_o.rate = pace_i.down ? pace_i.rate + 1'b1 : pace_i.rate - 1'b1;
-    if (plan_i.pulse && plan_i.turn) pace_o.down = 1'b1;
-    if (plan_i.start) begin
-      pace_o = '{slow: config_ni[0], extra: config_ni[1], down: 1'b0, rate: slow_i};
-      if (!ramped) pace_o.rate = (code.op == OP_CONSTANT) ? params_i[7:0] : params_i[31:24];
+    interval_o = interval_i;
+    if (decision_i.rate_next)
+      interval_o.rate = interval_i.decel ? interval_i.rate + 1'b1 : interval_i.rate - 1'b1;
+    if (decision_i.pulse && decision_i.decel_point) interval_o.decel = 1'b1;
+    if (decision_i.start) begin
+      interval_o = '{slow_base: config_ni[0], extra_time: config_ni[1], decel: 1'b0, rate: slow_i};
+      if (!has_ramp) interval_o.rate = (code.op == OP_CONSTANT) ? params_i[7:0] : params_i[31:24];
     end
 
-    position_o = position_i + {{31{ccw && counts}}, counts};
+    position_o = position_i + {{31{ccw && position_changes}}, position_changes};
   end
 
   // ---- set-up, phases, standstill ------------------------------------------------------------------
 
   motor_e motor;
 
-  assign motor = motor_e'(rest_i.motor);
+  assign motor = motor_e'(outputs_i.motor);
 
   always_comb begin
-    setting_o = setting_i;
-    if (plan_i.init) setting_o.building = 1'b1;
-    if (plan_i.ready) setting_o = '{initialised: 1'b1, building: 1'b0};
-    if (plan_i.exc_off) setting_o.initialised = 1'b0;
+    init_state_o = init_state_i;
+    if (decision_i.init) init_state_o.building = 1'b1;
+    if (decision_i.init_done) init_state_o = '{initialised: 1'b1, building: 1'b0};
+    if (decision_i.exc_off) init_state_o.initialised = 1'b0;
 
-    rest_o = rest_i;
-    if (counts && !walk_i.pout_only) begin
-      rest_o.pattern = stepped(rest_i.pattern, rest_i.pair, rest_i.half, motor, ccw);
-      rest_o.pair    = rest_i.pair ^ rest_i.half;
+    outputs_o = outputs_i;
+    if (position_changes && !motion_i.pout_only) begin
+      outputs_o.pattern = stepped(outputs_i.pattern, outputs_i.two_phases, outputs_i.half, motor, ccw);
+      outputs_o.two_phases    = outputs_i.two_phases ^ outputs_i.half;
     end
-    if (plan_i.first) begin
-      rest_o.motor    = init.motor;
-      rest_o.half     = init.half;
-      rest_o.positive = init.positive;
+    if (decision_i.first_init) begin
+      outputs_o.motor    = init.motor;
+      outputs_o.half     = init.half;
+      outputs_o.positive = init.positive;
     end
-    if (plan_i.first || plan_i.exc_off) begin
-      rest_o.pattern = {3'b000, {2{plan_i.first}}};
-      rest_o.pair    = 1'b1;
+    if (decision_i.first_init || decision_i.exc_off) begin
+      outputs_o.pattern = {3'b000, {2{decision_i.first_init}}};
+      outputs_o.two_phases    = 1'b1;
     end
-    if (plan_i.ready) rest_o.chop = chop_i;
-    if (plan_i.exc_off) rest_o.chop = 1'b0;
-    if (plan_i.toggle) rest_o.on = !rest_i.on;
-    if (plan_i.ready || plan_i.start || plan_i.exc_off || plan_i.finish) rest_o.on = 1'b1;
-    if (plan_i.switching) rest_o.programmed = 1'b1;
-    if (plan_i.hold) rest_o.hold = 1'b1;
-    if (plan_i.start) rest_o.hold = 1'b0;
-    if (plan_i.finish) begin
-      rest_o.fresh = 1'b1;
-      rest_o.cause = '{
-          stop: seen_i.stop || walk_i.flag_stop,
-          alarm: seen_i.alarm,
-          limit: seen_i.limit,
-          slow: walk_i.flag_slow
+    if (decision_i.init_done) outputs_o.chop = chop_i;
+    if (decision_i.exc_off) outputs_o.chop = 1'b0;
+    if (decision_i.chop_edge) outputs_o.phases_on = !outputs_i.phases_on;
+    if (decision_i.init_done || decision_i.start || decision_i.exc_off || decision_i.finish)
+      outputs_o.phases_on = 1'b1;
+    if (decision_i.switching) outputs_o.chop_programmed = 1'b1;
+    if (decision_i.hold_end) outputs_o.hold = 1'b1;
+    if (decision_i.start) outputs_o.hold = 1'b0;
+    if (decision_i.finish) begin
+      outputs_o.finish_unread = 1'b1;
+      outputs_o.cause = '{
+          stop: pin_status_i.stop || motion_i.flag_stop,
+          alarm: pin_status_i.alarm,
+          limit: pin_status_i.limit,
+          slow: motion_i.flag_slow
       };
-      if (slack[24]) rest_o.cause = '0;
+      if (decel_margin[24]) outputs_o.cause = '0;
     end
-    if (calm_o) rest_o.fresh = 1'b0;
-    if (plan_i.read) rest_o.seq = answer_o.seq;
+    if (irq_clear_o) outputs_o.finish_unread = 1'b0;
+    if (decision_i.read) outputs_o.read_data_seq = read_data_o.seq;
 
-    left_o = left_i - HoldBits'(plan_i.rest);
-    if (plan_i.finish) left_o = HoldBits'(HoldRounds - 1);
+    hold_left_o = hold_left_i - HoldBits'(decision_i.hold_running);
+    if (decision_i.finish) hold_left_o = HoldBits'(HoldRounds - 1);
   end
 
   // ---- outputs -------------------------------------------------------------------------------------
 
   logic [5:1] levels;
 
-  assign levels = rest_i.pattern ^ {5{!rest_i.positive}};
-  assign call_o = plan_i.finish && !walk_i.silent;
-  assign calm_o = plan_i.read && plan_i.select == SEL_FINISH;
+  assign levels = outputs_i.pattern ^ {5{!outputs_i.positive}};
+  assign irq_set_o = decision_i.finish && !motion_i.silent;
+  assign irq_clear_o = decision_i.read && decision_i.read_select == SEL_FINISH;
 
   always_comb begin
-    order_o = '{
-        halt: plan_i.halt,
-        pulse: plan_i.pulse,
-        rise: plan_i.rise,
-        sets: plan_i.start || plan_i.first || plan_i.exc_off || plan_i.ready || plan_i.toggle || plan_i.hold,
-        arm: plan_i.start || (plan_i.pulse && !plan_i.last),
-        search: walk_o.op == OP_ORIGIN,
-        ccw: walk_o.ccw,
-        hold: rest_o.hold,
-        s: (rest_o.pattern & {5{rest_o.on}}) ^ {5{!rest_o.positive}}
+    pin_cmd_o = '{
+        halt: decision_i.halt,
+        pulse: decision_i.pulse,
+        pulse_end: decision_i.pulse_end,
+        set_pins:
+        decision_i.start
+        ||
+        decision_i.first_init
+        ||
+        decision_i.exc_off
+        ||
+        decision_i.init_done
+        ||
+        decision_i.chop_edge
+        ||
+        decision_i.hold_end,
+        arm: decision_i.start || (decision_i.pulse && !decision_i.last_pulse),
+        search: motion_o.op == OP_ORIGIN,
+        ccw: motion_o.ccw,
+        hold: outputs_o.hold,
+        s: (outputs_o.pattern & {5{outputs_o.phases_on}}) ^ {5{!outputs_o.positive}}
     };
 
-    // The new seq differs from the seq of the previous answer and from that of the answer read last.
-    answer_o.seq = rest_i.seq + 2'd1;
-    if (answer_o.seq == read_seq_i) answer_o.seq = rest_i.seq + 2'd2;
-    answer_o.bytes = (plan_i.select == SEL_REMAINING) ? 2'd3 : 2'd1;
-    answer_o.data  = walk_i.slack[23:0];
-    unique case (plan_i.select)
-      SEL_FINISH: answer_o.data[7:0] = {rest_i.fresh, rest_i.cause, walk_i.op};
+    // The new seq differs from that of the previous response and from that of the response read last.
+    read_data_o.seq = outputs_i.read_data_seq + 2'd1;
+    if (read_data_o.seq == read_seq_i) read_data_o.seq = outputs_i.read_data_seq + 2'd2;
+    read_data_o.bytes = (decision_i.read_select == SEL_REMAINING) ? 2'd3 : 2'd1;
+    read_data_o.data  = motion_i.decel_margin[23:0];
+    unique case (decision_i.read_select)
+      SEL_FINISH: read_data_o.data[7:0] = {outputs_i.finish_unread, outputs_i.cause, motion_i.op};
       SEL_INPUTS:
-      answer_o.data[7:0] = ~{
-        seen_i.switches.origin,
-        seen_i.switches.alarm,
+      read_data_o.data[7:0] = ~{
+        pin_status_i.switches.origin,
+        pin_status_i.switches.alarm,
         2'b11,
-        seen_i.switches.limit_cw,
-        seen_i.switches.limit_ccw,
-        seen_i.switches.slow_cw,
-        seen_i.switches.slow_ccw
+        pin_status_i.switches.limit_cw,
+        pin_status_i.switches.limit_ccw,
+        pin_status_i.switches.slow_cw,
+        pin_status_i.switches.slow_ccw
       };
       SEL_OUTPUTS:
-      answer_o.data[7:0] = {
-        levels[1], levels[2], levels[3], levels[4], levels[5], rest_i.hold, walk_i.ccw, 1'b0
+      read_data_o.data[7:0] = {
+        levels[1], levels[2], levels[3], levels[4], levels[5], outputs_i.hold, motion_i.ccw, 1'b0
       };
       default: ;
     endcase

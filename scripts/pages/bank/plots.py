@@ -14,14 +14,14 @@ STAGES = (
     "0 address\nof the next axis",
     "1 RAM\nread its state",
     "2 compare\ncycles left < R ?",
-    "3 plan\nppmc_bank_plan",
-    "4 update\nppmc_bank_update",
-    "5 write\nsend the order",
+    "3 plan\ndecisions",
+    "4 update\nnew state",
+    "5 write\nand command",
 )
 BOXES = {
     "bus": Box(0.35, 0, "host bus", "pin", 0.7, 0.4),
     "window": Box(6.1, 0, "ppmc_bank_window\ninput buffers, responses, registers of all axes", "host", 6.9),
-    "scheduler": Box(0.5, 1.25, "ppmc_bank_scheduler\nvisited axis; GO,\nSTOP, reset", "plain", 1.55, 0.75),
+    "scheduler": Box(0.32, 1.25, "ppmc_bank_scheduler\nvisited axis; GO,\nSTOP, reset", "plain", 1.95, 0.75),
     **{f"stage{n}": Box(2.1 + 1.4 * n, 1.25, text, "motion", 1.18) for n, text in enumerate(STAGES)},
     "state": Box(
         6.1,
@@ -30,7 +30,7 @@ BOXES = {
         "part",
         6.9,
     ),
-    "motor_pins": Box(11.0, 1.25, "ppmc_bank_pins\none per axis: order\nand its cycle", "motion", 1.45, 0.9),
+    "motor_pins": Box(11.0, 1.25, "ppmc_bank_pins\none per axis;\ncommand, cycle", "motion", 1.45, 0.9),
     "switches": Box(11.0, 2.35, "limits, origin,\nalarm: every cycle", "pin", 1.25, 0.5),
     "pins": Box(12.5, 1.25, "pout_n, s,\ndir, hold", "pin", 0.9, 0.5),
 }
@@ -41,9 +41,9 @@ ARROWS = (
     *(Arrow(f"stage{n}", f"stage{n + 1}") for n in range(5)),
     Arrow("state", "stage1", "read", via=((3.5, 2.0), (3.5, 1.7))),
     Arrow("stage5", "state", "write", via=((9.1, 1.7), (9.1, 1.9))),
-    Arrow("stage5", "motor_pins", "order"),
+    Arrow("stage5", "motor_pins", "cmd"),
     Arrow("stage5", "window", "status, response", via=((9.1, 0.7), (9.1, 0.5))),
-    Arrow("motor_pins", "stage2", "result of the previous order", via=((11.0, 0.62), (4.9, 0.62))),
+    Arrow("motor_pins", "stage2", "result of the previous command", via=((11.0, 0.62), (4.9, 0.62))),
     Arrow("switches", "motor_pins"),
     Arrow("motor_pins", "pins"),
 )

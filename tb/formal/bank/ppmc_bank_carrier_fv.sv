@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_carrier_fv: a carrier with UART host and four axes, with any bank and any host. Proves that bus
-// strobes reach the bank as the view passes them on, that op PINS reads the switches of the chosen axis, and
-// that the LEDs indicate motion and switches.
+// strobes reach the bank as ppmc_bank_axis_port passes them on, that op PINS reads the switches of the
+// selected axis, and that the LEDs indicate motion and switches.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -36,43 +36,47 @@ module ppmc_bank_carrier_fv (
 
   // Axis number that the host has written to register 3.
   logic [7:0] axis_q;
-  logic own, writes;
-  logic [1:0] n;
+  logic is_select, select_write;
+  logic [1:0] pins_axis;
 
-  assign own    = dut.g_uart.host_a == 4'h3;
-  assign writes = own && !dut.g_uart.host_cs_n && !dut.part_wr_n;
-  assign n      = axis_q[1:0];
+  assign is_select    = dut.g_uart.host_a == 4'h3;
+  assign select_write = is_select && !dut.g_uart.host_cs_n && !dut.part_wr_n;
+  assign pins_axis    = axis_q[1:0];
 
   always_ff @(posedge clk_i or negedge dut.part_rst_n)
     if (!dut.part_rst_n) axis_q <= '0;
-    else if (writes) axis_q <= dut.to_part;
+    else if (select_write) axis_q <= dut.to_part;
 
-  logic known_q;  // the host has held the bank in reset, as ppmc_uart_host does first
-  always_ff @(posedge clk_i) known_q <= rst_ni && (known_q || !dut.part_rst_n);
+  logic was_reset_q;  // the host has held the bank in reset, as ppmc_uart_host does first
+  always_ff @(posedge clk_i) was_reset_q <= rst_ni && (was_reset_q || !dut.part_rst_n);
 
-  logic asked_q;
-  always_ff @(posedge clk_i) asked_q <= rst_ni && known_q && (asked_q || (!dut.part_cs_n && axis_q == 8'd2));
+  logic accessed_q;
+  always_ff @(posedge clk_i)
+    accessed_q <= rst_ni && was_reset_q && (accessed_q || (!dut.part_cs_n && axis_q == 8'd2));
 
-  `FV_ASSERT(bank_win_04_the_axis_that_was_chosen,
-             !known_q || dut.part_cs_n || dut.part_a == {axis_q[5:0], dut.g_uart.host_a})
-  `FV_ASSERT(no_strobe_of_its_own,
-             !known_q || dut.part_cs_n || (!dut.g_uart.host_cs_n && !own && axis_q[7:6] == '0))
-  `FV_ASSERT(reads_the_bank_or_the_choice,
-             !known_q || dut.g_uart.to_host == (own ? axis_q : axis_q[7:6] != '0 ? 8'hFF : dut.from_part))
-  logic pins_of_the_chosen_axis_holds;
-  assign pins_of_the_chosen_axis_holds =
-      !known_q ||
-      dut.g_uart.u_host.switches_ni == {alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]} &&
-      dut.g_uart.u_host.hold_i == hold[n];
-  `FV_ASSERT(pins_of_the_chosen_axis, pins_of_the_chosen_axis_holds)
+  `FV_ASSERT(bank_win_04_selected_axis,
+             !was_reset_q || dut.part_cs_n || dut.part_a == {axis_q[5:0], dut.g_uart.host_a})
+  `FV_ASSERT(no_strobe_without_host,
+             !was_reset_q || dut.part_cs_n || (!dut.g_uart.host_cs_n && !is_select && axis_q[7:6] == '0))
+  `FV_ASSERT(
+      reads_bank_or_axis_select,
+      !was_reset_q || dut.g_uart.to_host == (is_select ? axis_q : axis_q[7:6] != '0 ? 8'hFF : dut.from_part))
+  logic pins_of_selected_axis_holds;
+  assign pins_of_selected_axis_holds =
+      !was_reset_q ||
+      dut.g_uart.u_host.switches_ni == {
+        alm_n[pins_axis], cnp_n[pins_axis], l4_n[pins_axis], l3_n[pins_axis], l2_n[pins_axis], l1_n[pins_axis]
+      } &&
+      dut.g_uart.u_host.hold_i == hold[pins_axis];
+  `FV_ASSERT(pins_of_selected_axis, pins_of_selected_axis_holds)
   logic switches_reach_the_bank_holds;
   assign switches_reach_the_bank_holds =
       dut.u_part.alm_n == alm_n && dut.u_part.cnp_n == cnp_n &&
       {dut.u_part.l4_n, dut.u_part.l3_n, dut.u_part.l2_n, dut.u_part.l1_n} == {l4_n, l3_n, l2_n, l1_n};
   `FV_ASSERT(switches_reach_the_bank, switches_reach_the_bank_holds)
-  `FV_ASSERT(lamps, led_moving == (hold != '1) && led_switch == ({l1_n, l2_n, l3_n, l4_n, alm_n} != '1))
-  `FV_ASSERT(spi_is_quiet, !miso_oe && !miso_o)
-  `FV_COVER(seen_axis, asked_q && dut.part_cs_n)
+  `FV_ASSERT(leds, led_moving == (hold != '1) && led_switch == ({l1_n, l2_n, l3_n, l4_n, alm_n} != '1))
+  `FV_ASSERT(spi_idle, !miso_oe && !miso_o)
+  `FV_COVER(seen_axis, accessed_q && dut.part_cs_n)
 
 endmodule
 

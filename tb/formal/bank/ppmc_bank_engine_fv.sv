@@ -1,50 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine_fv: the engine with ppmc_bank_scheduler and eight axes, for any bytes, switches and cells.
-// Proves that a visit reads the state that the previous visit of the same axis has written, that it issues at
-// most one order, that an axis which is stopped or has no motion gets no pulse, and that a byte is accepted
-// once.
+// ppmc_bank_engine_fv: the engine with ppmc_bank_scheduler and eight axes, for any bytes, switches and pin
+// blocks. Proves that a visit reads the state that the previous visit of the same axis has written, that it
+// issues at most one pin action, that an axis which is stopped or has no motion gets no pulse, and that a
+// byte is accepted once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
 module ppmc_bank_engine_fv
   import ppmc_bank_pkg::*;
 (
-    input wire logic            clk_i,
-    input wire logic            go_i,
-    input wire logic            stop_i,
-    input wire mail_t           mail_i,
-    input wire progress_t       progress_i,
-    input wire logic      [1:0] config_ni,
-    input wire seen_t           seen_i,
-    input wire logic      [2:0] watched_i    // any axis
+    input wire logic                 clk_i,
+    input wire logic                 go_i,
+    input wire logic                 stop_i,
+    input wire in_buf_t              in_buf_i,
+    input wire read_progress_t       read_progress_i,
+    input wire logic           [1:0] config_ni,
+    input wire pin_status_t          pin_status_i,
+    input wire logic           [2:0] watched_i         // any axis
 );
 
   localparam int unsigned TimeBits = 14;
 
   logic [5:0][2:0] axis;
-  logic [7:0] turn;
+  logic [7:0] last_stage;
   logic [6:0] clear;
-  logic go, stopping, answer_we_o, call_o, calm_o;
-  logic [TimeBits-1:0] due;
-  status_t status_o;
+  logic go, stop_active, read_data_we_o, irq_set_o, irq_clear_o;
+  logic [TimeBits-1:0] go_delay;
+  axis_status_t status_o;
   logic [31:0] position_o;
-  answer_t answer_o;
-  order_t order_o;
-  logic [2:0] at_o;
+  read_data_t read_data_o;
+  pin_cmd_t pin_cmd_o;
+  logic [2:0] at_cycle_o;
 
   `FV_RESET
 
   ppmc_bank_scheduler #(
-      .RoundBits(3),
-      .Width    (20),
-      .TimeBits (TimeBits)
-  ) u_round (
+      .RoundBits  (3),
+      .WidthCycles(20),
+      .TimeBits   (TimeBits)
+  ) u_scheduler (
       .axis_o (axis),
-      .turn_o (turn),
+      .last_stage_o (last_stage),
       .clear_o(clear),
       .go_o   (go),
-      .due_o  (due),
-      .stop_o (stopping),
+      .go_delay_o  (go_delay),
+      .stop_o (stop_active),
       .*
   );
 
@@ -56,7 +56,7 @@ module ppmc_bank_engine_fv
       .axis_i (axis),
       .clear_i(clear[4:3]),
       .go_i   (go),
-      .due_i  (due),
+      .go_delay_i  (go_delay),
       .*
   );
 
@@ -64,164 +64,181 @@ module ppmc_bank_engine_fv
 
   // ---- visits --------------------------------------------------------------------------------------
 
-  logic [4:0] clk_q;  // cycles since reset, at most 31
-  logic [2:0] rest_q;  // cycles since the end of the last visit of the watched axis
-  logic known_q;  // the watched axis has been visited
+  logic [4:0] cycles_q;  // cycles since reset, at most 31
+  logic [2:0] since_visit_q;  // cycles since the end of the last visit of the watched axis
+  logic visited_q;  // the watched axis has been visited
   logic ends;  // a visit of the watched axis is in its last stage
-  logic clears;  // this visit resets the axis
+  logic resets;  // this visit resets the axis
 
-  assign ends = axis[5] == watched_i && clk_q > 5'd4;
+  assign ends = axis[5] == watched_i && cycles_q > 5'd4;
 
   always_ff @(posedge clk_i)
-    if (!rst_ni) {clk_q, rest_q, known_q, clears} <= '0;
+    if (!rst_ni) {cycles_q, since_visit_q, visited_q, resets} <= '0;
     else begin
-      clk_q   <= (clk_q == '1) ? '1 : clk_q + 1'b1;
-      rest_q  <= ends ? '0 : rest_q + 1'b1;
-      known_q <= known_q || ends;
-      clears  <= clear[4];
+      cycles_q <= (cycles_q == '1) ? '1 : cycles_q + 1'b1;
+      since_visit_q <= ends ? '0 : since_visit_q + 1'b1;
+      visited_q <= visited_q || ends;
+      resets <= clear[4];
     end
 
-  `FV_ASSERT(bank_gen_01_once_a_round, !known_q || ends == (rest_q == 3'd7))
+  `FV_ASSERT(bank_gen_01_once_per_round, !visited_q || ends == (since_visit_q == 3'd7))
 
   // ---- state kept from visit to visit --------------------------------------------------------------
 
   localparam int unsigned HoldBits = 15;
 
-  logic [TimeBits+$bits(walk_t)+$bits(setting_t)+$bits(command_t)-1:0] early_q;
-  logic [$bits(rest_t)+HoldBits+32-1:0] late_q;
-  pace_t pace_q;
-  words_t words_q;
+  logic [TimeBits+$bits(motion_state_t)+$bits(init_state_t)+$bits(parser_t)-1:0] state1_q;
+  logic [$bits(output_state_t)+HoldBits+32-1:0] state2_q;
+  interval_t interval_q;
+  last_cmd_t last_cmd_q;
   ramp_t ramp_q;
-  units_t units_q;
-  status_t status_q;
+  chop_units_t chop_units_q;
+  axis_status_t status_q;
   logic [31:0] position_q;
-  logic worded_q, ramped_q, chopped_q;  // the host has set words_q; ramp_q; units_q
+  logic cmd_set_q, ramp_set_q, chop_set_q;  // the host has set last_cmd_q, ramp_q, chop_units_q
 
   always_ff @(posedge clk_i)
-    if (!rst_ni) {worded_q, ramped_q, chopped_q} <= '0;
+    if (!rst_ni) {cmd_set_q, ramp_set_q, chop_set_q} <= '0;
     else begin
-      if (ends) {early_q, late_q, pace_q} <= {dut.early5_q, dut.late5_q, dut.pace5_q};
+      if (ends) {state1_q, state2_q, interval_q} <= {dut.state1_s5_q, dut.state2_s5_q, dut.interval_s5_q};
       if (ends) {status_q, position_q} <= {status_o, position_o};
-      if (axis[4] == watched_i && known_q) begin
-        if (dut.take4_q) {worded_q, words_q} <= {1'b1, dut.code4_q, dut.params4_q[31:8]};
-        if (dut.plan4_q.init)
-          {ramped_q, ramp_q} <= {
-            1'b1, dut.init.chop, dut.params4_q[7:0], dut.params4_q[15:8], dut.params4_q[29:16]
+      if (axis[4] == watched_i && visited_q) begin
+        if (dut.take_s4_q) {cmd_set_q, last_cmd_q} <= {1'b1, dut.code_s4_q, dut.params_s4_q[31:8]};
+        if (dut.decision_s4_q.init)
+          {ramp_set_q, ramp_q} <= {
+            1'b1, dut.init.chop, dut.params_s4_q[7:0], dut.params_s4_q[15:8], dut.params_s4_q[29:16]
           };
-        if (dut.plan4_q.switching) {chopped_q, units_q} <= {1'b1, dut.params4_q[31:16]};
+        if (dut.decision_s4_q.switching) {chop_set_q, chop_units_q} <= {1'b1, dut.params_s4_q[31:16]};
       end
     end
 
   // For the induction: the words are the same in the stages before those that use them.
   for (genvar i = 1; i < 6; i++) begin : g_stage
-    `FV_ASSERT(lemma_axis, clk_q < 5'(i) || axis[i] == axis[0] - 3'(i))
-    `FV_ASSERT(lemma_clear, clear[i] == (clk_q < 5'(8 + i)))
+    `FV_ASSERT(lemma_axis, cycles_q < 5'(i) || axis[i] == axis[0] - 3'(i))
+    `FV_ASSERT(lemma_clear, clear[i] == (cycles_q < 5'(8 + i)))
   end
-  `FV_ASSERT(lemma_clear_first, clear[0] == (clk_q < 5'd8))
-  `FV_ASSERT(lemma_rest, !known_q || axis[5] == watched_i + 3'd1 + rest_q)
-  `FV_ASSERT(lemma_known, known_q ? clk_q > 5'd5 : !(worded_q || ramped_q || chopped_q))
-  `FV_ASSERT(lemma_axis_first, clk_q == '1 || axis[0] == clk_q[2:0])
-  `FV_ASSERT(lemma_early1, !(known_q && axis[1] == watched_i) || dut.early1_q == early_q)
-  `FV_ASSERT(lemma_pace_r, !(known_q && axis[0] + 3'd1 == watched_i) || dut.pace_r_q == pace_q)
-  `FV_ASSERT(lemma_pace0, !(known_q && axis[0] == watched_i) || dut.pace0_q == pace_q)
-  `FV_ASSERT(lemma_pace1, !(known_q && axis[1] == watched_i) || dut.pace1_q == pace_q)
-  logic lemma_words1_holds;
-  assign lemma_words1_holds =
-      axis[1] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words1_q == words_q) && (!ramped_q ||
-      dut.ramp1_q == ramp_q));
-  `FV_ASSERT(lemma_words1, lemma_words1_holds)
-  logic lemma_words2_holds;
-  assign lemma_words2_holds =
-      axis[2] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words2_q == words_q) && (!ramped_q ||
-      dut.ramp2_q == ramp_q));
-  `FV_ASSERT(lemma_words2, lemma_words2_holds)
+  `FV_ASSERT(lemma_clear_first, clear[0] == (cycles_q < 5'd8))
+  `FV_ASSERT(lemma_since_visit, !visited_q || axis[5] == watched_i + 3'd1 + since_visit_q)
+  `FV_ASSERT(lemma_visited, visited_q ? cycles_q > 5'd5 : !(cmd_set_q || ramp_set_q || chop_set_q))
+  `FV_ASSERT(lemma_axis_first, cycles_q == '1 || axis[0] == cycles_q[2:0])
+  `FV_ASSERT(lemma_state1, !(visited_q && axis[1] == watched_i) || dut.state1_s1_q == state1_q)
+  `FV_ASSERT(lemma_interval_pre,
+             !(visited_q && axis[0] + 3'd1 == watched_i) || dut.interval_pre_q == interval_q)
+  `FV_ASSERT(lemma_interval_s0, !(visited_q && axis[0] == watched_i) || dut.interval_s0_q == interval_q)
+  `FV_ASSERT(lemma_interval_s1, !(visited_q && axis[1] == watched_i) || dut.interval_s1_q == interval_q)
+  logic lemma_mem_s1_holds;
+  assign lemma_mem_s1_holds =
+      axis[1] != watched_i || cycles_q < 5'd6 || ((!cmd_set_q || dut.last_cmd_s1_q == last_cmd_q) &&
+      (!ramp_set_q || dut.ramp_s1_q == ramp_q));
+  `FV_ASSERT(lemma_mem_s1, lemma_mem_s1_holds)
+  logic lemma_mem_s2_holds;
+  assign lemma_mem_s2_holds =
+      axis[2] != watched_i || cycles_q < 5'd6 || ((!cmd_set_q || dut.last_cmd_s2_q == last_cmd_q) &&
+      (!ramp_set_q || dut.ramp_s2_q == ramp_q));
+  `FV_ASSERT(lemma_mem_s2, lemma_mem_s2_holds)
 
-  `FV_ASSERT(bank_gen_05_motion_stays, !(known_q && axis[2] == watched_i) || dut.early2_q == early_q)
-  `FV_ASSERT(bank_gen_05_position_stays, !(known_q && axis[2] == watched_i) || dut.late2_q == late_q)
-  `FV_ASSERT(bank_gen_05_pace_stays, !(known_q && axis[2] == watched_i) || dut.pace2_q == pace_q)
-  `FV_ASSERT(bank_gen_05_words_stay, !(worded_q && axis[3] == watched_i) || dut.words3_q == words_q)
-  `FV_ASSERT(bank_gen_05_ramp_stays, !(ramped_q && axis[3] == watched_i) || dut.ramp3_q == ramp_q)
-  `FV_ASSERT(bank_gen_05_units_stay, !(chopped_q && axis[3] == watched_i) || dut.units3_q == units_q)
+  `FV_ASSERT(bank_gen_05_motion_kept, !(visited_q && axis[2] == watched_i) || dut.state1_s2_q == state1_q)
+  `FV_ASSERT(bank_gen_05_position_kept, !(visited_q && axis[2] == watched_i) || dut.state2_s2_q == state2_q)
+  `FV_ASSERT(bank_gen_05_interval_kept,
+             !(visited_q && axis[2] == watched_i) || dut.interval_s2_q == interval_q)
+  `FV_ASSERT(bank_gen_05_last_cmd_kept,
+             !(cmd_set_q && axis[3] == watched_i) || dut.last_cmd_s3_q == last_cmd_q)
+  `FV_ASSERT(bank_gen_05_ramp_kept, !(ramp_set_q && axis[3] == watched_i) || dut.ramp_s3_q == ramp_q)
+  `FV_ASSERT(bank_gen_05_chop_units_kept,
+             !(chop_set_q && axis[3] == watched_i) || dut.chop_units_s3_q == chop_units_q)
 
   // ---- effects of a visit ----------------------------------------------------------------------------
 
-  logic same;  // visit of the watched axis that follows another one
-  assign same = known_q && ends && !clears;
+  logic next_visit;  // visit of the watched axis that follows another one
+  assign next_visit = visited_q && ends && !resets;
 
-  `FV_ASSERT(one_order, 2'(order_o.pulse) + 2'(order_o.rise) + 2'(order_o.sets) <= 2'd1 || clk_q < 5'd8)
-  `FV_ASSERT(bank_mot_02_none_when_stopped, !order_o.pulse || clk_q < 5'd8 || $past(seen_i.armed, 3))
-  `FV_ASSERT(no_pulse_without_a_motion,
-             !same || !(order_o.pulse || order_o.rise) || (status_q.busy && status_o.busy))
-  `FV_ASSERT(bank_mot_03_position_by_one, !same || position_o - position_q inside {32'd0, 32'd1, '1})
-  `FV_ASSERT(bank_hsk_01_taken_as_written,
-             !same || status_o.taken == status_q.taken || status_o.taken == $past(mail_i.seq, 4))
-  `FV_ASSERT(bank_hsk_01_motion_by_a_byte,
-             !(same && status_o.busy && !status_q.busy) || status_o.taken != status_q.taken)
-  `FV_ASSERT(bank_hsk_04_answer_by_a_byte, !(same && answer_we_o) || status_o.taken != status_q.taken)
-  `FV_ASSERT(p104_end_07_interrupt_at_an_end, !(same && call_o) || (status_q.busy && !status_o.busy))
+  `FV_ASSERT(
+      one_pin_action,
+      2'(pin_cmd_o.pulse) + 2'(pin_cmd_o.pulse_end) + 2'(pin_cmd_o.set_pins) <= 2'd1 || cycles_q < 5'd8)
+  `FV_ASSERT(bank_mot_02_no_pulse_when_stopped, !pin_cmd_o.pulse || cycles_q < 5'd8 || $past
+             (pin_status_i.armed, 3))
+  `FV_ASSERT(no_pulse_without_motion,
+             !next_visit || !(pin_cmd_o.pulse || pin_cmd_o.pulse_end) || (status_q.busy && status_o.busy))
+  `FV_ASSERT(bank_mot_03_position_by_one, !next_visit || position_o - position_q inside {32'd0, 32'd1, '1})
+  `FV_ASSERT(bank_hsk_01_accepted_as_written,
+             !next_visit || status_o.ack_seq == status_q.ack_seq || status_o.ack_seq == $past(in_buf_i.seq, 4
+                                                                                                 ))
+  `FV_ASSERT(bank_hsk_01_motion_from_a_byte,
+             !(next_visit && status_o.busy && !status_q.busy) || status_o.ack_seq != status_q.ack_seq)
+  `FV_ASSERT(bank_hsk_04_read_data_from_a_byte,
+             !(next_visit && read_data_we_o) || status_o.ack_seq != status_q.ack_seq)
+  `FV_ASSERT(p104_end_07_interrupt_at_the_end,
+             !(next_visit && irq_set_o) || (status_q.busy && !status_o.busy))
   `FV_ASSERT(bank_gen_05_reset,
-             !(clears && clk_q > 5'd8) || (status_o == '0 && order_o == '0 && position_o == '0))
+             !(resets && cycles_q > 5'd8) || (status_o == '0 && pin_cmd_o == '0 && position_o == '0))
 
   // Words in the memories.
-  logic [$bits(early_q)-1:0] early_word;
-  logic [$bits(late_q)-1:0] late_word;
-  pace_t pace_word;
-  words_t words_word;
+  logic [$bits(state1_q)-1:0] state1_word;
+  logic [$bits(state2_q)-1:0] state2_word;
+  interval_t interval_word;
+  last_cmd_t last_cmd_word;
   ramp_t ramp_word;
-  units_t units_word;
-  assign early_word = dut.earlies[watched_i];
-  assign late_word  = dut.lates[watched_i];
-  assign pace_word  = dut.paces[watched_i];
-  assign words_word = dut.words[watched_i];
-  assign ramp_word  = dut.ramps[watched_i];
-  assign units_word = dut.chops[watched_i];
+  chop_units_t chop_units_word;
+  assign state1_word = dut.state1_mem[watched_i];
+  assign state2_word = dut.state2_mem[watched_i];
+  assign interval_word = dut.interval_mem[watched_i];
+  assign last_cmd_word = dut.last_cmd_mem[watched_i];
+  assign ramp_word = dut.ramp_mem[watched_i];
+  assign chop_units_word = dut.chop_units_mem[watched_i];
 
-  `FV_ASSERT(lemma_words, !known_q || {early_word, late_word, pace_word} == {early_q, late_q, pace_q})
-  logic lemma_set_holds;
-  assign lemma_set_holds =
-      (!worded_q || words_word == words_q) && (!ramped_q || ramp_word == ramp_q) && (!chopped_q ||
-      units_word == units_q);
-  `FV_ASSERT(lemma_set, lemma_set_holds)
+  `FV_ASSERT(lemma_mem_state,
+             !visited_q || {state1_word, state2_word, interval_word} == {state1_q, state2_q, interval_q})
+  logic lemma_mem_host_holds;
+  assign lemma_mem_host_holds =
+      (!cmd_set_q || last_cmd_word == last_cmd_q) && (!ramp_set_q || ramp_word == ramp_q) && (!chop_set_q ||
+      chop_units_word == chop_units_q);
+  `FV_ASSERT(lemma_mem_host, lemma_mem_host_holds)
 
   // For the induction: the stages of the watched axis, and what the outputs of its last visit imply.
-  localparam int unsigned BusyAt = $bits(command_t) + $bits(setting_t) + $bits(walk_t) - 1;
-  `FV_ASSERT(lemma_visit3,
-             !(known_q && axis[3] == watched_i) || {dut.early3_q, dut.late3_q} == {early_q, late_q})
-  `FV_ASSERT(lemma_visit4,
-             !(known_q && axis[4] == watched_i) || {dut.early4_q, dut.late4_q} == {early_q, late_q})
+  localparam int unsigned BusyAt = $bits(parser_t) + $bits(init_state_t) + $bits(motion_state_t) - 1;
+  `FV_ASSERT(
+      lemma_visit3,
+      !(visited_q && axis[3] == watched_i) || {dut.state1_s3_q, dut.state2_s3_q} == {state1_q, state2_q})
+  `FV_ASSERT(
+      lemma_visit4,
+      !(visited_q && axis[4] == watched_i) || {dut.state1_s4_q, dut.state2_s4_q} == {state1_q, state2_q})
   `FV_ASSERT(lemma_visit_last,
-             !known_q || (status_q == {early_q[5:0], early_q[BusyAt]} && position_q == late_q[31:0]))
-  `FV_ASSERT(lemma_visit_armed,
-             !dut.plan4_q.pulse || clk_q < 5'd8 || (dut.seen4_q.armed && dut.early4_q.walk.busy))
+             !visited_q || (status_q == {state1_q[5:0], state1_q[BusyAt]} && position_q == state2_q[31:0]))
+  logic lemma_visit_armed_holds;
+  assign lemma_visit_armed_holds =
+      !dut.decision_s4_q.pulse || cycles_q < 5'd8 ||
+      (dut.pin_status_s4_q.armed && dut.state1_s4_q.motion.busy);
+  `FV_ASSERT(lemma_visit_armed, lemma_visit_armed_holds)
 
   // Assumptions of the visits, for every axis in every stage.
   for (genvar n = 0; n < 8; n++) begin : g_axis
-    logic [$bits(early_q)-1:0] word;
-    walk_t walk;
-    setting_t setting;
-    command_t command;
-    assign word = dut.earlies[n];
-    assign {walk, setting, command} = word[0+:$bits(walk_t)+$bits(setting_t)+$bits(command_t)];
-    `FV_ASSERT(lemma_kept0, clk_q < 5'd3 || rests(walk, setting, command))
+    logic [$bits(state1_q)-1:0] word;
+    motion_state_t motion;
+    init_state_t init_state;
+    parser_t parser;
+    assign word = dut.state1_mem[n];
+    assign {motion, init_state, parser} = word[0+:$bits(motion_state_t)+$bits(init_state_t)+$bits(parser_t)];
+    `FV_ASSERT(lemma_valid0, cycles_q < 5'd3 || state_valid(motion, init_state, parser))
   end
-  `FV_ASSERT(lemma_kept1, clk_q < 5'd5 || rests(dut.early1_q.walk, dut.early1_q.setting, dut.early1_q.command
-             ))
-  `FV_ASSERT(lemma_kept2, clk_q < 5'd6 || rests(dut.early2_q.walk, dut.early2_q.setting, dut.early2_q.command
-             ))
-  `FV_ASSERT(lemma_kept3, clk_q < 5'd7 || rests(dut.early3_q.walk, dut.early3_q.setting, dut.early3_q.command
-             ))
-  `FV_ASSERT(lemma_kept4, clk_q < 5'd8 || rests(dut.early4_q.walk, dut.early4_q.setting, dut.early4_q.command
-             ))
-  `FV_ASSERT(lemma_kept5, clk_q < 5'd2 || rests(dut.early5_q.walk, dut.early5_q.setting, dut.early5_q.command
-             ))
+  `FV_ASSERT(lemma_valid1, cycles_q < 5'd5 || state_valid(dut.state1_s1_q.motion, dut.state1_s1_q.init_state,
+                                                          dut.state1_s1_q.parser))
+  `FV_ASSERT(lemma_valid2, cycles_q < 5'd6 || state_valid(dut.state1_s2_q.motion, dut.state1_s2_q.init_state,
+                                                          dut.state1_s2_q.parser))
+  `FV_ASSERT(lemma_valid3, cycles_q < 5'd7 || state_valid(dut.state1_s3_q.motion, dut.state1_s3_q.init_state,
+                                                          dut.state1_s3_q.parser))
+  `FV_ASSERT(lemma_valid4, cycles_q < 5'd8 || state_valid(dut.state1_s4_q.motion, dut.state1_s4_q.init_state,
+                                                          dut.state1_s4_q.parser))
+  `FV_ASSERT(lemma_valid5, cycles_q < 5'd2 || state_valid(dut.state1_s5_q.motion, dut.state1_s5_q.init_state,
+                                                          dut.state1_s5_q.parser))
 
-  function automatic logic rests(walk_t walk, setting_t setting, command_t command);
-    return walk.busy ? !setting.building && (command.error || command.number == '0) : !(walk.run || walk.low);
+  function automatic logic state_valid(motion_state_t motion, init_state_t init_state, parser_t parser);
+    return motion.busy ? !init_state.building && (parser.error || parser.number == '0) :
+        !(motion.more_pulses || motion.pulse_low);
   endfunction
 
-  `FV_COVER(seen_words, worded_q && ramped_q && chopped_q && known_q && axis[3] == watched_i)
-  `FV_COVER(seen_answer, same && answer_we_o && status_o.taken != status_q.taken)
-  `FV_COVER(seen_motion, same && status_o.busy && !status_q.busy)
+  `FV_COVER(seen_host_words, cmd_set_q && ramp_set_q && chop_set_q && visited_q && axis[3] == watched_i)
+  `FV_COVER(seen_read_data, next_visit && read_data_we_o && status_o.ack_seq != status_q.ack_seq)
+  `FV_COVER(seen_motion, next_visit && status_o.busy && !status_q.busy)
 
 endmodule
 

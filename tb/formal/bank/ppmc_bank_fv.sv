@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_fv: a bank of four axes with any orders. Proves that each order reaches only the pins of its own
-// axis, that each axis reads its own switches, and that int_n is low while any interrupt is pending.
+// ppmc_bank_fv: a bank of four axes with any pin commands. Proves that each command reaches only the pins of
+// its own axis, that each axis reads its own switches, and that int_n is low while any interrupt is pending.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -40,57 +40,62 @@ module ppmc_bank_fv
 
   `FV_ASSUME(one_axis, watched_i == $past(watched_i))
 
-  order_t order_q;  // current order of the watched axis
-  logic [2:0] at_q;  // cycle of the round in which order_q acts
-  logic [3:0] clk_q;  // cycles since reset, at most 15
+  pin_cmd_t pin_cmd_q;  // current command of the watched axis
+  logic [2:0] at_cycle_q;  // cycle of the round in which pin_cmd_q is executed
+  logic [3:0] cycles_q;  // cycles since reset, at most 15
   logic pending_q, pout_q, dir_q, hold_q;
   logic [4:0] s_q;
-  logic now_q, ordered_q;  // now_q: order_q acted in the cycle before; ordered_q: it had a pulse
+  logic cmd_executed_q, had_pulse_q;  // pin_cmd_q was executed one cycle before; it had a pulse
   logic [2:0] alarm_q, cw_q;  // alarm and CW limit of the watched axis in the last three cycles
-  logic told_q;  // an interrupt has begun or ended
-  logic ends, known_q;  // ends: a visit of the watched axis is in its last stage; known_q: one has ended
+  logic irq_changed_q;  // an interrupt has begun or ended
+  logic ends, visited_q;  // ends: a visit of the watched axis is in its last stage; visited_q: one has ended
 
-  assign ends = dut.axis[5] == {1'b0, watched_i} && clk_q == '1;
+  assign ends = dut.axis[5] == {1'b0, watched_i} && cycles_q == '1;
 
   always_ff @(posedge clk_i) begin
     {pout_q, dir_q, hold_q, s_q} <= {pout_n[watched_i], dir[watched_i], hold[watched_i], s[5*watched_i+:5]};
     {alarm_q, cw_q} <= {alarm_q[1:0], !alm_n[watched_i], cw_q[1:0], !l1_n[watched_i]};
-    if (!rst_ni) {order_q, at_q, clk_q, pending_q, told_q, now_q, ordered_q, known_q} <= '0;
-    else begin
-      clk_q <= (clk_q == '1) ? '1 : clk_q + 1'b1;
-      if (ends) {known_q, order_q, at_q} <= {1'b1, dut.order, dut.at};
-      if (ends && (dut.call || dut.calm)) {told_q, pending_q} <= {1'b1, dut.call};
-      now_q     <= known_q && dut.axis[0] == at_q;
-      ordered_q <= order_q.pulse;
+    if (!rst_ni) begin
+      {pin_cmd_q, at_cycle_q, cycles_q, pending_q} <= '0;
+      {irq_changed_q, cmd_executed_q, had_pulse_q, visited_q} <= '0;
+    end else begin
+      cycles_q <= (cycles_q == '1) ? '1 : cycles_q + 1'b1;
+      if (ends) {visited_q, pin_cmd_q, at_cycle_q} <= {1'b1, dut.pin_cmd, dut.at_cycle};
+      if (ends && (dut.irq_set || dut.irq_clear)) {irq_changed_q, pending_q} <= {1'b1, dut.irq_set};
+      cmd_executed_q <= visited_q && dut.axis[0] == at_cycle_q;
+      had_pulse_q    <= pin_cmd_q.pulse;
     end
   end
 
-  logic steady;  // 1: a visit with an order has ended; before, the state is unknown
-  logic known2_q;
-  always_ff @(posedge clk_i) known2_q <= rst_ni && known_q;
-  assign steady = known2_q;
+  logic state_known;  // 1: a visit has ended; before that, the state is unknown
+  logic visited_q2;
+  always_ff @(posedge clk_i) visited_q2 <= rst_ni && visited_q;
+  assign state_known = visited_q2;
 
-  // Orders and pins of the watched axis.
-  logic sets_q, rises_q;
-  always_ff @(posedge clk_i) {sets_q, rises_q} <= {order_q.sets, order_q.rise};
+  // The executed command of the watched axis.
+  logic had_set_pins_q, had_pulse_end_q;
+  always_ff @(posedge clk_i) {had_set_pins_q, had_pulse_end_q} <= {pin_cmd_q.set_pins, pin_cmd_q.pulse_end};
 
-  `FV_ASSERT(bank_mot_01_pulse_by_its_own_order,
-             !(steady && pout_q && !pout_n[watched_i]) || (now_q && ordered_q))
-  `FV_ASSERT(bank_mot_01_ends_by_its_own_order,
-             !(steady && !pout_q && pout_n[watched_i]) || (now_q && rises_q))
-  `FV_ASSERT(bank_mot_01_pins_by_its_own_order,
-             !steady || {dir[watched_i], hold[watched_i]} == {dir_q, hold_q} || (now_q && sets_q))
-  `FV_ASSERT(bank_mot_01_phases_by_its_own_order,
-             !steady || s[5*watched_i+:5] == s_q || (now_q && (sets_q || ordered_q)))
-  `FV_ASSERT(bank_mot_02_none_at_its_own_alarm, !(steady && pout_q && !pout_n[watched_i]) || !alarm_q[2])
-  logic bank_mot_05_its_own_switches_holds;
-  assign bank_mot_05_its_own_switches_holds =
-      dut.axis[2] != {1'b0, watched_i} || !steady || (dut.seen.switches.alarm == alarm_q[1] &&
-      dut.seen.switches.limit_cw == cw_q[1] && dut.seen.mask == dut.mask[watched_i]);
-  `FV_ASSERT(bank_mot_05_its_own_switches, bank_mot_05_its_own_switches_holds)
-  `FV_ASSERT(bank_win_08_map, !told_q || dut.pending_q[watched_i] == pending_q)
-  `FV_ASSERT(bank_win_08_pending, !steady || int_n == $past(dut.pending_q == '0))
-  `FV_COVER(seen_pulse, steady && pout_q && !pout_n[watched_i] && pending_q)
+  `FV_ASSERT(bank_mot_01_pulse_by_own_cmd,
+             !(state_known && pout_q && !pout_n[watched_i]) || (cmd_executed_q && had_pulse_q))
+  `FV_ASSERT(bank_mot_01_pulse_end_by_own_cmd,
+             !(state_known && !pout_q && pout_n[watched_i]) || (cmd_executed_q && had_pulse_end_q))
+  logic bank_mot_01_pins_by_own_cmd_holds;
+  assign bank_mot_01_pins_by_own_cmd_holds =
+      !state_known || {dir[watched_i], hold[watched_i]} == {dir_q, hold_q} ||
+      (cmd_executed_q && had_set_pins_q);
+  `FV_ASSERT(bank_mot_01_pins_by_own_cmd, bank_mot_01_pins_by_own_cmd_holds)
+  `FV_ASSERT(bank_mot_01_phases_by_own_cmd,
+             !state_known || s[5*watched_i+:5] == s_q || (cmd_executed_q && (had_set_pins_q || had_pulse_q)))
+  `FV_ASSERT(bank_mot_02_no_pulse_at_own_alarm, !(state_known && pout_q && !pout_n[watched_i]) || !alarm_q[2])
+  logic bank_mot_05_own_switches_holds;
+  assign bank_mot_05_own_switches_holds =
+      dut.axis[2] != {1'b0, watched_i} || !state_known || (dut.pin_status.switches.alarm == alarm_q[1] &&
+      dut.pin_status.switches.limit_cw == cw_q[1] && dut.pin_status.in_group == dut.mask[watched_i]);
+  `FV_ASSERT(bank_mot_05_own_switches, bank_mot_05_own_switches_holds)
+  `FV_ASSERT(bank_win_08_map, !irq_changed_q || dut.pending_q[watched_i] == pending_q)
+  `FV_ASSERT(bank_win_08_pending, !state_known || int_n == $past(dut.pending_q == '0))
+  `FV_COVER(seen_pulse, state_known && pout_q && !pout_n[watched_i] && pending_q)
 
 endmodule
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins_fv: proves that pulses occur only in the cycle of their order, and that no pulse occurs at
+// ppmc_bank_pins_fv: proves that pulses occur only in the cycle of their command, and that no pulse occurs at
 // or after a cause until the axis is armed again.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -9,13 +9,13 @@ module ppmc_bank_pins_fv
   import ppmc_motion_pkg::*;
 (
     input wire logic            clk_i,
-    input wire order_t          order_i,
-    input wire logic      [2:0] at_i,
+    input wire pin_cmd_t        pin_cmd_i,
+    input wire logic      [2:0] at_cycle_i,
     input wire logic            stop_i,
     input wire switches_t       switches_i
 );
 
-  logic [2:0] clock_i;
+  logic [2:0] cycle_i;
   logic load_i, armed_o, emitted_o, stopped_o, alarm_o, limit_o, hold_o, pout_no, dir_o;
   logic [5:1] s_o;
 
@@ -24,41 +24,41 @@ module ppmc_bank_pins_fv
   ppmc_bank_pins #(.RoundBits(3)) dut (.*);
 
   // An axis is visited once per round.
-  assign load_i = clock_i == '0;
-  always_ff @(posedge clk_i) clock_i <= rst_ni ? clock_i + 1'b1 : '0;
+  assign load_i = cycle_i == '0;
+  always_ff @(posedge clk_i) cycle_i <= rst_ni ? cycle_i + 1'b1 : '0;
 
-  logic killed_q;  // a cause has occurred, and the axis has not been armed since
-  logic ordered_q;  // the current order has a pulse
-  logic [2:0] at_q;
-  logic limit, found, cause;
+  logic blocked_q;  // a cause has occurred, and the axis has not been armed since
+  logic has_pulse_q;  // the current command has a pulse
+  logic [2:0] at_cycle_q;
+  logic limit, switch_cause, cause;
 
-  assign limit = dut.order_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
-  assign found = limit || switches_i.alarm || (switches_i.origin && dut.order_q.search);
-  assign cause = found || stop_i || dut.order_q.halt;
+  assign limit = dut.pin_cmd_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+  assign switch_cause = limit || switches_i.alarm || (switches_i.origin && dut.pin_cmd_q.search);
+  assign cause = switch_cause || stop_i || dut.pin_cmd_q.halt;
 
   always_ff @(posedge clk_i)
-    if (!rst_ni) {killed_q, ordered_q, at_q} <= {1'b1, 4'd0};
+    if (!rst_ni) {blocked_q, has_pulse_q, at_cycle_q} <= {1'b1, 4'd0};
     else begin
-      killed_q <= !(dut.set && dut.order_q.arm) && (killed_q || cause);
-      if (load_i) {ordered_q, at_q} <= {order_i.pulse, at_i};
+      blocked_q <= !(dut.set_pins && dut.pin_cmd_q.arm) && (blocked_q || cause);
+      if (load_i) {has_pulse_q, at_cycle_q} <= {pin_cmd_i.pulse, at_cycle_i};
     end
 
-  `FV_ASSUME(one_order, 2'(order_i.pulse) + 2'(order_i.rise) + 2'(order_i.sets) <= 2'd1)
-  `FV_ASSUME(pulses_end_first, !(load_i && order_i.pulse) || (pout_no && !dut.pulse) || dut.rise)
+  `FV_ASSUME(one_pin_action, 2'(pin_cmd_i.pulse) + 2'(pin_cmd_i.pulse_end) + 2'(pin_cmd_i.set_pins) <= 2'd1)
+  `FV_ASSUME(pulses_end_first, !(load_i && pin_cmd_i.pulse) || (pout_no && !dut.pulse) || dut.pulse_end)
 
-  logic again_q;  // a pulse has been output
-  always_ff @(posedge clk_i) again_q <= rst_ni && (again_q || !pout_no);
+  logic pulse_seen_q;  // a pulse has been output
+  always_ff @(posedge clk_i) pulse_seen_q <= rst_ni && (pulse_seen_q || !pout_no);
 
-  `FV_ASSERT(bank_mot_02_none_at_a_cause, !(pout_no == 1'b0 && $past(rst_ni && pout_no)) || !$past(cause))
-  `FV_ASSERT(p104_end_02_none_behind_a_cause, !(!pout_no && $past(rst_ni && pout_no)) || !$past(killed_q))
-  `FV_ASSERT(bank_mot_01_at_its_clk, !(!pout_no && $past(rst_ni && pout_no)) || $past
-             (ordered_q && clock_i == at_q))
-  `FV_ASSERT(bank_mot_01_rises_as_ordered, !(pout_no && $past(rst_ni && !pout_no)) || $past
-             (dut.order_q.rise && clock_i == at_q))
-  `FV_ASSERT(p104_tim_04_one_edge, !(s_o != $past(s_o) && $past(rst_ni)) || $past(dut.set) || !pout_no)
-  `FV_ASSERT(direction_steady, !($past(rst_ni) && dir_o != $past(dir_o)) || $past(dut.set))
-  `FV_ASSERT(p104_end_04_why, !(!armed_o && $past(rst_ni && armed_o) && limit_o) || $past(limit))
-  `FV_COVER(seen_pulse_killed, armed_o && dut.now && dut.order_q.pulse && limit && again_q)
+  `FV_ASSERT(bank_mot_02_no_pulse_at_cause, !(pout_no == 1'b0 && $past(rst_ni && pout_no)) || !$past(cause))
+  `FV_ASSERT(p104_end_02_no_pulse_after_cause, !(!pout_no && $past(rst_ni && pout_no)) || !$past(blocked_q))
+  `FV_ASSERT(bank_mot_01_pulse_in_its_cycle, !(!pout_no && $past(rst_ni && pout_no)) || $past
+             (has_pulse_q && cycle_i == at_cycle_q))
+  `FV_ASSERT(bank_mot_01_pulse_ends_in_its_cycle, !(pout_no && $past(rst_ni && !pout_no)) || $past
+             (dut.pin_cmd_q.pulse_end && cycle_i == at_cycle_q))
+  `FV_ASSERT(p104_tim_04_one_edge, !(s_o != $past(s_o) && $past(rst_ni)) || $past(dut.set_pins) || !pout_no)
+  `FV_ASSERT(direction_stable, !($past(rst_ni) && dir_o != $past(dir_o)) || $past(dut.set_pins))
+  `FV_ASSERT(p104_end_04_cause, !(!armed_o && $past(rst_ni && armed_o) && limit_o) || $past(limit))
+  `FV_COVER(seen_pulse_blocked, armed_o && dut.cycle_hit && dut.pin_cmd_q.pulse && limit && pulse_seen_q)
 
 endmodule
 

@@ -9,34 +9,34 @@ module ppmc_bank_plan_fv
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 (
-    input wire logic            clk_i,
-    input wire walk_t           walk_i,
-    input wire pace_t           pace_i,
-    input wire setting_t        setting_i,
-    input wire rest_t           rest_i,
-    input wire logic            over_i,
-    input wire seen_t           seen_i,
-    input wire facts_t          facts_i,
-    input wire logic            free_i,
-    input wire logic            extra_i,
-    input wire mail_t           mail_i,
-    input wire logic            new_i,
-    input wire decoded_t        decoded_i,
-    input wire error_e          value_i,
-    input wire asking_t         asking_i,
-    input wire logic     [17:0] due_i,
-    input wire logic     [17:0] after_i
+    input wire logic                 clk_i,
+    input wire motion_state_t        motion_i,
+    input wire interval_t            interval_i,
+    input wire init_state_t          init_state_i,
+    input wire output_state_t        outputs_i,
+    input wire logic                 hold_end_i,
+    input wire pin_status_t          pin_status_i,
+    input wire compare_t             compare_i,
+    input wire logic                 builder_free_i,
+    input wire logic                 extra_time_i,
+    input wire in_buf_t              in_buf_i,
+    input wire logic                 in_buf_new_i,
+    input wire decoded_t             decoded_i,
+    input wire error_e               value_i,
+    input wire asking_t              asking_i,
+    input wire logic          [17:0] go_delay_i,
+    input wire logic          [17:0] after_low_i
 );
 
-  localparam int unsigned Quantum = 25, Round = 32, Width = 20 * Quantum;  // cycles
+  localparam int unsigned Quantum = 25, Round = 32, WidthCycles = 20 * Quantum;  // cycles
 
   asking_t asking_o;
-  logic take_o, anew_o;
+  logic take_o, restart_time_o;
   logic [7:0] code_o;
   logic [31:0] params_o;
-  plan_t plan_o;
-  logic [17:0] add_o;
-  logic last;  // the byte is the last one of an initialisation
+  decision_t decision_o;
+  logic [17:0] add_cycles_o;
+  logic completes_init;  // the byte is the last one of an initialisation
 
   `FV_RESET
 
@@ -48,43 +48,46 @@ module ppmc_bank_plan_fv
       .*
   );
 
-  assign last = !mail_i.command && asking_i.code[7:6] == 2'b00 && !asking_i.error && asking_i.number == 3'd1;
+  assign completes_init =
+      !in_buf_i.is_command && asking_i.code[7:6] == 2'b00 && !asking_i.error && asking_i.number == 3'd1;
 
-  `FV_ASSUME(at_rest_nothing_runs, walk_i.busy || !(walk_i.run || walk_i.low))
-  `FV_ASSUME(known_kind, decoded_i.kind <= KindAuxOff && decoded_i.params <= 3'd4)
+  logic go;  // GO acts on this axis
+  logic host_action;  // an action that a host requests with a byte
+  assign go = compare_i.go && pin_status_i.in_group;
+  assign host_action =
+      decision_o.start || decision_o.init || decision_o.exc_off || decision_o.switching || decision_o.read ||
+      decision_o.halt || decision_o.flag_stop;
 
-  logic bank_hsk_02_takes_none_holds;
-  assign bank_hsk_02_takes_none_holds =
-      !take_o || !(plan_o.finish || plan_o.ready || plan_o.toggle || plan_o.proceed || plan_o.refuse ||
-      (facts_i.go && seen_i.mask));
-  `FV_ASSERT(bank_hsk_02_takes_none, bank_hsk_02_takes_none_holds)
-  `FV_ASSERT(bank_hsk_01_takes_what_is_new, !take_o || new_i)
-  `FV_ASSERT(bank_hsk_05_waits_for_the_builder, !(take_o && last) || free_i)
-  logic bank_hsk_02_takes_the_others_holds;
-  assign bank_hsk_02_takes_the_others_holds =
-      take_o || !new_i || plan_o.finish || setting_i.building || (facts_i.go && seen_i.mask) ||
-      plan_o.toggle || (last && !free_i);
-  `FV_ASSERT(bank_hsk_02_takes_the_others, bank_hsk_02_takes_the_others_holds)
-  logic a_byte_for_what_a_host_wants_holds;
-  assign a_byte_for_what_a_host_wants_holds =
-      take_o || !(plan_o.start || plan_o.init || plan_o.exc_off || plan_o.switching || plan_o.read ||
-      plan_o.halt || plan_o.flag_stop);
-  `FV_ASSERT(a_byte_for_what_a_host_wants, a_byte_for_what_a_host_wants_holds)
-  `FV_ASSERT(
-      bank_grp_02_goes_on_or_is_refused,
-      (plan_o.proceed || plan_o.refuse) == (facts_i.go && seen_i.mask) && !(plan_o.proceed && plan_o.refuse))
-  `FV_ASSERT(bank_grp_02_refused_is_an_error, !plan_o.refuse || asking_o.error)
-  `FV_ASSERT(bank_grp_02_first_pulse,
-             !plan_o.proceed || plan_o.finish || plan_o.rise || (anew_o && add_o == due_i))
-  `FV_ASSERT(bank_mot_01_first_pulse, !plan_o.start || (anew_o && add_o == 18'(Width - Round)))
-  `FV_ASSERT(bank_mot_04_ends_at_rest, !plan_o.finish || !(plan_o.pulse || plan_o.rise || plan_o.start))
-  logic p104_err_00_nothing_by_a_fault_holds;
-  assign p104_err_00_nothing_by_a_fault_holds =
-      !(take_o && asking_o.error) || !(plan_o.start || plan_o.init || plan_o.exc_off || plan_o.switching ||
-      plan_o.read || plan_o.halt || plan_o.flag_stop);
-  `FV_ASSERT(p104_err_00_nothing_by_a_fault, p104_err_00_nothing_by_a_fault_holds)
-  `FV_COVER(seen_go, plan_o.proceed && new_i)
-  `FV_COVER(seen_start, plan_o.start && take_o)
+  `FV_ASSUME(no_pulse_at_standstill, motion_i.busy || !(motion_i.more_pulses || motion_i.pulse_low))
+  `FV_ASSUME(valid_kind, decoded_i.kind <= KindAuxOff && decoded_i.params <= 3'd4)
+
+  logic bank_hsk_02_accepts_no_byte_holds;
+  assign bank_hsk_02_accepts_no_byte_holds =
+      !take_o || !(decision_o.finish || decision_o.init_done || decision_o.chop_edge ||
+      decision_o.go_accept || decision_o.go_reject || go);
+  `FV_ASSERT(bank_hsk_02_accepts_no_byte, bank_hsk_02_accepts_no_byte_holds)
+  `FV_ASSERT(bank_hsk_01_accepts_only_new_bytes, !take_o || in_buf_new_i)
+  `FV_ASSERT(bank_hsk_05_waits_for_builder, !(take_o && completes_init) || builder_free_i)
+  logic bank_hsk_02_accepts_otherwise_holds;
+  assign bank_hsk_02_accepts_otherwise_holds =
+      take_o || !in_buf_new_i || decision_o.finish || init_state_i.building || go || decision_o.chop_edge ||
+      (completes_init && !builder_free_i);
+  `FV_ASSERT(bank_hsk_02_accepts_otherwise, bank_hsk_02_accepts_otherwise_holds)
+  `FV_ASSERT(host_action_needs_a_byte, take_o || !host_action)
+  `FV_ASSERT(bank_grp_02_accepted_or_rejected, 2'(decision_o.go_accept) + 2'(decision_o.go_reject) == 2'(go))
+  `FV_ASSERT(bank_grp_02_reject_is_an_error, !decision_o.go_reject || asking_o.error)
+  logic bank_grp_02_first_pulse_holds;
+  assign bank_grp_02_first_pulse_holds =
+      !decision_o.go_accept || decision_o.finish || decision_o.pulse_end ||
+      (restart_time_o && add_cycles_o == go_delay_i);
+  `FV_ASSERT(bank_grp_02_first_pulse, bank_grp_02_first_pulse_holds)
+  `FV_ASSERT(bank_mot_01_first_pulse,
+             !decision_o.start || (restart_time_o && add_cycles_o == 18'(WidthCycles - Round)))
+  `FV_ASSERT(bank_mot_04_no_edge_at_the_end,
+             !decision_o.finish || !(decision_o.pulse || decision_o.pulse_end || decision_o.start))
+  `FV_ASSERT(p104_err_00_no_action_on_error, !(take_o && asking_o.error) || !host_action)
+  `FV_COVER(seen_go, decision_o.go_accept && in_buf_new_i)
+  `FV_COVER(seen_start, decision_o.start && take_o)
 
 endmodule
 

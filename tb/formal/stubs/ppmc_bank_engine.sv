@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine, stub for the proof of the block that instantiates it: any orders, interrupts and answers.
-// Its outputs are not driven.
+// ppmc_bank_engine, stub for the proof of the block that instantiates it: any pin commands, interrupts and
+// responses. Its outputs are not driven.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -9,32 +9,32 @@ module ppmc_bank_engine
   import ppmc_code_pkg::decoded_t;
   import ppmc_code_pkg::init_code_t;
 #(
-    parameter int unsigned Quantum   = 25,    // cycles
+    parameter int unsigned Quantum   = 25,    // quantum in cycles
     parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
-    parameter bit          PhaseIdle = 1'b1,
-    parameter int unsigned RoundBits = 5
+    parameter bit          PhaseIdle = 1'b1,  // level of s before the first initialisation
+    parameter int unsigned RoundBits = 5      // a round is 2^RoundBits cycles
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [5:0][RoundBits-1:0] axis_i,  // axes visited in stages 0 to 5
+    input wire logic [5:0][RoundBits-1:0] axis_i,  // axes in stages 0 to 5
     input wire logic [4:3] clear_i,  // the visits in stages 3 and 4 reset their axes
     // from the window
-    input wire mail_t mail_i,  // stage 1: input buffer
-    input wire progress_t progress_i,  // stage 1: bytes of the answer already read
+    input wire in_buf_t in_buf_i,  // stage 1: input buffer
+    input wire read_progress_t read_progress_i,  // stage 1: response bytes read by the host
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] due_i,  // W minus the cycles since GO
-    // from cells and switches
-    input wire seen_t seen_i,  // stage 2: pin cell and switches
+    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: W minus the cycles since GO
+    // from pin blocks and switches
+    input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
-    output status_t status_o,  // status register
+    output axis_status_t status_o,  // status register
     output logic [31:0] position_o,  // position
-    output logic answer_we_o,  // an answer is written
-    output answer_t answer_o,  // the answer
-    output order_t order_o,  // order to the pin cell
-    output logic [RoundBits-1:0] at_o,  // cycle of the edge in the round
-    output logic call_o,  // set the interrupt
-    output logic calm_o  // clear the interrupt
+    output logic read_data_we_o,  // write read_data_o
+    output read_data_t read_data_o,  // response to a read command
+    output pin_cmd_t pin_cmd_o,  // command to the pin block
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of pin_cmd_o in the round
+    output logic irq_set_o,  // set the pending interrupt of the axis
+    output logic irq_clear_o  // clear the pending interrupt of the axis
 );
 
 endmodule

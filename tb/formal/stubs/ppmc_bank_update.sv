@@ -10,36 +10,36 @@ module ppmc_bank_update
   import ppmc_op_pkg::*;
 #(
     parameter int unsigned HoldRounds = 106_250,  // rounds from the end of a motion to HOLD
-    parameter int unsigned HoldBits   = 17
+    parameter int unsigned HoldBits = 17  // bits of left_i
 ) (
-    input  wire plan_t                   plan_i,      // decision of the visit
-    input  wire seen_t                   seen_i,      // cell and switches as sampled by the visit
-    input  wire logic     [         7:0] code_i,      // code of the action
-    input  wire logic     [        31:0] params_i,    // parameters of the action
-    input  wire logic     [         1:0] config_ni,   // vsel and csel, inverted
-    input  wire logic     [         1:0] read_seq_i,  // last answer that the host has read
+    input wire decision_t decision_i,  // decisions of the visit
+    input wire pin_status_t pin_status_i,  // pin block and switches
+    input wire logic [7:0] code_i,  // code of the command
+    input wire logic [31:0] params_i,  // parameters of code_i
+    input wire logic [1:0] config_ni,  // vsel and csel, inverted
+    input wire logic [1:0] read_seq_i,  // seq of the response that the host has read last
     // state before the visit
-    input  wire walk_t                   walk_i,      // motion
-    input  wire pace_t                   pace_i,      // interval
-    input  wire setting_t                setting_i,   // initialisation
-    input  wire units_t                  units_i,     // chopper
-    input  wire logic                    chop_i,      // the initialisation enables chopping
-    input  wire logic     [         7:0] slow_i,      // start-up rate
-    input  wire rest_t                   rest_i,      // outputs
-    input  wire logic     [HoldBits-1:0] left_i,      // remaining rounds of the hold time, minus 1
-    input  wire logic     [        31:0] position_i,  // CW pulses minus CCW pulses
+    input wire motion_state_t motion_i,  // state of the motion
+    input wire interval_t interval_i,  // interval of the motion
+    input wire init_state_t init_state_i,  // progress of the initialisation
+    input wire chop_units_t chop_units_i,  // units of the chopper phases
+    input wire logic chop_i,  // chopping at standstill, from the initialisation
+    input wire logic [7:0] slow_i,  // start-up rate
+    input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
+    input wire logic [HoldBits-1:0] hold_left_i,  // remaining rounds of the hold time, minus 1
+    input wire logic [31:0] position_i,  // CW pulses minus CCW pulses
     // state after the visit
-    output walk_t                        walk_o,      // motion
-    output pace_t                        pace_o,      // interval
-    output setting_t                     setting_o,   // initialisation
-    output rest_t                        rest_o,      // outputs
-    output logic          [HoldBits-1:0] left_o,      // remaining rounds of the hold time, minus 1
-    output logic          [        31:0] position_o,  // CW pulses minus CCW pulses
-    // outputs of the visit
-    output order_t                       order_o,     // to the pin cell
-    output answer_t                      answer_o,    // with plan_i.read
-    output logic                         call_o,      // set the interrupt
-    output logic                         calm_o       // clear the interrupt
+    output motion_state_t motion_o,  // state of the motion
+    output interval_t interval_o,  // interval of the motion
+    output init_state_t init_state_o,  // progress of the initialisation
+    output output_state_t outputs_o,  // phases, chopper, end of the last motion
+    output logic [HoldBits-1:0] hold_left_o,  // remaining rounds of the hold time, minus 1
+    output logic [31:0] position_o,  // CW pulses minus CCW pulses
+    // outputs
+    output pin_cmd_t pin_cmd_o,  // command to the pin block
+    output read_data_t read_data_o,  // response to a read command, with decision_i.read
+    output logic irq_set_o,  // set the pending interrupt of the axis
+    output logic irq_clear_o  // clear the pending interrupt of the axis
 );
 
 endmodule
