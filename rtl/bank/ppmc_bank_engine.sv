@@ -214,7 +214,7 @@ module ppmc_bank_engine
       .decoded_i     (decoded_s3_q),
       .value_i       (value_s3_q),
       .asking_i      (asking_s3),
-      .asking_o      (asking),
+      .parser_o      (asking),
       .take_o        (take),
       .code_o        (code),
       .params_o      (params),

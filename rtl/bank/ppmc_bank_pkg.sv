@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_pkg: register numbers of a bank, types that its blocks exchange for one axis, and the state of
-// an axis in RAM.
-// Rules: BANK-GEN-01..04, BANK-WIN-01..03.
+//         an axis in RAM.
+// Rules:  BANK-GEN-01..04, BANK-WIN-01..03.
 `default_nettype none
 
 package ppmc_bank_pkg;
@@ -28,7 +28,7 @@ package ppmc_bank_pkg;
   // Byte in the input buffer. It is new while seq differs from that of the byte accepted last.
   typedef struct packed {
     logic [1:0] seq;
-    logic is_command;  // 1: command, 0: parameter
+    logic       is_command;  // 1: command, 0: parameter
     logic [7:0] data;
   } in_buf_t;
 
@@ -48,16 +48,16 @@ package ppmc_bank_pkg;
   // Status register of an axis, and seq of the byte that the axis accepted last.
   typedef struct packed {
     logic [1:0] ack_seq;
-    logic error;
-    logic [2:0] number;  // error number, or number of missing parameters
-    logic busy;
+    logic       error;
+    logic [2:0] number;   // error number, or number of missing parameters
+    logic       busy;
   } axis_status_t;
 
   // State of the command unit, in addition to last_cmd_t.
   typedef struct packed {
     logic [1:0] ack_seq;  // seq of the byte accepted last
-    logic error;
-    logic [2:0] number;  // error number, or number of missing parameters
+    logic       error;
+    logic [2:0] number;   // error number, or number of missing parameters
   } parser_t;
 
   // Last command and its parameters, written with each accepted byte.
@@ -68,9 +68,9 @@ package ppmc_bank_pkg;
 
   // Settings of an initialisation, written when its last byte is accepted.
   typedef struct packed {
-    logic chop;  // chop at standstill
-    logic [7:0] slow;  // start-up rate
-    logic [7:0] fast;  // high-speed rate
+    logic                              chop;   // chop at standstill
+    logic [7:0]                        slow;   // start-up rate
+    logic [7:0]                        fast;   // high-speed rate
     logic [ppmc104_pkg::STEP_BITS-1:0] steps;  // acceleration pulses PA
   } ramp_t;
 
@@ -82,9 +82,9 @@ package ppmc_bank_pkg;
 
   // Timing of the running interval.
   typedef struct packed {
-    logic slow_base;  // base clock of 125 kHz
-    logic extra_time;  // extra time of 7.5 us
-    logic decel;  // the deceleration has begun
+    logic       slow_base;   // base clock of 125 kHz
+    logic       extra_time;  // extra time of 7.5 us
+    logic       decel;       // the deceleration has begun
     // Rate of the running interval. While accelerating, after the low time: rate of the next interval.
     logic [7:0] rate;
   } interval_t;
@@ -92,112 +92,112 @@ package ppmc_bank_pkg;
   // State of a motion. At standstill, decel_margin is the number of remaining pulses that a host reads, and
   // ramp_level is the number of remaining units of a chopper phase.
   typedef struct packed {
-    logic busy;
-    logic more_pulses;  // at least one more pulse must be ordered
-    logic last_ordered;  // the last pulse has been ordered
-    logic held;  // waits for GO
-    logic pulse_low;  // from the order of a pulse to the order of its end
-    logic decel_forced;  // deceleration was requested
-    logic decel_natural;  // deceleration has begun by pulse count
-    logic flag_stop;  // deceleration was requested by a command
-    logic flag_slow;  // deceleration was requested by a slow-down limit
-    logic [2:0] op;  // operation
-    logic pout_only;  // POUT mode: the phases do not change
-    logic ccw;  // direction is CCW
-    logic silent;  // no interrupt at the end
-    logic [24:0] decel_margin;  // pulses after the next one - 1 - index of the running interval
-    logic [14:0] ramp_level;  // index of the running interval + 1
+    logic        busy;
+    logic        more_pulses;    // at least one more pulse must be ordered
+    logic        last_ordered;   // the last pulse has been ordered
+    logic        held;           // waits for GO
+    logic        pulse_low;      // from the order of a pulse to the order of its end
+    logic        decel_forced;   // deceleration was requested
+    logic        decel_natural;  // deceleration has begun by pulse count
+    logic        flag_stop;      // deceleration was requested by a command
+    logic        flag_slow;      // deceleration was requested by a slow-down limit
+    logic [2:0]  op;             // operation
+    logic        pout_only;      // POUT mode: the phases do not change
+    logic        ccw;            // direction is CCW
+    logic        silent;         // no interrupt at the end
+    logic [24:0] decel_margin;   // pulses after the next one - 1 - index of the running interval
+    logic [14:0] ramp_level;     // index of the running interval + 1
   } motion_state_t;
 
   // Progress of an initialisation.
   typedef struct packed {
     logic initialised;
-    logic building;  // the ramp table is being built
+    logic building;     // the ramp table is being built
   } init_state_t;
 
   // Phases, chopper, finish status, and sequence number of the last response.
   typedef struct packed {
-    logic hold;  // level of the pin hold
-    logic chop;  // chop at standstill
-    logic phases_on;  // state of the chopper: phases on
-    logic chop_programmed;  // the host has set the times of the chopper
-    logic [1:0] motor;  // motor_e
-    logic half;  // half step
-    logic positive;  // 0: s is inverted
-    logic two_phases;  // see ppmc_motion_pkg
-    logic [5:1] pattern;  // phases, 1 = on
-    logic finish_unread;  // finish status not read yet
-    stop_cause_t cause;  // cause of the end of the last motion
-    logic [1:0] read_data_seq;  // seq of the response stored last
+    logic        hold;             // level of the pin hold
+    logic        chop;             // chop at standstill
+    logic        phases_on;        // state of the chopper: phases on
+    logic        chop_programmed;  // the host has set the times of the chopper
+    logic [1:0]  motor;            // motor_e
+    logic        half;             // half step
+    logic        positive;         // 0: s is inverted
+    logic        two_phases;       // see ppmc_motion_pkg
+    logic [5:1]  pattern;          // phases, 1 = on
+    logic        finish_unread;    // finish status not read yet
+    stop_cause_t cause;            // cause of the end of the last motion
+    logic [1:0]  read_data_seq;    // seq of the response stored last
   } output_state_t;
 
   // State of the pin block and switches of an axis, as sampled by a visit.
   typedef struct packed {
-    logic armed;  // pulses may be output
-    logic emitted;  // the last ordered pulse has been output
-    logic stop;  // cause of armed = 0: STOP or a stop command
-    logic alarm;  // cause of armed = 0: alarm
-    logic limit;  // cause of armed = 0: limit
-    logic in_group;  // member of the group
+    logic      armed;     // pulses may be output
+    logic      emitted;   // the last ordered pulse has been output
+    logic      stop;      // cause of armed = 0: STOP or a stop command
+    logic      alarm;     // cause of armed = 0: alarm
+    logic      limit;     // cause of armed = 0: limit
+    logic      in_group;  // member of the group
     switches_t switches;
   } pin_status_t;
 
   // Command of a visit to the pin block. halt is executed immediately; pulse, pulse_end and set_pins are
   // executed in one cycle of the next round, and at most one of them is 1.
   typedef struct packed {
-    logic halt;  // no more pulses
-    logic pulse;  // a pulse begins
-    logic pulse_end;  // the pulse ends
-    logic set_pins;  // the other pins change
-    logic arm;  // with set_pins: pulses may follow; with pulse: another pulse may follow
-    logic search;  // the origin ends the motion
-    logic ccw;  // level of dir; selects the limit
-    logic hold;  // level of hold
-    logic [5:1] s;  // levels of s
+    logic       halt;       // no more pulses
+    logic       pulse;      // a pulse begins
+    logic       pulse_end;  // the pulse ends
+    logic       set_pins;   // the other pins change
+    logic       arm;        // with set_pins: pulses may follow; with pulse: another pulse may follow
+    logic       search;     // the origin ends the motion
+    logic       ccw;        // level of dir; selects the limit
+    logic       hold;       // level of hold
+    logic [5:1] s;          // levels of s
   } pin_cmd_t;
 
   // Comparisons of a visit, made one cycle before the decisions.
   typedef struct packed {
-    logic edge_in_round;  // the awaited edge is in the next round
-    logic rate_mismatch;  // the rate is not yet the rate of its index
-    logic margin_zero;  // motion_state_t.decel_margin is 0
+    logic edge_in_round;    // the awaited edge is in the next round
+    logic rate_mismatch;    // the rate is not yet the rate of its index
+    logic margin_zero;      // motion_state_t.decel_margin is 0
     logic margin_negative;  // motion_state_t.decel_margin is negative
-    logic ramp_bottom;  // motion_state_t.ramp_level is 0 or 1
-    logic ramp_top;  // the running interval has index PA
-    logic go;  // GO is active for this visit
-    logic table_idle;  // no table is being built for this axis
+    logic ramp_bottom;      // motion_state_t.ramp_level is 0 or 1
+    logic ramp_top;         // the running interval has index PA
+    logic go;               // GO is active for this visit
+    logic table_idle;       // no table is being built for this axis
   } compare_t;
 
   // Decisions of a visit.
   typedef struct packed {
-    logic start;  // an operation starts
-    logic go_accept;  // GO: pulse 1 is scheduled
-    logic go_reject;  // GO: no operation is waiting
-    logic finish;  // a motion ends
-    logic init_done;  // an initialisation is complete
-    logic init;  // an initialisation begins
-    logic first_init;  // with init: first one since reset or Excitation OFF
-    logic exc_off;  // Excitation OFF
-    logic switching;  // the times of the chopper are set
-    logic read;  // a read command
-    logic [2:0] read_select;  // data selected by the read command
-    logic halt;  // a stop command that acts immediately
-    logic abort_motion;  // the pin block has ended the motion
-    logic cancel_pulse;  // with abort_motion: the last ordered pulse was not output
-    logic flag_stop;  // deceleration by a command
-    logic flag_slow;  // deceleration by a slow-down limit
-    logic pulse;  // a pulse is ordered
-    logic last_pulse;  // with pulse: last pulse
-    logic level_up;  // with pulse: ramp_level + 1
-    logic level_down;  // with pulse: ramp_level - 1
-    logic decel_point;  // with pulse: the deceleration begins
-    logic decel_natural;  // with pulse: deceleration by pulse count
-    logic pulse_end;  // the end of a low time is ordered
-    logic rate_next;  // the rate changes by one
-    logic chop_edge;  // an edge of the chopper is ordered
-    logic chop_unit;  // one unit of the chopper phase has passed
-    logic hold_running;  // the hold time is running
-    logic hold_end;  // the hold time has ended
+    logic       start;          // an operation starts
+    logic       go_accept;      // GO: pulse 1 is scheduled
+    logic       go_reject;      // GO: no operation is waiting
+    logic       finish;         // a motion ends
+    logic       init_done;      // an initialisation is complete
+    logic       init;           // an initialisation begins
+    logic       first_init;     // with init: first one since reset or Excitation OFF
+    logic       exc_off;        // Excitation OFF
+    logic       switching;      // the times of the chopper are set
+    logic       read;           // a read command
+    logic [2:0] read_select;    // data selected by the read command
+    logic       halt;           // a stop command that acts immediately
+    logic       abort_motion;   // the pin block has ended the motion
+    logic       cancel_pulse;   // with abort_motion: the last ordered pulse was not output
+    logic       flag_stop;      // deceleration by a command
+    logic       flag_slow;      // deceleration by a slow-down limit
+    logic       pulse;          // a pulse is ordered
+    logic       last_pulse;     // with pulse: last pulse
+    logic       level_up;       // with pulse: ramp_level + 1
+    logic       level_down;     // with pulse: ramp_level - 1
+    logic       decel_point;    // with pulse: the deceleration begins
+    logic       decel_natural;  // with pulse: deceleration by pulse count
+    logic       pulse_end;      // the end of a low time is ordered
+    logic       rate_next;      // the rate changes by one
+    logic       chop_edge;      // an edge of the chopper is ordered
+    logic       chop_unit;      // one unit of the chopper phase has passed
+    logic       hold_running;   // the hold time is running
+    logic       hold_end;       // the hold time has ended
   } decision_t;
 
   // Command set of the PPMC-104 without the commands that a bank does not have (BANK-GEN-03).

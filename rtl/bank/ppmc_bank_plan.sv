@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_plan: decisions of a visit: whether the byte is accepted, the effect of byte and switches on the
-// motion, the edge to order from the pin block, and the cycles to the next edge.
-// Rules: BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
-// P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
+//         motion, the edge to order from the pin block, and the cycles to the next edge.
+// Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
+//         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
 // Timing: combinational.
-// How: cycles_left of state_s1_t is the number of cycles from the visit to the awaited edge. All values
-// added to it are reduced by Round, because the next visit is one round later.
+// How:    cycles_left of state_s1_t is the number of cycles from the visit to the awaited edge. All values
+//         added to it are reduced by Round, because the next visit is one round later.
 `default_nettype none
 
 module ppmc_bank_plan
@@ -14,9 +14,9 @@ module ppmc_bank_plan
   import ppmc_motion_pkg::*;
   import ppmc_op_pkg::*;
 #(
-    parameter int unsigned Quantum = 25,  // quantum in cycles
-    parameter int unsigned Round = 32,  // round in cycles
-    parameter int unsigned TimeBits = 20  // bits of an interval in cycles
+    parameter int unsigned Quantum  = 25,  // quantum in cycles
+    parameter int unsigned Round    = 32,  // round in cycles
+    parameter int unsigned TimeBits = 20   // bits of an interval in cycles
 ) (
     // axis
     input wire motion_state_t motion_i,  // state of the motion
@@ -99,21 +99,21 @@ module ppmc_bank_plan
   ppmc_command_check #(
       .Aux(1'b0)
   ) u_check (
-      .take_i(take_o),
-      .command_i(in_buf_i.is_command),
-      .byte_i(in_buf_i.data),
-      .data_i(in_buf_i.data),
+      .take_i        (take_o),
+      .command_i     (in_buf_i.is_command),
+      .byte_i        (in_buf_i.data),
+      .data_i        (in_buf_i.data),
       .decoded_i,
-      .param_error_i(value_i),
-      .is_checked_i(is_init),
-      .busy_i(motion_i.busy),
-      .ramp_i(has_ramp),
+      .param_error_i (value_i),
+      .is_checked_i  (is_init),
+      .busy_i        (motion_i.busy),
+      .ramp_i        (has_ramp),
       .decelerating_i(motion_i.decel_forced || motion_i.decel_natural || pulses_done),
-      .initialised_i(init_state_i.initialised),
-      .parser_i(asking_i),
-      .parser_o(asking),
-      .act_o(act),
-      .stop_o(unused_stop)
+      .initialised_i (init_state_i.initialised),
+      .parser_i      (asking_i),
+      .parser_o      (asking),
+      .act_o         (act),
+      .stop_o        (unused_stop)
   );
 
   // ---- the motion ----------------------------------------------------------------------------------
@@ -196,10 +196,10 @@ module ppmc_bank_plan
     })
       3'b100, 3'b101: return cycles_t'(ppmc104_pkg::CHOP_ON_DEFAULT * Quantum - Round);
       3'b000, 3'b001: return cycles_t'(ppmc104_pkg::CHOP_OFF_DEFAULT * Quantum - Round);
-      3'b110: return cycles_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum - Round);
-      3'b010: return cycles_t'(ppmc104_pkg::CHOP_OFF_VSEL_H * Quantum - Round);
-      3'b111: return cycles_t'(ppmc104_pkg::CHOP_ON_VSEL_L * Quantum - Round);
-      default: return cycles_t'(ppmc104_pkg::CHOP_OFF_VSEL_L * Quantum - Round);
+      3'b110:         return cycles_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum - Round);
+      3'b010:         return cycles_t'(ppmc104_pkg::CHOP_OFF_VSEL_H * Quantum - Round);
+      3'b111:         return cycles_t'(ppmc104_pkg::CHOP_ON_VSEL_L * Quantum - Round);
+      default:        return cycles_t'(ppmc104_pkg::CHOP_OFF_VSEL_L * Quantum - Round);
     endcase
   endfunction
 

@@ -39,12 +39,12 @@ module ppmc_bank_pins_fv
   always_ff @(posedge clk_i)
     if (!rst_ni) {blocked_q, has_pulse_q, at_cycle_q} <= {1'b1, 4'd0};
     else begin
-      blocked_q <= !(dut.set && dut.pin_cmd_q.arm) && (blocked_q || cause);
+      blocked_q <= !(dut.set_pins && dut.pin_cmd_q.arm) && (blocked_q || cause);
       if (load_i) {has_pulse_q, at_cycle_q} <= {pin_cmd_i.pulse, at_cycle_i};
     end
 
   `FV_ASSUME(one_pin_action, 2'(pin_cmd_i.pulse) + 2'(pin_cmd_i.pulse_end) + 2'(pin_cmd_i.set_pins) <= 2'd1)
-  `FV_ASSUME(pulses_end_first, !(load_i && pin_cmd_i.pulse) || (pout_no && !dut.pulse) || dut.rise)
+  `FV_ASSUME(pulses_end_first, !(load_i && pin_cmd_i.pulse) || (pout_no && !dut.pulse) || dut.pulse_end)
 
   logic pulse_seen_q;  // a pulse has been output
   always_ff @(posedge clk_i) pulse_seen_q <= rst_ni && (pulse_seen_q || !pout_no);
@@ -55,10 +55,10 @@ module ppmc_bank_pins_fv
              (has_pulse_q && cycle_i == at_cycle_q))
   `FV_ASSERT(bank_mot_01_pulse_ends_in_its_cycle, !(pout_no && $past(rst_ni && !pout_no)) || $past
              (dut.pin_cmd_q.pulse_end && cycle_i == at_cycle_q))
-  `FV_ASSERT(p104_tim_04_one_edge, !(s_o != $past(s_o) && $past(rst_ni)) || $past(dut.set) || !pout_no)
-  `FV_ASSERT(direction_stable, !($past(rst_ni) && dir_o != $past(dir_o)) || $past(dut.set))
+  `FV_ASSERT(p104_tim_04_one_edge, !(s_o != $past(s_o) && $past(rst_ni)) || $past(dut.set_pins) || !pout_no)
+  `FV_ASSERT(direction_stable, !($past(rst_ni) && dir_o != $past(dir_o)) || $past(dut.set_pins))
   `FV_ASSERT(p104_end_04_cause, !(!armed_o && $past(rst_ni && armed_o) && limit_o) || $past(limit))
-  `FV_COVER(seen_pulse_blocked, armed_o && dut.now && dut.pin_cmd_q.pulse && limit && pulse_seen_q)
+  `FV_COVER(seen_pulse_blocked, armed_o && dut.cycle_hit && dut.pin_cmd_q.pulse && limit && pulse_seen_q)
 
 endmodule
 

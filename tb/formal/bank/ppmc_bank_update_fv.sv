@@ -10,28 +10,28 @@ module ppmc_bank_update_fv
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 (
-    input wire logic clk_i,
-    input wire motion_state_t motion_i,
-    input wire interval_t interval_i,
-    input wire init_state_t init_state_i,
-    input wire chop_units_t chop_units_i,
-    input wire logic chop_i,
-    input wire logic [7:0] slow_i,
-    input wire output_state_t outputs_i,
-    input wire logic hold_end_i,
-    input wire pin_status_t pin_status_i,
-    input wire compare_t compare_i,
-    input wire logic builder_free_i,
-    input wire logic extra_time_i,
-    input wire in_buf_t in_buf_i,
-    input wire logic in_buf_new_i,
-    input wire decoded_t decoded_i,
-    input wire cmd_error_e value_i,
-    input wire parser_state_t asking_i,
-    input wire logic [17:0] go_delay_i,
-    input wire logic [17:0] after_low_i,
-    input wire logic [16:0] hold_left_i,
-    input wire logic [31:0] position_i
+    input wire logic                 clk_i,
+    input wire motion_state_t        motion_i,
+    input wire interval_t            interval_i,
+    input wire init_state_t          init_state_i,
+    input wire chop_units_t          chop_units_i,
+    input wire logic                 chop_i,
+    input wire logic          [ 7:0] slow_i,
+    input wire output_state_t        outputs_i,
+    input wire logic                 hold_end_i,
+    input wire pin_status_t          pin_status_i,
+    input wire compare_t             compare_i,
+    input wire logic                 builder_free_i,
+    input wire logic                 extra_time_i,
+    input wire in_buf_t              in_buf_i,
+    input wire logic                 in_buf_new_i,
+    input wire decoded_t             decoded_i,
+    input wire cmd_error_e           value_i,
+    input wire parser_state_t        asking_i,
+    input wire logic          [17:0] go_delay_i,
+    input wire logic          [17:0] after_low_i,
+    input wire logic          [16:0] hold_left_i,
+    input wire logic          [31:0] position_i
 );
 
   parser_state_t asking_o;
@@ -54,9 +54,9 @@ module ppmc_bank_update_fv
 
   ppmc_bank_update dut (
       .decision_i(decision_o),
-      .code_i(code_o),
-      .params_i(params_o),
-      .config_ni(2'b00),
+      .code_i    (code_o),
+      .params_i  (params_o),
+      .config_ni (2'b00),
       .read_seq_i(2'd0),
       .*
   );

@@ -9,9 +9,9 @@ module ppmc_bank_plan
   import ppmc_motion_pkg::*;
   import ppmc_op_pkg::*;
 #(
-    parameter int unsigned Quantum = 25,  // quantum in cycles
-    parameter int unsigned Round = 32,  // round in cycles
-    parameter int unsigned TimeBits = 20  // bits of an interval in cycles
+    parameter int unsigned Quantum  = 25,  // quantum in cycles
+    parameter int unsigned Round    = 32,  // round in cycles
+    parameter int unsigned TimeBits = 20   // bits of an interval in cycles
 ) (
     // axis
     input wire motion_state_t motion_i,  // state of the motion
