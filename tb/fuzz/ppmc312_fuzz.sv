@@ -11,7 +11,7 @@ module ppmc312_fuzz
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic  [7:0] byte_i,     // a character
+    input  wire logic [ 7:0] byte_i,     // a character
     input  wire logic        valid_i,    // strobe: byte_i was received
     input  wire logic        error_i,    // strobe: byte_i has no stop bit
     input  wire logic        silence_i,  // 1 during a silence
@@ -22,7 +22,7 @@ module ppmc312_fuzz
   serial_code_t info;
   logic [7:0] code, data;
   logic we, generated, poll, run, fault, unknown_code, overrun;
-  logic [3:0] addr;
+  logic [ 3:0] addr;
   logic [15:0] count_q;
   logic [31:0] digest_q;
 
@@ -33,22 +33,22 @@ module ppmc312_fuzz
   ) dut (
       .clk_i,
       .rst_ni,
-      .adr_i    (4'd5),
+      .adr_i         (4'd5),
       .byte_i,
       .valid_i,
       .error_i,
-      .busy_i   (1'b0),
-      .code_o   (code),
-      .info_i   (info),
-      .we_o     (we),
-      .generated_o(generated),
-      .addr_o   (addr),
-      .data_o   (data),
-      .poll_o   (poll),
-      .run_o    (run),
-      .fault_o  (fault),
+      .busy_i        (1'b0),
+      .code_o        (code),
+      .info_i        (info),
+      .we_o          (we),
+      .generated_o   (generated),
+      .addr_o        (addr),
+      .data_o        (data),
+      .poll_o        (poll),
+      .run_o         (run),
+      .fault_o       (fault),
       .unknown_code_o(unknown_code),
-      .overrun_o(overrun)
+      .overrun_o     (overrun)
   );
 
   ppmc312_serial_code_rom u_code_rom (
