@@ -117,11 +117,13 @@ def check_machine(python: str | None) -> None:
     if python and sys.prefix != sys.base_prefix:
         script = "import sys; print(*sys.version_info[:2], sep='.')"
         try:
-            asked = subprocess.run([python, "-c", script], capture_output=True, text=True, check=False).stdout
+            version = subprocess.run(
+                [python, "-c", script], capture_output=True, text=True, check=False
+            ).stdout
         except OSError:
             raise WrongError(f"PYTHON={python}: there is no such program") from None
         there = f"{sys.version_info.major}.{sys.version_info.minor}"
-        if asked.strip() != there:
+        if version.strip() != there:
             raise WrongError(f"PYTHON={python}: .venv has Python {there}; `make distclean' removes it")
 
 

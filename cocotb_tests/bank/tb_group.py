@@ -89,7 +89,7 @@ async def bank_grp_02_refused(dut):
         if axis:
             env.check("BANK-GRP-02", f"status of {axis.n}", await axis.status(), want)
     if waiting:
-        env.check("BANK-GRP-02", "a parameter that nobody wants", await waiting.host.data(0), 0xB0)
+        env.check("BANK-GRP-02", "a parameter that is not requested", await waiting.host.data(0), 0xB0)
     await held.idle()
     env.check("BANK-GRP-02", "pulse 1", held.pulses, [due(env, g)])
     env.check("BANK-GRP-02", "the busy one goes on", await busy.status() & BUSY, BUSY)

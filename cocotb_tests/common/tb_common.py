@@ -104,7 +104,7 @@ async def reset_release(dut):
         if rand.random() < 0.3:
             same("second fall", await u.settle(rst_ni=0), 0)
             u.put(rst_ni=1)
-            same("begins anew", await u.clk(), 0)
+            same("restarts", await u.clk(), 0)
         same("before edge 2", await u.clk(), 0)
         same("after edge 2", await u.clk(), 1)
 

@@ -152,7 +152,7 @@ async def wavers(dut):
 async def shy(dut):
     """The test fails only if no waves are recorded."""
     await _clk(dut)
-    assert b"--trace" in Path("/proc/self/cmdline").read_bytes(), "nobody looks"
+    assert b"--trace" in Path("/proc/self/cmdline").read_bytes(), "no trace"
 
 
 @cocotb.test()

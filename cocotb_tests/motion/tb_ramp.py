@@ -211,13 +211,13 @@ class Walker:
         """Set the ramp. `blank` is the data for rates that the table does not contain."""
         self.u, self.ramp, self.blank = u, (slow, fast, steps), blank
         self.lut = table(slow, fast, steps)
-        self.asked = deque([0, 0])
+        self.requested = deque([0, 0])
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
         """Make one cycle and return the watched outputs before it."""
-        answer = self.lut.get(self.asked.popleft(), self.blank)
+        answer = self.lut.get(self.requested.popleft(), self.blank)
         out = await self.u.settle(lut_data_i=answer, **inputs)
-        self.asked.append(self.u.get("lut_addr_o"))
+        self.requested.append(self.u.get("lut_addr_o"))
         await self.u.clk()
         return out
 

@@ -187,7 +187,7 @@ async def answering(host: Host) -> int:
         if await host.next_de_rise() is not None:
             await host.receive_reply()
             return address
-    raise AssertionError("nobody answers")
+    raise AssertionError("no reply")
 
 
 @directed("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")

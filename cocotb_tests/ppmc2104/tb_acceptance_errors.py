@@ -221,7 +221,7 @@ async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
     for j, pulses, low in ((5, 10, 0xDD), (2, 4, 0xE3), (1, 1, 0xE6)):
         await stop_after_pulse(axis, j)
         await axis.result("AC-35", pulses, 0xC3, 0x300 | low)
-        env.check("AC-35", f"intervals, asked in I({j})", axis.intervals, clk(EX_03[j]))
+        env.check("AC-35", f"intervals, requested in I({j})", axis.intervals, clk(EX_03[j]))
         env.check("AC-35", "83", await env.run("c 83 rrr"), [low, 3, 0])
 
 

@@ -25,7 +25,7 @@ NEVER_REFUSED = {
     **{("F7 REGISTRATION", source): "only the host registers" for source in ("EVENT", "OVERRIDE")},
 }
 REFUSALS = Cross(
-    "refusal and who asked",
+    "refusal and source",
     tuple(
         f"{answer:02X} {answer.name}"
         for answer in Answer

@@ -96,10 +96,10 @@ def main(words: list[str] | None = None) -> int:
     """Test both; return the exit status."""
     parser = argparse.ArgumentParser(prog="make test WITH=versions", description=__doc__)
     parser.add_argument("-k", default="", help="names of tests; `quick`: the sample of CI")
-    asked = parser.parse_args(words).k
-    tests = list(QUICK) if asked == "quick" else [path for one in TESTS for path in glob.glob(one)]
-    if asked not in ("", "quick"):
-        tests += ["-k", asked]
+    word = parser.parse_args(words).k
+    tests = list(QUICK) if word == "quick" else [path for one in TESTS for path in glob.glob(one)]
+    if word not in ("", "quick"):
+        tests += ["-k", word]
     found = pythons(candidates())
     try:
         if not found:

@@ -87,7 +87,7 @@ async def recorder_full(dut: Any) -> None:
     same("END changes nothing", Recorded.parse(await bench.done(INFO)), info)
     await bench.done(f"{BEGIN} {END}")
     info, samples = await read_all(bench)
-    same("begun anew", (info.count, info.full, [level for _, level in samples]), (2, False, [1, 1]))
+    same("restarted", (info.count, info.full, [level for _, level in samples]), (2, False, [1, 1]))
 
 
 @cocotb.test()

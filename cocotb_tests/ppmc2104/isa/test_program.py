@@ -208,7 +208,7 @@ def test_handler_after_the_restart(program):
     assert not module.late, "the handler polls for ever"
     assert module.t - since < 20_000, "the handler waits for the move"
     assert ends(library) == [0, 0x82, 0x82, 0x82]
-    assert left(library), "axis 1 cannot be asked before it rests"
+    assert left(library), "axis 1 has no status before it is idle"
     calls = module.calls
     library.move(3, 0x43, 20, 0)
     library.move(2, 0x43, 20, 0)

@@ -221,7 +221,7 @@ async def twins(master: Master, rng: random.Random) -> None:
 
     The other stations are not affected.
     """
-    check(await master.poll(6), None, "nobody has address 6")
+    check(await master.poll(6), None, "no station has address 6")
     check(await master.poll(MUTE), None, "a station without a speed")
     check(await master.poll(TWIN), Reply("ready", TWIN, b""), "both answer alike")
     check(await master.ask(TWIN, SETTING), Reply("ready", TWIN, b""), "both are set")

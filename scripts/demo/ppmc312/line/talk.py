@@ -99,6 +99,6 @@ def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
         if who == "master":
             found.append(Exchange(begin, end, end, end, data, b""))
         elif found:
-            asked = found[-1]
-            found[-1] = Exchange(asked.begin, asked.sent_end, begin, end, asked.question, data)
+            request = found[-1]
+            found[-1] = Exchange(request.begin, request.sent_end, begin, end, request.question, data)
     return found
