@@ -5,7 +5,7 @@ Rules: P006 chapters 3.1, 3.2, 3.3, 4.2.
 
 from __future__ import annotations
 
-from .desk import Deed, Desk, Effect, Instruction, Read, Setting, value
+from .execution_context import Deed, Desk, Effect, Instruction, Read, Setting, value
 from .settings import LEGAL
 
 STEPS = range(1, 0x8000_0000)

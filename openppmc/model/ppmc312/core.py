@@ -18,8 +18,8 @@ from .instructions.unit import Unit
 from .motion.inputs import EVENT_PINS, Filters, InputChange, Outputs
 from .motion.operation import Operation
 from .motion.position import Counters, Interlock, Monitor, Watch
-from .pace import Pace
 from .stages import FreeCurve, Table
+from .timing import Pace
 
 
 class Core:

@@ -17,7 +17,7 @@ from .front.mailbox import IDLE, Mailbox, Strobes
 from .front.serial import bit_time
 from .front.station import Driver, HostSide, Log, Station
 from .motion.motion import Motion
-from .pace import READY, Pace
+from .timing import READY, Pace
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness import verifies
-from openppmc.model.ppmc312.pace import Pace
+from openppmc.model.ppmc312.timing import Pace
 from openppmc.model.ppmc312.stages import Table, constant, ramped
 from tests.ppmc312.model.reference import T1, T2, T3, T4, T5, TF, TG, TH
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from ...chip import Phase
 from ...clock import Event
 from ..codes import TABLE
-from ..desk import Effect
+from ..execution_context import Effect
 from ..line import Command
 from ..memory.eeprom import Engine
 from ..motion.motion import Guard, Motion

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ...chip import Phase
 from ...clock import Event
 from ..codes import LETTERS
-from ..desk import Desk, Effect
+from ..execution_context import Desk, Effect
 from ..pins import Shared
 from ..settings import BOTH
 

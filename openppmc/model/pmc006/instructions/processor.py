@@ -6,7 +6,7 @@ from enum import Enum, auto
 from typing import Protocol
 
 from ...chip import Phase
-from ..desk import Desk, Effect
+from ..execution_context import Desk, Effect
 from .operations import COUNT, Operation, Outcome, Then, decode, waited
 
 WORDS = 2 * COUNT

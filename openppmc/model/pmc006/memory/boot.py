@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ...chip import Phase
-from ..desk import Desk
+from ..execution_context import Desk
 from ..settings import PAGE, Settings, framed, values_of
 from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, Course, Engine
 

@@ -8,7 +8,7 @@ from math import ceil
 from typing import TypeVar
 
 from ...chip import Phase
-from ..desk import Desk
+from ..execution_context import Desk
 from ..pins import Shared, Ticks
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 

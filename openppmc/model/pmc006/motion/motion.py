@@ -14,7 +14,7 @@ from typing import Protocol
 
 from ...chip import Phase
 from ...clock import Callback, Event
-from ..desk import Desk
+from ..execution_context import Desk
 from ..pins import Shared
 from .engine import UPDATE, Engine, Live, Order, Stage
 

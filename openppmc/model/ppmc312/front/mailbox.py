@@ -13,7 +13,7 @@ from typing import Protocol
 from ...chip import Context, Phase
 from ...clock import EdgeLog, Event, Scheduler
 from ..codes import Source
-from ..pace import Pace
+from ..timing import Pace
 from .responses import Responses
 
 # Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11). They belong to the pins, not to the

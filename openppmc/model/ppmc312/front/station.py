@@ -14,7 +14,7 @@ from ...chip import Context, Phase
 from ...clock import Event
 from ...uart import Receiver, Transmitter
 from ..codes import Answer, Cause, Source, State
-from ..pace import SILENCE, Pace
+from ..timing import SILENCE, Pace
 from .responses import Responses
 from .serial import (
     BUSY,

@@ -16,8 +16,8 @@ from ..front.station import HostSide
 from ..motion.inputs import InputChange, Outputs
 from ..motion.operation import Operation
 from ..motion.position import Counters, Interlock, Watch
-from ..pace import Pace
 from ..stages import FreeCurve, Table
+from ..timing import Pace
 
 # Members of the part that instructions need: its blocks and its state. `ppmc312.core.Core` implements them.
 

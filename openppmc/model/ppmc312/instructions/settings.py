@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...chip import Phase
-from .. import pace
+from .. import timing
 from ..codes import FO, LE, Answer
 from ..stages import FreeCurve, SettingError, build
 from .overrides import Core
@@ -42,7 +42,7 @@ def initial(core: Core, data: bytes) -> Work:
         return b"\x00"
 
     clk = core.pace.filling(table) + core.pace.looking_up()
-    return Work(finish, clk, pace.BUILD[sigmoid, separate], begin=begin)
+    return Work(finish, clk, timing.BUILD[sigmoid, separate], begin=begin)
 
 
 def open_curve(core: Core, header: int, data: bytes) -> Work:

@@ -6,7 +6,7 @@ Rules: chapter 3.3, checks 7 and 8.
 from __future__ import annotations
 
 from ...chip import Phase
-from .. import pace
+from .. import timing
 from ..codes import (
     DIR,
     IDX,
@@ -181,21 +181,21 @@ def _plan(code: int, table: Table, data: bytes) -> tuple[Plan, int]:
         count = _count(data[-4:])  # checked before the rate
         plan = ramped(table, _rate(table, given), count)
         if any(given):
-            slow = pace.TRAPEZOID_RATE, pace.OTHER_SHAPE_RATE
+            slow = timing.TRAPEZOID_RATE, timing.OTHER_SHAPE_RATE
         else:
-            slow = pace.TRAPEZOID, pace.OTHER_SHAPE
+            slow = timing.TRAPEZOID, timing.OTHER_SHAPE
         return plan, slow[plan.kind != TRAPEZOID]
     if code == Code.CONSTANT:
         count = _count(data[3:7])
-        return constant(table, _rate(table, given), count), pace.CONSTANT
+        return constant(table, _rate(table, given), count), timing.CONSTANT
     if code == Code.STEP:
-        return constant(table, table.rates[table.sa], 1), pace.GENERAL
+        return constant(table, table.rates[table.sa], 1), timing.GENERAL
     if code == Code.FOREVER_CONSTANT:
-        return constant(table, _rate(table, given)), pace.CONSTANT
+        return constant(table, _rate(table, given)), timing.CONSTANT
     if code == Code.ORIGIN_SEARCH:
-        return constant(table, _rate(table, given, zero=False)), pace.GENERAL
+        return constant(table, _rate(table, given, zero=False)), timing.GENERAL
     plan = ramped(table, _rate(table, given), None)
-    return plan, pace.ENDLESS_RATE if any(given) else pace.ENDLESS
+    return plan, timing.ENDLESS_RATE if any(given) else timing.ENDLESS
 
 
 def start(core: Core, block: bytes) -> Work:
@@ -247,7 +247,7 @@ def stop(core: Core, code: int, at_position: bool) -> Work:
         return bytes([code])
 
     delayed = code == Code.STOP and not at_position
-    return Work(act, cycles=pace.STOP if delayed else None)
+    return Work(act, cycles=timing.STOP if delayed else None)
 
 
 def change(core: Core, code: int, data: bytes) -> Work:

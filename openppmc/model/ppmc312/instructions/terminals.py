@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ...chip import Phase
-from .. import pace
+from .. import timing
 from ..codes import Answer, Code, Trigger
 from ..front.responses import INPUT
 from ..stages import read_back
@@ -187,7 +187,7 @@ def act(core: Core, code: int, data: bytes) -> Work:
         return Work(lambda t: told)
     return Work(
         lambda t: bytes([code]) + _ACTS[code](core, t, data),
-        cycles=pace.OUTPUT if code == Code.OUTPUT else None,
+        cycles=timing.OUTPUT if code == Code.OUTPUT else None,
     )
 
 

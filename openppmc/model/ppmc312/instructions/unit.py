@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ...chip import Phase
 from ..codes import Alarm, Code, Source, Trigger
 from ..front.responses import ANSWER, Report
-from ..pace import WIDTH
+from ..timing import WIDTH
 from .overrides import Core
 from .starts import check, is_reset
 from .work import Refusal, Work, refusal_block

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from ...chip import Context, Phase
 from ...clock import Callback, Event
 from ..front.responses import Responses
-from ..pace import CLEAR_PULSE, CURRENT_DOWN, EVT_LOW, PIN_LOW, SAMPLE
+from ..timing import CLEAR_PULSE, CURRENT_DOWN, EVT_LOW, PIN_LOW, SAMPLE
 
 SLOW_PINS = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n")
 EVENT_PINS = ("evt0_n", "evt1_n")

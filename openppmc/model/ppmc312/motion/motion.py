@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from ...chip import Context, Phase
 from ...clock import Event
 from ..codes import IMMEDIATE, Cause
-from ..pace import Pace
 from ..stages import DIVIDERS, Plan
+from ..timing import Pace
 from .sequence import Change, Sequence
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")

@@ -13,8 +13,8 @@ from ...chip import Context, Phase
 from ..codes import Alarm, Answer, Cause, State
 from ..front import responses as responses312
 from ..front.responses import Responses
-from ..pace import Pace
 from ..stages import constant
+from ..timing import Pace
 from .inputs import Outputs
 from .motion import LIMITS, SLOW_LIMITS, Motion, Order
 from .position import Counters

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from ...chip import Context, Phase
 from ..codes import SPONTANEOUS, Answer
 from ..front.responses import Responses, block
-from ..pace import Pace
+from ..timing import Pace
 
 _WRAP = (1 << 32) - 1
 _LONG, _SHORT = 14, 4
