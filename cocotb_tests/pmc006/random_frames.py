@@ -78,7 +78,7 @@ class Frames(RandomHost):
             self.seen["reply"] += 1
         if self.rng.random() < 0.97:
             await host.forget()
-        host.address = self.model.desk.settings.addr
+        host.address = self.model.context.settings.addr
 
     async def setting(self) -> None:
         """Write a register, mostly with legal data."""
