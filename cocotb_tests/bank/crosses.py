@@ -36,7 +36,7 @@ def _hook(count: Count) -> None:
         motion = axis.motion
         rest = "at rest" if axis.commands.initialised else UNINIT
         moves = "decelerating" if motion.decelerating else "in motion"
-        state = "waiting for GO" if motion.held else moves if motion.busy else rest
+        state = "waiting for GO" if motion.waits_for_go else moves if motion.busy else rest
         count(GROUP.name, GROUP.rows[not motion.in_group], state)
 
     before(Axis, "go", on_go)

@@ -18,22 +18,24 @@ MOTION = Cross(
 BESIDE = Cross("instruction of a frame and what else runs", OPS, ("nothing", "program", "EEPROM"))
 
 
-def _motion(desk: Any) -> str:
-    if not desk.motion.busy:
-        return MOTION.columns[desk.settings.free or desk.guard.locked]
-    return "speed mode" if desk.running else MOTION.columns[2 + desk.motion.steady]
+def _motion(context: Any) -> str:
+    if not context.motion.busy:
+        return MOTION.columns[context.settings.free or context.stop_monitor.locked]
+    return "speed mode" if context.running else MOTION.columns[2 + context.motion.at_constant_speed]
 
 
 def _hook(count: Count) -> None:
     def begun(executor: Any, t: int, command: Any) -> None:
-        desk, op = executor._desk, chr(command.code)
+        context, op = executor._context, chr(command.code)
         op = op if op in LETTERS else NONE
-        count(MOTION.name, op, _motion(desk))
+        count(MOTION.name, op, _motion(context))
         count(
-            BESIDE.name, op, "EEPROM" if desk.eeprom.busy else "nothing" if desk.program.halted else "program"
+            BESIDE.name,
+            op,
+            "EEPROM" if context.eeprom.busy else "nothing" if context.program.halted else "program",
         )
 
-    before(Executor, "_of_host", begun)
+    before(Executor, "_execute_host", begun)
 
 
 CROSSES = Crosses((MOTION, BESIDE), _hook)

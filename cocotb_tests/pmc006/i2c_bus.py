@@ -68,6 +68,6 @@ class I2cBus:
             self.model.pins(t, scl_i=scl, sda_i=sda)
         self._look = None
         before = device.scl, device.sda
-        device.look(t, scl, sda)
+        device.on_lines(t, scl, sda)
         if (device.scl, device.sda) != before:
             self._look = t + 1

@@ -80,7 +80,7 @@ class FrameHost(RandomHost):
             self.seen["reply"] += 1
         if self.rng.random() < 0.97:
             await host.ignore_replies()
-        host.address = self.model.desk.settings.addr
+        host.address = self.model.context.settings.addr
 
     async def setting(self) -> None:
         """Write a register, mostly with legal data."""

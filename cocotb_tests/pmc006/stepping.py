@@ -90,7 +90,7 @@ class MotorHost(Stepping):
 
     async def _to(self, edge: int) -> None:
         if self.plant:
-            for t, levels in self.plant.legs(edge - 1):
+            for t, levels in self.plant.pieces(edge - 1):
                 await self.bench.until(t + 1)
                 self.bench.set(**levels)
         else:

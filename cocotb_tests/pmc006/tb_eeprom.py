@@ -102,7 +102,7 @@ async def p006_eeprom_device(dut: Any) -> None:
                 await Timer(1, "step")
                 dut.clk_i.value = 0
                 if lines != before or t == model.due:
-                    model.look(t, *lines)
+                    model.on_lines(t, *lines)
                 before = lines
                 pulls = int(dut.scl_oe_o.value), int(dut.sda_oe_o.value)
                 assert pulls == (model.scl, model.sda), f"clk {t}: {pulls}, model {(model.scl, model.sda)}"

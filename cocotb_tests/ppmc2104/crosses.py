@@ -66,7 +66,7 @@ def _hook(count: Count) -> None:
         if port._reading:
             count(ACCESSES.name, "status read" if port._pins["a0"] else "data read", style(port))
 
-    before(CommandUnit, "_charge", charged)
+    before(CommandUnit, "_report_error", charged)
     before(HostPort, "_store", written)
     before(HostPort, "_second_load", read)
 

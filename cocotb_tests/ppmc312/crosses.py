@@ -67,11 +67,11 @@ def _hook(count: Count) -> None:
         if header in (CODE_MORE, CODE_LAST) and body and unit._core.transfer is None:
             count(INSTRUCTIONS.name, CODES.get(body[0], NONE), unit._core.state.name)
 
-    def refused(unit: Any, t: int, job: Any, refusal: Any) -> None:
-        count(REFUSALS.name, f"{refusal.answer:02X} {refusal.answer.name}", job.source.name)
+    def rejected(unit: Any, t: int, job: Any, rejection: Any) -> None:
+        count(REFUSALS.name, f"{rejection.answer:02X} {rejection.answer.name}", job.source.name)
 
     def stopped(operation: Any, t: int, cause: Cause = Cause.STOP) -> None:
-        if operation._held:
+        if operation._waiting_for_run:
             count(CAUSES.name, cause.name, HELD)
 
     def boundary(motion: Any, t: int) -> None:
@@ -86,7 +86,7 @@ def _hook(count: Count) -> None:
         count(CAUSES.name, found.name, boundaries.get(id(motion)) or _where(motion))
 
     before(Unit, "_begin", begun)
-    before(Unit, "_refuse", refused)
+    before(Unit, "_reject", rejected)
     before(Operation, "stop", stopped)
     before(Motion, "_pulse", boundary)
     after(Motion, "_pulse", past)

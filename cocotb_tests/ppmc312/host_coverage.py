@@ -15,7 +15,7 @@ from unittest.mock import patch
 from openppmc.model.ppmc312.codes import Answer, Cause, Source
 from openppmc.model.ppmc312.front.responses import ENCODE, POSITION, Responses
 from openppmc.model.ppmc312.instructions.overrides import Fifo, Triggered
-from openppmc.model.ppmc312.motion.motion import Order
+from openppmc.model.ppmc312.motion.motion import MotionRequest
 from openppmc.model.ppmc312.motion.operation import Operation
 from openppmc.model.ppmc312.motion.sequence import Sequence
 from openppmc.model.ppmc312.part import Ppmc312
@@ -102,7 +102,7 @@ def counting() -> Iterator[Counter[str]]:
     counts: Counter[str] = Counter()
     post, change = Responses.post, Responses.input_change
     release, begin, run = Fifo._release, Operation._begin, Ppmc312.run_until
-    boundary, turn, final = Sequence.boundary, Operation._turn_back, Sequence._final
+    boundary, turn, final = Sequence.boundary, Operation._start_phase_2, Sequence._begin_final
 
     def counted_post(self: Responses, t: int, kind: int, blocks: list[bytes], source: Any = None) -> bool:
         done = post(self, t, kind, blocks, source)
@@ -122,7 +122,7 @@ def counting() -> Iterator[Counter[str]]:
         counts[f"trigger {released.entry.trigger.name} {released.entry.block[2]:02X}"] += 1
         return released
 
-    def counted_begin(self: Operation, t: int, order: Order) -> None:
+    def counted_begin(self: Operation, t: int, order: MotionRequest) -> None:
         counts["starts"] += 1
         plan = order.plan
         kind = "endless" if plan.n is None else "constant" if not (plan.up or plan.down) else "finite"
@@ -132,11 +132,11 @@ def counting() -> Iterator[Counter[str]]:
     def counted_boundary(self: Sequence, ramps: bool = True, found: bool = True) -> Any:
         changed, mode = self._change, self._mode
         step = boundary(self, ramps, found)
-        counts["87 dropped at the point"] += self.drops
-        counts["searched pulses"] += self.sought
-        if self.walk_begins:
-            counts[f"walk {self._walk_cause.name}"] += 1
-        if changed is not None and self._change is None and not (self.walk_begins or self.drops):
+        counts["87 dropped at the point"] += self.change_dropped
+        counts["searched pulses"] += self.was_searched
+        if self.decel_begins:
+            counts[f"walk {self._decel_cause.name}"] += 1
+        if changed is not None and self._change is None and not (self.decel_begins or self.change_dropped):
             counts["change 87" if changed.ramp else "change 88"] += 1
             if mode.name in ("WALK", "RAMP", "FINAL") or (mode.name == "PLAN" and self.done > 1):
                 counts[f"change in {mode.name}"] += 1

@@ -295,7 +295,7 @@ class MisuseHost(StateAwareHost):
         host, rng, motion = self.host, self.rng, self.model.motion
         if not motion.active or motion.sequence.running is None:
             return
-        due = motion.due
+        due = motion.next_boundary
         if due is None:
             return
         near = due + rng.randint(-9, 5)
@@ -303,7 +303,7 @@ class MisuseHost(StateAwareHost):
             text = self.block(rng.choice((0x80, 0x81, 0x81, 0x87, 0x87, 0x88, 0x88, 0x88)))
             ahead = 29 + 6 * (len(text) + 1)
             if text[2] > 0x81 and self.model.core.table:
-                ahead += self.model.pace.look_up()
+                ahead += self.model.core_timing.look_up()
             interval = max(4, due - host.t)
             while near - ahead < host.t:
                 near += interval

@@ -234,8 +234,8 @@ class ScenarioHost(MisuseHost):
         await self.attend(rng.choice((30, 200)))
         await self.send_block(message(Code.RAMP_CHANGE, f"00 {min(self.rates):04X}"))
         motion = self.model.motion
-        if motion.active and motion.due and rng.random() < 0.8:
-            await host.go(max(host.t, motion.due - rng.randint(70, 150)))
+        if motion.active and motion.next_boundary and rng.random() < 0.8:
+            await host.go(max(host.t, motion.next_boundary - rng.randint(70, 150)))
         await self.send_block(message(Code.RAMP_CHANGE, f"00 {self.speed():04X}"))
         await self.attend(3_000)
 
@@ -365,7 +365,7 @@ class ScenarioHost(MisuseHost):
             await self.attend(rng.choice((300, 900, 2_000)))
             if rng.random() < 0.4:
                 await self.meanwhile(1)
-            due = self.model.motion.due
+            due = self.model.motion.next_boundary
             at = max(host.t + 1, (due or host.t) + rng.randint(-9, 5))
             self.background.blip(at, "org_n", 0, rng.choice((1, 5, 700, 3_000)))
             self.background.blip(at + rng.choice((0, 2, 300)), "index_n", 0, rng.choice((1, 30, 900)))
@@ -382,7 +382,7 @@ class ScenarioHost(MisuseHost):
         await self.send_block(block.hex())
         pins = SLOW_LIMITS if rng.random() < 0.8 else LIMITS
         for _ in range(rng.randint(1, 3)):
-            due = self.model.motion.due
+            due = self.model.motion.next_boundary
             at = max(host.t + 1, (due or host.t) + rng.randint(-9, 5))
             pin = pins[self.model.motion.direction ^ (rng.random() < 0.1)]
             self.background.blip(at, pin, 0, rng.choice((1, 3, 100, 1_000, 3_000)))

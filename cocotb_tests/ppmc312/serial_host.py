@@ -199,7 +199,7 @@ class SerialHost(SerialLine, DirectedHost):
     async def at_rest(self, after: int = 200, limit: int = 4_000_000) -> None:
         """Wait until the golden model reports the end of the motion, and `after` more cycles."""
         end = self.t + limit
-        while not self.bench.golden.core.operation.at_rest:
+        while not self.bench.golden.core.operation.at_standstill:
             assert self.t < end, f"the motion does not end\n{self.bench.context()}"
             await self.step()
         await self.pause(after)

@@ -41,7 +41,7 @@ class Line:
                 continue
             self.t += CHARACTER
             self.model.run_until(self.t - 1)
-            self.model.hear(self.t, item)
+            self.model.on_char(self.t, item)
         self.t += 2
         self.model.run_until(self.t)
 

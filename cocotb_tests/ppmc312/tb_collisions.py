@@ -100,13 +100,13 @@ async def p312_a_limit_after_a_position_stop_changes_nothing(dut: Any) -> None:
 async def p312_stop_between_the_phases_of_a_zero_return(dut: Any, case: Any) -> None:
     code, cause = case
     host = await Host.start(dut, *TF, message(code, "05"))
-    pace = host.bench.golden.pace
+    timing = host.bench.golden.core_timing
     await host.ask(message(Code.ZERO_RETURN, "00 0000"))
     await host.pulse(15)
     await host.pins(org_n=0)
     last = await host.pulse(27)
-    done = last + 6400 + pace.turn_back
-    acts = pace.turn + pace.effect + (pace.halt if code == 0x80 else 0)
+    done = last + 6400 + timing.turn_back
+    acts = timing.arbitration + timing.effect + (timing.halt if code == 0x80 else 0)
     await host.go(done - acts - host.bench.golden.latency.input_sync)
     await host.pins(evt0_n=0)
     assert await host.response() == message(code, source=Source.OVERRIDE)
@@ -288,11 +288,11 @@ async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
     """Instruction 80, by an event near the pulse that a position waits for, stops at pulse 9 or 10."""
     setting = (message(Code.STOP, "04 0000000A"), message(Code.EVENT_SET, "00", message(Code.STOP, "00")))
     host = await Host.start(dut, *TF, *setting)
-    pace = host.bench.golden.pace
+    timing = host.bench.golden.core_timing
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     before = await host.pulse(8)
     last = await host.pulse(9)
-    acts = pace.turn + pace.effect + pace.halt + host.bench.golden.latency.input_sync
+    acts = timing.arbitration + timing.effect + timing.halt + host.bench.golden.latency.input_sync
     await host.go(2 * last - before - acts + shift)
     await host.pins(evt0_n=0)
     await host.pause(7000)

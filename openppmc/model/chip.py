@@ -20,7 +20,7 @@ from .clock import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, 
 # one edge the blocks run in the order of `Phase`, so that each block sees the state of the others that a
 # register would hold just before the edge.
 
-Put = Callable[[int, str, int], None]
+SetPin = Callable[[int, str, int], None]
 
 
 class Phase(IntEnum):
@@ -68,13 +68,13 @@ class Context:
 class PinRegister:
     """Output registers that follow internal levels `lag` cycles later.
 
-    put(t, signal, value): sets a pin of the part.
+    set_pin(t, signal, value): sets a pin of the part.
     """
 
-    def __init__(self, queue: Scheduler, lag: int, initial: Mapping[str, int], put: Put) -> None:
+    def __init__(self, queue: Scheduler, lag: int, initial: Mapping[str, int], set_pin: SetPin) -> None:
         self._queue = queue
         self._lag = lag
-        self._put = put
+        self._set_pin = set_pin
         self._last = dict(initial)
 
     def latch(self, t: int, internal: Mapping[str, int]) -> None:
@@ -85,7 +85,7 @@ class PinRegister:
                 self._queue.at(t + self._lag, Phase.PIN, self._setter(signal, value))
 
     def _setter(self, signal: str, value: int) -> Callback:
-        return lambda now: self._put(now, signal, value)
+        return lambda now: self._set_pin(now, signal, value)
 
 
 # Square wave of a phase accumulator, which adds twice its frequency every cycle and toggles on each wrap.
@@ -185,7 +185,7 @@ class Chip(ABC):
         """Sample new levels of the bus pins at edge t."""
 
     @abstractmethod
-    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+    def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         """Process synchronised levels of the other pins, which decisions at edge t use."""
 
     @abstractmethod
@@ -252,7 +252,7 @@ class Chip(ABC):
 
     def _sample_levels(self, t: int) -> None:
         levels = dict(self._pins)
-        self._queue.at(t + self.latency.input_sync, Phase.LEVELS, lambda now: self._see(now, levels))
+        self._queue.at(t + self.latency.input_sync, Phase.LEVELS, lambda now: self._on_levels(now, levels))
 
     def _reset(self, t: int) -> None:
         """Reset the part asynchronously (P104-PORT-03, P2104-PORT-03)."""

@@ -2,7 +2,8 @@
 
 A core may choose its latencies within the bounds of the rules.
 
-Rules: P104-GEN-02..04 (CYC, quantum), P104-BCK-03 (tick n of the quantum counter), section 8 (`ds_*`).
+Rules: P104-GEN-02..04 (CYC, quantum), P104-BCK-03 (tick n of the quantum counter), P104-DS,
+P2104-DS and STMC-DS (`ds_*`).
 """
 
 from __future__ import annotations
@@ -37,16 +38,16 @@ class Latency:
             takes 3 for RL = RH, which needs no table.
         build_clk: function of (RL, RH, PA) that replaces build_base and build_per_rate.
         build_queue: addition to a build where two axes share the builder.
-        ds_host: addition to times measured from a write event (section 8, -0/+16).
-        ds_waited: addition to times measured from the end of a wait (section 8, -0/+16).
-        ds_motor: addition to times measured from a pulse, a deciding edge or an input level (section 8,
+        ds_host: addition to times measured from a write event (P104-DS, -0/+16).
+        ds_waited: addition to times measured from the end of a wait (P104-DS, -0/+16).
+        ds_motor: addition to times measured from a pulse, a deciding edge or an input level (P104-DS,
             -0/+16).
         ds_window: addition to the windows of P2104-DS-01..14, which count from the C-event.
         ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12.
-        seek_start, seek_per_rate: look-up of the rate of an interval that is slower than the previous one.
-            The core looks the rate up while it runs, and the mailbox opens when the look-up has passed the
-            limit. It takes seek_start, and seek_per_rate for each rate.
-        seek_turn: look-up of the first such interval, whose rate is known.
+        lookup_start, lookup_per_rate: look-up of the rate of an interval that is slower than the previous
+            one. The core looks the rate up while it runs, and the mailbox opens when the look-up has passed
+            the limit. It takes lookup_start, and lookup_per_rate for each rate.
+        lookup_first: look-up of the first such interval, whose rate is known.
     """
 
     c_event: int = 2
@@ -70,9 +71,9 @@ class Latency:
     ds_motor: int = 1
     ds_window: int = 1
     ds12_lag: int = 1
-    seek_start: int = -2
-    seek_turn: int = 1
-    seek_per_rate: int = 3
+    lookup_start: int = -2
+    lookup_first: int = 1
+    lookup_per_rate: int = 3
 
     def build(self, rl: int, rh: int, pa: int) -> int:
         """Return the length of the ramp-table build in cycles."""

@@ -68,7 +68,7 @@ INPUT_REGISTER = {7: "cnp_n", 6: "alm_n", 3: "l1_n", 2: "l2_n", 1: "l3_n", 0: "l
 DEFAULT_QUANTA = (260, 435)
 
 
-class Switching:
+class ChopperTimes:
     """Chopper times: the defaults until the first 0x84, then its two values; longer with vsel = L."""
 
     def __init__(self, context: Context) -> None:
@@ -111,7 +111,7 @@ class Motion(TimedMotion):
 
     def _latch_operation(self, command: Command, data: list[int], setup: Setup) -> None:
         levels = self._context.levels
-        self._load(command, data, setup, levels["csel"], bool(levels["vsel"]))
+        self._latch_settings(command, data, setup, levels["csel"], bool(levels["vsel"]))
 
     def _first_pulse_cycles(self) -> int:
         triangle = self.is_ramp and self._total - 1 < 2 * self._setup.ramp.pa
@@ -130,10 +130,10 @@ class Motion(TimedMotion):
             self._port.close_until(at)
         self._request(at, "flag", FINISH_STOP)
 
-    def _slow_counts(self) -> bool:
-        return super()._slow_counts() and (self.high or not self._command.pulse_only)
+    def _slow_limit_effective(self) -> bool:
+        return super()._slow_limit_effective() and (self.high or not self._command.pulse_only)
 
-    def _slow_edge(self, t: int) -> int:
+    def _slow_limit_edge(self, t: int) -> int:
         if not self._context.datasheet:
             return t
         cycles = DS_FLAG_LIMIT_HIGH if self.high else DS_FLAG_LIMIT
@@ -144,15 +144,15 @@ class Motion(TimedMotion):
     def _interval_begun(self, t: int) -> None:
         if self._context.datasheet and not self._external:
             rate, limit = self.intervals[-1].rate, self._fast_limit
-            self._gate.set(t + self._fast_lag(rate, limit), self._clock.quanta(rate) < limit)
+            self._gate.set(t + self._fast_decision_delay(rate, limit), self._clock.quanta(rate) < limit)
         if self.high and self._command.pulse_only:
-            self._context.queue.at(t + 1, Phase.GUARD, self.judge)
+            self._context.queue.at(t + 1, Phase.GUARD, self.check_stops)
 
     @property
     def _fast_limit(self) -> int:
         return DS_FAST_PULSE if self._command.pulse_only else DS_FAST_PHASE
 
-    def _fast_lag(self, rate: int, limit: int) -> int:
+    def _fast_decision_delay(self, rate: int, limit: int) -> int:
         """Return the cycles from a pulse event to the decision about P104-DS-12.
 
         See Latency.ds12_lag.
@@ -164,11 +164,11 @@ class Motion(TimedMotion):
             passed += 1
         if not passed:
             return latency.ds12_lag
-        slower = len(self.intervals) > 2 and self._falls(-2)
-        look_up = latency.seek_start + latency.seek_per_rate * passed if slower else latency.seek_turn
+        slower = len(self.intervals) > 2 and self._is_decelerating_interval(-2)
+        look_up = latency.lookup_start + latency.lookup_per_rate * passed if slower else latency.lookup_first
         return latency.ds12_lag + look_up
 
-    def _falls(self, number: int) -> bool:
+    def _is_decelerating_interval(self, number: int) -> bool:
         """Return True if this interval of a ramp has a lower index than the previous one."""
         index, before = self.intervals[number].index, self.intervals[number - 1].index
         return index is not None and before is not None and index < before
@@ -196,10 +196,10 @@ class CommandUnit(ByteUnit):
         motion: Motion,
         excitation: Excitation,
         chopper: Chopper,
-        switching: Switching,
+        chopper_times: ChopperTimes,
     ) -> None:
         super().__init__(context, port, motion, excitation, chopper)
-        self._switching = switching
+        self._chopper_times = chopper_times
 
     def _decode(self, byte: int) -> Command:
         return decode(byte)
@@ -216,7 +216,7 @@ class CommandUnit(ByteUnit):
         elif kind is Kind.READ:
             self._port.answer(self._register(t, command.code))
         elif kind is Kind.SWITCHING:
-            self._switching.set(*data)
+            self._chopper_times.set(*data)
         elif kind is Kind.AUX_OUTPUT:
             level = ~data[0] & 0xF
             self._later(t, reference, _DS_AUX, lambda at: self._context.drive(at, "auxo", level))
@@ -316,12 +316,14 @@ class Ppmc104(SingleAxis):
         super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, phase_idle, latency)
 
     def _blocks(self, context: Context) -> None:
-        switching = Switching(context)
-        self._chopper = Chopper(context, switching)
+        chopper_times = ChopperTimes(context)
+        self._chopper = Chopper(context, chopper_times)
         gate = SpeedGate(lambda t: self._port.retry(t))
-        self._port = HostPort(context, self._take, self._state, strobes, gate.waits)
+        self._port = HostPort(context, self._take, self._state, strobes, gate.must_wait)
         self._motion = motion = Motion(context, self._port, gate, self._excitation, self._chopper)
-        self._commands = CommandUnit(context, self._port, motion, self._excitation, self._chopper, switching)
+        self._commands = CommandUnit(
+            context, self._port, motion, self._excitation, self._chopper, chopper_times
+        )
 
     def _motor_levels(self) -> dict[str, int]:
         motion = self._motion
@@ -357,11 +359,11 @@ class Carrier(carrier.Carrier[Ppmc104]):
     def straps(self, levels: int) -> None:
         self.set_pins(csel=levels & 1, vsel=levels >> 1 & 1)
 
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         return self.part.status
 
     def pins(self) -> int:
-        self._settle()
+        self._run_pending()
         return self.pin_byte(self.part.outputs["hold"], 0)
 
 

@@ -29,32 +29,32 @@ class Receiver:
 
     Args:
         bit: bit time in cycles.
-        got: got(t, byte) is called with a character whose stop bit edge t samples; `None` means that the stop
-            bit was low.
+        on_char: on_char(t, byte) is called with a character whose stop bit edge t samples; `None` means that
+            the stop bit was low.
     """
 
-    def __init__(self, context: Queued, bit: Fraction, got: Callable[[int, int | None], None]) -> None:
-        self._queue, self._bit, self._got = context.queue, bit, got
+    def __init__(self, context: Queued, bit: Fraction, on_char: Callable[[int, int | None], None]) -> None:
+        self._queue, self._bit, self._on_char = context.queue, bit, on_char
         self._level = 1
         self._history: list[tuple[int, int]] = []
         self._start: int | None = None
-        self._broken = False
+        self._wait_for_high = False
         self._event: Event | None = None
 
-    def forget(self) -> None:
+    def abort(self) -> None:
         """Discard the character being received and ignore the line until it is high."""
         if self._event:
             self._event.cancel()
-        self._start, self._broken = None, True
+        self._start, self._wait_for_high = None, True
 
-    def see(self, t: int, level: int) -> None:
+    def on_level(self, t: int, level: int) -> None:
         """Process a level of the synchronised line from edge t on."""
         self._level = level
         if self._start is not None:
             self._history.append((t, level))
         elif level:
-            self._broken = False
-        elif not self._broken:
+            self._wait_for_high = False
+        elif not self._wait_for_high:
             self._start, self._history = t, [(t, level)]
             self._event = self._queue.at(self._middle(0), Phase.BUS, self._verify)
 
@@ -80,8 +80,8 @@ class Receiver:
         The levels in the middles of all earlier bits are known now.
         """
         byte = sum(self._at(self._middle(number + 1)) << number for number in range(8))
-        self._start, self._broken = None, not self._level
-        self._got(t, byte if self._level else None)
+        self._start, self._wait_for_high = None, not self._level
+        self._on_char(t, byte if self._level else None)
 
 
 class Transmitter:

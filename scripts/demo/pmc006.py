@@ -47,7 +47,7 @@ class Motor:
             levels[name] = value
             if after != t:
                 for winding in self.windings.values():
-                    winding.look(t / self.hz, levels)
+                    winding.on_outputs(t / self.hz, levels)
 
     def curve(self, name: str, begin: int, end: int, count: int = 1500) -> list[tuple[int, float, float]]:
         """Return `count` samples (edge, current in A, reference in A)."""

@@ -116,7 +116,7 @@ class SequencerRun:
         """Run all cycles of an interval except the last."""
         requests = self.plan_requests()
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
-        if self.sequence.sought and self.rand.random() < 0.3:
+        if self.sequence.was_searched and self.rand.random() < 0.3:
             # A boundary at which the result of the search just takes effect, or just does not.
             cycles = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
             longest = max(longest, cycles - self.flat_for)
@@ -148,7 +148,7 @@ class SequencerRun:
             where = f"{self.what}, {self.history}, boundary {self.sequence.done + 1}"
             end, low, count, rate = await self.sample()
             self.slow = self.u.get("slow_i") and not self.u.get("next_slow_o")
-            flat_for = self.flat_for - SEARCH * self.sequence.sought
+            flat_for = self.flat_for - SEARCH * self.sequence.was_searched
             was_stage = self.sequence.in_table
             want = self.sequence.boundary(flat_for >= FLAT, flat_for >= FOUND)
             if isinstance(want, Cause):
@@ -158,7 +158,7 @@ class SequencerRun:
             same(f"{where}: end, rate", (end, rate), (0, want.rate))
             if was_stage and want.stage is None:
                 self.flat_for = 0
-            self.searched += self.sequence.sought
+            self.searched += self.sequence.was_searched
             await self.clk(step_i=1)
             self.u.put(step_i=0, slow_i=0)
             await self.u.settle()
@@ -250,7 +250,7 @@ class LateStopRun(SequencerRun):
 
     def plan_requests(self) -> dict[int, str]:
         """Request 88 and 87 to begin the search; during it 88, then 81."""
-        if self.sequence.sought and self.jump:
+        if self.sequence.was_searched and self.jump:
             requests = {self.jump: "jump", LEADS["slow"]: "slow"}
             self.jump = 0
             return requests

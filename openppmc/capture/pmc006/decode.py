@@ -101,7 +101,7 @@ def _named(model: Pmc006, wires: Wires) -> None:
     if address != FACTORY:
         t = model.timebase.clk_hz // 50
         for byte in command(FACTORY, "w", address):
-            model.hear(t, byte)
+            model.on_char(t, byte)
             t += 16
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...model.ppmc312.codes import INPUTS, OUTPUTS
 from ...model.ppmc312.front import serial
-from ...model.ppmc312.front.serial import FORMS, LENGTHS, Local, Note, block_of
+from ...model.ppmc312.front.serial import LENGTHS, SERIAL_INSTRUCTIONS, Local, ReportCode, block_of
 from ..common.characters import Character, characters, rate_of
 from ..common.errors import CaptureError
 from ..common.part_decoder import Line, Needs, PartDecoder, Wires
@@ -72,8 +72,8 @@ def _frame(run: list[Character], reply: bool, mode: str) -> Line:
     if reply:
         text = KINDS.get(kind, f"kind {kind:02X}")
         if kind == serial.SPECIFIC and content:
-            known = content[0] in list(Note)
-            text = Note(content[0]).name.lower().replace("_", " ") if known else text
+            known = content[0] in list(ReportCode)
+            text = ReportCode(content[0]).name.lower().replace("_", " ") if known else text
         elif content:
             text += f" {content.hex(' ').upper()}"
     elif kind == serial.POLL:
@@ -84,7 +84,7 @@ def _frame(run: list[Character], reply: bool, mode: str) -> Line:
         strange = len(content) - 1 != LENGTHS[code]
         if code in list(Local):
             text = Local(code).name.lower().replace("_", " ")
-        elif code in FORMS and not strange:
+        elif code in SERIAL_INSTRUCTIONS and not strange:
             text = block_words(block_of(code, content[1:]))
     else:
         text, strange = "no instruction", True

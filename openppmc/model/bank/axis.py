@@ -9,9 +9,9 @@ from ..chip import Context, Phase
 from ..clock import Callback, Event, QuantumCounter, Scheduler
 from ..motion.codes import IBF, OBF
 from ..motion.excitation import Excitation
-from ..ppmc104 import Switching
+from ..ppmc104 import ChopperTimes
 from ..single.codes import Error
-from .chopper import CONFIG_LEAD, SWITCH_LEAD, Chopper, Visits
+from .chopper import CONFIG_LEAD, SWITCH_LEAD, Chopper, VisitSchedule
 from .commands import Builder, CommandUnit, Mailbox
 from .group import SWITCHES, Group
 from .motion import Motion
@@ -19,21 +19,21 @@ from .motion import Motion
 CONFIG_RESET = 0b11
 
 
-class Touched(Scheduler):
+class AxisScheduler(Scheduler):
     """Event queue of the part for the blocks of one axis.
 
-    Every event that runs adds the axis to `touched`.
+    Every event that runs adds the axis to `changed_axes`.
     """
 
-    def __init__(self, queue: Scheduler, touched: set[int], axis: int) -> None:
+    def __init__(self, queue: Scheduler, changed_axes: set[int], axis: int) -> None:
         super().__init__()
-        self._shared, self._touched, self._axis = queue, touched, axis
+        self._shared, self._changed_axes, self._axis = queue, changed_axes, axis
 
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
         """Schedule an event in the queue of the part."""
 
         def run(now: int) -> None:
-            self._touched.add(self._axis)
+            self._changed_axes.add(self._axis)
             action(now)
 
         return self._shared.at(t, phase, run, kind)
@@ -57,7 +57,7 @@ class Axis:
     Args:
         number: number of the axis.
         shared: services of the bank.
-        touched: set of the axes in which something may have changed.
+        changed_axes: set of the axes in which something may have changed.
 
     Attributes:
         config: content of the CONFIG register.
@@ -67,29 +67,29 @@ class Axis:
         self,
         number: int,
         shared: Context,
-        touched: set[int],
-        visits: Visits,
+        changed_axes: set[int],
+        visits: VisitSchedule,
         group: Group,
         builder: Builder,
         phase_idle: int,
     ) -> None:
         self.visits = visits
         self.config = CONFIG_RESET
-        self._spent = -1
+        self._go_visit = -1
         self._switches = dict.fromkeys(SWITCHES, 1)
         self.context = context = AxisContext(
             shared.timebase,
             shared.latency,
             False,
-            Touched(shared.queue, touched, number),
+            AxisScheduler(shared.queue, changed_axes, number),
             shared.log,
             QuantumCounter(shared.timebase, visits.first(0)),
             {**self._switches, "csel": 1, "vsel": 1},
         )
         self.excitation = Excitation(phase_idle)
-        switching = Switching(context)
-        self.chopper = Chopper(context, switching, visits)
-        self.mailbox = Mailbox(context, visits, self._take, self._waits)
+        chopper_times = ChopperTimes(context)
+        self.chopper = Chopper(context, chopper_times, visits)
+        self.mailbox = Mailbox(context, visits, self._take, self._retry_edge)
         self.motion = Motion(
             context, self.mailbox, self.excitation, self.chopper, visits, self._switches, group, number
         )
@@ -99,7 +99,7 @@ class Axis:
             self.motion,
             self.excitation,
             self.chopper,
-            switching,
+            chopper_times,
             visits,
             builder,
             number,
@@ -110,14 +110,16 @@ class Axis:
     def _take(self, t: int, byte: int, command: bool) -> None:
         self.commands.take(t, byte, command, t)
 
-    def _waits(self, t: int, command: bool) -> int | None:
+    def _retry_edge(self, t: int, command: bool) -> int | None:
         """Return the first edge at which the waiting byte of this axis may be tried again.
 
         The call returns None if visit t may accept the byte (BANK-HSK-02, -05).
         """
-        if t in (self.motion.ended, self.commands.completed, self._spent) or self.chopper.orders(t):
+        if t in (self.motion.ended, self.commands.completed, self._go_visit) or self.chopper.schedules_edge(
+            t
+        ):
             return t + 1
-        edge = self.commands.waits_until(command)
+        edge = self.commands.builder_free_from(command)
         return edge if t < edge else None
 
     def go(self, t: int, go: int) -> None:
@@ -125,14 +127,14 @@ class Axis:
         motion, commands = self.motion, self.commands
         if not motion.in_group:
             return
-        self._spent = t
-        if motion.held:
+        self._go_visit = t
+        if motion.waits_for_go:
             motion.release(go)
         elif motion.busy:
-            commands.refuse(Error.NOT_WHILE_BUSY)
+            commands.reject(Error.NOT_WHILE_BUSY)
         else:
-            commands.refuse(Error.UNDEFINED if commands.known(t) else Error.NOT_INITIALISED)
-        self.mailbox.look_again(t)
+            commands.reject(Error.UNDEFINED if commands.was_initialised(t) else Error.NOT_INITIALISED)
+        self.mailbox.retry(t)
 
     def halt(self, t: int) -> None:
         """Process STOP at edge t."""
@@ -146,16 +148,16 @@ class Axis:
         levels = {"csel": config & 1, "vsel": config >> 1}
         self.context.queue.at(t + CONFIG_LEAD, Phase.LEVELS, lambda now: self.context.levels.update(levels))
 
-    def see(self, t: int, levels: Mapping[str, int]) -> None:
+    def on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         """Process switches that changed at edge t."""
         self._switches.update(levels)
         queue = self.context.queue
-        queue.at(t, Phase.GUARD, self.motion.judge)
-        queue.at(t + SWITCH_LEAD, Phase.LEVELS, lambda now: self._visits_see(now, levels))
+        queue.at(t, Phase.GUARD, self.motion.check_stops)
+        queue.at(t + SWITCH_LEAD, Phase.LEVELS, lambda now: self._update_visit_levels(now, levels))
 
-    def _visits_see(self, t: int, levels: Mapping[str, int]) -> None:
+    def _update_visit_levels(self, t: int, levels: Mapping[str, int]) -> None:
         self.context.levels.update(levels)
-        self.motion.look_after(t)
+        self.motion.schedule_slow_check(t)
 
     # ------------------------------------------------------------------ observable state
 

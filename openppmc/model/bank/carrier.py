@@ -41,11 +41,11 @@ class Carrier(carrier.Carrier[PpmcBank]):
     def straps(self, levels: int) -> None:
         """Ignore the levels, because the carrier has no straps."""
 
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         return self.part.status(self._selected) if self._selected < len(self.plants) else 0xFF
 
     def pins(self) -> int:
-        self._settle()
+        self._run_pending()
         axis = self._selected % len(self.plants)
         return self.pin_byte(self.part.outputs["hold"] >> axis & 1, axis)
 

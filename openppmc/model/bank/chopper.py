@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..chip import Context, Phase
 from ..clock import Event
 from ..motion import excitation
-from ..motion.excitation import Switching
+from ..motion.excitation import ChopperTimes
 
 # Times of the visits of each axis (BANK-GEN-01), and delays from an event to the first visit that sees its
 # effect.
@@ -40,7 +40,7 @@ def round_clk(axes: int) -> int:
     return max(axes, SHORTEST_ROUND)
 
 
-class Visits:
+class VisitSchedule:
     """Visits of an axis: edges axis + 8 + n R after `released`, for n = 1, 2 and so on."""
 
     def __init__(self, axis: int, axes: int, released: int) -> None:
@@ -62,37 +62,39 @@ class Chopper(excitation.Chopper):
     The length of a phase is determined at the visit that schedules its first edge.
     """
 
-    def __init__(self, context: Context, times: Switching, visits: Visits) -> None:
+    def __init__(self, context: Context, times: ChopperTimes, visits: VisitSchedule) -> None:
         super().__init__(context, times)
         self._visits = visits
         self._boundary_edge = -1
-        self._found: int | None = None
-        self._ordering: Event | None = None
+        self._latched_length: int | None = None
+        self._latch_event: Event | None = None
 
-    def orders(self, visit: int) -> bool:
+    def schedules_edge(self, visit: int) -> bool:
         """Return True if this visit schedules an edge (BANK-HSK-02)."""
         return self._boundary_edge == visit or (
-            self.due is not None and self.due < visit + self._visits.round
+            self.next_phase_at is not None and self.next_phase_at < visit + self._visits.round
         )
 
     def stop(self) -> None:
         """Stop the chopper."""
         super().stop()
-        if self._ordering:
-            self._ordering.cancel()
-        self._boundary_edge, self._found = -1, None
+        if self._latch_event:
+            self._latch_event.cancel()
+        self._boundary_edge, self._latched_length = -1, None
 
     def _plan(self) -> None:
         super()._plan()
-        assert self.due is not None
-        self._ordering = self._context.queue.at(self._visits.last(self.due), Phase.QUEUE, self._order)
+        assert self.next_phase_at is not None
+        self._latch_event = self._context.queue.at(
+            self._visits.last(self.next_phase_at), Phase.QUEUE, self._latch_length
+        )
 
-    def _order(self, t: int) -> None:
+    def _latch_length(self, t: int) -> None:
         """Latch vsel and the parameters at this visit (BANK-GEN-04)."""
-        self._found = self._times.quanta(not self.on)
+        self._latched_length = self._times.quanta(not self.on)
 
     def _length(self) -> int:
-        return super()._length() if self._found is None else self._found
+        return super()._length() if self._latched_length is None else self._latched_length
 
     def _boundary(self, t: int) -> None:
         self._boundary_edge = t

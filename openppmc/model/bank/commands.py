@@ -13,35 +13,38 @@ from .. import ppmc104
 from ..chip import Context, Phase
 from ..clock import Event
 from ..motion.excitation import Chopper, Excitation
-from ..ppmc104 import Switching
+from ..ppmc104 import ChopperTimes
 from ..single.codes import Command, Error, Kind, decode
 from ..single.hostport import BytePort
-from .chopper import BUILD_LEAD, BYTE_LEAD, READY_LEAD, Visits
+from .chopper import BUILD_LEAD, BYTE_LEAD, READY_LEAD, VisitSchedule
 from .motion import Motion
 
 # Input buffer and output queue of one axis of the bank (BANK-HSK-01..04).
 
-Take = Callable[[int, int, bool], None]
-Waits = Callable[[int, bool], int | None]
+AcceptByte = Callable[[int, int, bool], None]
+RetryEdge = Callable[[int, bool], int | None]
 
 
 class Mailbox:
     """Input buffer and output queue.
 
-    take(t, byte, is_command): command unit. waits(t, is_command): `None`, or the edge of the next attempt if
-    visit t must not accept the byte. Readable: obf, shown (the byte in the data register).
+    take(t, byte, is_command): command unit. retry_edge(t, is_command): `None`, or the edge of the next
+    attempt if visit t must not accept the byte. Readable: obf, data_register (next byte that a
+    data read returns).
     """
 
-    def __init__(self, context: Context, visits: Visits, take: Take, waits: Waits) -> None:
+    def __init__(
+        self, context: Context, visits: VisitSchedule, take: AcceptByte, retry_edge: RetryEdge
+    ) -> None:
         self._queue, self._visits = context.queue, visits
-        self._take, self._waits = take, waits
+        self._take, self._retry_edge = take, retry_edge
         self._written: list[tuple[int, int, bool]] = []
         self._planned: Event | None = None
         self._next = -1
         self._closed_until = -1
         self.obf = False
-        self.shown = 0
-        self._more: list[int] = []
+        self.data_register = 0
+        self._next_bytes: list[int] = []
         self._being_read = False
 
     # ------------------------------------------------------------------ in
@@ -64,7 +67,7 @@ class Mailbox:
         """Accept no byte at a visit before edge t."""
         self._closed_until = t
 
-    def look_again(self, t: int) -> None:
+    def retry(self, t: int) -> None:
         """Try again at the next visit, because the reason for waiting at visit t may be gone."""
         if self._planned:
             self._plan(t + 1)
@@ -78,18 +81,18 @@ class Mailbox:
 
     def _visit(self, t: int) -> None:
         self._planned = None
-        seen = [entry for entry in self._written if entry[0] + BYTE_LEAD <= t]
+        visible = [entry for entry in self._written if entry[0] + BYTE_LEAD <= t]
         later = t + 1
-        if seen:
-            _, byte, command = seen[-1]
-            self._written = self._written[len(seen) - 1 :]
-            again = self._closed_until if t < self._closed_until else self._waits(t, command)
-            if again is None:
+        if visible:
+            _, byte, command = visible[-1]
+            self._written = self._written[len(visible) - 1 :]
+            retry_at = self._closed_until if t < self._closed_until else self._retry_edge(t, command)
+            if retry_at is None:
                 del self._written[0]
                 self._take(t, byte, command)
             else:
                 # A byte that replaces the rejected byte may be accepted earlier.
-                later = min([again, *(written + BYTE_LEAD for written, _, _ in self._written[1:])])
+                later = min([retry_at, *(written + BYTE_LEAD for written, _, _ in self._written[1:])])
         if self._written:
             self._plan(later)
 
@@ -97,11 +100,11 @@ class Mailbox:
 
     def answer(self, values: Iterable[int]) -> None:
         """Load the bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
-        self.shown, *self._more = values
+        self.data_register, *self._next_bytes = values
         self.obf, self._being_read = True, False
 
     def snapshot(self) -> None:
-        """Latch `shown` for a data read."""
+        """Latch `data_register` for a data read."""
         self._being_read = self.obf
 
     def read_ended(self) -> None:
@@ -109,13 +112,13 @@ class Mailbox:
         if not self._being_read:
             return
         self._being_read = False
-        if self._more:
-            self.shown = self._more.pop(0)
+        if self._next_bytes:
+            self.data_register = self._next_bytes.pop(0)
         else:
             self.obf = False
 
 
-_LEFT_OUT = (Kind.AUX_ON, Kind.AUX_OFF, Kind.AUX_OUTPUT)
+_UNSUPPORTED = (Kind.AUX_ON, Kind.AUX_OFF, Kind.AUX_OUTPUT)
 _READ_AUXILIARY = 0x85
 _EXTERNAL = 0x10
 
@@ -139,7 +142,7 @@ class CommandUnit(ppmc104.CommandUnit):
         initialised: True if an initialisation is complete and active.
     """
 
-    while_busy: ClassVar[tuple[Kind, ...]] = (Kind.STOP, Kind.SLOW_STOP)
+    allowed_while_busy: ClassVar[tuple[Kind, ...]] = (Kind.STOP, Kind.SLOW_STOP)
 
     def __init__(
         self,
@@ -148,12 +151,12 @@ class CommandUnit(ppmc104.CommandUnit):
         motion: Motion,
         excitation: Excitation,
         chopper: Chopper,
-        switching: Switching,
-        visits: Visits,
+        chopper_times: ChopperTimes,
+        visits: VisitSchedule,
         builder: Builder,
         axis: int,
     ) -> None:
-        super().__init__(context, port, motion, excitation, chopper, switching)
+        super().__init__(context, port, motion, excitation, chopper, chopper_times)
         self._visits, self._builder, self._axis = visits, builder, axis
         self.completed = -1
         self.initialised = self._before = False
@@ -161,18 +164,18 @@ class CommandUnit(ppmc104.CommandUnit):
     def _decode(self, byte: int) -> Command:
         command = decode(byte)
         external = command.kind is Kind.INITIALISE and byte & _EXTERNAL
-        if external or byte == _READ_AUXILIARY or command.kind in _LEFT_OUT:
+        if external or byte == _READ_AUXILIARY or command.kind in _UNSUPPORTED:
             return Command(Kind.UNDEFINED, byte)
         return command
 
     def _pin(self, name: str) -> int:
         return super()._pin(name) >> self._axis & 1
 
-    def known(self, t: int) -> bool:
+    def was_initialised(self, t: int) -> bool:
         """Return True if visit t sees an initialisation that was complete before it (BANK-GRP-02)."""
         return self._before if t == self.completed else self.initialised
 
-    def refuse(self, error: Error) -> None:
+    def reject(self, error: Error) -> None:
         """Store the error of a GO for which no motion was waiting (BANK-GRP-02)."""
         self._pending, self._data = None, []
         self.error = error
@@ -181,7 +184,7 @@ class CommandUnit(ppmc104.CommandUnit):
         super()._excitation_off(t)
         self.initialised = False
 
-    def waits_until(self, command: bool) -> int:
+    def builder_free_from(self, command: bool) -> int:
         """Return the first edge at which the builder allows the next byte."""
         last = self._pending is not None and self._pending.kind is Kind.INITIALISE and self.expected == 1
         return self._builder.free_from if last and not command else 0

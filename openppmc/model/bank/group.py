@@ -9,7 +9,7 @@ from ..chip import Phase
 from ..clock import Scheduler
 from ..motion.excitation import ALL_PHASES
 from ..ppmc104 import GUARD
-from .chopper import GROUP_LEAD, Visits
+from .chopper import GROUP_LEAD, VisitSchedule
 
 # Pins of the bank with idle and reset levels. A port of all axes is one number; bit i belongs to axis i. In
 # `s`, bits 5 i .. 5 i + 4 are S1 .. S5 of axis i.
@@ -43,7 +43,7 @@ def widths(axes: int) -> dict[str, int]:
 class Member(Protocol):
     """Members of an axis that the registers GO and STOP use."""
 
-    visits: Visits
+    visits: VisitSchedule
 
     def go(self, t: int, go: int) -> None:
         """Process the GO of edge `go` at visit t."""
@@ -64,7 +64,7 @@ class Group:
         self._all = (1 << axes) - 1
         self._round = round_clk
         self.mask = 0
-        self._seen = 0
+        self._visible_mask = 0
         self._go = -round_clk
         self._stopped = -1
         self.members: Sequence[Member] = ()
@@ -72,14 +72,14 @@ class Group:
     def write_mask(self, t: int, k: int, byte: int) -> None:
         """Process write event t of byte k of MASK."""
         self.mask = mask = (self.mask & ~(0xFF << 8 * k) | byte << 8 * k) & self._all
-        self._queue.at(t + GROUP_LEAD, Phase.LEVELS, lambda now: self._show(mask))
+        self._queue.at(t + GROUP_LEAD, Phase.LEVELS, lambda now: self._update_visible_mask(mask))
 
-    def _show(self, mask: int) -> None:
-        self._seen = mask
+    def _update_visible_mask(self, mask: int) -> None:
+        self._visible_mask = mask
 
-    def holds(self, axis: int) -> bool:
+    def includes(self, axis: int) -> bool:
         """Return the MASK bit of an axis as its current visit sees it."""
-        return bool(self._seen >> axis & 1)
+        return bool(self._visible_mask >> axis & 1)
 
     def go(self, t: int) -> None:
         """Process write event t of GO.

@@ -2,7 +2,7 @@
 
 Visits make decisions and detect events. Pins change at the edges of their events. From the edge at which a
 motion is cut to the first visit that detects the cut, the engine continues unchanged (BANK-MOT-03). A pulse
-that is scheduled in this time is *lost*: the engine counts it until this visit, but it is never output.
+that is scheduled in this time is *cancelled*: the engine counts it until this visit, but it is never output.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from collections.abc import Mapping
 
 from .. import ppmc104
 from ..chip import Context, Phase
-from ..motion.codes import FINISH_SLOW, FINISH_STOP, Command, Seen, inspect
+from ..motion.codes import FINISH_SLOW, FINISH_STOP, ActiveCauses, Command, inspect
 from ..motion.excitation import Excitation
 from ..motion.motion import Setup
 from ..ppmc104 import GUARD
 from ..single.hostport import BytePort, SpeedGate
-from .chopper import END_LEAD, GROUP_LEAD, Chopper, Visits
+from .chopper import END_LEAD, GROUP_LEAD, Chopper, VisitSchedule
 from .group import Group
 
 
@@ -27,7 +27,7 @@ class Motion(ppmc104.Motion):
         switches: levels of the switches at this edge; context.levels holds those that a visit sees.
 
     Attributes:
-        held: True if the motion is waiting for GO (BANK-GRP-01).
+        waits_for_go: True if the motion is waiting for GO (BANK-GRP-01).
         ended: visit that ended the last motion, or -1.
     """
 
@@ -37,20 +37,20 @@ class Motion(ppmc104.Motion):
         port: BytePort,
         excitation: Excitation,
         chopper: Chopper,
-        visits: Visits,
+        visits: VisitSchedule,
         switches: Mapping[str, int],
         group: Group,
         axis: int,
     ) -> None:
         super().__init__(context, port, SpeedGate(lambda t: None), excitation, chopper)
         self._visits, self._switches, self._group, self._axis = visits, switches, group, axis
-        self._orders = chopper.orders
-        self.held = False
+        self._schedules_edge = chopper.schedules_edge
+        self.waits_for_go = False
         self.ended = -1
         self._cut: int | None = None
         self._stopped = -1
-        self._lost = 0
-        self._next: int | None = None
+        self._cancelled = 0
+        self._next_pulse: int | None = None
         self._position = 0
 
     # ------------------------------------------------------------------ start
@@ -59,21 +59,21 @@ class Motion(ppmc104.Motion):
         """Start an operation at the visit that accepts its last byte (BANK-MOT-01, BANK-GRP-01, -04)."""
         self._latch_operation(command, data, setup)
         self._begin(t)
-        self.held = self.in_group
-        if not self.held:
+        self.waits_for_go = self.in_group
+        if not self.waits_for_go:
             self._arm(t + self._context.timebase.w)
         if self._group.stops(t):
             self._context.queue.at(t + 1, Phase.COMMAND, self.halt)
-        self.look_after(t + 1)
+        self.schedule_slow_check(t + 1)
 
     @property
     def in_group(self) -> bool:
         """MASK bit as the current visit sees it."""
-        return self._group.holds(self._axis)
+        return self._group.includes(self._axis)
 
     def release(self, go: int) -> None:
         """Continue a waiting operation; pulse 1 waits until all axes have seen this GO (BANK-GRP-02)."""
-        self.held = False
+        self.waits_for_go = False
         self._arm(go + GROUP_LEAD - 1 + self._visits.round + self._context.timebase.w)
 
     # ------------------------------------------------------------------ stops and inputs
@@ -96,80 +96,80 @@ class Motion(ppmc104.Motion):
         """Process STOP at edge t for a running motion (BANK-GRP-04)."""
         super().stop(t)
 
-    def judge(self, t: int) -> None:
+    def check_stops(self, t: int) -> None:
         """Check the stop causes; the first decision is final (BANK-MOT-02)."""
         if self._cut is None:
-            super().judge(t)
+            super().check_stops(t)
 
-    def _seen(self, t: int) -> Seen:
+    def _active_causes(self, t: int) -> ActiveCauses:
         return inspect(GUARD, self._switches, self.operation, self.direction)._replace(slow=False)
 
-    def look_after(self, edge: int) -> None:
+    def schedule_slow_check(self, edge: int) -> None:
         """Check an active slow-down limit in the first visit from an edge on."""
         if self.busy and self.is_ramp and self._slow_active():
-            self._context.queue.at(self._visits.first(edge), Phase.GUARD, self._look)
+            self._context.queue.at(self._visits.first(edge), Phase.GUARD, self._check_slow_limit)
 
     def _slow_active(self) -> bool:
         return not self._context.levels[GUARD.slow_limits[self.direction]]
 
-    def _look(self, t: int) -> None:
+    def _check_slow_limit(self, t: int) -> None:
         """Check the slow-down limit at visit t (BANK-MOT-05)."""
         if not self.busy or self.finishing or t <= self._began or t == self._stopped:
             return
-        if self.is_ramp and self._slow_active() and self._slow_counts():
+        if self.is_ramp and self._slow_active() and self._slow_limit_effective():
             self._request(t, "slow", FINISH_SLOW)
 
     def _interval_begun(self, t: int) -> None:
         if self._command.pulse_only and self.high:
-            self.look_after(t + 1)
+            self.schedule_slow_check(t + 1)
 
     # ------------------------------------------------------------------ pulses
 
     def position(self, after: int) -> int:
         """Return the position register after an edge (BANK-WIN-07)."""
-        due = self._next
-        ordered = due is not None and self._visits.last(due) <= after < due
-        return self._position + (self._step if ordered else 0)
+        next_pulse = self._next_pulse
+        scheduled = next_pulse is not None and self._visits.last(next_pulse) <= after < next_pulse
+        return self._position + (self._step if scheduled else 0)
 
     @property
     def _step(self) -> int:
         return -1 if self.direction else 1
 
     def _plan_pulse(self, edge: int) -> None:
-        self._next = edge
+        self._next_pulse = edge
         super()._plan_pulse(edge)
 
     def _cancel(self, name: str) -> None:
         if name == "pulse":
-            self._next = None
+            self._next_pulse = None
         super()._cancel(name)
 
-    def _put_out(self, t: int, rate: int | None, gap: int | None) -> None:
+    def _output_pulse(self, t: int, rate: int | None, gap: int | None) -> None:
         self._position += self._step
         if self._cut is None:
-            super()._put_out(t, rate, gap)
+            super()._output_pulse(t, rate, gap)
         else:
-            self._lost += 1
+            self._cancelled += 1
 
     # ------------------------------------------------------------------ end
 
     def _end_now(self, t: int, bits: int) -> None:
         """Cut the motion: no pulse from edge t on. The visits detect it later (BANK-MOT-02, -03)."""
         self._cut, self._stop_bits = t, bits
-        self._context.queue.at(self._visits.first(t + END_LEAD), Phase.CHOPPER, self._learn)
+        self._context.queue.at(self._visits.first(t + END_LEAD), Phase.CHOPPER, self._detect_cut)
 
-    def _learn(self, t: int) -> None:
+    def _detect_cut(self, t: int) -> None:
         """Process visit t, the first one that sees the cut.
 
         A low time that has begun ends first (BANK-MOT-04).
         """
         self.finishing = True
         self._cancel("pulse")
-        if self._lost:
-            self.done -= self._lost
-            self._position -= self._lost * self._step
+        if self._cancelled:
+            self.done -= self._cancelled
+            self._position -= self._cancelled * self._step
             del self.intervals[self.done :]
-            self._lost = 0
+            self._cancelled = 0
         if not self.low:
             self._finish(t)
 
@@ -182,15 +182,15 @@ class Motion(ppmc104.Motion):
 
     def _finish(self, t: int) -> None:
         super()._finish(t)
-        self.held, self._cut = False, None
+        self.waits_for_go, self._cut = False, None
         self.ended = t
 
     def _plan_hold(self, edge: int) -> None:
         super()._plan_hold(self._visits.first(edge))
 
-    def _hold_rises(self, t: int) -> None:
+    def _set_hold(self, t: int) -> None:
         """Set HOLD at a visit that schedules no edge of the chopper (BANK-HLD-01)."""
-        if self._orders(t):
+        if self._schedules_edge(t):
             self._plan_hold(t + 1)
         else:
-            super()._hold_rises(t)
+            super()._set_hold(t)

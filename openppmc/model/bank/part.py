@@ -16,7 +16,7 @@ from ..chip import Chip, Context
 from ..clock import Latency, QuantumCounter
 from ..motion.motion import Interval
 from .axis import Axis
-from .chopper import Visits, round_clk
+from .chopper import VisitSchedule, round_clk
 from .commands import Builder
 from .group import HOST_PINS, PHASES, SWITCHES, Group, inputs, outputs, widths
 from .window import Window
@@ -71,7 +71,7 @@ class PpmcBank(Chip):
             released: first edge after the reset.
         """
         self._levels = {pin: self.INPUTS[pin] for pin in SWITCHES}
-        self._touched: set[int] = set()
+        self._changed_axes: set[int] = set()
         self._motors = {name: self._reset_levels[name] for name in ("pout_n", "dir", "hold", "s")}
         counter = QuantumCounter(self.timebase, released)
         context = Context(self.timebase, self.latency, False, self._queue, self.log, counter, {})
@@ -80,8 +80,8 @@ class PpmcBank(Chip):
             Axis(
                 number,
                 context,
-                self._touched,
-                Visits(number, self._size, released),
+                self._changed_axes,
+                VisitSchedule(number, self._size, released),
                 group,
                 builder,
                 self._phase_idle,
@@ -95,17 +95,17 @@ class PpmcBank(Chip):
 
     def _latch(self, t: int) -> None:
         """Update the ports of all axes from the axes in which something happened."""
-        if not self._touched:
+        if not self._changed_axes:
             return
         pout_n, directions, hold, phases = self._motors.values()
-        for number in self._touched:
+        for number in self._changed_axes:
             pulse, direction, rest, pattern = self._axes[number].pins()
             bit, low = 1 << number, PHASES * number
             pout_n = pout_n | bit if pulse else pout_n & ~bit
             directions = directions | bit if direction else directions & ~bit
             hold = hold | bit if rest else hold & ~bit
             phases = phases & ~(0b11111 << low) | pattern << low
-        self._touched.clear()
+        self._changed_axes.clear()
         self._motors = {"pout_n": pout_n, "dir": directions, "hold": hold, "s": phases}
         for signal, value in self._motors.items():
             self.log.set(t, signal, value)
@@ -114,14 +114,14 @@ class PpmcBank(Chip):
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
         self._window.sample(t, pins)
 
-    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+    def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         changed = 0
         for pin in SWITCHES:
             changed |= self._levels[pin] ^ levels[pin]
             self._levels[pin] = levels[pin]
         for number, axis in enumerate(self._axes):
             if changed >> number & 1:
-                axis.see(t, {pin: levels[pin] >> number & 1 for pin in SWITCHES})
+                axis.on_levels(t, {pin: levels[pin] >> number & 1 for pin in SWITCHES})
 
     def _restart(self) -> None:
         self._build(0)

@@ -40,7 +40,7 @@ class Window:
         self._position = 0
         self._snapshot = 0
         self._began = 0
-        self._shows: tuple[Event, ...] = ()
+        self._output_events: tuple[Event, ...] = ()
 
     # ------------------------------------------------------------------ strobes
 
@@ -61,21 +61,21 @@ class Window:
         """Take the snapshot after edge 2 and output it at edge 4 (BANK-WIN-05)."""
         self._address = address
 
-        def look(now: int) -> None:
+        def take_snapshot(now: int) -> None:
             self._snapshot = self._register(now - 1, address)
             axis = self._axis(address)
             if axis and self._is_ready(now - 1) and address & 0xF == DATA:
                 axis.mailbox.snapshot()
 
-        self._shows = (
-            self._queue.at(t + 3, Phase.BUS, look),
+        self._output_events = (
+            self._queue.at(t + 3, Phase.BUS, take_snapshot),
             self._queue.at(t + 4, Phase.BUS, lambda now: self._log.set(now, "d_o", self._snapshot)),
         )
         self._began = t
 
     def _end_read(self, t: int, _: int) -> None:
         if t < self._began + _SHORTEST_READ:
-            for event in self._shows:
+            for event in self._output_events:
                 event.cancel()
             return
         axis = self._axis(self._address)
@@ -116,7 +116,7 @@ class Window:
         if not self._is_ready(after):
             return IBF if register == STATUS else 0
         if register == DATA:
-            return axis.mailbox.shown
+            return axis.mailbox.data_register
         if register == STATUS:
             return axis.status
         if register == CONFIG:

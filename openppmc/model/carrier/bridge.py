@@ -15,7 +15,7 @@ from .bridge_ops import BUILD_BYTES, Bus, Engine
 # from docs/uart_bridge.md, deliberately without the codec of the host package, so that one checks the other.
 
 FLAG, ESCAPE = 0x7E, 0x7D
-LONGEST, SHORTEST = 256, 3
+MAX_LENGTH, MIN_LENGTH = 256, 3
 
 NAK_FRAMING, NAK_CRC, NAK_LONG, NAK_SHORT, NAK_SILENCE, NAK_ABORTED = 1, 2, 3, 4, 5, 6
 NAK_BUSY, NAK_SEQ = 7, 8
@@ -91,7 +91,7 @@ class Receiver:
             return None
         self._content.append(byte ^ 0x20 if self._escaped else byte)
         self._escaped = False
-        return self.drop(NAK_LONG) if len(self._content) > LONGEST else None
+        return self.drop(NAK_LONG) if len(self._content) > MAX_LENGTH else None
 
     def _end(self) -> Request | int | None:
         hunting, escaped, content = self._hunting, self._escaped, bytes(self._content)
@@ -103,7 +103,7 @@ class Receiver:
             return NAK_ABORTED
         if not content:
             return None
-        if len(content) < SHORTEST:
+        if len(content) < MIN_LENGTH:
             return NAK_SHORT
         if crc(content[:-2]) != int.from_bytes(content[-2:], "big"):
             return NAK_CRC
@@ -175,8 +175,8 @@ class Bridge:
                 if item.seq >= SEQ_LIMIT:
                     sent += self._nak(NAK_SEQ)
                     continue
-                meanwhile = any(byte != FLAG for byte in data[place:])
-                sent += self._serve(item, meanwhile)
+                more_bytes = any(byte != FLAG for byte in data[place:])
+                sent += self._execute(item, more_bytes)
                 place = len(data)
             elif item is not None:
                 sent += self._nak(item)
@@ -205,18 +205,18 @@ class Bridge:
 
     # ------------------------------------------------------------------ requests
 
-    def _serve(self, request: Request, meanwhile: bool) -> bytes:
+    def _execute(self, request: Request, more_bytes: bool) -> bytes:
         """Execute a request, or repeat its answer.
 
         Args:
-            meanwhile: True if bytes arrive before the answer is sent (UB-FRM-07).
+            more_bytes: True if bytes arrive before the answer is sent (UB-FRM-07).
         """
         code = None
         if request.seq and self._stored and self._stored[0] == request.seq:
             payload = self._stored[1]
         else:
             self._running = True
-            result, position, last, data = self._engine.run(request.script, lambda: meanwhile)
+            result, position, last, data = self._engine.run(request.script, lambda: more_bytes)
             self._running = False
             self.scripts += 1
             code = self._engine.rate
@@ -226,7 +226,7 @@ class Bridge:
         sent = frame(payload) + self._flush_event()
         if code is not None:
             self.rate, self._trial_ms = code, 0.0
-        if meanwhile:
+        if more_bytes:
             self._receiver.hunt()
             sent += self._nak(NAK_BUSY)
         return sent

@@ -15,7 +15,7 @@ T = TypeVar("T")
 IBF, OBF, ERR = 0x02, 0x01, 0x80
 RATES = (115_200, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000)
 PROTOCOL_VERSION = 1
-MOST_DATA = 256
+MAX_DATA = 256
 DEFAULT_LIMIT_MS = 250
 ALL_HIGH = 0xFF
 READ_CYCLE_CLK = 11
@@ -138,10 +138,10 @@ class Engine:
         elif group == 1:
             self._bus.write(low, operands[0])
         elif group == 2:
-            self._give(lambda: self._read(low))
+            self._append(lambda: self._read(low))
         elif group == 3:
             for _ in range(operands[0]):
-                self._give(lambda: self._read(low))
+                self._append(lambda: self._read(low))
         elif group == 4:
             for byte in operands[1:]:
                 self._wait(1, IBF, 0)
@@ -150,15 +150,15 @@ class Engine:
             self._call(operands)
         elif group == 6:
             for _ in range(low):
-                self._give(self._fetch)
+                self._append(self._fetch)
         elif group == 7:
-            self._give(lambda: self._wait(low, *operands))
+            self._append(lambda: self._wait(low, *operands))
         elif group == 8:
             for byte in operands[1:]:
                 self._bus.write(low, byte)
         else:
             for _ in range(operands[0]):
-                self._give(lambda: self.hook("fetch", 0))
+                self._append(lambda: self.hook("fetch", 0))
         return length
 
     def _length(self, rest: bytes) -> int | None:
@@ -184,7 +184,7 @@ class Engine:
 
     def _plain(self, code: int, operands: bytes) -> None:
         if code == 0x01:
-            self._give_all(self._identity)
+            self._append_all(self._identity)
         elif code == 0x02:
             if operands[0] and not (operands[0] < len(RATES) and self._clk_hz >= 5 * RATES[operands[0]]):
                 raise Stop(3)
@@ -198,28 +198,28 @@ class Engine:
         elif code == 0x05:
             self.hook("reset", None)
         elif code == 0x06:
-            self._give_all(bytes([self.hook("pins", ALL_HIGH)]))
+            self._append_all(bytes([self.hook("pins", ALL_HIGH)]))
         elif code == 0x07:
             self.hook("straps", None, operands[0])
         elif code == 0x08:
-            self._give_all((self.hook("count", 0) & 0xFFFF_FFFF).to_bytes(4, "little"))
+            self._append_all((self.hook("count", 0) & 0xFFFF_FFFF).to_bytes(4, "little"))
         elif code == 0x09:
             self.hook("zero", None)
         elif code == 0x0A:
-            self._give_all((self.hook("count", 0, 2) & 0xFFFF_FFFF).to_bytes(4, "little"))
+            self._append_all((self.hook("count", 0, 2) & 0xFFFF_FFFF).to_bytes(4, "little"))
         elif code == 0x0B:
             self.hook("zero", None, 2)
         elif code == 0x0C:
-            self._give_all(self._build)
+            self._append_all(self._build)
         elif code == 0x0D:
             if operands[0] > RECORD_REWIND:
                 raise Stop(3)
             self.hook("record", None, operands[0])
         elif code == 0x0E:
-            self._give_all(self.hook("recorded", bytes(INFO_BYTES)))
+            self._append_all(self.hook("recorded", bytes(INFO_BYTES)))
 
     def _call(self, command: bytes) -> None:
-        if len(self._data) >= MOST_DATA:
+        if len(self._data) >= MAX_DATA:
             raise Stop(4)
         for place, byte in enumerate(command):
             self._wait(1, IBF, 0)
@@ -227,7 +227,7 @@ class Engine:
             status = self._wait(1, IBF, 0)
             if status & ERR:
                 raise Stop(2)
-        self._give_all(bytes([status]))
+        self._append_all(bytes([status]))
 
     def _fetch(self) -> int:
         self._wait(1, OBF, OBF)
@@ -235,18 +235,18 @@ class Engine:
 
     # ------------------------------------------------------------------ bus and data
 
-    def _give(self, make: Callable[[], int]) -> None:
+    def _append(self, make: Callable[[], int]) -> None:
         """Append one byte to the answer.
 
         If the answer is full, the operation is rejected before it reads the byte.
         """
-        if len(self._data) >= MOST_DATA:
+        if len(self._data) >= MAX_DATA:
             raise Stop(4)
         self._data.append(make())
 
-    def _give_all(self, values: bytes) -> None:
+    def _append_all(self, values: bytes) -> None:
         """Append all bytes of an operation. If they do not all fit, append no byte."""
-        if len(self._data) + len(values) > MOST_DATA:
+        if len(self._data) + len(values) > MAX_DATA:
             raise Stop(4)
         self._data += values
 

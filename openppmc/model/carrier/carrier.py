@@ -76,7 +76,7 @@ RESET_CLK = 16
 P_co = TypeVar("P_co", bound=Chip, covariant=True)
 
 
-class Place(Protocol):
+class SwitchPositions(Protocol):
     """Positions of the switches of an axis."""
 
     @property
@@ -101,7 +101,9 @@ class Carrier(ABC, Generic[P_co]):
     ADDRESS_BITS = 1
     INTERRUPT = "int_n"
 
-    def __init__(self, part: P_co, plants: Sequence[Place], on_interrupt: Callable[[], None]) -> None:
+    def __init__(
+        self, part: P_co, plants: Sequence[SwitchPositions], on_interrupt: Callable[[], None]
+    ) -> None:
         self.part = part
         self.clk_hz = part.timebase.clk_hz
         self.plants = tuple(plants)
@@ -109,7 +111,7 @@ class Carrier(ABC, Generic[P_co]):
         self.counts = [0 for _ in plants]
         self.on_interrupt = on_interrupt
         self.t = 8
-        self._seen: object = None
+        self._polled_value: object = None
         self._directions = [0 for _ in plants]
         self._pulse_pins = [1 for _ in plants]
         self._switches = self._levels()
@@ -138,7 +140,7 @@ class Carrier(ABC, Generic[P_co]):
         return self.t / self.clk_hz
 
     @abstractmethod
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         """Return the current content of the register that a wait polls."""
 
     def _levels(self) -> list[dict[str, int]]:
@@ -151,7 +153,7 @@ class Carrier(ABC, Generic[P_co]):
         part = self.part
         while (edge := self._next_event()) is not None and edge < t:
             part.run_until(edge)
-            self._watch()
+            self._follow_outputs()
             self.t = max(self.t, edge + 1)
             if stop():
                 return
@@ -161,7 +163,7 @@ class Carrier(ABC, Generic[P_co]):
         """Return the edge of the next event of part or carrier."""
         return self.part.next_event
 
-    def _watch(self) -> None:
+    def _follow_outputs(self) -> None:
         """Follow the outputs: motors, counters, switches, interrupt."""
         log = self.part.log
         if not log.edges:
@@ -197,7 +199,7 @@ class Carrier(ABC, Generic[P_co]):
         self.positions[n] += step
         self.counts[n] += step
 
-    def _settle(self) -> None:
+    def _run_pending(self) -> None:
         """Run all events before the next access."""
         self.run_until(self.t)
         self.t = max(self.t, self.part.now + 1)
@@ -206,25 +208,25 @@ class Carrier(ABC, Generic[P_co]):
 
     def read(self, a: int) -> int:
         """Execute one read access."""
-        self._settle()
-        self._seen = self.shown()
+        self._run_pending()
+        self._polled_value = self.watched_register()
         value = self.part.read(self.t, a % (1 << self.ADDRESS_BITS), READ_STROBE)
-        self._watch()
+        self._follow_outputs()
         self.t += READ_STROBE + PAUSE
         return value
 
     def write(self, a: int, byte: int) -> None:
         """Execute one write access."""
-        self._settle()
+        self._run_pending()
         self.part.write(self.t, a % (1 << self.ADDRESS_BITS), byte, WRITE_STROBE)
-        self._watch()
+        self._follow_outputs()
         self.t += WRITE_STROBE + PAUSE
 
     def reset(self) -> None:
         """Reset the part; motors and counters are unchanged."""
-        self._settle()
+        self._run_pending()
         self.part.pins(self.t, rst_n=0)
-        self._watch()
+        self._follow_outputs()
         self.t += RESET_CLK
         self.part.pins(self.t, rst_n=1)
         self.t += RESET_CLK
@@ -232,7 +234,7 @@ class Carrier(ABC, Generic[P_co]):
 
     def set_pins(self, **levels: int) -> None:
         """Set input pins of the part from the next edge on."""
-        self._settle()
+        self._run_pending()
         self.part.pins(self.t, **levels)
         self.t += 1
 
@@ -243,12 +245,12 @@ class Carrier(ABC, Generic[P_co]):
 
     def count(self, axis: int = 1) -> int:
         """Return the pulse counter; it wraps at 32 bits in the answer."""
-        self._settle()
+        self._run_pending()
         return self.counts[axis - 1]
 
     def zero(self, axis: int = 1) -> None:
         """Set the pulse counter to 0."""
-        self._settle()
+        self._run_pending()
         self.counts[axis - 1] = 0
 
     def now_ms(self) -> float:
@@ -257,7 +259,7 @@ class Carrier(ABC, Generic[P_co]):
 
     def skip(self, limit_ms: float) -> None:
         """Run to the event that changes the polled register, or to the limit."""
-        before = self._seen  # before the last read, during which the register may have changed
+        before = self._polled_value  # before the last read, during which the register may have changed
         limit = self.t + max(1, round(limit_ms * self.clk_hz / 1000))
-        if self.shown() == before:
-            self.run_until(limit, stop=lambda: self.shown() != before)
+        if self.watched_register() == before:
+            self.run_until(limit, stop=lambda: self.watched_register() != before)

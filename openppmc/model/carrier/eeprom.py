@@ -2,8 +2,9 @@
 
 It has 4096 bytes, pages of 32 bytes, a write time and acknowledge polling.
 
-The device samples both lines at edges of `clk`; a line that it pulls changes at the same edge. Call `look` at
-every edge whose levels differ from those of the previous edge, and at `due`; nothing happens between them.
+The device samples both lines at edges of `clk`; a line that it pulls changes at the same edge. Call
+`on_lines` at every edge whose levels differ from those of the previous edge, and at `due`; nothing happens
+between them.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class Eeprom24C32:
         sda, scl: 1 while the device pulls the line low.
         memory: content.
         writes: all page writes.
-        stuck_sda, stuck_scl: hold a line low; a change is effective from the next `look` on.
+        stuck_sda, stuck_scl: hold a line low; a change is effective from the next `on_lines` on.
     """
 
     def __init__(
@@ -66,7 +67,7 @@ class Eeprom24C32:
         self._busy_until = -1
         self._address = 0
         self._pull = 0
-        self._hold = 0
+        self._holds_scl = 0
         self._idle()
 
     def _idle(self) -> None:
@@ -84,10 +85,10 @@ class Eeprom24C32:
         """Return True if a write cycle is in progress at edge t."""
         return t < self._busy_until
 
-    def look(self, t: int, scl: int, sda: int) -> None:
+    def on_lines(self, t: int, scl: int, sda: int) -> None:
         """Process the levels of the lines at edge t, which any device may pull."""
         if self.due is not None and t >= self.due:
-            self.due, self._hold = None, 0
+            self.due, self._holds_scl = None, 0
         before, self._lines = self._lines, (scl, sda)
         if not self.missing:
             if before[0] and scl and before[1] != sda:
@@ -100,7 +101,7 @@ class Eeprom24C32:
             elif before[0] and not scl:
                 self._fall(t)
         self.sda = int(self._pull or self.stuck_sda)
-        self.scl = int(self._hold or self.stuck_scl)
+        self.scl = int(self._holds_scl or self.stuck_scl)
 
     # ------------------------------------------------------------------ conditions
 
@@ -145,7 +146,7 @@ class Eeprom24C32:
             if self._phase == "send":
                 self._phase = "read"
             if self.stretch_clk:
-                self._hold, self.due = 1, t + self.stretch_clk
+                self._holds_scl, self.due = 1, t + self.stretch_clk
         if self._phase == "read" and self._bits < 8:
             if not self._bits:
                 self._sent = self.memory[self._address]

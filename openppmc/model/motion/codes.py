@@ -93,7 +93,7 @@ class GuardPins(NamedTuple):
         return (*self.limits, *self.slow_limits, self.alarm, self.origin)
 
 
-class Seen(NamedTuple):
+class ActiveCauses(NamedTuple):
     """Causes active at an edge.
 
     Attributes:
@@ -112,7 +112,7 @@ class Seen(NamedTuple):
         return bool(self.bits) or self.origin
 
 
-def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, direction: int) -> Seen:
+def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, direction: int) -> ActiveCauses:
     """Evaluate the synchronised levels for an operation and its direction.
 
     Args:
@@ -124,7 +124,7 @@ def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, directio
     if not levels[pins.alarm]:
         bits |= FINISH_ALARM
     origin = operation == ORIGIN and not levels[pins.origin]
-    return Seen(bits, origin, not levels[pins.slow_limits[direction]])
+    return ActiveCauses(bits, origin, not levels[pins.slow_limits[direction]])
 
 
 def input_register(levels: Mapping[str, int], bits: Mapping[int, str]) -> int:

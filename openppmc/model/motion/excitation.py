@@ -1,8 +1,8 @@
 """Phase excitation: energised phases at each index, derived from the definition of the drive.
 
-P104-PHS-01..06 and section 6.1: neighbours of a ring of 3, 4 or 5 phases are energised. Full step always
-energises two, half step alternately two and one (3- and 4-phase) or two and three (5-phase). Patterns are
-integers, bit 0 = S1.
+P104-PHS-01..06 (docs/ppmc104/README.md, 10.1 Patterns): neighbours of a ring of 3, 4 or 5 phases
+are energised. Full step always energises two, half step alternately two and one (3- and 4-phase) or two and
+three (5-phase). Patterns are integers, bit 0 = S1.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Excitation:
     """
 
     def __init__(self, idle: int = 1) -> None:
-        self._rest = ALL_PHASES if idle else 0
+        self._idle_level = ALL_PHASES if idle else 0
         self.energised = False
         self.index = 0
         self.positive = False
@@ -77,7 +77,7 @@ class Excitation:
     def off(self) -> None:
         """Switch the excitation off: the pins stay at the off level of the active logic (P104-PHS-05)."""
         if self.energised:
-            self._rest = self.off_level
+            self._idle_level = self.off_level
             self.energised = False
 
     def step(self, direction: int) -> None:
@@ -93,19 +93,19 @@ class Excitation:
     def pattern(self) -> int:
         """Pin levels without chopping."""
         if not self.energised:
-            return self._rest
+            return self._idle_level
         return self._steps[self.index] ^ self.off_level
 
     @property
     def chopped(self) -> int:
         """Pin levels in the OFF phase of the chopper."""
-        return self.off_level if self.energised else self._rest
+        return self.off_level if self.energised else self._idle_level
 
 
 # Chopping of the phase outputs at standstill (P104-SW-01..07, P2104-SW-01..05).
 
 
-class Switching(Protocol):
+class ChopperTimes(Protocol):
     """Chopper times of a part."""
 
     def quanta(self, on: bool) -> int:
@@ -118,14 +118,14 @@ class Chopper:
     Phases are counted in ticks of the quantum counter.
 
     Attributes:
-        due: edge at which the next phase begins, `None` while the chopper does not run.
+        next_phase_at: edge at which the next phase begins, `None` while the chopper does not run.
     """
 
-    def __init__(self, context: Context, times: Switching) -> None:
+    def __init__(self, context: Context, times: ChopperTimes) -> None:
         self._context = context
         self._times = times
         self.on = True
-        self.due: int | None = None
+        self.next_phase_at: int | None = None
         self._tick = 0
         self._event: Event | None = None
 
@@ -140,13 +140,13 @@ class Chopper:
         if self._event:
             self._event.cancel()
             self._event = None
-        self.due = None
+        self.next_phase_at = None
         self.on = True
 
     def _plan(self) -> None:
         self._tick += self._length()
-        self.due = self._context.counter.edge_of(self._tick)
-        self._event = self._context.queue.at(self.due, Phase.CHOPPER, self._boundary)
+        self.next_phase_at = self._context.counter.edge_of(self._tick)
+        self._event = self._context.queue.at(self.next_phase_at, Phase.CHOPPER, self._boundary)
 
     def _length(self) -> int:
         """Return the quanta of the phase that begins now."""

@@ -30,7 +30,7 @@ class ExternalInterval:
             on_edge: True if a base edge is effective at edge t.
         """
         self.edges = 0
-        self._need = rate + 1
+        self._edges_needed = rate + 1
         self._pulse = t
         self._wait: int | None = 0 if on_edge else None
         self._delayed = False
@@ -49,7 +49,7 @@ class ExternalInterval:
         if self._delayed:
             return None
         if self._plain:
-            if self.edges + 1 < self._need:
+            if self.edges + 1 < self._edges_needed:
                 self.edges += 1
                 return None
             return None if low else 0
@@ -57,7 +57,7 @@ class ExternalInterval:
             self._wait = t - self._pulse
             return None
         self.edges += 1
-        if self.edges < self._need:
+        if self.edges < self._edges_needed:
             return None
         self._delayed = True
         if gap is None or gap > self._slow:

@@ -23,9 +23,9 @@ from .codes import (
     FINISH_STOP,
     RAMP_OPERATIONS,
     SINGLE_STEP,
+    ActiveCauses,
     Command,
     GuardPins,
-    Seen,
     inspect,
 )
 from .excitation import Chopper, Excitation
@@ -72,7 +72,7 @@ class Motion:
     hold_cycles: int
     # True if a deceleration request at the start-up rate ends the operation immediately (P2104-FDC-02,
     # STMC-DEC-03).
-    stops_at_start_speed: ClassVar[bool] = False
+    ends_at_start_rate: ClassVar[bool] = False
 
     def __init__(
         self, context: Context, excitation: Excitation, chopper: Chopper, guard: GuardPins, on_end: OnEnd
@@ -96,7 +96,9 @@ class Motion:
 
     # ------------------------------------------------------------------ start
 
-    def _load(self, command: Command, data: list[int], setup: Setup, csel: int, plain: bool) -> None:
+    def _latch_settings(
+        self, command: Command, data: list[int], setup: Setup, csel: int, plain: bool
+    ) -> None:
         """Latch an operation at its C-event (P104-OPR-01, P104-BCK-02).
 
         Args:
@@ -107,15 +109,15 @@ class Motion:
         self.operation = command.operation
         self._command = command
         self._setup = setup
-        counted = data[-3:] if len(data) >= 3 else None
-        self._total = int.from_bytes(bytes(counted), "little") + 1 if counted else ENDLESS
+        count_bytes = data[-3:] if len(data) >= 3 else None
+        self._total = int.from_bytes(bytes(count_bytes), "little") + 1 if count_bytes else ENDLESS
         if self.operation == SINGLE_STEP:
             self._total = 1
         self._rate = 0 if self.is_ramp or not data else data[0]
         self._csel, self._plain = bool(csel), plain
         self._clock = BaseClock.of_pins(csel, int(plain))
-        waits = setup.external and self.operation != SINGLE_STEP
-        self._external = ExternalInterval(self._context.timebase, plain) if waits else None
+        counts_clock = setup.external and self.operation != SINGLE_STEP
+        self._external = ExternalInterval(self._context.timebase, plain) if counts_clock else None
 
     def _begin(self, t: int) -> None:
         """Process the start edge: BUSY rises, hold and dir follow."""
@@ -124,11 +126,11 @@ class Motion:
         self.done, self.index = 0, None
         self.intervals = []
         self._flag_edge, self._natural = None, False
-        self._flag_bits, self._stop_bits, self._stop_wanted = 0, 0, False
+        self._flag_bits, self._stop_bits, self._stop_requested = 0, 0, False
         self._began, self._end_after = t, 0
         self._chopper.stop()
         self._cancel("hold")
-        self._context.queue.at(t + 1, Phase.GUARD, self.judge)
+        self._context.queue.at(t + 1, Phase.GUARD, self.check_stops)
 
     def _arm(self, first: int) -> None:
         """Schedule pulse 1 at edge `first`, or at the first base edge from there on."""
@@ -170,28 +172,28 @@ class Motion:
     def stop(self, t: int) -> None:
         """Process an accepted immediate stop (P104-STP-01, -05, -08)."""
         if not self.finishing:
-            self._stop_wanted = True
-            self._context.queue.at(t, Phase.GUARD, self.judge)
+            self._stop_requested = True
+            self._context.queue.at(t, Phase.GUARD, self.check_stops)
 
-    def judge(self, t: int) -> None:
+    def check_stops(self, t: int) -> None:
         """Check the guard at edge t: immediate ends first, then the slow-down limit (P104-LIM-01..09)."""
         if not self.busy or self.finishing or t <= self._began:
             return
-        seen = self._seen(t)
-        if seen.ends or self._stop_wanted:
-            self._end_now(t, seen.bits | (FINISH_STOP if self._stop_wanted else 0))
-        elif seen.slow and self.is_ramp and self._slow_counts():
-            self._request(self._slow_edge(t), "slow", FINISH_SLOW)
+        causes = self._active_causes(t)
+        if causes.ends or self._stop_requested:
+            self._end_now(t, causes.bits | (FINISH_STOP if self._stop_requested else 0))
+        elif causes.slow and self.is_ramp and self._slow_limit_effective():
+            self._request(self._slow_limit_edge(t), "slow", FINISH_SLOW)
 
-    def _seen(self, t: int) -> Seen:
+    def _active_causes(self, t: int) -> ActiveCauses:
         """Return the causes that the switches indicate at edge t."""
         return inspect(self._guard, self._context.levels, self.operation, self.direction)
 
-    def _slow_counts(self) -> bool:
+    def _slow_limit_effective(self) -> bool:
         """Return True if an active slow-down limit sets the flag."""
         return self._flag_edge is None and "slow" not in self._events
 
-    def _slow_edge(self, t: int) -> int:
+    def _slow_limit_edge(self, t: int) -> int:
         """Return the edge at which a slow-down limit sampled at edge t acts."""
         return t
 
@@ -209,11 +211,11 @@ class Motion:
             return
         self._flag_edge = t
         self._flag_bits |= bit
-        if self.stops_at_start_speed and self._at_start_speed:
+        if self.ends_at_start_rate and self._at_start_rate:
             self._end_now(t, 0)
 
     @property
-    def _at_start_speed(self) -> bool:
+    def _at_start_rate(self) -> bool:
         """True if the running interval has the start-up rate, at any place of the ramp."""
         ramp = self._setup.ramp
         return self.index is not None and ramp.rate(self.index) == ramp.rl
@@ -223,9 +225,9 @@ class Motion:
         self.finishing = True
         self._stop_bits = bits
         self._cancel("pulse")
-        self._decided(t)
+        self._end_decided(t)
 
-    def _decided(self, t: int) -> None:
+    def _end_decided(self, t: int) -> None:
         """Schedule the end of a motion cut at edge t; with FAST timing it follows the low time."""
         self._end_after = t + self._context.latency.imm_end
         if not self.low:
@@ -250,11 +252,11 @@ class Motion:
             if self._armed_from is not None and t >= self._armed_from:
                 self._pulse(t, gap, on_edge=True)
             return
-        due = external.rise(t, gap, self.low)
-        if due == 0:
+        delay = external.rise(t, gap, self.low)
+        if delay == 0:
             self._pulse(t, gap, on_edge=True)
-        elif due is not None:
-            self._plan_pulse(t + due)
+        elif delay is not None:
+            self._plan_pulse(t + delay)
         elif self.low and self._cut_at and external.edges == self._cut_at:
             self._cut_low(t)
 
@@ -273,10 +275,10 @@ class Motion:
             context.counter.restart(t)
             self._quanta = 0
         rate = self._next_rate(t)
-        self._put_out(t, rate, gap)
+        self._output_pulse(t, rate, gap)
         if rate is None:
             self.finishing = True
-            self._train_over(t)
+            self._last_pulse_output(t)
             return
         quanta = None if self._external else self._clock.quanta(rate)
         self.intervals.append(Interval(self.done, self.index, rate, quanta))
@@ -288,7 +290,7 @@ class Motion:
             self._plan_pulse(context.counter.edge_of(self._quanta))
         self._interval_begun(t)
 
-    def _put_out(self, t: int, rate: int | None, gap: int | None) -> None:
+    def _output_pulse(self, t: int, rate: int | None, gap: int | None) -> None:
         """Set the pins of a pulse: next pattern, pout_n low."""
         if not self._command.pulse_only:
             self._excitation.step(self.direction)
@@ -299,14 +301,14 @@ class Motion:
 
     def _next_rate(self, t: int) -> int | None:
         """Return the rate of the interval that begins with pulse `done`, `None` after the last pulse."""
-        left = self._total - self.done
+        pulses_left = self._total - self.done
         if not self.is_ramp:
-            return self._rate if left else None
+            return self._rate if pulses_left else None
         ramp = self._setup.ramp
         kp = -1 if self.index is None else self.index
         forced = self._flag_edge is not None and t - self._flag_edge >= self._context.latency.flag_lead
-        index = next_index(kp, left, ramp.pa, forced)
-        self._natural = self._natural or natural_deceleration(kp, left, ramp.pa)
+        index = next_index(kp, pulses_left, ramp.pa, forced)
+        self._natural = self._natural or natural_deceleration(kp, pulses_left, ramp.pa)
         self.index = index
         return None if index is None else ramp.rate(index)
 
@@ -338,7 +340,7 @@ class Motion:
 
     # ------------------------------------------------------------------ end
 
-    def _train_over(self, t: int) -> None:
+    def _last_pulse_output(self, t: int) -> None:
         """Process edge t, at which the last pulse was output, also after a forced deceleration."""
 
     def _ends_with_low(self) -> bool:
@@ -355,10 +357,10 @@ class Motion:
         context = self._context
         self._cancel("flag")
         self._cancel("slow")
-        left = self._total - self.done
-        bits = self._stop_bits | self._flag_bits if left else 0
+        pulses_left = self._total - self.done
+        bits = self._stop_bits | self._flag_bits if pulses_left else 0
         self.finish = FINISH_NEW | bits | self.operation
-        self.remaining = max(left - 1, 0)
+        self.remaining = max(pulses_left - 1, 0)
         self.busy = self.finishing = False
         self.index, self._armed_from = None, None
         self._on_end(t, self._command.masked)
@@ -368,7 +370,7 @@ class Motion:
         self._plan_hold(t + context.timebase.cyc(self.hold_cycles))
 
     def _plan_hold(self, edge: int) -> None:
-        self._events["hold"] = self._context.queue.at(edge, Phase.CHOPPER, self._hold_rises)
+        self._events["hold"] = self._context.queue.at(edge, Phase.CHOPPER, self._set_hold)
 
-    def _hold_rises(self, t: int) -> None:
+    def _set_hold(self, t: int) -> None:
         self.hold = 1

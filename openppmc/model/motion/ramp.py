@@ -89,7 +89,7 @@ def index_profile(n: int, pa: int, flagged_in: int | None = None) -> list[int]:
     return plain[:flagged_in] + list(range(peak - 1, -1, -1))
 
 
-def walk(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list[int]:
+def traverse_ramp(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list[int]:
     """Return the indices of all intervals, calculated pulse by pulse.
 
     flag(j): forced deceleration at pulse j.
@@ -130,10 +130,10 @@ class Ramp:
 
     def rate(self, k: int) -> int:
         """Return R(k), 0 <= k <= pa; the result is cached."""
-        known = self._known
-        if k not in known:
-            known[k] = ramp_rate(self.rl, self.rh, self.pa, k)
-        return known[k]
+        cache = self._known
+        if k not in cache:
+            cache[k] = ramp_rate(self.rl, self.rh, self.pa, k)
+        return cache[k]
 
     def rates(self) -> list[int]:
         """Return R(0) .. R(pa)."""

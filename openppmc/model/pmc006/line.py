@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from ..chip import Phase
 from ..uart import Receiver
-from .pins import Shared
+from .pins import Services
 
 # Frames of the PMC006B4: eight bytes, a checksum, addresses (P006-FRM-01..08). This part contains no time.
 
@@ -98,28 +98,28 @@ class Line:
 
     Args:
         take: take(t, command) is called when a frame with a valid checksum is complete at edge t, the e of
-            chapter 2.4; it returns True if the frame is for this controller.
+            P006-FRM-02; it returns True if the frame is for this controller.
         replies: list for (edge at which de rises, frame).
         sent: list for (edge in the middle of a stop bit, byte).
     """
 
     def __init__(
         self,
-        shared: Shared,
+        services: Services,
         baud: int,
         take: Callable[[int, Command], bool],
         replies: list[tuple[int, bytes]],
         sent: list[tuple[int, int]],
     ) -> None:
-        self._shared, self._take = shared, take
-        self._bit = Fraction(shared.clk_hz, baud)
-        self._receiver = Receiver(shared, self._bit, self._got)
+        self._services, self._take = services, take
+        self._bit = Fraction(services.clk_hz, baud)
+        self._receiver = Receiver(services, self._bit, self._on_received)
         self._assembler = Assembler()
         self._silence = ceil((SILENCE + Fraction(19, 2)) * self._bit)
-        self._heard = 0
+        self._last_char_at = 0
         self._pin = self._level = 1
         self._open = False
-        self._deaf = True
+        self._muted = True
         self._e = 0
         self._replies, self._sent = replies, sent
 
@@ -128,46 +128,50 @@ class Line:
     def sample(self, t: int, level: int) -> None:
         """Sample this level of the pin at edge t."""
         self._pin = level
-        self._shared.queue.at(t + SYNC, Phase.PINS, lambda now: self._see(now, level))
+        self._services.queue.at(t + SYNC, Phase.PINS, lambda now: self._on_level(now, level))
         if self._open:
-            self._hear_line(t + SYNC, level)
+            self._on_receiver_level(t + SYNC, level)
 
-    def _see(self, t: int, level: int) -> None:
+    def _on_level(self, t: int, level: int) -> None:
         """Process the synchronised level from edge t on; the receiver opens at a high level."""
         self._level = level
-        if level and not self._deaf and not self._open:
-            self._shared.queue.at(t, Phase.BUS, self._open_up)
+        if level and not self._muted and not self._open:
+            self._services.queue.at(t, Phase.BUS, self._open_up)
 
     def listen(self, t: int, on: bool) -> None:
         """Open or close the receiver after edge t; before it opens, the line must be high."""
-        self._deaf = not on
+        self._muted = not on
         if not on:
             self._open = False
-            self._receiver.forget()
-            self._receiver.see(t, 1)
+            self._receiver.abort()
+            self._receiver.on_level(t, 1)
         elif self._level:
-            self._shared.queue.at(t + 1, Phase.BUS, self._open_up)
+            self._services.queue.at(t + 1, Phase.BUS, self._open_up)
 
     def _open_up(self, t: int) -> None:
         """Open the receiver: the line was high before edge t, and the next edge samples the pin."""
-        if not self._deaf and not self._open and self._level:
+        if not self._muted and not self._open and self._level:
             self._open = True
-            self._shared.queue.at(t + 1, Phase.BUS, lambda now: self._hear_line(now + SYNC, self._pin))
+            self._services.queue.at(
+                t + 1, Phase.BUS, lambda now: self._on_receiver_level(now + SYNC, self._pin)
+            )
 
-    def _hear_line(self, t: int, level: int) -> None:
-        self._shared.queue.at(t, Phase.PINS, lambda now: self._receiver.see(now, level if self._open else 1))
+    def _on_receiver_level(self, t: int, level: int) -> None:
+        self._services.queue.at(
+            t, Phase.PINS, lambda now: self._receiver.on_level(now, level if self._open else 1)
+        )
 
-    def _got(self, t: int, byte: int | None) -> None:
+    def _on_received(self, t: int, byte: int | None) -> None:
         """Process a character whose stop bit edge t has sampled."""
-        self._shared.queue.at(t, Phase.BUS, lambda now: self.hear(now, byte))
+        self._services.queue.at(t, Phase.BUS, lambda now: self.on_char(now, byte))
 
-    def hear(self, t: int, byte: int | None) -> None:
+    def on_char(self, t: int, byte: int | None) -> None:
         """Process a character at edge t. `None`: its stop bit was low."""
-        if self._deaf:
+        if self._muted:
             return
-        if byte is None or t - self._heard >= self._silence:
+        if byte is None or t - self._last_char_at >= self._silence:
             self._assembler.drop()
-        self._heard = t
+        self._last_char_at = t
         command = None if byte is None else self._assembler.take(byte)
         if command and self._take(t, command):
             self._e = t
@@ -177,11 +181,11 @@ class Line:
 
     def answer(self, frame: bytes) -> None:
         """Send the reply to the last command that `take` accepted."""
-        origin = self._e + self._shared.pace.answer
+        origin = self._e + self._services.core_timing.answer
         timed = [(origin + ceil(bits * self._bit), pin, level) for bits, pin, level in changes_of(frame)]
         self._replies.append((timed[0][0], frame))
         over = origin + ceil(STOP * self._bit)
-        self._shared.queue.at(over, Phase.PIN, lambda now: self.listen(now, True))
+        self._services.queue.at(over, Phase.PIN, lambda now: self.listen(now, True))
         self._next([list(group) for _, group in groupby(timed, key=lambda change: change[0])])
         self._count(origin, frame)
 
@@ -189,17 +193,17 @@ class Line:
         """Record bytes as sent at the time of their stop bits."""
         if rest:
             at = origin + ceil((2 + 10 * (SIZE - len(rest)) + Fraction(19, 2)) * self._bit)
-            self._shared.queue.at(at, Phase.PIN, lambda now: self._passed(now, origin, rest))
+            self._services.queue.at(at, Phase.PIN, lambda now: self._byte_sent(now, origin, rest))
 
-    def _passed(self, t: int, origin: int, rest: bytes) -> None:
+    def _byte_sent(self, t: int, origin: int, rest: bytes) -> None:
         self._sent.append((t, rest[0]))
         self._count(origin, rest[1:])
 
     def _next(self, changes: list[list[tuple[int, str, int]]]) -> None:
         if changes:
-            self._shared.queue.at(changes[0][0][0], Phase.PIN, lambda now: self._do(now, changes))
+            self._services.queue.at(changes[0][0][0], Phase.PIN, lambda now: self._do(now, changes))
 
     def _do(self, t: int, changes: list[list[tuple[int, str, int]]]) -> None:
         for _, pin, level in changes[0]:
-            self._shared.log.set(t, pin, level)
+            self._services.log.set(t, pin, level)
         self._next(changes[1:])

@@ -11,14 +11,14 @@ from collections.abc import Iterable, Mapping
 
 from ..chip import Chip, Phase
 from .drive.drive import Drive
-from .instructions.executor import Desk, Executor
+from .instructions.executor import ExecutionContext, Executor
 from .instructions.operations import KeyFilter
 from .instructions.processor import Processor
 from .line import Command, Line, reply
 from .memory.boot import Boot
 from .memory.eeprom import Bus, Engine
 from .motion.motion import Motion
-from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, Pace, Shared, Ticks
+from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, CoreTiming, Services, Ticks
 from .settings import Settings
 
 MS, RESTORE_MS = 1000, 20
@@ -69,7 +69,7 @@ class Pmc006(Chip):
         t_blank_ns: int = 1_000,
         fw_version: int = 0x123,
         straps: Mapping[str, int] | None = None,
-        pace: Pace | None = None,
+        core_timing: CoreTiming | None = None,
     ) -> None:
         del xtal_hz
         super().__init__(clk_hz, 16_000_000, timing, OUTPUTS, None)
@@ -85,7 +85,7 @@ class Pmc006(Chip):
         ):
             if not low <= given <= high:
                 raise ValueError(f"{name} {given} is outside {low}..{high}")
-        self.pace = pace or Pace()
+        self.core_timing = core_timing or CoreTiming()
         self._echo, self._version = step_ack == "ECHO", fw_version
         self._baud, self._i2c_hz, self._ee_dev = baud, i2c_hz, ee_dev
         self._chopper_ns = (t_off_ns, t_blank_ns)
@@ -99,29 +99,31 @@ class Pmc006(Chip):
 
     def _build(self, t: int) -> None:
         """Create blocks in their reset state, as if edge t were the first one after the reset."""
-        first = t + self.pace.reset
+        first = t + self.core_timing.reset
         queue, clk_hz = self._queue, self.timebase.clk_hz
         us = Ticks(clk_hz, 1_000_000, first - 1)
         self._first, self._booting = first, True
-        self._shared = shared = Shared(queue, self.log, clk_hz, us, self.pace, Settings())
-        self.desk = desk = Desk(shared, self._echo, self._version, self._changed)
-        self.motion = desk.motion = Motion(shared, self._stepped, desk.ended)
-        self.drive = Drive(shared, self.motion, *self._chopper_ns, origin=first)
-        self.executor = Executor(desk, self._answer)
-        desk.program = Processor(desk, self.executor)
-        bus = self._bus(shared, desk.levels)
-        desk.eeprom = Engine(desk, bus, self._ee_dev)
-        self._boot = Boot(desk, desk.eeprom, bus, self._booted, self._changed)
-        self.line = Line(shared, self._baud, self._take, self.replies, self.sent)
-        ticks = MS + self.pace.key_ticks
-        self._reset_key = KeyFilter(shared, ticks, ticks, desk.program.reset_key, desk.program.release_key)
-        self._pause_key = KeyFilter(shared, ticks, ticks, desk.program.pause_key)
-        restore_ticks = RESTORE_MS * MS + self.pace.key_ticks
-        self._restore_key = KeyFilter(shared, restore_ticks, 0, self._restore, armed=True)
+        self._services = services = Services(queue, self.log, clk_hz, us, self.core_timing, Settings())
+        self.context = context = ExecutionContext(services, self._echo, self._version, self._changed)
+        self.motion = context.motion = Motion(services, self._stepped, context.ended)
+        self.drive = Drive(services, self.motion, *self._chopper_ns, origin=first)
+        self.executor = Executor(context, self._answer)
+        context.program = Processor(context, self.executor)
+        bus = self._bus(services, context.levels)
+        context.eeprom = Engine(context, bus, self._ee_dev)
+        self._boot = Boot(context, context.eeprom, bus, self._booted, self._changed)
+        self.line = Line(services, self._baud, self._accept_frame, self.replies, self.sent)
+        ticks = MS + self.core_timing.key_ticks
+        self._reset_key = KeyFilter(
+            services, ticks, ticks, context.program.reset_key, context.program.release_key
+        )
+        self._pause_key = KeyFilter(services, ticks, ticks, context.program.pause_key)
+        restore_ticks = RESTORE_MS * MS + self.core_timing.key_ticks
+        self._restore_key = KeyFilter(services, restore_ticks, 0, self._restore, armed=True)
 
-    def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
+    def _bus(self, services: Services, levels: Mapping[str, int]) -> Bus:
         """Return the master of the EEPROM's lines."""
-        return Bus(shared, levels, self._i2c_hz)
+        return Bus(services, levels, self._i2c_hz)
 
     def _restart(self) -> None:
         self._build(0)
@@ -129,7 +131,7 @@ class Pmc006(Chip):
     def _released(self, t: int) -> None:
         """Process edge t, the first one after a reset."""
         self._build(t)
-        self._shown = (0, 0, True, False)
+        self._output_values = (0, 0, True, False)
         levels = dict(SYNCHRONISED)
         self._queue.at(self._first, Phase.LEVELS, lambda now: self._keys(now, levels))
         self._boot.begin(self._first)
@@ -144,30 +146,30 @@ class Pmc006(Chip):
         if self._booting:
             self._boot.restore(t)
         else:
-            self.desk.eeprom.restore(t)
+            self.context.eeprom.restore(t)
 
     def _booted(self, t: int, valid: bool) -> None:
         """Process the end of BOOT at edge t."""
         self._booting = False
-        self.desk.eeprom.idle()
+        self.context.eeprom.idle()
         self.drive.booted(t)
         self.line.listen(t, True)
-        if valid and self.desk.settings.offline:
-            self.desk.program.start(t, 0)
+        if valid and self.context.settings.offline:
+            self.context.program.start(t, 0)
 
     # ------------------------------------------------------------------ frames
 
-    def _take(self, t: int, command: Command) -> bool:
+    def _accept_frame(self, t: int, command: Command) -> bool:
         """Process a frame with a valid checksum (P006-FRM-02)."""
-        if command.address != self.desk.settings.addr:
+        if command.address != self.context.settings.addr:
             return False
         self.executor.frame(t, command)
         return True
 
     def _answer(self, t: int, data: int) -> None:
-        self.line.answer(reply(self.desk.settings.addr, data))
+        self.line.answer(reply(self.context.settings.addr, data))
 
-    def hear(self, t: int, byte: int | None) -> None:
+    def on_char(self, t: int, byte: int | None) -> None:
         """Process a whole byte on the line without the levels of rxd.
 
         Args:
@@ -177,28 +179,28 @@ class Pmc006(Chip):
         Raises:
             ValueError: edge t was already run.
         """
-        self._queue.at(t, Phase.BUS, lambda now: self.line.hear(now, byte))
+        self._queue.at(t, Phase.BUS, lambda now: self.line.on_char(now, byte))
 
     # ------------------------------------------------------------------ methods that `chip` calls
 
     def _latch(self, t: int) -> None:
         """Update the outputs and evaluate the state after edge t."""
-        desk, motion = self.desk, self.motion
-        now = (desk.settings.trigm, desk.gpo, motion.forward, motion.busy)
-        if now != self._shown:
-            before, self._shown = self._shown, now
-            self._show(t, before, now)
-        self.executor.look_at_wait(t + 1)
-        desk.guard.look(t)
+        context, motion = self.context, self.motion
+        now = (context.settings.trigm, context.gpo, motion.forward, motion.busy)
+        if now != self._output_values:
+            before, self._output_values = self._output_values, now
+            self._output_state(t, before, now)
+        self.executor.check_wait(t + 1)
+        context.stop_monitor.evaluate(t)
 
-    def _show(self, t: int, before: tuple[int, ...], now: tuple[int, ...]) -> None:
+    def _output_state(self, t: int, before: tuple[int, ...], now: tuple[int, ...]) -> None:
         trigm, gpo, forward, busy = now
         self.log.set(t, "ext1_pu", ~trigm & 1)
         self.log.set(t, "ext2_pu", ~trigm >> 1 & 1)
         self.log.set(t, "mon_dir", int(forward))
         self.log.set(t, "mon_busy", int(busy))
         if gpo != before[1]:
-            at = t + self.pace.gpo
+            at = t + self.core_timing.gpo
             self._queue.at(at, Phase.PIN, lambda later: self.log.set(later, "gpo", gpo))
 
     def _changed(self, t: int) -> None:
@@ -206,7 +208,7 @@ class Pmc006(Chip):
         self.drive.settings_changed(t)
 
     def _stepped(self, t: int, forward: bool) -> None:
-        self.desk.stepped(t, forward)
+        self.context.stepped(t, forward)
         self.log.set(t, "mon_step", 1)
         self._queue.at(t + 1, Phase.PIN, lambda now: self.log.set(now, "mon_step", 0))
 
@@ -216,7 +218,7 @@ class Pmc006(Chip):
         if names <= _LINES:
             # The bus of the EEPROM has more edges than all other pins.
             levels = {pin: self._pins[pin] for pin in names}
-            seen = self.desk.levels
+            seen = self.context.levels
             later = at + self.latency.input_sync
             self._queue.at(later, Phase.LEVELS, lambda now: seen.update(levels))
         else:
@@ -230,21 +232,21 @@ class Pmc006(Chip):
         pins = self._pins
         if pins["adc_valid"]:
             self.motion.adc(t, pins["adc_data"])
-        self.desk.guard.strobe(t, pins["bemf_valid"], pins["bemf_level"])
+        self.context.stop_monitor.strobe(t, pins["bemf_valid"], pins["bemf_level"])
         self.drive.compare(t, pins["cmp_a"], pins["cmp_b"])
         super()._sample_levels(t)
 
-    def _see(self, t: int, levels: Mapping[str, int]) -> None:
-        seen = self.desk.levels
+    def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
+        seen = self.context.levels
         seen.update((pin, levels[pin]) for pin in SYNCHRONISED)
-        self.desk.guard.see(t, seen)
+        self.context.stop_monitor.on_levels(t, seen)
         self._keys(t, seen)
-        self.executor.look_at_wait(t)
+        self.executor.check_wait(t)
 
     def _keys(self, t: int, levels: Mapping[str, int]) -> None:
-        self._reset_key.see(t, levels["gpi"] & 1)
-        self._pause_key.see(t, levels["gpi"] >> 1 & 1)
-        self._restore_key.see(t, levels["fset_n"])
+        self._reset_key.on_level(t, levels["gpi"] & 1)
+        self._pause_key.on_level(t, levels["gpi"] >> 1 & 1)
+        self._restore_key.on_level(t, levels["fset_n"])
 
     def _strobe(self, write: bool, reg: int) -> dict[str, int]:
         raise NotImplementedError("there is no bus")
@@ -258,7 +260,7 @@ class Pmc006(Chip):
     @property
     def position(self) -> int:
         """Position register POS in steps, signed."""
-        return self.desk.position
+        return self.context.position
 
     @property
     def angle(self) -> int:

@@ -1,4 +1,4 @@
-"""Pins of the PMC006B4 with idle and reset levels (chapter 1.1), and shared services."""
+"""Pins of the PMC006B4 with idle and reset levels (docs/pmc006/README.md, 2 Wiring), and services."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .settings import Settings
 
 
 @dataclass(frozen=True)
-class Pace:
+class CoreTiming:
     """Constants of one core in cycles, except key_ticks.
 
     Attributes:
@@ -25,7 +25,8 @@ class Pace:
         key_ticks: keys: µs ticks of a filter in addition to its time.
         job: EEPROM: last tick to the end of a job.
         fact: event to the first edge whose tick may begin a restore.
-        wiped, kept: boot, from one cycle after the last tick: the program is cleared, or stays.
+        program_cleared, program_kept: boot, from one cycle after the last tick: the program is cleared, or
+            stays.
         fields: check of the parameters' fields. Storing them takes the same time again.
         trigm: part of the storing time until TRIGM is stored.
         gpo: registers to their pins.
@@ -52,8 +53,8 @@ class Pace:
     key_ticks: int = 1
     job: int = 2
     fact: int = 2
-    wiped: int = 800
-    kept: int = 1
+    program_cleared: int = 800
+    program_kept: int = 1
     fields: int = 152
     trigm: int = 62
     gpo: int = 1
@@ -147,7 +148,7 @@ class Ticks:
 
 
 @dataclass
-class Shared:
+class Services:
     """Services of every block.
 
     Attributes:
@@ -159,5 +160,5 @@ class Shared:
     log: EdgeLog
     clk_hz: int
     us: Ticks
-    pace: Pace
+    core_timing: CoreTiming
     settings: Settings

@@ -2,7 +2,7 @@
 
 The page stores some of the registers.
 
-Rules: P006 chapter 3.0, P006-EEP-10, -20, chapter 13.1.
+Rules: P006-CMD (legal values), P006-EEP-10, -20.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ def framed(page: bytes) -> bool:
 def values_of(page: bytes) -> dict[str, int] | None:
     """Return the registers of a block read from the EEPROM.
 
-    `None`: the block is not valid as a whole (P006 13.2, step 5).
+    `None`: the block is not valid as a whole (docs/pmc006/README.md, 14 EEPROM).
     """
     if not framed(page):
         return None

@@ -16,9 +16,9 @@ from ..motion.codes import (
     HIGH_SPEED,
     ORIGIN,
     SINGLE_STEP,
+    ActiveCauses,
     Command,
     Kind,
-    Seen,
     input_register,
 )
 from ..motion.excitation import Chopper, Excitation
@@ -39,7 +39,8 @@ from .codes import (
     axis_levels,
 )
 
-# DATASHEET times of the PPMC-2104: processing windows (8.1) and the polling of limits and alarm (8.2).
+# DATASHEET times of the PPMC-2104: processing windows (P2104-DS-01..14) and the
+# polling of limits and alarm (P2104-DS-20, -21).
 
 _KINDS = {
     Kind.INITIALISE: 71_000,
@@ -131,7 +132,7 @@ class Motion(motion.Motion):
         waiting: True in state RUNWAIT.
     """
 
-    stops_at_start_speed = True
+    ends_at_start_rate = True
 
     def __init__(
         self,
@@ -144,9 +145,9 @@ class Motion(motion.Motion):
         super().__init__(context, excitation, chopper, GUARD, on_end)
         self._windows = windows
         self.waiting = False
-        self._look_from = 0
-        self._held_until: int | None = None
-        self._judged_at = -1
+        self._run_sampled_from = 0
+        self._end_delayed_until: int | None = None
+        self._check_scheduled_at = -1
         self.set_hold_delay(HOLD_DEFAULT)
 
     def set_hold_delay(self, n: int) -> None:
@@ -155,28 +156,33 @@ class Motion(motion.Motion):
 
     # ------------------------------------------------------------------ start
 
-    def start(self, t: int, command: Command, data: list[int], setup: Setup, look_from: int) -> None:
+    def start(self, t: int, command: Command, data: list[int], setup: Setup, run_sampled_from: int) -> None:
         """Process the C-event of an operation's last byte.
 
         Args:
-            look_from: first edge at which RUN is sampled.
+            run_sampled_from: first edge at which RUN is sampled.
         """
-        self._load(command, data, setup, self._context.levels["csel"], plain=True)
+        self._latch_settings(command, data, setup, self._context.levels["csel"], plain=True)
         self._begin(t)
-        self._held_until = None
-        self.waiting, self._look_from = True, look_from
-        if look_from > t:
-            self._context.queue.at(look_from, Phase.RUN, self.look_at_run)
+        self._end_delayed_until = None
+        self.waiting, self._run_sampled_from = True, run_sampled_from
+        if run_sampled_from > t:
+            self._context.queue.at(run_sampled_from, Phase.RUN, self.check_run)
         else:
-            self.look_at_run(t)
+            self.check_run(t)
 
-    def look_at_run(self, t: int) -> None:
+    def check_run(self, t: int) -> None:
         """End RUNWAIT at the first edge that samples RUN = H."""
-        if not self.waiting or self.finishing or t < self._look_from or not self._context.levels["run"]:
+        if (
+            not self.waiting
+            or self.finishing
+            or t < self._run_sampled_from
+            or not self._context.levels["run"]
+        ):
             return
         self.waiting = False
         self._arm(t + self._context.timebase.w + self._context.latency.start_extra)
-        self._context.queue.at(t + 1, Phase.GUARD, self.judge)
+        self._context.queue.at(t + 1, Phase.GUARD, self.check_stops)
 
     # ------------------------------------------------------------------ stops
 
@@ -196,22 +202,22 @@ class Motion(motion.Motion):
         The motion is cut at edge t; all other effects occur at edge `end`.
         """
         if not self.finishing:
-            self._held_until = end
+            self._end_delayed_until = end
         self.stop(t)
 
     # ------------------------------------------------------------------ inputs
 
-    def _seen(self, t: int) -> Seen:
-        seen = super()._seen(t)
+    def _active_causes(self, t: int) -> ActiveCauses:
+        causes = super()._active_causes(t)
         if not self._context.datasheet:
-            return Seen(seen.bits, seen.origin and not self.waiting, seen.slow)
+            return ActiveCauses(causes.bits, causes.origin and not self.waiting, causes.slow)
         if self._windows.is_tick(t):
-            return Seen(seen.bits, False, seen.slow)
+            return ActiveCauses(causes.bits, False, causes.slow)
         tick = self._windows.next_tick(t)
-        if (seen.bits or seen.slow) and tick != self._judged_at:
-            self._judged_at = tick
-            self._context.queue.at(tick, Phase.GUARD, self.judge)
-        return Seen()
+        if (causes.bits or causes.slow) and tick != self._check_scheduled_at:
+            self._check_scheduled_at = tick
+            self._context.queue.at(tick, Phase.GUARD, self.check_stops)
+        return ActiveCauses()
 
     def _next_rate(self, t: int) -> int | None:
         rate = super()._next_rate(t)
@@ -220,14 +226,14 @@ class Motion(motion.Motion):
 
     # ------------------------------------------------------------------ end
 
-    def _decided(self, t: int) -> None:
-        if self._held_until is None:
-            super()._decided(t)
+    def _end_decided(self, t: int) -> None:
+        if self._end_delayed_until is None:
+            super()._end_decided(t)
         else:
-            self._context.queue.at(self._held_until, Phase.BEGIN, self._finish)
+            self._context.queue.at(self._end_delayed_until, Phase.BEGIN, self._finish)
 
     def _ends_with_low(self) -> bool:
-        return self._held_until is None
+        return self._end_delayed_until is None
 
     def _finish(self, t: int) -> None:
         self.waiting = False
@@ -235,7 +241,7 @@ class Motion(motion.Motion):
 
 
 @dataclass
-class Switching:
+class ChopperTimes:
     """Chopper times in units of 2 quanta (P2104-SW-04, -05, P2104-AUX-04, -06)."""
 
     on: int = 0x53
@@ -260,8 +266,8 @@ class Axis:
         counter = QuantumCounter(shared.timebase, shared.counter.origin)
         self.context = replace(shared, counter=counter, levels=axis_levels(shared.levels, number))
         self.excitation = Excitation()
-        self.switching = Switching()
-        self.chopper = Chopper(self.context, self.switching)
+        self.chopper_times = ChopperTimes()
+        self.chopper = Chopper(self.context, self.chopper_times)
         self.motion = Motion(self.context, self.excitation, self.chopper, windows, self._ended)
         self.setup: Setup | None = None
         self.error = Error.NONE
@@ -269,13 +275,13 @@ class Axis:
         self.table_ready = -1
         self._interrupt = interrupt
         latency = shared.latency
-        self._pins = PinRegister(shared.queue, latency.motor_pins, MOTOR_AT_REST, self._put)
+        self._pins = PinRegister(shared.queue, latency.motor_pins, MOTOR_AT_REST, self._set_pin)
 
     def _ended(self, t: int, masked: bool) -> None:
         if not masked:
             self._interrupt.raise_(Cause.END, self.number)
 
-    def _put(self, t: int, signal: str, value: int) -> None:
+    def _set_pin(self, t: int, signal: str, value: int) -> None:
         """Set a pin: the phases have a port per axis, other pins are one bit of a common port."""
         log = self.context.log
         if signal == "s":
@@ -292,15 +298,15 @@ class Axis:
             t, {"s": phases, "pout_n": int(not motion.low), "hold": motion.hold, "dir": motion.direction}
         )
 
-    def see(self, t: int, levels: dict[str, int]) -> None:
+    def on_levels(self, t: int, levels: dict[str, int]) -> None:
         """Process new synchronised levels at edge t."""
-        inside, queue, motion = self.context.levels, self.context.queue, self.motion
-        changed = {pin for pin, level in levels.items() if inside[pin] != level}
-        inside.update(levels)
+        internal, queue, motion = self.context.levels, self.context.queue, self.motion
+        changed = {pin for pin, level in levels.items() if internal[pin] != level}
+        internal.update(levels)
         if changed - {"run", "extck", "csel"}:
-            queue.at(t, Phase.GUARD, motion.judge)
+            queue.at(t, Phase.GUARD, motion.check_stops)
         if "run" in changed:
-            queue.at(t, Phase.RUN, motion.look_at_run)
+            queue.at(t, Phase.RUN, motion.check_run)
         if "extck" in changed:
             queue.at(t, Phase.BASE, motion.base_rise if levels["extck"] else motion.base_fall)
 

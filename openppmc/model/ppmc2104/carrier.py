@@ -29,7 +29,7 @@ class Carrier(carrier.Carrier[Ppmc2104]):
         timing: str = "FAST",
         on_interrupt: Callable[[], None] = lambda: None,
     ) -> None:
-        self._shown = 0
+        self._watched_register = 0
         super().__init__(Ppmc2104(clk_hz, xtal_hz, timing), plants, on_interrupt)
 
     def switch_pins(self, levels: Sequence[dict[str, int]]) -> dict[str, int]:
@@ -37,15 +37,15 @@ class Carrier(carrier.Carrier[Ppmc2104]):
         return {pin: first[name] | second[name] << 1 for name, pin in _PINS.items()}
 
     def straps(self, levels: int) -> None:
-        self._shown = int(not levels & 0x80)
+        self._watched_register = int(not levels & 0x80)
         self.set_pins(csel=levels & 3, run=levels >> 2 & 3, errint_n=levels >> 4 & 1)
 
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         return self.part.status
 
     def pins(self) -> int:
-        self._settle()
-        return self.pin_byte(self.part.outputs["hold"] >> self._shown & 1, self._shown)
+        self._run_pending()
+        return self.pin_byte(self.part.outputs["hold"] >> self._watched_register & 1, self._watched_register)
 
 
 # Prediction of one move of a PPMC-2104 axis (P2104-INI-02, P2104-OPR-07).

@@ -58,7 +58,7 @@ class CommandUnit:
             bits |= ERROR if axis.error else 0
         return bits
 
-    def waits(self, t: int, byte: int, command: bool) -> bool:
+    def must_wait(self, t: int, byte: int, command: bool) -> bool:
         """Return True if a byte must wait for a ramp table at edge t (P2104-HSK-04)."""
         if not command or self._pending is not None:
             return False
@@ -72,7 +72,7 @@ class CommandUnit:
         else:
             self._parameter(t, byte)
 
-    def _charge(self, axis: int, error: Error) -> None:
+    def _report_error(self, axis: int, error: Error) -> None:
         """Store an error in the register of an axis (P2104-ERR-01, P2104-INT-01)."""
         self._axes[axis].error = error
         if not self._context.levels["errint_n"]:
@@ -85,24 +85,24 @@ class CommandUnit:
         abandoned = self._pending is not None
         self._pending, self._data = None, []
         if abandoned and command.kind not in STOPS:
-            self._charge(command.axis, Error.DATA_OUTSTANDING)
+            self._report_error(command.axis, Error.DATA_OUTSTANDING)
             return
-        error = self._refusal(command)
+        error = self._code_error(command)
         if abandoned:
-            shown = error if error is Error.CANNOT_DECELERATE else Error.DATA_OUTSTANDING
-            self._charge(command.axis, shown)
+            reported = error if error is Error.CANNOT_DECELERATE else Error.DATA_OUTSTANDING
+            self._report_error(command.axis, reported)
         elif error:
-            self._charge(command.axis, error)
+            self._report_error(command.axis, error)
         if error:
             return
         if command.parameters:
             self._pending = command
-        elif late := self._last_check(command, []):
-            self._charge(command.axis, late)
+        elif late := self._data_error(command, []):
+            self._report_error(command.axis, late)
         else:
             self._execute(t, command, [])
 
-    def _refusal(self, command: Command) -> Error:
+    def _code_error(self, command: Command) -> Error:
         """Return the error of a code in the current state of its axis."""
         axis, kind = self._axes[command.axis], command.kind
         motion = axis.motion
@@ -113,8 +113,8 @@ class CommandUnit:
         if kind in STOPS:
             if not motion.busy:
                 return Error.NOT_INITIALISED if axis.setup is None else Error.NOTHING_TO_STOP
-            refused = kind is Kind.SLOW_STOP and not motion.can_decelerate
-            return Error.CANNOT_DECELERATE if refused else Error.NONE
+            rejected = kind is Kind.SLOW_STOP and not motion.can_decelerate
+            return Error.CANNOT_DECELERATE if rejected else Error.NONE
         if motion.busy:
             return Error.NOT_WHILE_BUSY
         if kind is Kind.OPERATION and axis.setup is None:
@@ -127,19 +127,19 @@ class CommandUnit:
         """Process a data byte; the last one of an instruction executes it."""
         command = self._pending
         if command is None:
-            self._charge(0, Error.UNASKED_DATA)
+            self._report_error(0, Error.UNASKED_DATA)
             return
         self._data.append(byte)
         if len(self._data) < command.parameters:
             return
         data = self._data
         self._pending, self._data = None, []
-        if error := self._last_check(command, data):
-            self._charge(command.axis, error)
+        if error := self._data_error(command, data):
+            self._report_error(command.axis, error)
         else:
             self._execute(t, command, data)
 
-    def _last_check(self, command: Command, data: list[int]) -> Error:
+    def _data_error(self, command: Command, data: list[int]) -> Error:
         """Return the error of the checks at the last byte of an instruction (P2104-ERR-05)."""
         if command.kind is Kind.INITIALISE:
             return self._setting_error(command, data)
@@ -172,8 +172,8 @@ class CommandUnit:
             error = rate_error(command, rate, setup, levels["csel"], other.operating)
             if error:
                 return error
-        seen = inspect(GUARD, levels, command.operation, command.direction)
-        return Error.START_REFUSED if seen.ends else Error.NONE
+        causes = inspect(GUARD, levels, command.operation, command.direction)
+        return Error.START_REFUSED if causes.ends else Error.NONE
 
     # ------------------------------------------------------------------ execution
 
@@ -220,7 +220,7 @@ class CommandUnit:
         elif kind is Kind.AUX_OUTPUT:
             self._context.drive(t, "auxo", ~(code >> 4) & 3)
         elif kind is Kind.SWITCHING:
-            axis.switching.on, axis.switching.off = data
+            axis.chopper_times.on, axis.chopper_times.off = data
         elif kind is Kind.HOLD_DELAY:
             axis.motion.set_hold_delay(data[0])
         else:

@@ -59,7 +59,7 @@ class Ppmc2104(Chip):
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context
-        self._port = HostPort(context, self._take, self._state, strobes, self._waits)
+        self._port = HostPort(context, self._take, self._state, strobes, self._must_wait)
         self._interrupt = Interrupt(context)
         windows = Windows(context, self._port, released)
         self.axes = [Axis(number, context, windows, self._interrupt) for number in AXES]
@@ -69,8 +69,8 @@ class Ppmc2104(Chip):
     def _take(self, t: int, byte: int, command: bool, stored_at: int) -> None:
         self._commands.take(t, byte, command)
 
-    def _waits(self, t: int, byte: int, command: bool) -> bool:
-        return self._commands.waits(t, byte, command)
+    def _must_wait(self, t: int, byte: int, command: bool) -> bool:
+        return self._commands.must_wait(t, byte, command)
 
     def _state(self) -> int:
         return self._commands.state()
@@ -85,10 +85,10 @@ class Ppmc2104(Chip):
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
         self._port.sample(t, pins)
 
-    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+    def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         self._context.levels.update(levels)
         for axis in self.axes:
-            axis.see(t, axis_levels(levels, axis.number))
+            axis.on_levels(t, axis_levels(levels, axis.number))
 
     def _restart(self) -> None:
         self._build(0, self._pins)

@@ -57,7 +57,7 @@ class Carrier(carrier.Carrier[Ppmc312]):
         self.set_pins(run=levels & 1, evt0_n=levels >> 1 & 1, evt1_n=levels >> 2 & 1)
 
     def pins(self) -> int:
-        self._settle()
+        self._run_pending()
         resting = not self._moved or not self.part.outputs["cd_n"]
         return self.pin_byte(int(resting), 0)
 
@@ -65,11 +65,11 @@ class Carrier(carrier.Carrier[Ppmc312]):
         super().reset()
         self._moved = False
 
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         return self.part.csr
 
-    def _watch(self) -> None:
-        super()._watch()
+    def _follow_outputs(self) -> None:
+        super()._follow_outputs()
         index = self._plant.index_level(self.positions[0])
         if index != self.part.inputs["index_n"]:
             self.part.pins(self.part.now + 1, index_n=index)

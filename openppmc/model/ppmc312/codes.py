@@ -1,6 +1,6 @@
 """Instruction codes, lengths, accept table and response codes of the PPMC-312.
 
-Rules: chapters 3.1, 4, 10.
+Rules: P312-CMD, P312-STA-01; response codes: docs/ppmc312/README.md, 6.1 Blocks.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Code(IntEnum):
 
 
 class Answer(IntEnum):
-    """Response codes that are no instruction codes (10.1)."""
+    """Response codes that are no instruction codes (docs/ppmc312/README.md, 6.1 Blocks)."""
 
     STOPPED = 0xE0
     INTERLOCK_END = 0xE1
@@ -97,7 +97,7 @@ SPONTANEOUS = 0x23
 
 
 class Cause(IntEnum):
-    """Cause of the end of the pulses; the value is the bit of E0 (10.3).
+    """Cause of the end of the pulses; the value is the bit of E0 (docs/ppmc312/README.md, 6.1).
 
     Attributes:
         RETURN: phase 1 of a zero return.
@@ -195,7 +195,7 @@ def known(code: int) -> bool:
 
 
 def accepts(code: int, state: State, override: bool, end_wait: bool, table: bool) -> bool:
-    """Return True if the accept table of chapter 4 accepts an instruction.
+    """Return True if the accept table (P312-STA-01) accepts an instruction.
 
     Args:
         end_wait: True in state FIX if the part is waiting for the positioning end.
@@ -208,7 +208,7 @@ def accepts(code: int, state: State, override: bool, end_wait: bool, table: bool
     return _ACCEPT[code][override][_STATES.index(state)] == "O"
 
 
-# Pins of the PPMC-312 with idle and reset levels (chapter 1.3).
+# Pins of the PPMC-312 with idle and reset levels (docs/ppmc312/README.md, 2 Pins).
 
 INPUTS: dict[str, int] = {
     "rst_n": 1,
@@ -264,13 +264,13 @@ SERIAL_PINS = ("rxd",)
 # Event queue of the PPMC-312 for its blocks: a software reset cancels their events.
 
 
-class _Asked(Event):
+class _BlockEvent(Event):
     """Event of a block; only the current blocks have such events in the queue."""
 
     __slots__ = ()
 
 
-class Scope(Scheduler):
+class ResettableScheduler(Scheduler):
     """Queue of a part for its blocks; their events are cancelled when the blocks are replaced."""
 
     def __init__(self, queue: Scheduler) -> None:
@@ -278,7 +278,7 @@ class Scope(Scheduler):
         self._queue = queue
         self._alive = True
 
-    def at(self, t: int, phase: int, action: Callback, kind: type[Event] = _Asked) -> Event:
+    def at(self, t: int, phase: int, action: Callback, kind: type[Event] = _BlockEvent) -> Event:
         """Call `action(t)` unless the blocks have been replaced by then."""
         event = self._queue.at(t, phase, action, kind)
         if not self._alive:
@@ -288,4 +288,4 @@ class Scope(Scheduler):
     def close(self) -> None:
         """Cancel all events, because the blocks are replaced."""
         self._alive = False
-        self._queue.cancel(_Asked)
+        self._queue.cancel(_BlockEvent)

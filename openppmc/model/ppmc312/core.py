@@ -17,9 +17,9 @@ from .instructions.overrides import EventBuffer, Fifo
 from .instructions.unit import Unit
 from .motion.inputs import EVENT_PINS, Filters, InputChange, Outputs
 from .motion.operation import Operation
-from .motion.position import Counters, Interlock, Monitor, Watch
-from .pace import Pace
+from .motion.position import Counters, Interlock, Monitor, WindowMonitors
 from .stages import FreeCurve, Table
+from .timing import CoreTiming
 
 
 class Core:
@@ -34,41 +34,41 @@ class Core:
     def __init__(
         self,
         context: Context,
-        pace: Pace,
+        core_timing: CoreTiming,
         version: int,
         make_host: Callable[[Core], HostSide],
         reset: Callable[[int, Source], None],
     ) -> None:
-        self.context, self.pace, self.version, self.reset = context, pace, version, reset
+        self.context, self.core_timing, self.version, self.reset = context, core_timing, version, reset
         self.table: Table | None = None
         self.transfer: FreeCurve | None = None
         self._abnormal = self._clearing = False
         self.counters, self.interlock = Counters(), Interlock()
-        self.fifo, self.events = Fifo(pace.armed), (EventBuffer(), EventBuffer())
-        self.responses = Responses(self._offered, self._was_read, lambda: self.unit.holding)
+        self.fifo, self.events = Fifo(core_timing.armed), (EventBuffer(), EventBuffer())
+        self.responses = Responses(self._response_stored, self._was_read, lambda: self.unit.response_pending)
         self.outputs = Outputs(context)
         self.filters = Filters(context, self._pin_changed)
         pins = self.filters.levels
         self.operation = Operation(
             context,
-            pace,
+            core_timing,
             pins,
             self.outputs,
             self.counters,
             self.responses,
             self._on_pulse,
             self.overrun,
-            self._rested,
-            lambda: self.unit.settled or self._abnormal,
+            self._evaluate_monitors,
+            lambda: self.unit.overrides_done or self._abnormal,
             lambda: self._abnormal,
         )
-        self.watch = Watch(
+        self.monitors = WindowMonitors(
             context,
-            pace,
+            core_timing,
             self.counters,
             Monitor(POSITION, Answer.POSITION_CHANGE, self.responses),
             Monitor(ENCODE, Answer.ENCODE_CHANGE, self.responses),
-            lambda: self.operation.at_rest,
+            lambda: self.operation.at_standstill,
             self.outputs.clamp,
             lambda: not pins["end_n"],
         )
@@ -89,7 +89,7 @@ class Core:
             return State.ABN
         return self.operation.state or (State.NOR if self.table else State.INI)
 
-    def forget_table(self) -> None:
+    def discard_table(self) -> None:
         """Change to state INI: no table, no registered instructions."""
         self.table = self.transfer = None
         self._clear_buffers()
@@ -121,7 +121,7 @@ class Core:
             return
         self._abnormal, self._clearing = True, False
         if self.transfer is not None:
-            self.forget_table()
+            self.discard_table()
         self.operation.stop(t, Cause.ALARM)
 
     def overrun(self, t: int, status: Alarm) -> None:
@@ -143,13 +143,13 @@ class Core:
 
     # ------------------------------------------------------------------ events of the blocks
 
-    def _offered(self, t: int) -> None:
-        self.host.offer(t)
+    def _response_stored(self, t: int) -> None:
+        self.host.notify_response(t)
 
     def _was_read(self, t: int, report: Report, block: bytes) -> None:
         self.unit.was_read(t, report)
         if report.kind in (POSITION, ENCODE):
-            self.watch.was_read(t, report.kind)
+            self.monitors.was_read(t, report.kind)
 
     def _on_pulse(self, t: int, direction: int) -> bool:
         """Count a pulse in the position and compare the position.
@@ -159,22 +159,24 @@ class Core:
         position = self.counters.pulse
         released = self.fifo.count(t, position)
         if released:
-            self.unit.kick(t)
+            self.unit.schedule(t)
         if self.interlock.arrives(position):
-            self.context.queue.at(t + self.pace.unlock - self.pace.compare, Phase.STORE, self._unlocked)
+            self.context.queue.at(
+                t + self.core_timing.unlock - self.core_timing.compare, Phase.STORE, self._interlock_ended
+            )
         return released is not None and released.stops_at_position
 
-    def _unlocked(self, t: int) -> None:
+    def _interlock_ended(self, t: int) -> None:
         if not self.responses.report(t, responses.INTERLOCK, Answer.INTERLOCK_END):
             self.overrun(t, Alarm.INTERLOCK_OR_HOLD)
 
     def count_encoder(self, t: int, direction: int) -> None:
         """Process a rising edge of epin."""
         self.counters.count_encoder(direction)
-        self.watch.look(t)
+        self.monitors.evaluate(t)
 
-    def _rested(self, t: int) -> None:
-        self.watch.look(t)
+    def _evaluate_monitors(self, t: int) -> None:
+        self.monitors.evaluate(t)
 
     def _pin_changed(self, t: int, pin: str) -> None:
         low = not self.filters.levels[pin]
@@ -189,7 +191,7 @@ class Core:
             else:
                 self._leave_abnormal(t)
         elif pin == "end_n":
-            self.operation.look_at_end(t)
-            self.watch.look(t)
+            self.operation.check_end(t)
+            self.monitors.evaluate(t)
         else:
-            self.operation.motion.look(t)
+            self.operation.motion.schedule_check(t)

@@ -11,13 +11,13 @@ from collections.abc import Iterable, Mapping
 
 from ..chip import Chip, Context, Phase, PinRegister
 from ..clock import Latency, QuantumCounter
-from .codes import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS, Scope, Source, State
+from .codes import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS, ResettableScheduler, Source, State
 from .core import Core
 from .front.mailbox import IDLE, Mailbox, Strobes
 from .front.serial import bit_time
 from .front.station import Driver, HostSide, Log, Station
 from .motion.motion import Motion
-from .pace import READY, Pace
+from .timing import READY, CoreTiming
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
@@ -57,7 +57,7 @@ class Ppmc312(Chip):
         snd_lead: int = 1,
         snd_wait: int = 0,
         straps: Mapping[str, int] | None = None,
-        pace: Pace | None = None,
+        core_timing: CoreTiming | None = None,
         latency: Latency | None = None,
     ) -> None:
         if not 0 <= version <= 255:
@@ -69,7 +69,7 @@ class Ppmc312(Chip):
         if not 0 <= snd_wait <= 8:
             raise ValueError(f"snd_wait {snd_wait} is outside 0..8")
         super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, latency)
-        self.pace = pace or Pace()
+        self.core_timing = core_timing or CoreTiming()
         self._version, self._sum_mode = version, sum_mode
         self._driver = Driver(snd_lead, snd_wait)
         self._pins |= straps or {}
@@ -84,14 +84,16 @@ class Ppmc312(Chip):
     def _build(self) -> None:
         """Create blocks in their reset state; the synchronisers hold inactive levels."""
         levels = dict(_SYNCHRONISED)
-        self._scope = Scope(self._queue)
+        self._block_queue = ResettableScheduler(self._queue)
         self._context = Context(
-            self.timebase, self.latency, self.datasheet, self._scope, self.log, self._counter, levels
+            self.timebase, self.latency, self.datasheet, self._block_queue, self.log, self._counter, levels
         )
-        self.core = Core(self._context, self.pace, self._version, self._make_host, self._software_reset)
+        self.core = Core(
+            self._context, self.core_timing, self._version, self._make_host, self._software_reset
+        )
 
     def _make_host(self, core: Core) -> HostSide:
-        self._mailbox = Mailbox(core.context, self.pace, core.responses, core.unit.host_block)
+        self._mailbox = Mailbox(core.context, self.core_timing, core.responses, core.unit.host_block)
         return self._mailbox
 
     def _latch_mode(self, t: int) -> None:
@@ -121,12 +123,14 @@ class Ppmc312(Chip):
         """Process edge t, the first one after a reset (P312-PRT-02, -03)."""
         self._latch_mode(t)
         self._out_oe = 0
-        self._held = self._levels()
+        self._reset_levels_held = self._levels()
         self._registers = self._make_registers()
-        self._seen: object = None
-        ready = t + (self.timebase.cyc(READY) + self.pace.start if self.datasheet else self.pace.ready)
+        self._last_state: object = None
+        ready = t + (
+            self.timebase.cyc(READY) + self.core_timing.start if self.datasheet else self.core_timing.ready
+        )
         self._parallel = bool(self._latched["mode"])
-        self._bus_from = self._line_from = t + self.pace.ready
+        self._bus_from = self._line_from = t + self.core_timing.ready
         self._pins_from = ready + 1
         self._queue.at(ready, Phase.END, self._ready)
 
@@ -135,11 +139,11 @@ class Ppmc312(Chip):
 
         Most outputs are registers themselves, some follow an internal level.
         """
-        late = {name: level for name, level in self._held.items() if name in _LATE}
-        early = {name: level for name, level in self._held.items() if name not in _LATE}
+        late = {name: level for name, level in self._reset_levels_held.items() if name in _LATE}
+        early = {name: level for name, level in self._reset_levels_held.items() if name not in _LATE}
         return [
             (tuple(levels), PinRegister(self._queue, lag, levels, self.log.set))
-            for levels, lag in ((early, 0), (late, self.pace.pins))
+            for levels, lag in ((early, 0), (late, self.core_timing.pins))
         ]
 
     def _ready(self, t: int) -> None:
@@ -157,9 +161,9 @@ class Ppmc312(Chip):
     def _sample_levels(self, t: int) -> None:
         super()._sample_levels(t)
         level = self._pins["run"]
-        self._queue.at(t + self.latency.input_sync, Phase.PINS, lambda now: self._see_run(now, level))
+        self._queue.at(t + self.latency.input_sync, Phase.PINS, lambda now: self._set_run_level(now, level))
 
-    def _see_run(self, t: int, level: int) -> None:
+    def _set_run_level(self, t: int, level: int) -> None:
         """Update RUN, which is combinational.
 
         A start uses the level of RUN at the same edge, not that of the previous edge (P312-INP-20).
@@ -174,19 +178,19 @@ class Ppmc312(Chip):
 
         A strobe on the bus continues (P312-PAR-11), unless the pins now select the serial mode.
         """
-        self._scope.close()
+        self._block_queue.close()
         self._queue.at(t, Phase.PIN, self._reset_outputs)
         self._build()
         self._connect()
         # A read at this edge still returns the old registers.
-        self._queue.at(t, Phase.COMMAND, lambda now: self._strobes.replaced(now, self._mailbox))
-        self._line_from = self._pins_from = t + self.pace.reboot
-        self._queue.at(t + self.pace.reboot, Phase.PINS, self._switch)
+        self._queue.at(t, Phase.COMMAND, lambda now: self._strobes.replace_registers(now, self._mailbox))
+        self._line_from = self._pins_from = t + self.core_timing.reboot
+        self._queue.at(t + self.core_timing.reboot, Phase.PINS, self._switch)
         super()._sample(self._pins_from, {*self.INPUTS}.difference(self.HOST_PINS, SERIAL_PINS))
         self._queue.at(t + 1, Phase.PINS, self._latch_mode)
         self._queue.at(t + 1, Phase.END, lambda now: self._reopen(now, Station))
-        self._queue.at(t + self.pace.reopen, Phase.END, lambda now: self._reopen(now, Mailbox))
-        self._queue.at(t + self.pace.reboot, Phase.BUS, self.core.unit.answer_reset)
+        self._queue.at(t + self.core_timing.reopen, Phase.END, lambda now: self._reopen(now, Mailbox))
+        self._queue.at(t + self.core_timing.reboot, Phase.BUS, self.core.unit.answer_reset)
 
     def _switch(self, t: int) -> None:
         """Process edge t, the first one with the mode of a software reset.
@@ -207,7 +211,7 @@ class Ppmc312(Chip):
         for pin in ("wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
 
-    def hear(self, t: int, byte: int | None) -> None:
+    def on_char(self, t: int, byte: int | None) -> None:
         """Process a whole character on the line without the levels of rxd. Serial mode only.
 
         Args:
@@ -217,7 +221,7 @@ class Ppmc312(Chip):
         Raises:
             ValueError: edge t was already run.
         """
-        self._queue.at(t, Phase.BUS, lambda now: self.station.hear(now, byte))
+        self._queue.at(t, Phase.BUS, lambda now: self.station.on_char(now, byte))
 
     # ------------------------------------------------------------------ methods that `chip` calls
 
@@ -230,14 +234,14 @@ class Ppmc312(Chip):
     def _latch(self, t: int) -> None:
         """Update the pins; before out_oe they keep their reset levels (P312-PRT-02)."""
         if not self._out_oe:
-            levels = self._held
+            levels = self._reset_levels_held
         else:
             # Leave early: at most edges, no pin changes.
             core, motion = self.core, self.motion
-            seen = core.outputs.values, motion.pout, motion.direction, core.interlock.on, self._host.levels()
-            if seen == self._seen:
+            state = core.outputs.values, motion.pout, motion.direction, core.interlock.on, self._host.levels()
+            if state == self._last_state:
                 return
-            self._seen, levels = seen, self._levels()
+            self._last_state, levels = state, self._levels()
         for names, register in self._registers:
             register.latch(t, {name: levels[name] for name in names})
 
@@ -247,19 +251,19 @@ class Ppmc312(Chip):
         elif isinstance(self._host, Station) and t >= self._line_from:
             self._host.sample(t, pins)
 
-    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+    def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         if t < self._pins_from + self.latency.input_sync:
             return
-        inside, core = self._context.levels, self.core
-        before = dict(inside)
-        inside.update(levels)
+        internal, core = self._context.levels, self.core
+        before = dict(internal)
+        internal.update(levels)
         if levels["epin"] and not before["epin"]:
             core.count_encoder(t, levels["epdir"])
-        core.filters.see(t, levels)
+        core.filters.on_levels(t, levels)
         if levels["run"] != before["run"]:
-            core.operation.look_at_run(t)
+            core.operation.check_run(t)
         if levels["auxi"] != before["auxi"]:
-            core.input_change.see(t)
+            core.input_change.on_change(t)
         if levels["extck"] != before["extck"] and core.table is not None:
             counted = {6: 1, 7: 0}.get(core.table.clk)
             if counted == levels["extck"]:

@@ -31,7 +31,7 @@ class SettingError(ValueError):
     """Rejected setting.
 
     Args:
-        number: error number of F0 (10.2).
+        number: error number of F0 (docs/ppmc312/README.md, 6.1 Blocks).
         table: table that was built, but is invalid.
     """
 

@@ -73,14 +73,14 @@ class TimedMotion(Motion):
 
     # ------------------------------------------------------------------ end
 
-    def _decided(self, t: int) -> None:
+    def _end_decided(self, t: int) -> None:
         if not self._context.datasheet:
-            super()._decided(t)
+            super()._end_decided(t)
             return
         closed = DS_END_RAMP_STOP if self.is_ramp else DS_CLOSED
         self._datasheet_end(t, t, DS_END_RAMP_STOP if self.is_ramp else DS_END, closed)
 
-    def _train_over(self, t: int) -> None:
+    def _last_pulse_output(self, t: int) -> None:
         if not self._context.datasheet:
             return
         pin = t + self._context.latency.motor_pins
@@ -116,7 +116,7 @@ class ByteUnit(ABC):
     Readable: error (`None` or number), expected, setup (`None`: UNINIT).
     """
 
-    while_busy: ClassVar[tuple[Kind, ...]] = (
+    allowed_while_busy: ClassVar[tuple[Kind, ...]] = (
         Kind.STOP,
         Kind.SLOW_STOP,
         Kind.AUX_ON,
@@ -169,7 +169,7 @@ class ByteUnit(ABC):
         """Process a command byte; return its error. An unfinished command is discarded (P104-HSK-07)."""
         self._pending, self._data = None, []
         command = self._decode(byte)
-        error = self._refusal(command)
+        error = self._code_error(command)
         if error is not None:
             return error
         if command.parameters:
@@ -177,14 +177,14 @@ class ByteUnit(ABC):
             return None
         return self._execute(t, command, reference, [])
 
-    def _refusal(self, command: Command) -> Error | None:
+    def _code_error(self, command: Command) -> Error | None:
         """Return the error of the checks in the order of P104-ERR-01."""
         motion, kind = self._motion, command.kind
         if kind is Kind.UNDEFINED:
             return Error.UNDEFINED
         if kind in (Kind.STOP, Kind.SLOW_STOP) and not motion.busy:
             return Error.UNDEFINED
-        if motion.busy and kind not in self.while_busy:
+        if motion.busy and kind not in self.allowed_while_busy:
             return Error.NOT_WHILE_BUSY
         if kind is Kind.OPERATION and self.setup is None:
             return Error.NOT_INITIALISED
@@ -220,13 +220,13 @@ class ByteUnit(ABC):
         if self.setup is None:
             phases, half, positive = (code & 3) + 2, bool(code & 4), bool(code & 8)
 
-            def show(at: int) -> None:
+            def output_pattern(at: int) -> None:
                 self._excitation.configure(phases, half, positive)
 
             if context.datasheet:
-                context.queue.at(reference + context.timebase.cyc(_DS_PATTERN), Phase.BEGIN, show)
+                context.queue.at(reference + context.timebase.cyc(_DS_PATTERN), Phase.BEGIN, output_pattern)
             else:
-                show(t)
+                output_pattern(t)
         self.setup = Setup(ramp, external=bool(code & 0x10), chopping=bool(code & 0x20))
         if context.datasheet:
             done = reference + context.timebase.cyc(ds_build)

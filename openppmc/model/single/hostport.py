@@ -46,15 +46,15 @@ class SpeedGate:
         before, after, since = self._fast
         return after if t >= since else before
 
-    def waits(self, t: int, byte: int, command: bool) -> bool:
+    def must_wait(self, t: int, byte: int, command: bool) -> bool:
         """Return True if this byte must stay in the buffer at edge t."""
         stop = command and decode(byte).kind in (Kind.STOP, Kind.SLOW_STOP)
         return self._is_fast(t) and not stop
 
 
-Take = Callable[[int, int, bool, int], None]
+AcceptByte = Callable[[int, int, bool, int], None]
 Strobes = Callable[[Mapping[str, int]], tuple[bool, bool]]
-Waits = Callable[[int, int, bool], bool]
+MustWait = Callable[[int, int, bool], bool]
 
 WRITE_SYNC = 2
 READ_SYNC = 2
@@ -78,32 +78,32 @@ class HostPort:
             is the write event.
         state: state() returns all status bits except IBF and OBF.
         strobes: strobes(pins) returns write strobe and read strobe.
-        waits: waits(t, byte, is_command) returns True if the byte must stay in the buffer at edge t. The
-            function that returns True also calls `retry` when the byte may pass.
+        must_wait: must_wait(t, byte, is_command) returns True if the byte must stay in the buffer at edge t.
+            The function that returns True also calls `retry` when the byte may pass.
     """
 
     def __init__(
         self,
         context: Context,
-        take: Take,
+        take: AcceptByte,
         state: Callable[[], int],
         strobes: Strobes,
-        waits: Waits = lambda t, byte, command: False,
+        must_wait: MustWait = lambda t, byte, command: False,
     ) -> None:
         self._context = context
         self._take_byte = take
         self._state = state
         self._strobes = strobes
-        self._waits = waits
+        self._must_wait = must_wait
         self._pins: dict[str, int] = {}
         self._writing = self._reading = False
         self._in_pipe = 0
         self._buffer = (0, False)
         self._stored_at = 0
         self.ibf = self.obf = False
-        self._shown = 0
+        self._output_byte = 0
         self._queue: list[int] = []
-        self._taken = False
+        self._byte_was_read = False
         self._clearing: Event | None = None
         self._presenting: Event | None = None
         self._closed_until = 0
@@ -125,8 +125,8 @@ class HostPort:
             if reading:
                 self._load(t)
                 self._context.queue.at(t + 1, Phase.BUS, self._second_load)
-            elif self._taken:
-                self._taken = False
+            elif self._byte_was_read:
+                self._byte_was_read = False
                 self._clearing = self._context.queue.at(t + READ_SYNC, Phase.QUEUE, self._clear)
 
     def _second_load(self, t: int) -> None:
@@ -135,12 +135,12 @@ class HostPort:
 
     def _load(self, t: int) -> None:
         """Load d_o from the selected register, with its value just before edge t."""
-        self._taken = False
+        self._byte_was_read = False
         if self._pins["a0"]:
             value = self.status
         else:
-            value = self._shown
-            self._taken = self._readable
+            value = self._output_byte
+            self._byte_was_read = self._readable
         self._context.log.set(t, "d_o", value)
 
     @property
@@ -158,9 +158,9 @@ class HostPort:
     def answer(self, values: Iterable[int]) -> None:
         """Load the bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
         self._queue = list(values)
-        self._shown = self._queue.pop(0)
+        self._output_byte = self._queue.pop(0)
         self.obf = True
-        self._taken = False
+        self._byte_was_read = False
         for event in (self._clearing, self._presenting):
             if event:
                 event.cancel()
@@ -175,7 +175,7 @@ class HostPort:
 
     def _present(self, t: int) -> None:
         self._presenting = None
-        self._shown = self._queue.pop(0)
+        self._output_byte = self._queue.pop(0)
         self.obf = True
 
     # ------------------------------------------------------------------ mailbox
@@ -205,7 +205,7 @@ class HostPort:
         if t < opens:
             self.retry(opens)
             return
-        if self._waits(t, byte, command):
+        if self._must_wait(t, byte, command):
             return
         self.ibf = False
         self._take_byte(t, byte, command, self._stored_at)

@@ -93,13 +93,13 @@ class SingleAxis(Chip):
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
         self._port.sample(t, pins)
 
-    def _see(self, t: int, levels: Mapping[str, int]) -> None:
-        inside = self._context.levels
-        was = inside[self.CLOCK_PIN]
-        judged = any(inside[pin] != levels[pin] for pin in self.GUARD.all)
-        inside.update(levels)
-        if judged:
-            self._queue.at(t, Phase.GUARD, self._motion.judge)
+    def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
+        internal = self._context.levels
+        was = internal[self.CLOCK_PIN]
+        stops_changed = any(internal[pin] != levels[pin] for pin in self.GUARD.all)
+        internal.update(levels)
+        if stops_changed:
+            self._queue.at(t, Phase.GUARD, self._motion.check_stops)
         if levels[self.CLOCK_PIN] != was:
             edge = self._motion.base_fall if was else self._motion.base_rise
             self._queue.at(t, Phase.BASE, edge)

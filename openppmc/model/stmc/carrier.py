@@ -46,11 +46,11 @@ class Carrier(carrier.Carrier[Stmc]):
     def straps(self, levels: int) -> None:
         """Ignore the levels, because no straps are connected."""
 
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         return self.part.status
 
     def pins(self) -> int:
-        self._settle()
+        self._run_pending()
         return self.pin_byte(self.part.outputs["hold"], 0)
 
     def reset(self) -> None:

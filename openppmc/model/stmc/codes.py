@@ -14,7 +14,7 @@ TICK_XT = 1280
 BOARD_CLOCK_HZ = 48_675
 FINISH_STATUS, INPUTS, OUTPUTS, REMAINING = "finish status", "inputs", "outputs", "remaining steps"
 
-# Meaning of each read code by READ_MAP, the default first (ruling R-01).
+# Meaning of each read code by READ_MAP, the default first (docs/stmc/README.md, 6.6 Reads).
 READ_MAPS: dict[str, dict[int, str]] = {
     "FAMILY": {0x80: FINISH_STATUS, 0x81: INPUTS, 0x82: OUTPUTS, 0x83: REMAINING},
     "SHEET": {0x80: FINISH_STATUS, 0x82: INPUTS, 0x83: OUTPUTS, 0x84: REMAINING},

@@ -15,8 +15,8 @@ from ..motion.codes import (
     FINISH_SLOW,
     FINISH_STOP,
     ORIGIN,
+    ActiveCauses,
     Command,
-    Seen,
     input_register,
 )
 from ..motion.excitation import Chopper, Excitation
@@ -42,7 +42,7 @@ class Motion(TimedMotion):
         hold_xt: crystal periods from the fall of BUSY to `hold`.
     """
 
-    stops_at_start_speed = True
+    ends_at_start_rate = True
 
     def __init__(
         self, context: Context, port: HostPort, excitation: Excitation, chopper: Chopper, hold_xt: int
@@ -60,7 +60,7 @@ class Motion(TimedMotion):
             data: bytes as written, the divisor before the count.
         """
         rated = [data[0] - 1, *data[1:]] if data and command.operation in (4, 5, 7) else data
-        self._load(command, rated, setup, csel=1, plain=True)
+        self._latch_settings(command, rated, setup, csel=1, plain=True)
         self._clock = BaseClock(TICK_XT // self._context.timebase.quantum)
 
     # ------------------------------------------------------------------ stops and inputs
@@ -69,21 +69,21 @@ class Motion(TimedMotion):
         """Process command 1 in state S or A of commands 3 and 6 (STMC-STP-03, STMC-DS-11)."""
         self._request(t, "flag", FINISH_STOP)
 
-    def _seen(self, t: int) -> Seen:
-        """Return the causes; command 7 also ends at its deceleration limit (STMC-IN-04, ruling R-19)."""
-        seen = super()._seen(t)
-        if self.operation == ORIGIN and seen.slow:
-            return Seen(seen.bits | FINISH_SLOW, seen.origin)
-        return seen
+    def _active_causes(self, t: int) -> ActiveCauses:
+        """Return the causes; command 7 also ends at its deceleration limit (STMC-IN-04)."""
+        causes = super()._active_causes(t)
+        if self.operation == ORIGIN and causes.slow:
+            return ActiveCauses(causes.bits | FINISH_SLOW, causes.origin)
+        return causes
 
     # ------------------------------------------------------------------ steps and end
 
     def _begin_low(self, t: int, rate: int | None, gap: int | None) -> None:
         """Do nothing, because there is no pulse output."""
 
-    def _train_over(self, t: int) -> None:
+    def _last_pulse_output(self, t: int) -> None:
         if self._context.datasheet:
-            super()._train_over(t)
+            super()._last_pulse_output(t)
         else:
             self._plan_end(t)
 

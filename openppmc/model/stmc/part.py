@@ -1,10 +1,10 @@
 """Golden model of the STMC core at pin level, event driven and cycle-accurate.
 
-Rules by module: this one parameters and reset values of chapter 1. Bus: `single.hostport` (STMC-BUS).
-Commands and motion: `commands` in this folder and in `single` (STMC-ST, -CMD, -INI, -RD), `motion.motion`
-(STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS). Phases and chopper: `motion.excitation` (STMC-EXC, -CHP). Ramp:
-`motion.ramp` (STMC-RMP). `chip`, `clock` and `single.single` have pins and time. `clock.Latency` has the
-constants that the rules leave open.
+Rules by module: this one parameters and reset values (docs/stmc/README.md, 3). Bus: `single.hostport`
+(STMC-BUS). Commands and motion: `commands` in this folder and in `single` (STMC-ST, -CMD, -INI, -RD),
+`motion.motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS). Phases and chopper: `motion.excitation`
+(STMC-EXC, -CHP). Ramp: `motion.ramp` (STMC-RMP). `chip`, `clock` and `single.single` have pins and time.
+`clock.Latency` has the constants that the rules leave open.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LATENCY = Latency(build_base=2032, build_per_rate=144)
 
 
 @dataclass(frozen=True)
-class FixedSwitching:
+class FixedChopperTimes:
     """Chopper times in crystal periods, rounded up to whole quanta (STMC-CHP-01)."""
 
     on: int
@@ -80,7 +80,7 @@ class Stmc(SingleAxis):
         super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, phase_idle, latency or LATENCY)
 
     def _blocks(self, context: Context) -> None:
-        self._chopper = Chopper(context, FixedSwitching(*self._chop_xt, self.timebase.quantum))
+        self._chopper = Chopper(context, FixedChopperTimes(*self._chop_xt, self.timebase.quantum))
         self._port = HostPort(context, self._take, self._state, strobes)
         self._motion = motion = Motion(context, self._port, self._excitation, self._chopper, self._hold_xt)
         self._commands = CommandUnit(

@@ -72,8 +72,8 @@ class J105Stmc:
         self._lag = self.core.latency.reset_tick + 1
         self._square = Square(clk_hz, ext_hz, self._lag)
         self.log = EdgeLog(OUTPUTS)
-        self._seen = 0
-        self._irq_due: list[tuple[int, int]] = []
+        self._edges_passed = 0
+        self._irq_pending: list[tuple[int, int]] = []
 
     # ------------------------------------------------------------------ time
 
@@ -85,7 +85,7 @@ class J105Stmc:
     @property
     def next_event(self) -> int:
         """Next edge with an event that needs no input change."""
-        edges = [self._square.next_edge, *(at for at, _ in self._irq_due)]
+        edges = [self._square.next_edge, *(at for at, _ in self._irq_pending)]
         event = self.core.next_event
         return min(edges if event is None else [*edges, event])
 
@@ -115,13 +115,13 @@ class J105Stmc:
         core |= {"cs_n": int(not self._selected), "a0": pins["sa"] & 1}
         if reset:
             core["ext_clk"] = 0
-            self._irq_due.clear()
+            self._irq_pending.clear()
         if released:
             self._square.restart(t + self._lag)
         self.core.pins(t, **core)
         self._follow()
         if reset:
-            self._irq_due.clear()
+            self._irq_pending.clear()
             self.log.set(t, "irq", 0)
         self._drive_bus(t)
 
@@ -138,9 +138,9 @@ class J105Stmc:
 
     def _follow(self) -> None:
         """Pass new edges of the core to the pins of the board, in order of time."""
-        fresh = self.core.edges[self._seen :]
-        self._seen += len(fresh)
-        for edge in fresh:
+        new_edges = self.core.edges[self._edges_passed :]
+        self._edges_passed += len(new_edges)
+        for edge in new_edges:
             self._irq_until(edge.t)
             if edge.signal == "d_o":
                 self.log.set(edge.t, "sd_o", edge.value)
@@ -148,7 +148,7 @@ class J105Stmc:
                 enabled = edge.value and self._selected and not self._pins["ior_n"]
                 self.log.set(edge.t, "sd_oe", int(bool(enabled)))
             elif edge.signal == "int_n":
-                self._irq_due.append((edge.t + 1, 1 - edge.value))
+                self._irq_pending.append((edge.t + 1, 1 - edge.value))
             else:
                 self.log.set(edge.t, edge.signal, edge.value)
                 if edge.signal == "s":
@@ -157,8 +157,8 @@ class J105Stmc:
 
     def _irq_until(self, t: int) -> None:
         """Update irq, which follows int_n by one cycle (J105-05)."""
-        while self._irq_due and self._irq_due[0][0] <= t:
-            at, level = self._irq_due.pop(0)
+        while self._irq_pending and self._irq_pending[0][0] <= t:
+            at, level = self._irq_pending.pop(0)
             self.log.set(at, "irq", level)
 
     @property

@@ -1,6 +1,6 @@
-"""Pins of the STMC core with idle and reset levels (chapter 1.3 of its rules).
+"""Pins of the STMC core with idle and reset levels (docs/stmc/README.md, 2 Pins).
 
-"mon" replaces the alarm of the other parts: low stops the motor (STMC-IN-05, ruling R-18).
+"mon" replaces the alarm of the other parts: low stops the motor (STMC-IN-05).
 """
 
 from __future__ import annotations

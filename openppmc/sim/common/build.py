@@ -229,7 +229,7 @@ def build(
                     f"{tool} is not installed: install it with the package manager (apt install {tool})"
                 )
         say("building the virtual board; this takes about 20 s, only once …")
-        _forget_old(folder.parent)
+        _remove_old(folder.parent)
         work = folder.with_suffix(".part")
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
@@ -299,7 +299,7 @@ def _run(words: list[str], folder: Path, log: Path) -> None:
         raise SimError(f"the virtual board does not build: {first} (complete log: {log})")
 
 
-def _forget_old(folder: Path) -> None:
+def _remove_old(folder: Path) -> None:
     """Remove builds that were not used for a week; each change of the RTL adds a build."""
     for program in folder.glob("*/board"):
         if time.time() - program.parent.stat().st_mtime > KEEP_DAYS * 86_400:

@@ -36,7 +36,7 @@ class LineOptions(Protocol):
         """Seed of the noise."""
 
 
-class Hears(Protocol):
+class CharReceiver(Protocol):
     """Model that receives characters.
 
     Attributes:
@@ -54,11 +54,11 @@ class Hears(Protocol):
     def next_event(self) -> int | None:
         """The next edge at which the state changes without input; None without such an edge."""
 
-    def hear(self, t: int, byte: int) -> None:
+    def on_char(self, t: int, byte: int) -> None:
         """Receive a character whose stop bit is sampled at edge t."""
 
 
-H = TypeVar("H", bound=Hears)
+H = TypeVar("H", bound=CharReceiver)
 
 
 class LineStation(ABC, Generic[H]):
@@ -74,7 +74,7 @@ class LineStation(ABC, Generic[H]):
     t: int
 
     @abstractmethod
-    def words(self) -> str:
+    def status_text(self) -> str:
         """Return the state in the format of `StationStatus`."""
 
     def set_inputs(self, levels: str) -> None:
@@ -87,11 +87,11 @@ class LineStation(ABC, Generic[H]):
         event = self.part.next_event
         return event is not None and event < self.part.now + self.clk_hz // 50
 
-    def hear(self, t: int, byte: int) -> None:
+    def on_char(self, t: int, byte: int) -> None:
         """Receive a character whose stop bit is sampled at edge t."""
-        self.part.hear(max(t, self.part.now + 1), byte)
+        self.part.on_char(max(t, self.part.now + 1), byte)
 
-    def taken(self) -> list[tuple[int, int]]:
+    def pop_sent(self) -> list[tuple[int, int]]:
         """Return new characters since the last call, as (edge in the middle of a stop bit, byte)."""
         sent = self.part.sent[:]
         self.part.sent.clear()
@@ -99,7 +99,7 @@ class LineStation(ABC, Generic[H]):
         return sent
 
 
-class Runs(Protocol):
+class SimulatedStation(Protocol):
     """Station that a line simulates; `Carrier` and `LineStation` together implement it."""
 
     number: int
@@ -108,20 +108,20 @@ class Runs(Protocol):
     def run_until(self, t: int) -> None:
         """Simulate up to edge t."""
 
-    def hear(self, t: int, byte: int) -> None:
+    def on_char(self, t: int, byte: int) -> None:
         """Receive a character whose stop bit is sampled at edge t."""
 
-    def taken(self) -> list[tuple[int, int]]:
+    def pop_sent(self) -> list[tuple[int, int]]:
         """Return new characters since the last call, as (edge in the middle of a stop bit, byte)."""
 
 
-S = TypeVar("S", bound=Runs)
+S = TypeVar("S", bound=SimulatedStation)
 
 
 class CharLine(Generic[S]):
     """Line with its stations.
 
-    The time of stations that are not in `hearing` may be less than t until `settle` is called. This has no
+    The time of stations that are not in `listeners` may be less than t until `settle` is called. This has no
     visible effect, because the stations have no common wires except the line.
 
     Args:
@@ -134,11 +134,11 @@ class CharLine(Generic[S]):
     def __init__(self, spec: LineOptions, stations: Sequence[S], bit: float) -> None:
         self.spec, self.stations, self.bit = spec, list(stations), bit
         self.t: int = max(one.t for one in stations)
-        self.hearing: Sequence[S] = self.stations
+        self.listeners: Sequence[S] = self.stations
         self._free = self.t
         self._random = random.Random(spec.seed)
         self._waiting = bytearray()
-        self._late: list[tuple[int, int]] = []
+        self._echo: list[tuple[int, int]] = []
 
     @property
     def seconds(self) -> float:
@@ -150,19 +150,19 @@ class CharLine(Generic[S]):
         self.settle()
         return next(one for one in self.stations if one.number == number)
 
-    def heard(self, byte: int) -> None:
-        """Prepare for a character of the master, which the stations in `hearing` receive next."""
+    def select_listeners(self, byte: int) -> None:
+        """Set `listeners`, the stations that receive this character of the master."""
 
     # ------------------------------------------------------------------ time
 
     def run(self, clk: int) -> None:
-        """Advance the line and the stations in `hearing` by a number of cycles."""
+        """Advance the line and the stations in `listeners` by a number of cycles."""
         self.t += clk
-        for one in self.hearing:
+        for one in self.listeners:
             one.run_until(self.t)
-        sent = [(t, byte) for one in self.hearing for t, byte in one.taken()]
+        sent = [(t, byte) for one in self.listeners for t, byte in one.pop_sent()]
         if sent:
-            self._arrive(sorted(sent))
+            self._deliver(sorted(sent))
 
     def settle(self) -> None:
         """Simulate all stations up to the time of the line."""
@@ -183,18 +183,18 @@ class CharLine(Generic[S]):
         begin = max(self.t, self._free)
         for place, byte in enumerate(data):
             if self.spec.echo:
-                self._late.append((begin, byte))
-            got = self._noisy(byte)
-            if got is None:
+                self._echo.append((begin, byte))
+            changed = self._with_noise(byte)
+            if changed is None:
                 continue
-            self.heard(got)
+            self.select_listeners(changed)
             at = begin + round((place * BITS + _STOP_MIDDLE) * self.bit)
-            for one in self.hearing:
-                one.hear(at, got)
+            for one in self.listeners:
+                one.on_char(at, changed)
         self._free = begin + round(len(data) * BITS * self.bit)
         self.run(self._free - self.t)
-        self._waiting += bytes(byte for _, byte in self._late)
-        self._late.clear()
+        self._waiting += bytes(byte for _, byte in self._echo)
+        self._echo.clear()
 
     def read(self) -> bytes:
         """Return the characters that the master has received since the last call."""
@@ -202,10 +202,10 @@ class CharLine(Generic[S]):
         self._waiting.clear()
         return data
 
-    def _arrive(self, heard: Iterable[tuple[int, int]]) -> None:
+    def _deliver(self, received: Iterable[tuple[int, int]]) -> None:
         """Deliver characters to the master; characters at the same time corrupt each other."""
         last, value = -(1 << 62), 0
-        for t, byte in heard:
+        for t, byte in received:
             apart = (t - last) / self.bit
             if apart < BITS - 1:
                 if apart > _CLEAN or byte != value:
@@ -213,11 +213,11 @@ class CharLine(Generic[S]):
                     self._waiting[-1:] = bytes([value])
                 continue
             last, value = t, byte
-            got = self._noisy(byte)
-            if got is not None:
-                self._waiting.append(got)
+            changed = self._with_noise(byte)
+            if changed is not None:
+                self._waiting.append(changed)
 
-    def _noisy(self, byte: int) -> int | None:
+    def _with_noise(self, byte: int) -> int | None:
         """Return a character as received: unchanged, with a wrong bit, or None if it is lost."""
         if not self.spec.noise or self._random.randrange(self.spec.noise):
             return byte

@@ -84,7 +84,7 @@ def positive(word: str, text: str) -> float:
     return value
 
 
-def pace(text: str) -> float | None:
+def parse_speed(text: str) -> float | None:
     """Return the speed as a multiple of real time; None for `max`."""
     return None if text == "max" else positive("speed", text)
 
@@ -180,9 +180,9 @@ class SimLine(Child):
                 say or to_stderr,
             )
             # The program has read its files when it reports its port.
-            super().__init__([program, *arguments, *self._pace()])
+            super().__init__([program, *arguments, *self._common_arguments()])
 
-    def _pace(self) -> list[str]:
+    def _common_arguments(self) -> list[str]:
         """Return the arguments that all lines have."""
         spec = self.spec
         unplug = [f"unplug={spec.unplug}"] if spec.unplug < float("inf") else []
@@ -210,7 +210,7 @@ def start_line(text: str = "", part: str = "") -> SimLine:
     return SimLine(text, part)
 
 
-class OnLine(Protocol):
+class StationState(Protocol):
     """Station for a server.
 
     Attributes:
@@ -223,7 +223,7 @@ class OnLine(Protocol):
     def moving(self) -> bool:
         """Whether the state changes soon without input: time must advance in small steps."""
 
-    def words(self) -> str:
+    def status_text(self) -> str:
         """Return the state in the format of `StationStatus`."""
 
     def set_inputs(self, levels: str) -> None:
@@ -234,7 +234,7 @@ class VirtualLine(Protocol):
     """Line with its stations in virtual time."""
 
     @property
-    def stations(self) -> Sequence[OnLine]:
+    def stations(self) -> Sequence[StationState]:
         """All stations on the line."""
 
     @property

@@ -127,7 +127,7 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
             if part not in machine_parts():
                 raise ValueError(f"part={value}: there are {', '.join(machine_parts())}")
         elif name in PLANT_WORDS:
-            words.setdefault(axis, {}).update(_where(name, word, value))
+            words.setdefault(axis, {}).update(_plant_fields(name, word, value))
             if axis > last:
                 last, last_item = axis, item
             encoder = item if name in ENCODER_WORDS else encoder
@@ -144,14 +144,14 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     if encoder and not kind.encoder:
         other, its = _first(lambda one: one.encoder)
         raise ValueError(f"{encoder}: only {its.called} has an encoder; add part={other}")
-    plants = tuple(_placed(kind.plant, words.get(axis, {})) for axis in range(1, axes + 1))
+    plants = tuple(_plant(kind.plant, words.get(axis, {})) for axis in range(1, axes + 1))
     return Machine(part, plants, own, others)
 
 
-def _first(wanted: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
+def _first(condition: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
     """Return the first part with such a machine."""
     kinds = ((part, machine_kind(part)) for part in machine_parts())
-    return next((part, kind) for part, kind in kinds if wanted(kind))
+    return next((part, kind) for part, kind in kinds if condition(kind))
 
 
 def _own(kind: MachineKind, others: dict[str, str], known: Collection[str]) -> dict[str, str]:
@@ -159,8 +159,8 @@ def _own(kind: MachineKind, others: dict[str, str], known: Collection[str]) -> d
 
     Raises ValueError for a word of another part and for an unknown value.
     """
-    strange = others.keys() - kind.own.keys() - set(known)
-    for its in map(machine_kind, machine_parts() if strange else ()):
+    unknown = others.keys() - kind.own.keys() - set(known)
+    for its in map(machine_kind, machine_parts() if unknown else ()):
         for word in its.own:
             if word in others and word not in kind.own:
                 raise ValueError(f"{word}={others[word]}: only {its.called} has it")
@@ -173,13 +173,13 @@ def _own(kind: MachineKind, others: dict[str, str], known: Collection[str]) -> d
     return own
 
 
-def _placed(plant: Plant, words: Mapping[str, int | tuple[int, int]]) -> Plant:
+def _plant(plant: Plant, words: Mapping[str, int | tuple[int, int]]) -> Plant:
     values = asdict(plant)
     values.update(words)
     return Plant(**values)
 
 
-def _where(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]:
+def _plant_fields(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]:
     """Return the fields of a plant for a word."""
     if name == "alarm":
         return {name: _span(word, value)}

@@ -1,4 +1,4 @@
-"""PMC006B4 on one line: RTL or models, with EEPROM, motor, carriage and two switches.
+"""PMC006B4 on one line: RTL or models, with EEPROM, motor, mechanical load and two switches.
 
 The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end applies to the
 controller with that address; a word without a number applies to all. The EEPROM is modelled byte by byte,
@@ -14,14 +14,14 @@ from pathlib import Path
 from ...model.carrier.carrier import Carrier
 from ...model.carrier.eeprom import BLANK, PAGE, SIZE
 from ...model.clock import Edge
-from ...model.pmc006.memory.eeprom import PROGRAM, Bus, BusError, Course
+from ...model.pmc006.memory.eeprom import PROGRAM, Bus, BusError, BusSequence
 from ...model.pmc006.part import Pmc006
-from ...model.pmc006.pins import Shared
+from ...model.pmc006.pins import Services
 from ...model.pmc006.program import assemble
 from ...model.pmc006.settings import Settings, page_of
 from ...textfile import read_text
 from ..common.char_line import CharLine, LineStation
-from ..common.lines import LineCapabilities, one_of, pace, positive, split_words, whole
+from ..common.lines import LineCapabilities, one_of, parse_speed, positive, split_words, whole
 
 
 class Eeprom:
@@ -53,7 +53,7 @@ class Eeprom:
         if len(self._sent) == 3:
             self._address = (self._sent[1] << 8 | byte) % SIZE
 
-    def give(self) -> int:
+    def next_byte(self) -> int:
         """Return the next byte for the controller."""
         byte = self.memory[self._address]
         self._address = (self._address + 1) % SIZE
@@ -73,31 +73,31 @@ class Eeprom:
 class QuickBus(Bus):
     """Bus interface of the controller that transfers a byte in a quarter of a bit time."""
 
-    def __init__(self, eeprom: Eeprom, shared: Shared, levels: Mapping[str, int], hz: int) -> None:
-        super().__init__(shared, levels, hz)
+    def __init__(self, eeprom: Eeprom, services: Services, levels: Mapping[str, int], hz: int) -> None:
+        super().__init__(services, levels, hz)
         self._eeprom = eeprom
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """Do nothing: this bus has no wires."""
 
-    def start(self) -> Course[None]:
+    def start(self) -> BusSequence[None]:
         yield
         self._eeprom.start()
 
-    def stop(self) -> Course[None]:
+    def stop(self) -> BusSequence[None]:
         yield
         self._eeprom.stop()
 
-    def write(self, byte: int | Callable[[], int]) -> Course[bool]:
+    def write(self, byte: int | Callable[[], int]) -> BusSequence[bool]:
         yield
         if self._eeprom.missing:
             raise BusError
         self._eeprom.take(byte if isinstance(byte, int) else byte())
         return True
 
-    def read(self, last: bool) -> Course[int]:
+    def read(self, last: bool) -> BusSequence[int]:
         yield
-        return self._eeprom.give()
+        return self._eeprom.next_byte()
 
 
 PART = "pmc006"
@@ -111,8 +111,8 @@ KNOWN = ", ".join((*(f"{word}[N]" for word in OWN), *OPTIONS))
 
 
 @dataclass(frozen=True)
-class Carriage:
-    """Carriage, inputs and EEPROM of a controller.
+class MechanicalLoad:
+    """Mechanical load, inputs and EEPROM of a controller.
 
     Positions are in 1/16 full steps, forward positive.
 
@@ -144,7 +144,7 @@ class LineSpec:
     """Requested virtual line.
 
     Attributes:
-        carriages: one for each controller, by its address.
+        loads: one for each controller, by its address.
         twin: address that a second controller also has, or None.
         baud: line rate in bit/s.
         step_ack: MANUAL or ECHO.
@@ -154,7 +154,7 @@ class LineSpec:
         unplug: seconds after which the port disappears.
     """
 
-    carriages: dict[int, Carriage] = field(default_factory=lambda: {FACTORY: Carriage()})
+    loads: dict[int, MechanicalLoad] = field(default_factory=lambda: {FACTORY: MechanicalLoad()})
     twin: int | None = None
     baud: int = 9600
     step_ack: str = "MANUAL"
@@ -189,11 +189,11 @@ def parse_line(text: str) -> LineSpec:
     addresses = _addresses(options.get("address", str(FACTORY)))
     for address, own in words.own.items():
         if address not in addresses:
-            there = ", ".join(map(str, addresses))
+            must_exist = ", ".join(map(str, addresses))
             raise ValueError(
-                f"{next(iter(own))}{address}: no controller with this address; address= has {there}"
+                f"{next(iter(own))}{address}: no controller with this address; address= has {must_exist}"
             )
-    carriages = {address: _carriage(words.shared | words.own.get(address, {})) for address in addresses}
+    carriages = {address: _load(words.shared | words.own.get(address, {})) for address in addresses}
     files = [one.eeprom for one in carriages.values() if one.eeprom is not None]
     if len(set(files)) < len(files):
         raise ValueError(f"eeprom={files[0]}: each controller needs its own file; write eeprom1=…")
@@ -208,27 +208,27 @@ def parse_line(text: str) -> LineSpec:
         one_of("echo", options.get("echo", "off"), ("on", "off")) == "on",
         whole("noise", options.get("noise", "0"), 0, 10**9),
         whole("seed", options.get("seed", "1"), 0, 1 << 32),
-        pace(options.get("speed", "1")),
+        parse_speed(options.get("speed", "1")),
         whole("clk", options.get("clk", "8000000"), 8_000_000, 200_000_000),
         positive("unplug", options.get("unplug", "inf")),
     )
 
 
-def _carriage(words: dict[str, str]) -> Carriage:
+def _load(words: dict[str, str]) -> MechanicalLoad:
     values = {word: _position(word, words[word]) for word in ("start", "low", "high") if word in words}
     eeprom = words.get("eeprom", "new")
-    carriage = Carriage(
+    load = MechanicalLoad(
         **values,
         gpi=_levels(words.get("gpi", "11111")),
         eeprom=None if eeprom in ("new", "none") else _file("eeprom", eeprom, False),
         no_eeprom=eeprom == "none",
         program=_file("program", words["program"], True) if "program" in words else None,
     )
-    if carriage.low >= carriage.high:
-        raise ValueError(f"low={carriage.low},high={carriage.high}: EXT2 (high) must lie above EXT1 (low)")
-    if carriage.program is not None and (carriage.no_eeprom or carriage.eeprom is not None):
-        raise ValueError(f"program={carriage.program}: is written into a new EEPROM; omit the word eeprom")
-    return carriage
+    if load.low >= load.high:
+        raise ValueError(f"low={load.low},high={load.high}: EXT2 (high) must lie above EXT1 (low)")
+    if load.program is not None and (load.no_eeprom or load.eeprom is not None):
+        raise ValueError(f"program={load.program}: is written into a new EEPROM; omit the word eeprom")
+    return load
 
 
 def _addresses(text: str) -> tuple[int, ...]:
@@ -267,9 +267,9 @@ def _levels(text: str) -> int:
     return int(text, 2)
 
 
-def _file(word: str, text: str, there: bool) -> Path:
+def _file(word: str, text: str, must_exist: bool) -> Path:
     path = Path(text)
-    if path.is_dir() or not path.absolute().parent.is_dir() or (there and not path.is_file()):
+    if path.is_dir() or not path.absolute().parent.is_dir() or (must_exist and not path.is_file()):
         raise ValueError(f"{word}={text}: no such file")
     return path
 
@@ -278,22 +278,22 @@ FULL_STEP = 128
 """Finest microsteps in a full step."""
 
 
-def first_content(address: int, carriage: Carriage) -> bytes:
+def first_content(address: int, load: MechanicalLoad) -> bytes:
     """Return the initial content of an EEPROM; it is empty for a factory-new controller.
 
     Raises ValueError for a file of the wrong size, AssemblyError for an error in the program.
     """
-    if carriage.eeprom is not None and carriage.eeprom.is_file():
-        content = carriage.eeprom.read_bytes()
+    if load.eeprom is not None and load.eeprom.is_file():
+        content = load.eeprom.read_bytes()
         if len(content) > SIZE:
-            raise ValueError(f"eeprom={carriage.eeprom}: {len(content)} bytes, an EEPROM has {SIZE}")
+            raise ValueError(f"eeprom={load.eeprom}: {len(content)} bytes, an EEPROM has {SIZE}")
         return content
-    if address == FACTORY and carriage.program is None:
+    if address == FACTORY and load.program is None:
         return b""
-    content = page_of(Settings(addr=address, offline=int(carriage.program is not None)))
-    if carriage.program is not None:
-        text = read_text(carriage.program)
-        content = content.ljust(PROGRAM, bytes([BLANK])) + assemble(text, str(carriage.program)).image()
+    content = page_of(Settings(addr=address, offline=int(load.program is not None)))
+    if load.program is not None:
+        text = read_text(load.program)
+        content = content.ljust(PROGRAM, bytes([BLANK])) + assemble(text, str(load.program)).image()
     return content
 
 
@@ -304,26 +304,26 @@ class Part(Pmc006):
         self._eeprom = eeprom
         super().__init__(spec.clk_hz, step_ack=spec.step_ack, baud=spec.baud, straps={"gpi": gpi})
 
-    def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
-        return QuickBus(self._eeprom, shared, levels, self._i2c_hz)
+    def _bus(self, services: Services, levels: Mapping[str, int]) -> Bus:
+        return QuickBus(self._eeprom, services, levels, self._i2c_hz)
 
 
 class Node(Carrier[Part], LineStation[Part]):
-    """Controller with its carriage, after boot.
+    """Controller with its mechanical load, after boot.
 
-    `position` is that of the carriage in 1/16 full steps; the part itself counts steps. The switches are
+    `position` is that of the load in 1/16 full steps; the part itself counts steps. The switches are
     optical: they do not bounce.
 
     Args:
         number: its initial address.
     """
 
-    def __init__(self, carriage: Carriage, number: int, spec: LineSpec) -> None:
-        self.number, self.carriage = number, carriage
-        self.eeprom = Eeprom(first_content(number, carriage), carriage.eeprom, carriage.no_eeprom)
-        self._way = carriage.start * FULL_STEP // UNIT
-        part = Part(self.eeprom, spec, carriage.gpi)
-        super().__init__(part, [carriage], lambda: None)
+    def __init__(self, load: MechanicalLoad, number: int, spec: LineSpec) -> None:
+        self.number, self.load = number, load
+        self.eeprom = Eeprom(first_content(number, load), load.eeprom, load.no_eeprom)
+        self._microsteps = load.start * FULL_STEP // UNIT
+        part = Part(self.eeprom, spec, load.gpi)
+        super().__init__(part, [load], lambda: None)
         while part.booting:
             self.run_until(self.t + self.clk_hz // 10_000)
 
@@ -338,34 +338,34 @@ class Node(Carrier[Part], LineStation[Part]):
     def pins(self) -> int:
         return 0
 
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         return None
 
     def _follow(self, edge: Edge) -> None:
         if edge.signal == "mon_step" and edge.value:
             motion = self.part.motion
-            self._way += motion.increment if motion.forward else -motion.increment
-            self.positions[0] = self._way * UNIT // FULL_STEP
+            self._microsteps += motion.increment if motion.forward else -motion.increment
+            self.positions[0] = self._microsteps * UNIT // FULL_STEP
 
     # ------------------------------------------------------------------ of a station
 
-    def words(self) -> str:
-        """Return address, position of the carriage, state, inputs and outputs as text."""
-        desk = self.part.desk
-        flags = desk.guard.latched("ext1") or desk.guard.latched("ext2")
+    def status_text(self) -> str:
+        """Return address, position of the load, state, inputs and outputs as text."""
+        context = self.part.context
+        flags = context.stop_monitor.latched("ext1") or context.stop_monitor.latched("ext2")
         state = (
             "boot"
             if self.part.booting
             else "moving"
             if self.part.outputs["mon_busy"]
             else "free"
-            if desk.settings.free
+            if context.settings.free
             else "locked"
             if flags
             else "idle"
         )
         gpi, gpo = self.part.inputs["gpi"], self.part.outputs["gpo"]
-        return f"{desk.settings.addr}:{self.position}:{state}:{gpi:05b}:{gpo:05b}"
+        return f"{context.settings.addr}:{self.position}:{state}:{gpi:05b}:{gpo:05b}"
 
     def set_inputs(self, levels: str) -> None:
         """Set the levels of GPI5 to GPI1, as "11111"."""
@@ -376,10 +376,10 @@ class NodeLine(CharLine[Node]):
     """Line on which each controller receives all characters and selects its own frames."""
 
     def __init__(self, spec: LineSpec) -> None:
-        numbered = [*spec.carriages.items()]
+        numbered = [*spec.loads.items()]
         if spec.twin is not None:
-            numbered.append((spec.twin, spec.carriages[spec.twin]))
-        nodes = [Node(carriage, number, spec) for number, carriage in numbered]
+            numbered.append((spec.twin, spec.loads[spec.twin]))
+        nodes = [Node(load, number, spec) for number, load in numbered]
         super().__init__(spec, nodes, spec.clk_hz / spec.baud)
 
 
@@ -396,10 +396,10 @@ def arguments(spec: LineSpec, files: Path) -> list[str]:
     Args:
         files: folder into which the contents of the EEPROMs are written.
     """
-    addresses = [*spec.carriages, *([] if spec.twin is None else [spec.twin])]
+    addresses = [*spec.loads, *([] if spec.twin is None else [spec.twin])]
     words = [f"stations={len(addresses)}"]
     for place, address in enumerate(addresses):
-        its = spec.carriages[address]
+        its = spec.loads[address]
         image = files / f"eeprom{place}"
         image.write_bytes(first_content(address, its))
         known: dict[str, object] = {"start": its.start, "low": its.low, "high": its.high, "gpi": its.gpi}

@@ -16,7 +16,7 @@ from ...model.carrier.carrier import Plant
 from ...model.ppmc312.carrier import Carrier
 from ...model.ppmc312.part import Ppmc312
 from ..common.char_line import CharLine, LineStation
-from ..common.lines import LineCapabilities, one_of, pace, positive, split_words, whole
+from ..common.lines import LineCapabilities, one_of, parse_speed, positive, split_words, whole
 from ..common.machine import PLANT_WORDS, parse_machine
 from ..common.spec import PLACES
 
@@ -86,8 +86,8 @@ def at_rate(text: str, rate: int) -> str:
     """
     if "baud=" in text:
         return text
-    wanted = rate * 16_000_000 / parse_line(text).xtal_hz
-    nearest = min(SPEEDS, key=lambda speed: abs(speed - wanted))
+    requested = rate * 16_000_000 / parse_line(text).xtal_hz
+    nearest = min(SPEEDS, key=lambda speed: abs(speed - requested))
     return ",".join(filter(None, [text, f"baud={nearest}"]))
 
 
@@ -112,7 +112,7 @@ def parse_line(text: str) -> LineSpec:
         one_of("echo", options.get("echo", "off"), ("on", "off")) == "on",
         whole("noise", options.get("noise", "0"), 0, 10**9),
         whole("seed", options.get("seed", "1"), 0, 1 << 32),
-        pace(options.get("speed", "1")),
+        parse_speed(options.get("speed", "1")),
         whole("clk", options.get("clk", "8000000"), 8_000_000, 200_000_000),
         whole("xtal", options.get("xtal", "16000000"), 1_000_000, 16_000_000),
         one_of("timing", options.get("timing", "FAST").upper(), ("FAST", "DATASHEET")),
@@ -166,10 +166,10 @@ class Station(Carrier, LineStation[Ppmc312]):
         super().__init__(plant, part=part)
         self.number = number
 
-    def shown(self) -> object:
+    def watched_register(self) -> object:
         return None
 
-    def words(self) -> str:
+    def status_text(self) -> str:
         """Return number, position of the motor and state as text."""
         return f"{self.number}:{self.position}:{self.part.state.name}"
 
@@ -181,11 +181,11 @@ class StationLine(CharLine[Station]):
         numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]
         stations = [Station(plant, number, spec) for number, plant in numbered]
         super().__init__(spec, stations, spec.clk_hz * 16_000_000 / (spec.baud * spec.xtal_hz))
-        self.hearing = []
+        self.listeners = []
 
-    def heard(self, byte: int) -> None:
+    def select_listeners(self, byte: int) -> None:
         if byte & 0x80:
-            self.hearing = [one for one in self.stations if one.number == byte & 15]
+            self.listeners = [one for one in self.stations if one.number == byte & 15]
 
 
 def parameters(spec: LineSpec) -> dict[str, int | str]:

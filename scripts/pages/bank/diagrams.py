@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from openppmc.check.records import level_at
-from openppmc.model.bank.chopper import Visits
+from openppmc.model.bank.chopper import VisitSchedule
 from openppmc.model.bank.window import CONFIG, GO
 from scripts.demo.bank.session import Session
 from scripts.pages.pictures.recorded import Levels, Row, Samples, labels, thinned, wave
@@ -17,7 +17,7 @@ AXES, CLK_HZ = 8, 20_000_000
 INIT = (0x0A, 99, 99, 4, 0)
 ONE, OTHER = 2, 5
 PINS = ("hold", "dir", "pout_n")
-VISITS = {axis: Visits(axis, AXES, 0) for axis in (ONE, OTHER)}
+VISITS = {axis: VisitSchedule(axis, AXES, 0) for axis in (ONE, OTHER)}
 
 
 def ready() -> Session:

@@ -17,7 +17,7 @@ from openppmc.model.motion.ramp import (
     next_index,
     ramp_period,
     ramp_rate,
-    walk,
+    traverse_ramp,
 )
 
 CORNERS = [
@@ -122,7 +122,7 @@ def test_worked_ramps():
 @given(n=st.integers(1, 400), pa=st.integers(4, 120))
 def test_walk_gives_the_closed_profile(n, pa):
     indices = index_profile(n, pa)
-    assert walk(n, pa) == indices and len(indices) == n - 1
+    assert traverse_ramp(n, pa) == indices and len(indices) == n - 1
     assert indices == indices[::-1]
     assert all(abs(a - b) <= 1 for a, b in zip(indices, indices[1:], strict=False))
 
@@ -156,7 +156,7 @@ def test_natural_deceleration_starts_where_the_index_stops_rising(n, pa):
 def test_forced_deceleration(data):
     n, pa = data.draw(st.integers(1, 300)), data.draw(st.integers(4, 60))
     flagged_in = data.draw(st.integers(0, n - 1))
-    indices = walk(n, pa, lambda j: j > flagged_in)
+    indices = traverse_ramp(n, pa, lambda j: j > flagged_in)
     assert indices == index_profile(n, pa, flagged_in)
     if flagged_in == 0:
         assert indices == []
@@ -168,7 +168,7 @@ def test_forced_deceleration(data):
 
 
 def test_flag_alternating_is_kept():
-    assert walk(50, 10, lambda j: j == 4) == [0, 1, 2, 1, 0]
+    assert traverse_ramp(50, 10, lambda j: j == 4) == [0, 1, 2, 1, 0]
     assert next_index(-1, 5, 10, True) is None and next_index(3, 0, 10, False) is None
 
 

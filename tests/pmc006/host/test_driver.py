@@ -306,7 +306,7 @@ def test_refusals_say_why(motor: tuple[SpoiledLine, Pmc006]) -> None:
     motion = part.jog(FORWARD, speed=100)  # the setting does not affect a free run
     part.halt()
     assert motion.result is not None
-    port.node().part.desk.settings.vmax = 0  # a program can set this
+    port.node().part.context.settings.vmax = 0  # a program can set this
     with pytest.raises(SpeedRefused, match="the maximum speed is 0"):
         part.jog(FORWARD)
 
@@ -400,7 +400,7 @@ def test_the_example_program_of_the_rules() -> None:
         )
         assert made == Program.of(Instruction.of(*pair) for pair in words)
         part.load_program(made)
-        assert tuple(port.node().part.desk.program.words) == made.words and part.read_program() == made
+        assert tuple(port.node().part.context.program.words) == made.words and part.read_program() == made
         part.run_program()
         part.process_reports(0.8)
         assert part.program_runs() and part.outputs == 0

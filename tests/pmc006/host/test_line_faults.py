@@ -172,7 +172,7 @@ def test_a_program_arrives_whole(fate: str) -> None:
         plans = [once(letter, fate, 2, skip) for letter, skip in (("A", 1), ("W", 3), ("G", 5))]
         port.plan = lambda frame: next(filter(None, [plan(frame) for plan in plans]), None)
         part.load_program(program)
-        assert tuple(port.node().part.desk.program.words) == program.words
+        assert tuple(port.node().part.context.program.words) == program.words
         assert part.counters.faults == 0 if fate in HARMLESS else part.counters.faults >= 5
 
 
@@ -180,7 +180,7 @@ def test_a_program_arrives_whole(fate: str) -> None:
 def test_a_program_is_read_in_spite_of_faults(fate: str) -> None:
     port, part = quick()
     with part:
-        port.node().part.desk.program.words[:] = range(1, 201)
+        port.node().part.context.program.words[:] = range(1, 201)
         port.plan = once("G", fate, 2, skip=7)
         assert (
             part.read_program().words == tuple(range(1, 201))
@@ -194,7 +194,7 @@ def test_a_program_that_does_not_stay() -> None:
 
     def plan(frame: bytes) -> None:
         if frame[2] == ord("G") and count(port, "W"):
-            port.node().part.desk.program.words[0] |= 0x100
+            port.node().part.context.program.words[0] |= 0x100
 
     with part:
         port.plan = plan
@@ -318,7 +318,7 @@ def test_two_with_one_address() -> None:
     with Pmc006Bus.open("model:speed=max,address=3,twin=3") as bus:
         assert bus.scan([3])[0].problem == ""
         for number, board in enumerate(bus.line.port.line.stations):  # type: ignore[attr-defined]
-            board.part.desk.settings.exten = 1 + number
+            board.part.context.settings.exten = 1 + number
         found = bus.scan([3, 4])
         assert len(found) == 1 and "two controllers with this address" in found[0].problem
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from openppmc.model.chip import Phase
 from openppmc.model.clock import EdgeLog, Scheduler
 from openppmc.model.pmc006.drive.drive import Drive
-from openppmc.model.pmc006.motion.engine import UPDATE, Engine, Live, Order, Stage
+from openppmc.model.pmc006.motion.engine import UPDATE, Engine, LiveRegisters, MotionStart, Stage
 from openppmc.model.pmc006.motion.motion import Motion
-from openppmc.model.pmc006.pins import OUTPUTS, Pace, Shared, Ticks
+from openppmc.model.pmc006.pins import OUTPUTS, CoreTiming, Services, Ticks
 from openppmc.model.pmc006.settings import Settings
 
 SETUP = {"cur": 1000, "acc": 3, "dec": 3, "vmax": 3200}
@@ -30,7 +30,7 @@ class Bench:
         self.settings.load(registers)
         self.queue, self.log = Scheduler(), EdgeLog(OUTPUTS)
         self.us = Ticks(clk_hz, 1_000_000)
-        self.shared = Shared(self.queue, self.log, clk_hz, self.us, Pace(), self.settings)
+        self.shared = Services(self.queue, self.log, clk_hz, self.us, CoreTiming(), self.settings)
         self.steps: list[int] = []
         self.ends: list[int] = []
         self.position = 0
@@ -86,7 +86,7 @@ class Bench:
         """Start a displacement, or the speed mode for None; return the edge of t = 0."""
         motion = self.motion
         t = self.do(motion.run if count is None else lambda t: motion.start(t, count))
-        return self.us.edge_of(self.us.first(t + self.shared.pace.plan))
+        return self.us.edge_of(self.us.first(t + self.shared.core_timing.plan))
 
     def halt(self) -> int:
         """Stop immediately at the next edge."""
@@ -122,12 +122,14 @@ class Made:
         return [b - a for a, b in zip(times, times[1:], strict=False)]
 
 
-def undisturbed(target: int) -> Callable[[int], Live]:
+def undisturbed(target: int) -> Callable[[int], LiveRegisters]:
     """Return registers that do not change."""
-    return lambda t: Live(target)
+    return lambda t: LiveRegisters(target)
 
 
-def make(order: Order, live: Callable[[int], Live] | None = None, updates: int = 1 << 40) -> Made:
+def make(
+    order: MotionStart, live: Callable[[int], LiveRegisters] | None = None, updates: int = 1 << 40
+) -> Made:
     """Return the steps of a motion; live(t): registers at t us.
 
     The motion ends after `updates` updates in any case.
@@ -140,15 +142,15 @@ def make(order: Order, live: Callable[[int], Live] | None = None, updates: int =
     def go(before: int, ticks: int) -> bool:
         first = engine.stage
         offsets = engine.segment(ticks)
-        if not (engine.over and offsets[-1] == 1):
-            braked = engine.braked
+        if not (engine.finished and offsets[-1] == 1):
+            braked = engine.decel_start
             if before:
                 engine.advance(live(before + 1))
-            made.braked_at = made.braked_at if engine.braked is braked else before + 1
+            made.braked_at = made.braked_at if engine.decel_start is braked else before + 1
         for offset in offsets:
             stage = first if offset == 1 and before else engine.stage
             made.steps.append((before + offset, engine.speed, stage))
-        return not engine.over
+        return not engine.finished
 
     t = UPDATE - 1
     going = go(0, t)

@@ -27,10 +27,10 @@ def lines(page: bytes) -> tuple[tuple[int, int], ...]:
     part.run_until(CLK_HZ // 500)
     values = values_of(page)
     assert values is not None
-    part.desk.settings.load(values)
+    part.context.settings.load(values)
     since, bit = part.now, CLK_HZ / BAUD
     for number, byte in enumerate(command(values["addr"], "t")):
-        part.hear(since + 1 + round((10 * number + 9.5) * bit), byte)
+        part.on_char(since + 1 + round((10 * number + 9.5) * bit), byte)
     # SDA is held low from outside: each byte is acknowledged.
     part.run_until(since + CLK_HZ // 200)
     levels, found = {"scl_oe": 0, "sda_oe": 0}, []
@@ -55,7 +55,7 @@ def cuts(content: bytes, changes: tuple[tuple[int, int], ...], release: str) -> 
 
 
 def _look(chip: Eeprom24C32, t: int, scl: int, sda: int) -> None:
-    chip.look(t, scl, sda and not chip.sda)
+    chip.on_lines(t, scl, sda and not chip.sda)
 
 
 def judged(memory: bytes) -> dict[str, int] | None:

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cocotb_tests.harness import verifies
-from openppmc.model.pmc006.motion.engine import Live, Order, Plan, Stage, acceleration, plan
+from openppmc.model.pmc006.motion.engine import LiveRegisters, MotionStart, Plan, Stage, acceleration, plan
 from tests.pmc006.model.bench import Made, make
 from tests.pmc006.model.reference import Reference
 
@@ -20,7 +20,7 @@ SPEED_RANGE = st.integers(65, 3000)
 COEFFICIENT = st.integers(0, 5)
 
 
-def compare(order: Order, changes: dict[int, tuple[int, bool]], straight: bool, last_us: int) -> None:
+def compare(order: MotionStart, changes: dict[int, tuple[int, bool]], straight: bool, last_us: int) -> None:
     """Compare engine and reference.
 
     Args:
@@ -31,20 +31,20 @@ def compare(order: Order, changes: dict[int, tuple[int, bool]], straight: bool, 
         return next((what for since, what in reversed(changes.items()) if since <= t), (order.target, False))
 
     slow = Reference(*order, lambda t: at(t)[0], lambda t: at(t)[1], straight).run(last_us)
-    made = make(order, lambda t: Live(at(t)[0], straight, at(t)[1]), last_us // 100 + 1)
+    made = make(order, lambda t: LiveRegisters(at(t)[0], straight, at(t)[1]), last_us // 100 + 1)
     steps = [(t, speed) for t, speed, _ in made.steps if t <= last_us]
     assert steps == slow.steps
     if slow.done:
         assert made.end == slow.t
 
 
-def random_order(rng: random.Random) -> Order:
+def random_order(rng: random.Random) -> MotionStart:
     kind = rng.choice("LSV")
     vs, ve = (int(65 * 46 ** rng.random()) for _ in range(2))
     low = max(vs, ve) if kind != "V" else 1
     target = int(low * (16_000 / low) ** rng.random())
     count = {"L": rng.randint(1, 255), "S": rng.randint(256, 900), "V": None}[kind]
-    return Order(count, vs, ve, target, rng.randint(0, 5), rng.randint(0, 5))
+    return MotionStart(count, vs, ve, target, rng.randint(0, 5), rng.randint(0, 5))
 
 
 @pytest.mark.parametrize("seed", range(24))
@@ -66,17 +66,21 @@ def test_same_as_the_reference(seed: int) -> None:
 def test_back_to_speed_between_the_ramp_and_the_end() -> None:
     """In W10, N=1 after the STOP ramp, in the last 100 us before its end, returns to the target speed."""
     changes = {100_000: (3200, True), 202_150: (3200, False)}
-    compare(Order(None, 600, 600, 3200, 3, 3), changes, False, 500_000)
-    made = make(Order(None, 600, 600, 3200, 3, 3), lambda t: Live(3200, stop=100_000 <= t < 202_150), 5000)
+    compare(MotionStart(None, 600, 600, 3200, 3, 3), changes, False, 500_000)
+    made = make(
+        MotionStart(None, 600, 600, 3200, 3, 3),
+        lambda t: LiveRegisters(3200, stop=100_000 <= t < 202_150),
+        5000,
+    )
     assert max(made.intervals) <= 1667 and made.steps[-1][1] == 3200
 
 
 @verifies("P006-MOT-31")
 def test_target_zero_and_back() -> None:
-    def live(t: int) -> Live:
-        return Live(0 if 200_000 <= t < 700_000 else 2000)
+    def live(t: int) -> LiveRegisters:
+        return LiveRegisters(0 if 200_000 <= t < 700_000 else 2000)
 
-    made = make(Order(3000, 600, 600, 2000, 5, 5), live)
+    made = make(MotionStart(3000, 600, 600, 2000, 5, 5), live)
     assert len(made.steps) == 3000
     assert max(made.intervals) > 400_000 and made.steps[-1][1] == 600
 
@@ -85,20 +89,22 @@ def test_target_zero_and_back() -> None:
 def test_target_below_the_start_speed() -> None:
     """Only the analog target can be below the start speed: there is no plan and no deceleration then."""
     assert plan(1000, 600, 400, 500, 2, 3) == Plan(500, 2, 3)
-    made = make(Order(1000, 600, 400, 350, 2, 3))
-    assert {speed for _, speed in made.updates} == {350} and made.engine.braked is None
-    made = make(Order(1000, 600, 400, 500, 2, 3))
-    assert made.engine.braked is not None and made.steps[-1][1] == 400
+    made = make(MotionStart(1000, 600, 400, 350, 2, 3))
+    assert {speed for _, speed in made.updates} == {350} and made.engine.decel_start is None
+    made = make(MotionStart(1000, 600, 400, 500, 2, 3))
+    assert made.engine.decel_start is not None and made.steps[-1][1] == 400
 
 
 @verifies("P006-MOT-23")
 @pytest.mark.parametrize("target", [600, 16_000])
 def test_short_moves_know_no_maximum_speed(target: int) -> None:
-    made = make(Order(255, 600, 600, target, 0, 0), lambda t: Live(target if t < 1000 else 100))
+    made = make(
+        MotionStart(255, 600, 600, target, 0, 0), lambda t: LiveRegisters(target if t < 1000 else 100)
+    )
     assert {speed for _, speed in made.updates} == {600}
 
 
-def check_move(made: Made, order: Order) -> None:
+def check_move(made: Made, order: MotionStart) -> None:
     """Check the properties of 5.5 for constant parameters."""
     n, steps = order.n, made.steps
     assert n is not None and len(steps) == n
@@ -113,13 +119,13 @@ def check_move(made: Made, order: Order) -> None:
     runs = [speed for speed, _ in groupby(speeds)]
     top = runs.index(max(runs))
     assert runs[: top + 1] == sorted(runs[: top + 1]) and runs[top:] == sorted(runs[top:], reverse=True)
-    if made.engine.braked:
+    if made.engine.decel_start:
         assert 2 <= sum(stage is Stage.CREEP for *_, stage in steps) <= 4
     engine = made.engine
     for first, later in zip(speeds, speeds[10:], strict=False):
         # The ten updates may contain parts of two ramps.
         n_of = engine.acc if later >= first else engine.dec
-        assert abs(later - first) <= 1.5 * acceleration(n_of) * 1.02 / 1000 + 2 or engine.braked
+        assert abs(later - first) <= 1.5 * acceleration(n_of) * 1.02 / 1000 + 2 or engine.decel_start
 
 
 @given(
@@ -133,7 +139,7 @@ def check_move(made: Made, order: Order) -> None:
 @settings(max_examples=25)
 @verifies("P006-MOT-20", "P006-MOT-22", "P006-MOT-15", "P006-MOT-12", "P006-MOT-17")
 def test_s_moves(n: int, vs: int, ve: int, over: int, acc: int, dec: int) -> None:
-    order = Order(n, vs, ve, max(vs, ve) + over, acc, dec)
+    order = MotionStart(n, vs, ve, max(vs, ve) + over, acc, dec)
     check_move(make(order), order)
 
 
@@ -141,7 +147,7 @@ def test_s_moves(n: int, vs: int, ve: int, over: int, acc: int, dec: int) -> Non
 @settings(max_examples=60)
 @verifies("P006-MOT-23", "P006-MOT-11")
 def test_moves_around_the_shortest(vs: int, ve: int, acc: int, dec: int, n: int) -> None:
-    order = Order(n, vs, ve, max(vs, ve), acc, dec)
+    order = MotionStart(n, vs, ve, max(vs, ve), acc, dec)
     check_move(make(order), order)
 
 
@@ -149,8 +155,8 @@ def test_moves_around_the_shortest(vs: int, ve: int, acc: int, dec: int, n: int)
 @settings(max_examples=25)
 @verifies("P006-MOT-40", "P006-MOT-41")
 def test_speed_mode(vs: int, ve: int, target: int, acc: int, dec: int) -> None:
-    live: Callable[[int], Live] = lambda t: Live(target, stop=t >= 400_000)  # noqa: E731
-    made = make(Order(None, vs, ve, target, acc, dec), live)
+    live: Callable[[int], LiveRegisters] = lambda t: LiveRegisters(target, stop=t >= 400_000)  # noqa: E731
+    made = make(MotionStart(None, vs, ve, target, acc, dec), live)
     speeds = [speed for _, speed in made.updates]
     assert speeds[0] == min(vs, target) and max(speeds) <= target
     top = speeds.index(max(speeds))

@@ -9,7 +9,7 @@ import pytest
 
 from cocotb_tests.harness import verifies
 from openppmc.model.chip import Phase
-from openppmc.model.pmc006.motion.engine import Live, Order
+from openppmc.model.pmc006.motion.engine import LiveRegisters, MotionStart
 from openppmc.model.pmc006.motion.motion import base_code, compensation, drive_index
 from tests.pmc006.model.bench import SETUP, Bench, make
 
@@ -23,7 +23,7 @@ def test_steps_lie_on_us_ticks(clk_hz: int) -> None:
     origin = bench.start(287)
     assert bench.motion.busy and began + 800 <= origin <= began + 1024
     bench.rest()
-    made = make(Order(287, 600, 600, 3200, 3, 3))
+    made = make(MotionStart(287, 600, 600, 3200, 3, 3))
     first = bench.us.first(origin)
     assert bench.us.edge_of(first) == origin
     assert bench.steps == [bench.us.edge_of(first + t) + 2 for t, *_ in made.steps]
@@ -131,14 +131,14 @@ def test_live_targets(seed: int) -> None:
         edge = origin + 8 * us
         return next((vmax, adc) for t, vmax, adc in reversed(history) if t < edge)
 
-    def live(us: int) -> Live:
+    def live(us: int) -> LiveRegisters:
         vmax = before(us)[0]
         if not analog:
-            return Live(vmax)
+            return LiveRegisters(vmax)
         sampled = before(us // 10_000 * 10_000)[1] if us >= 10_000 else 500
-        return Live((vmax * (sampled + (sampled >= 512))) // 1024, True)
+        return LiveRegisters((vmax * (sampled + (sampled >= 512))) // 1024, True)
 
-    made = make(Order(None, 600, 600, live(0).target, 3, 3), live, 1300)
+    made = make(MotionStart(None, 600, 600, live(0).target, 3, 3), live, 1300)
     last = bench.queue.now - 3
     assert [t for t in bench.steps if t <= last] == [
         origin + 8 * us + 2 for us, *_ in made.steps if origin + 8 * us + 2 <= last
@@ -156,7 +156,7 @@ def test_analog_full_scale() -> None:
         bench.do(partial(_strobe, bench, value), Phase.PINS)
         bench.start(None)
         bench.wait(100)
-        assert bench.motion.engine and bench.motion.engine.order.target == speed
+        assert bench.motion.engine and bench.motion.engine.request.target == speed
 
 
 @pytest.mark.parametrize("late", [0, 1])
@@ -200,30 +200,30 @@ def test_compensation_follows_the_updates() -> None:
     bench = Bench(cur=1000, vmax=3000, vstart=3000, vstop=3000, mstep=0)
     origin = bench.start(None)
     bench.run(origin + 1599)
-    assert (bench.motion.b, bench.motion.w) == (0, 0)
+    assert (bench.motion.current_comp, bench.motion.lead_angle) == (0, 0)
     bench.run(origin + 1600)
-    assert (bench.motion.b, bench.motion.w) == (13, 57)
+    assert (bench.motion.current_comp, bench.motion.lead_angle) == (13, 57)
     bench.change(ccomp=1200, scomp=300)
     bench.run(origin + 3 * 1600 - 1)
-    assert (bench.motion.b, bench.motion.w) == (13, 57)
+    assert (bench.motion.current_comp, bench.motion.lead_angle) == (13, 57)
     bench.run(origin + 3 * 1600)
-    assert (bench.motion.b, bench.motion.w) == (54, 13)
+    assert (bench.motion.current_comp, bench.motion.lead_angle) == (54, 13)
     bench.halt()
-    assert (bench.motion.b, bench.motion.w) == (0, 0)
+    assert (bench.motion.current_comp, bench.motion.lead_angle) == (0, 0)
 
 
 @verifies("P006-EXC-24", "P006-EXC-21")
 def test_compensation_in_a_ramp_is_one_update_old() -> None:
     bench = Bench(vmax=16_000, acc=5, mstep=2, cur=4000)
     origin = bench.start(None)
-    made = make(Order(None, 600, 600, 16_000, 5, 0), updates=2000)
+    made = make(MotionStart(None, 600, 600, 16_000, 5, 0), updates=2000)
     both = [compensation(speed, 2, 4000, 300, 1250) for _, speed in made.updates]
     changes = [number for number in range(1, 2000) if both[number] != both[number - 1]]
     for number in changes[:30]:
         bench.run(origin + 1600 * number)
-        assert (bench.motion.b, bench.motion.w) == both[number - 1]
+        assert (bench.motion.current_comp, bench.motion.lead_angle) == both[number - 1]
         bench.run(origin + 1600 * (number + 1))
-        assert (bench.motion.b, bench.motion.w) == both[number]
+        assert (bench.motion.current_comp, bench.motion.lead_angle) == both[number]
     assert len(changes) > 100
 
 
@@ -232,13 +232,13 @@ def test_steady_speed() -> None:
     """The answer is delayed by one update, so that it does not depend on the duration of an advance."""
     bench = Bench(**SETUP)
     origin = bench.start(2000)
-    made = make(Order(2000, 600, 600, 3200, 3, 3))
+    made = make(MotionStart(2000, 600, 600, 3200, 3, 3))
     there = 191_200
     bench.run(origin + 16 * there - 1)
-    assert not bench.motion.steady
+    assert not bench.motion.at_constant_speed
     bench.run(origin + 16 * there)
-    assert bench.motion.steady
+    assert bench.motion.at_constant_speed
     bench.run(origin + 16 * (made.braked_at or 0) + 16 * 100 - 1)
-    assert bench.motion.steady
+    assert bench.motion.at_constant_speed
     bench.run(origin + 16 * (made.braked_at or 0) + 16 * 100)
-    assert not bench.motion.steady
+    assert not bench.motion.at_constant_speed

@@ -6,14 +6,14 @@ import pytest
 
 from cocotb_tests.harness import verifies
 from openppmc.model.pmc006.motion.engine import (
-    Live,
-    Order,
+    LiveRegisters,
+    MotionStart,
     Stage,
     by_coefficient,
     by_distance,
     plan,
-    reach,
-    way,
+    ramp_steps,
+    stopping_distance,
 )
 from tests.pmc006.model.bench import Made, make
 
@@ -75,7 +75,7 @@ def row_of(cells: list[str]) -> list[str]:
     """Return the row of the table for the move that the model makes."""
     n, vs, ve, vmax = map(int, cells[1:5])
     acc, dec = map(int, cells[5].split("/"))
-    made = make(Order(n, vs, ve, vmax, acc, dec))
+    made = make(MotionStart(n, vs, ve, vmax, acc, dec))
     assert len(made.steps) == n and made.steps[-1][0] == made.end
     engine, gaps = made.engine, made.intervals
     creep = sum(stage is Stage.CREEP for _, _, stage in made.steps)
@@ -85,7 +85,7 @@ def row_of(cells: list[str]) -> list[str]:
         str(made.goal),
         str(max(speed for _, speed in made.updates)),
         str(made.braked_at or "-"),
-        str(engine.braked[0]) if engine.braked else "-",
+        str(engine.decel_start[0]) if engine.decel_start else "-",
         "-" if n < 256 else str(creep),
         str(made.end),
         str(made.steps[-1][1]),
@@ -109,7 +109,7 @@ def fits(gaps: list[int], pattern: str) -> bool:
 
 @verifies("P006-MOT-23", "P006-MOT-11")
 def test_w3_short_move_that_decelerates() -> None:
-    made = make(Order(50, 3000, 600, 5000, 3, 5))
+    made = make(MotionStart(50, 3000, 600, 5000, 3, 5))
     head = "335,338,342,345,349,354,357,361,366,371,375,381"
     assert fits(made.intervals, f"{head}..717,752,796,846,908,986,1088,1232,1451,1662,1667,1667")
     assert made.end == 30915
@@ -117,12 +117,12 @@ def test_w3_short_move_that_decelerates() -> None:
 
 @verifies("P006-MOT-10", "P006-MOT-11", "P006-MOT-12", "P006-MOT-13", "P006-MOT-14", "P006-MOT-16")
 def test_w4_300_steps() -> None:
-    need = [way(3200, 600, n) for n in (3, 4, 5)]
+    need = [ramp_steps(3200, 600, n) for n in (3, 4, 5)]
     assert [2 * steps + 8 for steps in need] == [736, 372, 190] and need[0] == 364
     assert plan(300, 600, 600, 3200, 3, 3) == (3200, 5, 5)
     assert plan(736, 600, 600, 3200, 3, 3) == (3200, 3, 3) and plan(735, 600, 600, 3200, 3, 3) == (3200, 4, 4)
     assert by_coefficient(2600, 5) == 8986393 and by_distance(3200, 600, 95) == 8870042
-    made = make(Order(300, 600, 600, 3200, 3, 3))
+    made = make(MotionStart(300, 600, 600, 3200, 3, 3))
     assert [speed for _, speed in made.updates[:8]] == [600, 600, 600, 600, 601, 601, 601, 602]
     head = "1659,1613,1534,1439,1341,1247,1162,1086,1019,959,907,860"
     assert fits(made.intervals, f"{head}..998,1062,1133,1215,1304,1400,1496,1583,1644,1666,1667,1667")
@@ -132,16 +132,16 @@ def test_w4_300_steps() -> None:
 @verifies("P006-MOT-15", "P006-MOT-17", "P006-MOT-20")
 def test_w5_the_peak_falls() -> None:
     assert plan(256, 600, 600, 16_000, 3, 3) == (3699, 5, 5)
-    made = make(Order(256, 600, 600, 16_000, 3, 3))
+    made = make(MotionStart(256, 600, 600, 16_000, 3, 3))
     assert fits(made.intervals, "1661,1621,1551,1467,1375,1287..1605,1652,1667,1667,1666")
-    assert made.engine.braked and made.engine.braked[0] == 127
+    assert made.engine.decel_start and made.engine.decel_start[0] == 127
     # The deceleration begins as soon as the stopping distance is reached.
-    assert made.engine.braked[0] <= reach(made.engine.braked[1], 600, 5)
+    assert made.engine.decel_start[0] <= stopping_distance(made.engine.decel_start[1], 600, 5)
 
 
 @verifies("P006-MOT-02", "P006-MOT-14")
 def test_w6_a_ramp_lasts_as_long_as_a_straight_one() -> None:
-    made = make(Order(2000, 600, 600, 3200, 3, 3))
+    made = make(MotionStart(2000, 600, 600, 3200, 3, 3))
     speeds = dict(made.updates)
     assert speeds[95_600] == 1900
     # The ramp lasts 2600 / 13600 s, of which half passes up to the middle.
@@ -152,7 +152,7 @@ def test_w6_a_ramp_lasts_as_long_as_a_straight_one() -> None:
 
 def off_from(t: int, target: int) -> Made:
     """Run speed mode from 600 to `target`, switched off at t us."""
-    return make(Order(None, 600, 600, target, 3, 3), lambda now: Live(target, stop=now >= t))
+    return make(MotionStart(None, 600, 600, target, 3, 3), lambda now: LiveRegisters(target, stop=now >= t))
 
 
 @verifies("P006-MOT-40", "P006-MOT-41")
@@ -171,10 +171,10 @@ def test_w8_below_the_stop_speed() -> None:
 
 @verifies("P006-MOT-30", "P006-MOT-50")
 def test_w9_new_maximum_speed() -> None:
-    def live(t: int) -> Live:
-        return Live(1600 if t >= 500_000 else 3200, stop=t >= 1_000_000)
+    def live(t: int) -> LiveRegisters:
+        return LiveRegisters(1600 if t >= 500_000 else 3200, stop=t >= 1_000_000)
 
-    made = make(Order(None, 600, 600, 3200, 3, 3), live)
+    made = make(MotionStart(None, 600, 600, 3200, 3, 3), live)
     assert (len(made.steps), made.end) == (2326, 1_073_600)
 
 
@@ -188,12 +188,12 @@ def test_w10_off_in_the_middle_of_the_ramp() -> None:
 
 @verifies("P006-MOT-40", "P006-MOT-20")
 def test_w12_to_w14_factory_values() -> None:
-    assert [way(1000, 600, n) for n in (0, 1)] == [189, 95]
-    made = make(Order(287, 600, 600, 1000, 0, 0))
+    assert [ramp_steps(1000, 600, n) for n in (0, 1)] == [189, 95]
+    made = make(MotionStart(287, 600, 600, 1000, 0, 0))
     assert fits(made.intervals, "1667,1665,1663,1659,1654,1648,1641,1633..1659,1663,1664,1667,1667,1666,1667")
-    assert (made.braked_at, made.engine.braked, made.end) == (211_600, (99, 1000), 336_484)
-    made = make(Order(None, 600, 600, 1000, 0, 0), lambda t: Live(1000, stop=t >= 1_000_000))
+    assert (made.braked_at, made.engine.decel_start, made.end) == (211_600, (99, 1000), 336_484)
+    made = make(MotionStart(None, 600, 600, 1000, 0, 0), lambda t: LiveRegisters(1000, stop=t >= 1_000_000))
     assert (len(made.steps), made.end) == (1141, 1_235_300)
     assert fits(made.intervals, "1667,1667,1666,1664,1664,1662..1661,1663,1664,1666,1667,1666")
-    made = make(Order(None, 2500, 2500, 2500, 3, 3), lambda t: Live(2500, stop=t >= 500_000))
+    made = make(MotionStart(None, 2500, 2500, 2500, 3, 3), lambda t: LiveRegisters(2500, stop=t >= 500_000))
     assert made.intervals == [400] * 1250 and made.end == 500_100

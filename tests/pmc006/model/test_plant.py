@@ -13,16 +13,16 @@ from cocotb_tests.pmc006.stepping import MotorHost
 from openppmc.model.pmc006.bench.currents import (
     CLK_HZ,
     MS,
+    BootedMotor,
     Case,
-    Figures,
-    Rig,
+    WaveMetrics,
     cruising,
-    figures,
     holding,
-    left_at_zero,
+    residual_current,
     ripple,
+    wave_metrics,
 )
-from openppmc.model.pmc006.bench.motor import Arc, Emf, Motor
+from openppmc.model.pmc006.bench.motor import CurrentSegment, Emf, Motor
 
 T_OFF, T_BLANK, LATE = 20e-6, 1e-6, 3 / CLK_HZ
 
@@ -34,7 +34,7 @@ def test_an_arc_solves_its_equation(seed: int) -> None:
     motor = Motor(rng.uniform(0.2, 10), rng.uniform(2e-4, 1e-2))
     emf = Emf(rng.uniform(0, 12), 2 * pi * rng.uniform(1, 1000), rng.uniform(0, 6))
     begin, ampere, volt = rng.uniform(0, 1), rng.uniform(-2, 2), rng.choice((-24.0, 0.0, 24.0))
-    arc = Arc(motor, begin, ampere, volt, emf)
+    arc = CurrentSegment(motor, begin, ampere, volt, emf)
 
     def slope(t: float, i: float) -> float:
         return (volt - motor.ohm * i - emf.volt * sin(emf.rad_s * t + emf.angle)) / motor.henry
@@ -51,18 +51,18 @@ def test_an_arc_solves_its_equation(seed: int) -> None:
 
 
 def test_diodes_end_at_zero() -> None:
-    arc = Arc(Motor(), 0.0, 1.0, -24.0, Emf(6.0, 1500.0, 1.0))
-    assert arc.rests_at == inf
-    arc.rest_at_zero(positive=True)
+    arc = CurrentSegment(Motor(), 0.0, 1.0, -24.0, Emf(6.0, 1500.0, 1.0))
+    assert arc.zero_from == inf
+    arc.stop_at_zero(positive=True)
     # The time is 2 mH * 1 A / 24 V, slightly changed by the resistance and the back EMF.
-    assert 50e-6 < arc.rests_at < 120e-6
-    assert arc.at(arc.rests_at - 1e-6) > 0 == arc.at(arc.rests_at) == arc.at(1.0)
+    assert 50e-6 < arc.zero_from < 120e-6
+    assert arc.at(arc.zero_from - 1e-6) > 0 == arc.at(arc.zero_from) == arc.at(1.0)
 
 
 @verifies("P006-CHP-05", "P006-CHP-03")
 def test_every_change_of_the_comparator_is_there() -> None:
     """Every change of the comparator is detected, compared with a check in each cycle."""
-    rig = Rig(Case(cur=2000))
+    rig = BootedMotor(Case(cur=2000))
     pins, told = rig.part.pins, {"cmp_a": [(0, 0)], "cmp_b": [(0, 0)]}
 
     def record(t: int, **levels: int) -> None:
@@ -74,7 +74,7 @@ def test_every_change_of_the_comparator_is_there() -> None:
     rig.part.pins = record  # type: ignore[method-assign]
     plant = rig.hold()
     first = rig.part.now
-    rig.tell("e", 400)
+    rig.send("e", 400)
     assert rig.part.now > first + MS
     for winding in plant.windings.values():
         changes, level, flips = dict(told[winding.cmp_pin]), 0, 0
@@ -107,9 +107,11 @@ def test_ripple_at_rest(cur: int, steps: int) -> None:
 
 
 @cache
-def measured(cur: int, full: int, emf: float, tau: float = 0.0) -> Figures:
+def measured(cur: int, full: int, emf: float, tau: float = 0.0) -> WaveMetrics:
     periods = 1
-    both = [figures(found, periods) for found in cruising(Case(cur, 16, full, emf, tau=tau, periods=periods))]
+    both = [
+        wave_metrics(found, periods) for found in cruising(Case(cur, 16, full, emf, tau=tau, periods=periods))
+    ]
     return max(both, key=lambda found: found.error)
 
 
@@ -144,8 +146,8 @@ def test_no_current_hangs_at_a_reference_of_0(mstep: int, thd: float) -> None:
     negative half wave there is no pulse.
     """
     both = cruising(Case(1000, mstep, 200, scomp=300, periods=1))
-    above = max(left_at_zero(found)[0] for found in both)
-    harmonics = max(figures(found, 1).thd for found in both)
+    above = max(residual_current(found)[0] for found in both)
+    harmonics = max(wave_metrics(found, 1).thd for found in both)
     print(above, harmonics)
     assert above < 0.03 and harmonics < thd
 
@@ -170,7 +172,7 @@ def test_a_real_filter_costs_its_delay() -> None:
 
 
 def test_too_much_back_emf() -> None:
-    rig = Rig(Case())
+    rig = BootedMotor(Case())
     plant = rig.hold()
     with pytest.raises(ValueError, match="24"):
         plant.spin(24, 10)

@@ -21,9 +21,9 @@ NOMINAL = Latency(
     ds_waited=0,
     ds_motor=0,
     ds12_lag=1,
-    seek_start=0,
-    seek_turn=0,
-    seek_per_rate=0,
+    lookup_start=0,
+    lookup_first=0,
+    lookup_per_rate=0,
     build_clk=lambda rl, rh, pa: 300,
 )
 INIT_A = "c 0A d 09 d 04 d 04 d 00"

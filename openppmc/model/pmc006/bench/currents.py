@@ -1,4 +1,4 @@
-"""Phase currents that a PMC006B4 regulates (R-22).
+"""Phase currents that a PMC006B4 regulates.
 
 Set-ups on the golden model, ripple, error and distortion of the currents.
 """
@@ -56,7 +56,7 @@ class Waves(NamedTuple):
     reference: list[float]
 
 
-class Figures(NamedTuple):
+class WaveMetrics(NamedTuple):
     """Results of a measurement.
 
     Attributes:
@@ -74,7 +74,7 @@ class Figures(NamedTuple):
     all: float
 
 
-class Rig:
+class BootedMotor:
     """Part after its boot, with its motor."""
 
     def __init__(self, case: Case) -> None:
@@ -82,17 +82,17 @@ class Rig:
         self.part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
         self._go(MS)
         for code, data in (("e", case.cur), ("m", case.mstep), ("M", 100), ("P", case.scomp), ("a", 0)):
-            self.tell(code, data)
+            self.send(code, data)
 
     def _go(self, clk: int) -> None:
         self.part.run_until(self.part.now + clk)
 
-    def tell(self, code: str, data: int) -> None:
+    def send(self, code: str, data: int) -> None:
         """Send a frame and wait for its reply."""
         bit = CLK_HZ / BAUD
         begin = self.part.now + 1
         for number, byte in enumerate(command(ADDRESS, code, data)):
-            self.part.hear(begin + round((10 * number + 9.5) * bit), byte)
+            self.part.on_char(begin + round((10 * number + 9.5) * bit), byte)
         self._go(round(165 * bit))
 
     def hold(self, angle_steps: int = 0) -> Plant:
@@ -102,7 +102,7 @@ class Rig:
             angle_steps: steps from the angle after a reset.
         """
         if angle_steps:
-            self.tell("s", angle_steps)
+            self.send("s", angle_steps)
             self._go(MS * angle_steps * 2)
         plant = Plant(self.part, CLK_HZ, self.case.motor, self.case.tau)
         self._go(20 * MS)
@@ -113,7 +113,7 @@ class Rig:
         speed = self.case.full * max(1, self.case.mstep)
         slow = min(3000, speed)
         for code, data in (("u", 5), ("v", speed), ("L", slow), ("S", slow), ("N", 1)):
-            self.tell(code, data)
+            self.send(code, data)
         self._go(MS * (20 + (speed - slow) // 54))
         plant = Plant(self.part, CLK_HZ, self.case.motor, self.case.tau)
         cycle = round(CLK_HZ / self.case.hz)
@@ -121,8 +121,8 @@ class Rig:
         self._go(cycle)
         if self.case.emf:
             _, angle = _component(waves(plant, "b", begin, begin + cycle).reference, 1)
-            ahead = angle - 2 * pi * self.case.hz * plant.seconds(begin) + pi / 2
-            plant.spin(self.case.emf, self.case.hz, ahead)
+            emf_angle = angle - 2 * pi * self.case.hz * plant.seconds(begin) + pi / 2
+            plant.spin(self.case.emf, self.case.hz, emf_angle)
         self._go(max(cycle, round(5 * CLK_HZ * self.case.motor.henry / self.case.motor.ohm)))
         return plant
 
@@ -138,21 +138,21 @@ def waves(plant: Plant, phase: str, first: int, last: int, step: float = SAMPLE_
 
 def cruising(case: Case) -> tuple[Waves, Waves]:
     """Return both phases over whole electrical cycles at constant speed."""
-    rig = Rig(case)
-    plant = rig.cruise()
-    first = rig.part.now
+    booted = BootedMotor(case)
+    plant = booted.cruise()
+    first = booted.part.now
     last = first + round(CLK_HZ / case.hz) * case.periods
-    rig.part.run_until(last)
+    booted.part.run_until(last)
     return waves(plant, "a", first, last), waves(plant, "b", first, last)
 
 
 def holding(case: Case, angle_steps: int = 0, us: int = 400) -> tuple[Waves, Waves]:
     """Return both phases at standstill."""
-    rig = Rig(case)
-    plant = rig.hold(angle_steps)
-    first = rig.part.now
+    booted = BootedMotor(case)
+    plant = booted.hold(angle_steps)
+    first = booted.part.now
     last = first + us * CLK_HZ // 1_000_000
-    rig.part.run_until(last)
+    booted.part.run_until(last)
     step = SAMPLE_S / 8
     return waves(plant, "a", first, last, step), waves(plant, "b", first, last, step)
 
@@ -177,31 +177,31 @@ def spectrum(samples: Sequence[float], periods: int, harmonics: int = HARMONICS)
     return [_component(samples, periods * number)[0] for number in range(1, harmonics + 1)]
 
 
-def figures(found: Waves, periods: int) -> Figures:
+def wave_metrics(measured: Waves, periods: int) -> WaveMetrics:
     """Return the results of one phase over whole cycles."""
-    size, angle = _component(found.reference, periods)
-    turn = 2 * pi * periods / len(found.reference)
-    wanted = [size * sin(turn * n + angle) for n in range(len(found.reference))]
-    off = _rms([a - b for a, b in zip(found.current, wanted, strict=True)])
-    beside = _rms([a - b for a, b in zip(found.current, found.reference, strict=True)])
-    lines = spectrum(found.current, periods)
-    rest = _rms(found.current) ** 2 - lines[0] ** 2 / 2
-    return Figures(
+    size, angle = _component(measured.reference, periods)
+    turn = 2 * pi * periods / len(measured.reference)
+    fundamental = [size * sin(turn * n + angle) for n in range(len(measured.reference))]
+    from_fundamental = _rms([a - b for a, b in zip(measured.current, fundamental, strict=True)])
+    from_reference = _rms([a - b for a, b in zip(measured.current, measured.reference, strict=True)])
+    lines = spectrum(measured.current, periods)
+    rest = _rms(measured.current) ** 2 - lines[0] ** 2 / 2
+    return WaveMetrics(
         size,
-        off / _rms(wanted),
-        beside / _rms(found.reference),
+        from_fundamental / _rms(fundamental),
+        from_reference / _rms(measured.reference),
         hypot(*lines[1:]) / lines[0],
         sqrt(max(0.0, rest) * 2) / lines[0],
     )
 
 
-def left_at_zero(found: Waves) -> tuple[float, float]:
+def residual_current(measured: Waves) -> tuple[float, float]:
     """Return the largest and smallest mean current of steps whose reference is 0, in A.
 
     The mean is that of the second half of a step. Without such a step the result is 0.
     """
     means = [0.0]
-    for zero, span in groupby(zip(found.reference, found.current, strict=True), lambda one: not one[0]):
+    for zero, span in groupby(zip(measured.reference, measured.current, strict=True), lambda one: not one[0]):
         currents = [current for _, current in span]
         if zero:
             late = currents[len(currents) // 2 :]
@@ -209,6 +209,6 @@ def left_at_zero(found: Waves) -> tuple[float, float]:
     return max(means), min(means)
 
 
-def ripple(found: Waves) -> tuple[float, float]:
+def ripple(measured: Waves) -> tuple[float, float]:
     """Return mean and peak-to-peak value of a current at standstill, A."""
-    return sum(found.current) / len(found.current), max(found.current) - min(found.current)
+    return sum(measured.current) / len(measured.current), max(measured.current) - min(measured.current)

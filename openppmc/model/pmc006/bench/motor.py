@@ -1,4 +1,4 @@
-"""Motor and comparators on a PMC006B4: two windings between the half bridges (R-22 of P006).
+"""Motor and comparators on a PMC006B4: two windings between the half bridges.
 
 Currents are exact between two changes of the bridges: resistance, inductance, supply and a sinusoidal back
 EMF. Switches and diodes are ideal. Times are edges of `clk` in the interface and seconds inside.
@@ -62,10 +62,10 @@ class Emf(NamedTuple):
     angle: float = 0.0
 
 
-class Arc:
+class CurrentSegment:
     """Current from `begin` (s) on, with a constant voltage on the winding and a back EMF."""
 
-    __slots__ = ("_amplitude", "_decay", "_emf", "_free", "_lag", "_level", "begin", "rests_at")
+    __slots__ = ("_amplitude", "_decay", "_emf", "_free", "_lag", "_level", "begin", "zero_from")
 
     def __init__(self, motor: Motor, begin: float, ampere: float, volt: float, emf: Emf) -> None:
         self.begin, self._emf = begin, emf
@@ -75,19 +75,19 @@ class Arc:
         self._amplitude = emf.volt / hypot(motor.ohm, reactance)
         self._lag = emf.angle - atan2(reactance, motor.ohm)
         self._free = 0.0
-        self.rests_at = float("inf")
+        self.zero_from = float("inf")
         self._free = ampere - self.at(begin)
 
     def at(self, t: float) -> float:
         """Return the current in A at t >= begin."""
-        if t >= self.rests_at:
+        if t >= self.zero_from:
             return 0.0
         current = self._level + self._free * exp(self._decay * (self.begin - t))
         if self._amplitude:
             current -= self._amplitude * sin(self._emf.rad_s * t + self._lag)
         return current
 
-    def rest_at_zero(self, positive: bool) -> None:
+    def stop_at_zero(self, positive: bool) -> None:
         """Set the current to 0 from its first zero on, because the diodes block the other direction."""
         low, high = self.begin, self.begin + WINDOW_S
         while (self.at(high) > 0) == positive:
@@ -95,10 +95,10 @@ class Arc:
         for _ in range(40):
             middle = (low + high) / 2
             low, high = (middle, high) if (self.at(middle) > 0) == positive else (low, middle)
-        self.rests_at = high
+        self.zero_from = high
 
 
-class Level:
+class ReferenceSegment:
     """Reference in A from `begin` on, after a first-order low-pass filter; tau 0: no filter."""
 
     __slots__ = ("_from", "_tau", "begin", "sign", "to")
@@ -113,7 +113,7 @@ class Level:
         return self.to + (self._from - self.to) * exp((self.begin - t) / self._tau)
 
 
-Piece = TypeVar("Piece", Arc, Level)
+Piece = TypeVar("Piece", CurrentSegment, ReferenceSegment)
 
 
 class Winding:
@@ -124,50 +124,50 @@ class Winding:
         self._pins = BRIDGES[name]
         self.cmp_pin = self._pins[-1]
         self.emf = Emf()
-        self._seen: tuple[int, ...] = ()
+        self._last_outputs: tuple[int, ...] = ()
         self.cmp = 0
-        self.arcs = [Arc(motor, begin, 0.0, 0.0, self.emf)]
-        self.arcs[0].rests_at = begin
-        self.levels = [Level(begin, 0.0, 0.0, 0, tau)]
+        self.segments = [CurrentSegment(motor, begin, 0.0, 0.0, self.emf)]
+        self.segments[0].zero_from = begin
+        self.levels = [ReferenceSegment(begin, 0.0, 0.0, 0, tau)]
 
-    def look(self, t: float, outputs: Mapping[str, int], anew: bool = False) -> None:
+    def on_outputs(self, t: float, outputs: Mapping[str, int], emf_changed: bool = False) -> None:
         """Process the outputs of the part at t.
 
         Args:
-            anew: True if the back EMF has changed at t.
+            emf_changed: True if the back EMF has changed at t.
         """
-        seen = tuple(outputs[pin] for pin in self._pins[:-1])
-        if seen[:3] != self._seen[:3] or anew:
-            self._switch(t, *seen[:3])
-        if seen[3:] != self._seen[3:]:
-            to = seen[3] * FULL_SCALE_A / FULL_CODE
-            self.levels.append(Level(t, self.levels[-1].at(t), to, seen[4], self._tau))
-        self._seen = seen
+        levels = tuple(outputs[pin] for pin in self._pins[:-1])
+        if levels[:3] != self._last_outputs[:3] or emf_changed:
+            self._switch(t, *levels[:3])
+        if levels[3:] != self._last_outputs[3:]:
+            to = levels[3] * FULL_SCALE_A / FULL_CODE
+            self.levels.append(ReferenceSegment(t, self.levels[-1].at(t), to, levels[4], self._tau))
+        self._last_outputs = levels
 
     def _switch(self, t: float, on: int, plus: int, minus: int) -> None:
-        current = self.arcs[-1].at(t)
+        current = self.segments[-1].at(t)
         volt = self._motor.volt
         if on:
-            arc = Arc(self._motor, t, current, volt * (plus - minus), self.emf)
+            segment = CurrentSegment(self._motor, t, current, volt * (plus - minus), self.emf)
         else:
-            arc = Arc(self._motor, t, current, -volt if current > 0 else volt, self.emf)
+            segment = CurrentSegment(self._motor, t, current, -volt if current > 0 else volt, self.emf)
             if current:
-                arc.rest_at_zero(current > 0)
+                segment.stop_at_zero(current > 0)
             else:
-                arc.rests_at = t
-        self.arcs.append(arc)
+                segment.zero_from = t
+        self.segments.append(segment)
 
     def above(self, t: float) -> int:
         """Return the level of the comparator.
 
         The level is 1 if the current in the direction of the sign has reached the reference.
         """
-        level, current = self.levels[-1], self.arcs[-1].at(t)
+        level, current = self.levels[-1], self.segments[-1].at(t)
         return int((-current if level.sign else current) >= level.at(t))
 
     def current(self, t: float) -> float:
         """Return the current in A at any time."""
-        return _of(self.arcs, t).at(t)
+        return _of(self.segments, t).at(t)
 
     def reference(self, t: float) -> float:
         """Return the reference with its sign in A at any time."""
@@ -194,7 +194,7 @@ class Plant:
         self.motor = motor or Motor()
         now = self.seconds(model.now)
         self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
-        self._look()
+        self._update_windings()
         # Any caller that runs the model, for example a host, also runs the currents.
         model.run_until = self.run_until  # type: ignore[method-assign]
 
@@ -217,7 +217,7 @@ class Plant:
             raise ValueError(f"{volt} V of back EMF with a supply of {self.motor.volt} V")
         for name, winding in self.windings.items():
             winding.emf = Emf(volt, 2 * pi * hz, angle + QUARTER[name])
-        self._look(anew=True)
+        self._update_windings(emf_changed=True)
 
     def detach(self) -> None:
         """Remove the motor; the model runs alone again."""
@@ -227,12 +227,12 @@ class Plant:
 
     def run_until(self, t: int) -> None:
         """Run the model to edge t; currents and comparators follow."""
-        for edge, levels in self.legs(t):
+        for edge, levels in self.pieces(t):
             self._run(edge)
             if levels:
                 self._model.pins(edge + 1, **levels)
 
-    def legs(self, t: int) -> Iterator[tuple[int, dict[str, int]]]:
+    def pieces(self, t: int) -> Iterator[tuple[int, dict[str, int]]]:
         """Yield the time up to edge t in pieces.
 
         A piece is its last edge and the comparator levels after it.
@@ -253,11 +253,11 @@ class Plant:
                     winding.cmp ^= 1
                 yield flip - 1, {winding.cmp_pin: winding.cmp for winding in changed}
                 yield flip, {}
-            self._look()
+            self._update_windings()
 
-    def _look(self, anew: bool = False) -> None:
+    def _update_windings(self, emf_changed: bool = False) -> None:
         for winding in self.windings.values():
-            winding.look(self.seconds(self._model.now), self._model.outputs, anew)
+            winding.on_outputs(self.seconds(self._model.now), self._model.outputs, emf_changed)
 
     def _flip(self, winding: Winding, last: int) -> int | None:
         """Return the first edge up to `last` that samples another level of the comparator.

@@ -35,7 +35,7 @@ class Times:
 
     @classmethod
     def of(cls, clk_hz: int, t_off_ns: int, t_blank_ns: int, force: int = 1) -> Times:
-        """Return TOFF, BL, TF of P006 6.6."""
+        """Return off time, blanking time and fast-decay time (docs/pmc006/README.md, 9)."""
         off, blank = (-(-ns * clk_hz // 1_000_000_000) for ns in (t_off_ns, t_blank_ns))
         return cls(off, blank, max(blank, off // 2), force)
 
@@ -43,11 +43,11 @@ class Times:
 class Chopper:
     """Chopper of one phase.
 
-    show(t, m_plus, m_minus): sets the half-bridge commands (m10, m11 or m20, m21) at edge t.
+    set_bridge(t, m_plus, m_minus): sets the half-bridge commands (m10, m11 or m20, m21) at edge t.
     """
 
-    def __init__(self, queue: Scheduler, times: Times, show: Callable[[int, int, int], None]) -> None:
-        self._queue, self._times, self._show = queue, times, show
+    def __init__(self, queue: Scheduler, times: Times, set_bridge: Callable[[int, int, int], None]) -> None:
+        self._queue, self._times, self._set_bridge = queue, times, set_bridge
         self.state = State.OFF
         self._on = False
         self._ref = self._sign = self._cmp = 0
@@ -65,21 +65,21 @@ class Chopper:
         if not on:
             self._enter(t, State.OFF)
         else:
-            self._rest(t)
+            self._start_off_time(t)
 
     def reference(self, t: int, ref: int, sign: int) -> None:
         """Process a change of the reference outputs at edge t."""
-        turned = sign != self._sign
+        reversed_sign = sign != self._sign
         self._ref, self._sign = ref, sign
-        if turned and self._on:
-            self._forget()
+        if reversed_sign and self._on:
+            self._cancel_events()
             self._at(t + self._times.force, self._forced)
 
     def compare(self, t: int, level: int) -> None:
         """Process a level of the synchronised comparator, which decisions use from edge t on."""
         self._cmp = level
         if self._armed and level == (self.state is State.ON):
-            self._at(t, self._over)
+            self._at(t, self._end_phase)
 
     # ------------------------------------------------------------------ states
 
@@ -87,21 +87,21 @@ class Chopper:
         self._enter(t, State.OFF)
 
     def _enter(self, t: int, state: State) -> None:
-        self._forget()
+        self._cancel_events()
         self.state = state
         if state is State.OFF:
-            self._show(t, 0, 0)
-            self._rest(t)
+            self._set_bridge(t, 0, 0)
+            self._start_off_time(t)
             return
         forward = (state is State.ON) != bool(self._sign)
-        self._show(t, int(forward), int(not forward))
+        self._set_bridge(t, int(forward), int(not forward))
         self._at(t + self._times.blank, self._arm)
         if state is State.FAST:
-            self._at(t + self._times.fast, self._over)
+            self._at(t + self._times.fast, self._end_phase)
 
-    def _rest(self, t: int) -> None:
+    def _start_off_time(self, t: int) -> None:
         """Start the off time at edge t if the bridge is enabled."""
-        self._forget()
+        self._cancel_events()
         if self._on:
             self._at(t + self._times.off, self._decide)
 
@@ -116,9 +116,9 @@ class Chopper:
         """Process the end of the blanking."""
         self._armed = True
         if self._cmp == (self.state is State.ON):
-            self._over(t)
+            self._end_phase(t)
 
-    def _over(self, t: int) -> None:
+    def _end_phase(self, t: int) -> None:
         if self._armed:
             self._enter(t, State.OFF)
 
@@ -127,7 +127,7 @@ class Chopper:
     def _at(self, t: int, action: Callable[[int], None]) -> None:
         self._events.append(self._queue.at(t, Phase.CHOPPER, action))
 
-    def _forget(self) -> None:
+    def _cancel_events(self) -> None:
         self._armed = False
         for event in self._events:
             event.cancel()

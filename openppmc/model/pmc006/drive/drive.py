@@ -1,4 +1,4 @@
-"""Drive of the PMC006B4 (P006 chapter 6).
+"""Drive of the PMC006B4 (P006-EXC).
 
 Angle, references, idle current, bridges and bit streams of the references.
 
@@ -12,7 +12,7 @@ from functools import partial
 from ...chip import Phase
 from ...clock import Event
 from ..motion.motion import Motion, base_code
-from ..pins import Shared
+from ..pins import Services
 from .angle import CYCLE, HOME, OFF, References, peak_code, references
 from .angle import Phase as Reference
 from .chopper import Chopper, Times
@@ -61,26 +61,26 @@ class Drive:
 
     def __init__(
         self,
-        shared: Shared,
+        services: Services,
         motion: Motion,
         t_off_ns: int = 20_000,
         t_blank_ns: int = 1_000,
         origin: int = 0,
     ) -> None:
-        self._shared, self._motion = shared, motion
+        self._services, self._motion = services, motion
         motion.listener = self
         self.angle = HOME
         self.decayed = False
         self.enabled = False
         self._booted = False
-        self._looks = -1
+        self._evaluation_at = -1
         self._compared = dict.fromkeys(PINS, 0)
-        self._origin = origin + shared.pace.grid_from
-        self._shown: References = OFF
-        self._wanted: References = OFF
+        self._origin = origin + services.core_timing.grid_from
+        self._output_references: References = OFF
+        self._references: References = OFF
         self._timer: Event | None = None
-        times = Times.of(shared.clk_hz, t_off_ns, t_blank_ns, shared.pace.force)
-        self.choppers = {name: Chopper(shared.queue, times, partial(self._bridge, name)) for name in PINS}
+        times = Times.of(services.clk_hz, t_off_ns, t_blank_ns, services.core_timing.force)
+        self.choppers = {name: Chopper(services.queue, times, partial(self._bridge, name)) for name in PINS}
         self.streams = {name: Stream(origin) for name in PINS}
 
     # ------------------------------------------------------------------ causes
@@ -94,11 +94,13 @@ class Drive:
 
     def settings_changed(self, t: int) -> None:
         """Process new values of cur, autodec, att or free after edge t."""
-        on = self._booted and not self._shared.settings.free
+        on = self._booted and not self._services.settings.free
         if on != self.enabled:
             self.enabled = on
-            self._shared.queue.at(t + self._shared.pace.enable, Phase.PIN, lambda at: self._enable(at, on))
-        self._look(t)
+            self._services.queue.at(
+                t + self._services.core_timing.enable, Phase.PIN, lambda at: self._enable(at, on)
+            )
+        self._schedule_evaluation(t)
 
     def compare(self, t: int, a: int, b: int) -> None:
         """Process levels of cmp_a and cmp_b that edge t samples first."""
@@ -106,29 +108,29 @@ class Drive:
             if level == self._compared[name]:
                 continue
             self._compared[name] = level
-            see = partial(self.choppers[name].compare, level=level)
-            self._shared.queue.at(t + self._shared.pace.cmp, Phase.LEVELS, see)
+            on_level = partial(self.choppers[name].compare, level=level)
+            self._services.queue.at(t + self._services.core_timing.cmp, Phase.LEVELS, on_level)
 
     def moved(self, t: int, forward: bool, increment: int) -> None:
         """Process a step at edge t (P006-EXC-02)."""
         self.angle = (self.angle + (increment if forward else -increment)) % CYCLE
-        self._look(t)
+        self._schedule_evaluation(t)
 
     def changed(self, t: int) -> None:
-        """Process a change of busy, b or w of the motion at edge t."""
+        """Process a change of busy, current_comp or lead_angle of the motion at edge t."""
         if self._motion.busy:
             self._stop_idle()
         elif self._booted and self._timer is None and not self.decayed:
             self._start_idle(t)
-        self._look(t)
+        self._schedule_evaluation(t)
 
     # ------------------------------------------------------------------ idle timer
 
     def _start_idle(self, t: int) -> None:
         """Start the idle timer (P006-EXC-31); BUSY or BOOT falls at edge t."""
-        us = self._shared.us
-        over = us.edge_of(us.first(t + 1) + IDLE_US - 1) + self._shared.pace.idle
-        self._timer = self._shared.queue.at(over, Phase.STORE, self._decay)
+        us = self._services.us
+        over = us.edge_of(us.first(t + 1) + IDLE_US - 1) + self._services.core_timing.idle
+        self._timer = self._services.queue.at(over, Phase.STORE, self._decay)
 
     def _stop_idle(self) -> None:
         self.decayed = False
@@ -138,42 +140,44 @@ class Drive:
 
     def _decay(self, t: int) -> None:
         self.decayed, self._timer = True, None
-        self._look(t)
+        self._schedule_evaluation(t)
 
     # ------------------------------------------------------------------ references
 
-    def _look(self, t: int) -> None:
+    def _schedule_evaluation(self, t: int) -> None:
         """Schedule the next evaluation of the references on the grid.
 
         A value that they use changes at edge t.
         """
-        grid = self._shared.pace.grid
+        grid = self._services.core_timing.grid
         at = t + grid - (t - self._origin) % grid
-        if self._looks != at:
-            self._looks = at
-            self._shared.queue.at(at, Phase.PINS, self._judge)
+        if self._evaluation_at != at:
+            self._evaluation_at = at
+            self._services.queue.at(at, Phase.PINS, self._evaluate)
 
-    def _judge(self, t: int) -> None:
+    def _evaluate(self, t: int) -> None:
         """Evaluate the references from all levels before edge t (P006-EXC-12, -30, P006-STA-12)."""
-        motion, now = self._motion, self._shared.settings
-        wanted = OFF
+        motion, now = self._motion, self._services.settings
+        refs = OFF
         if self.enabled:
-            lead = motion.w if motion.forward else -motion.w
+            lead = motion.lead_angle if motion.forward else -motion.lead_angle
             decayed = self.decayed and bool(now.autodec)
-            peak = peak_code(base_code(now.cur), motion.b, motion.busy, decayed, now.att)
-            wanted = references((self.angle + lead) % CYCLE, peak)
-        if wanted != self._wanted:
-            self._wanted = wanted
-            self._shared.queue.at(t + self._shared.pace.refs, Phase.PIN, lambda at: self._show(at, wanted))
+            peak = peak_code(base_code(now.cur), motion.current_comp, motion.busy, decayed, now.att)
+            refs = references((self.angle + lead) % CYCLE, peak)
+        if refs != self._references:
+            self._references = refs
+            self._services.queue.at(
+                t + self._services.core_timing.refs, Phase.PIN, lambda at: self._output(at, refs)
+            )
 
-    def _show(self, t: int, wanted: References) -> None:
-        for name, old, new in zip(PINS, self._shown, wanted, strict=True):
+    def _output(self, t: int, refs: References) -> None:
+        for name, old, new in zip(PINS, self._output_references, refs, strict=True):
             if old != new:
                 self._set_reference(t, name, new)
-        self._shown = wanted
+        self._output_references = refs
 
     def _set_reference(self, t: int, name: str, new: Reference) -> None:
-        log = self._shared.log
+        log = self._services.log
         log.set(t, f"phase_{name}_ref", new.ref)
         log.set(t, f"phase_{name}_sign", new.sign)
         self.streams[name].change(t, new.ref)
@@ -183,12 +187,12 @@ class Drive:
 
     def _enable(self, t: int, on: bool) -> None:
         for name, chopper in self.choppers.items():
-            self._shared.log.set(t, f"bridge_{name}_en", int(on))
+            self._services.log.set(t, f"bridge_{name}_en", int(on))
             chopper.enable(t, on)
 
     def _bridge(self, name: str, t: int, plus: int, minus: int) -> None:
         for pin, level in zip(PINS[name], (plus, minus), strict=True):
-            self._shared.log.set(t, pin, level)
+            self._services.log.set(t, pin, level)
 
     def level(self, t: int, name: str) -> int:
         """Return pwm_a_ref ("a") or pwm_b_ref ("b") after edge t.

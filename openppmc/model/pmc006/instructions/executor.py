@@ -10,18 +10,18 @@ from collections.abc import Callable
 from ...chip import Phase
 from ...clock import Event
 from ..codes import TABLE
-from ..desk import Effect
+from ..execution_context import Effect
 from ..line import Command
 from ..memory.eeprom import Engine
-from ..motion.motion import Guard, Motion
-from ..pins import SYNCHRONISED, Shared
+from ..motion.motion import Motion, StopMonitor
+from ..pins import SYNCHRONISED, Services
 from .operations import Outcome
 from .processor import Processor
 
-# Desk of the executor: everything that instructions read and change.
+# Execution context: everything that instructions read and change.
 
 
-class Desk:
+class ExecutionContext:
     """Execution context of instructions. The part sets motion, program and eeprom.
 
     Args:
@@ -30,7 +30,7 @@ class Desk:
         changed: changed(t) is called when registers have new values after edge t.
 
     Attributes:
-        judging: edge of the current instruction.
+        current_edge: edge of the current instruction.
         stepped_at: edge of the last step.
         speed_on: value of SPEED_MODE.
         running: True if the motion belongs to the speed mode.
@@ -40,13 +40,13 @@ class Desk:
     program: Processor
     eeprom: Engine
 
-    def __init__(self, shared: Shared, echo: bool, version: int, changed: Callable[[int], None]) -> None:
-        self.shared, self.echo, self.version, self._changed = shared, echo, version, changed
-        self.settings = shared.settings
+    def __init__(self, services: Services, echo: bool, version: int, changed: Callable[[int], None]) -> None:
+        self.services, self.echo, self.version, self._changed = services, echo, version, changed
+        self.settings = services.settings
         self.levels = dict(SYNCHRONISED)
-        self.guard = Guard(self)
+        self.stop_monitor = StopMonitor(self)
         self._position = 0
-        self.stepped_at = self.judging = self._stopped_at = -1
+        self.stepped_at = self.current_edge = self._stopped_at = -1
         self.speed_on = self.running = False
 
     # ------------------------------------------------------------------ observable state
@@ -59,12 +59,12 @@ class Desk:
     @property
     def locked(self) -> bool:
         """True if a start is blocked by a cause other than BUSY."""
-        return bool(self.settings.free) or self.guard.locked or self._stopped_at == self.judging
+        return bool(self.settings.free) or self.stop_monitor.locked or self._stopped_at == self.current_edge
 
     @property
     def gpo(self) -> int:
         """Levels for the pins GPO5..1."""
-        return self.settings.gpo | (0x10 if self.guard.pull else 0)
+        return self.settings.gpo | (0x10 if self.stop_monitor.pulls_gpo5 else 0)
 
     @property
     def port_word(self) -> int:
@@ -73,7 +73,7 @@ class Desk:
         gpi = seen["gpi"]
         return (
             gpi & 7
-            | self.shared.log.levels["gpo"] << 3
+            | self.services.log.levels["gpo"] << 3
             | gpi >> 3 << 8
             | seen["ext1"] << 10
             | seen["ext2"] << 11
@@ -81,20 +81,20 @@ class Desk:
 
     # ------------------------------------------------------------------ effects and events
 
-    def carry_out(self, t: int, effect: Effect) -> None:
+    def execute(self, t: int, effect: Effect) -> None:
         """Apply the first half of an effect, before the motion is processed at edge t."""
         if effect.halt:
-            self.shared.queue.at(t, Phase.GUARD, self._halt)
-        if effect.early:
-            early = effect.early
-            self.shared.queue.at(t, Phase.GUARD, lambda now: early(self, now))
+            self.services.queue.at(t, Phase.GUARD, self._halt)
+        if effect.early_action:
+            early_action = effect.early_action
+            self.services.queue.at(t, Phase.GUARD, lambda now: early_action(self, now))
 
     def commit(self, t: int, effect: Effect) -> None:
         """Apply the second half of an effect, after the first one."""
-        self.settings.load(effect.put or {})
-        if effect.do:
-            effect.do(self, t)
-        if effect.put:
+        self.settings.load(effect.registers or {})
+        if effect.action:
+            effect.action(self, t)
+        if effect.registers:
             self._changed(t)
 
     def stop(self, t: int) -> None:
@@ -103,7 +103,7 @@ class Desk:
         A start at this edge is rejected.
         """
         self._stopped_at = t
-        self.shared.queue.at(t, Phase.GUARD, self._halt)
+        self.services.queue.at(t, Phase.GUARD, self._halt)
 
     def _halt(self, t: int) -> None:
         if self.motion.busy:
@@ -125,12 +125,12 @@ class Desk:
 
     def start(self, t: int, count: int) -> None:
         """Execute instruction s or ROT."""
-        self.guard.started()
+        self.stop_monitor.started()
         self.motion.start(t, count)
 
     def run(self, t: int) -> None:
         """Execute instruction N=1 in IDLE."""
-        self.guard.started()
+        self.stop_monitor.started()
         self.speed_on = self.running = True
         self.motion.run(t)
 
@@ -148,9 +148,9 @@ class Executor:
     whose previous cycle shows its source: a frame, or a running program.
     """
 
-    def __init__(self, desk: Desk, answered: Callable[[int, int], None]) -> None:
-        self._desk, self._answered = desk, answered
-        self._queue, self._pace = desk.shared.queue, desk.shared.pace
+    def __init__(self, context: ExecutionContext, answered: Callable[[int, int], None]) -> None:
+        self._context, self._answered = context, answered
+        self._queue, self._core_timing = context.services.queue, context.services.core_timing
         self._free: int | None = 0
         self._frame: tuple[int, Command] | None = None
         self._run: int | None = None
@@ -158,25 +158,25 @@ class Executor:
         self._slot: Event | None = None
         self._next_slot = 0
         self._cancelled = -1
-        self._leaving: Event | None = None
+        self._wait_end_event: Event | None = None
 
     # ------------------------------------------------------------------ choice of the next instruction
 
     def frame(self, t: int, command: Command) -> None:
         """Process a command whose last byte was complete at edge t."""
-        self._frame = (t + self._pace.frame, command)
-        self._look(t)
+        self._frame = (t + self._core_timing.frame, command)
+        self._schedule_next(t)
 
-    def wake(self, t: int, afresh: bool = False) -> None:
+    def resume(self, t: int, restart: bool = False) -> None:
         """Continue the program after edge t.
 
         Args:
-            afresh: True if the program has just been started.
+            restart: True if the program has just been started.
         """
-        if afresh:
+        if restart:
             self._next_slot = 0
         self._run = t + 1
-        self._look(t)
+        self._schedule_next(t)
 
     def cancel(self, t: int) -> None:
         """Process RESET at edge t: an instruction of the program that is in progress has no effect."""
@@ -184,9 +184,9 @@ class Executor:
         if self._slot:
             self._slot.cancel()
             self._slot, self._free = None, t + 1
-        self._look(t)
+        self._schedule_next(t)
 
-    def _look(self, t: int) -> None:
+    def _schedule_next(self, t: int) -> None:
         """Schedule the beginning of the next instruction."""
         if self._begin:
             self._begin.cancel()
@@ -196,7 +196,7 @@ class Executor:
         ready = []
         if self._frame:
             ready.append(max(self._free, self._frame[0]))
-        if self._run is not None and self._desk.program.runs:
+        if self._run is not None and self._context.program.runs:
             ready.append(max(self._free, self._run, self._next_slot))
         if ready:
             self._begin = self._queue.at(max(t, min(ready)), Phase.BEGIN, self._start)
@@ -206,69 +206,73 @@ class Executor:
         if self._frame and self._frame[0] <= t:
             command, self._frame = self._frame[1], None
             self._free = None
-            self._queue.at(t + self._pace.effect, Phase.COMMAND, lambda now: self._of_host(now, command))
-        elif self._desk.program.runs and self._cancelled != t:
-            self._next_slot = t + self._pace.slot
-            self._free, self._run = t + self._pace.fetch + 1, t + self._pace.fetch + 1
-            self._slot = self._queue.at(t + self._pace.fetch, Phase.COMMAND, self._of_program)
-            self._look(t)
+            self._queue.at(
+                t + self._core_timing.effect, Phase.COMMAND, lambda now: self._execute_host(now, command)
+            )
+        elif self._context.program.runs and self._cancelled != t:
+            self._next_slot = t + self._core_timing.slot
+            self._free, self._run = t + self._core_timing.fetch + 1, t + self._core_timing.fetch + 1
+            self._slot = self._queue.at(t + self._core_timing.fetch, Phase.COMMAND, self._execute_program)
+            self._schedule_next(t)
 
     # ------------------------------------------------------------------ effects
 
-    def _of_host(self, t: int, command: Command) -> None:
-        desk = self._desk
-        desk.judging = t
-        effect = TABLE[command.code](desk, command.data)
-        desk.carry_out(t, effect)
+    def _execute_host(self, t: int, command: Command) -> None:
+        context = self._context
+        context.current_edge = t
+        effect = TABLE[command.code](context, command.data)
+        context.execute(t, effect)
         self._queue.at(t, Phase.STORE, lambda now: self._commit_host(now, effect))
 
     def _commit_host(self, t: int, effect: Effect) -> None:
-        if effect.still and self._desk.stepped_at == t:
+        if effect.excludes_step and self._context.stepped_at == t:
             self._queue.at(t + 1, Phase.STORE, lambda now: self._commit_host(now, effect))
             return
-        self._desk.commit(t, effect)
+        self._context.commit(t, effect)
         self._queue.at(t + 1, Phase.QUEUE, lambda now: self._reply(now, effect))
-        if effect.once is None:
-            self._free = t + self._pace.after
+        if effect.program_index is None:
+            self._free = t + self._core_timing.after
         else:
-            place = effect.once
+            place = effect.program_index
             begin = t + 1
-            self._free = begin + self._pace.fetch + 1
-            self._queue.at(begin + self._pace.fetch, Phase.COMMAND, lambda now: self._of_single(now, place))
+            self._free = begin + self._core_timing.fetch + 1
+            self._queue.at(
+                begin + self._core_timing.fetch, Phase.COMMAND, lambda now: self._execute_single(now, place)
+            )
             self._next_slot = 0
-        self._look(t)
+        self._schedule_next(t)
 
     def _reply(self, t: int, effect: Effect) -> None:
         data = effect.reply
-        self._answered(t, data if isinstance(data, int) else data(self._desk))
+        self._answered(t, data if isinstance(data, int) else data(self._context))
 
-    def _of_single(self, t: int, place: int) -> None:
+    def _execute_single(self, t: int, place: int) -> None:
         """Execute the instruction that E selects."""
-        self._desk.judging = t
-        effect = self._desk.program.once(place)
-        self._desk.carry_out(t, effect)
-        self._queue.at(t, Phase.STORE, lambda now: self._desk.commit(now, effect))
+        self._context.current_edge = t
+        effect = self._context.program.single_effect(place)
+        self._context.execute(t, effect)
+        self._queue.at(t, Phase.STORE, lambda now: self._context.commit(now, effect))
 
-    def _of_program(self, t: int) -> None:
-        desk = self._desk
-        desk.judging, self._slot = t, None
-        outcome = desk.program.next()
-        desk.carry_out(t, outcome.effect)
+    def _execute_program(self, t: int) -> None:
+        context = self._context
+        context.current_edge, self._slot = t, None
+        outcome = context.program.next()
+        context.execute(t, outcome.effect)
         self._queue.at(t, Phase.STORE, lambda now: self._commit_program(now, outcome))
 
     def _commit_program(self, t: int, outcome: Outcome) -> None:
-        self._desk.commit(t, outcome.effect)
-        self._desk.program.advance(outcome)
-        self._look(t)
+        self._context.commit(t, outcome.effect)
+        self._context.program.advance(outcome)
+        self._schedule_next(t)
 
     # ------------------------------------------------------------------ WAIT
 
-    def look_at_wait(self, t: int) -> None:
+    def check_wait(self, t: int) -> None:
         """Check at edge t whether the condition of WAIT is fulfilled."""
-        if not self._leaving and self._desk.program.passes():
-            self._leaving = self._queue.at(t, Phase.QUEUE, self._leave)
+        if not self._wait_end_event and self._context.program.wait_is_over():
+            self._wait_end_event = self._queue.at(t, Phase.QUEUE, self._end_wait)
 
-    def _leave(self, t: int) -> None:
-        self._leaving = None
-        if self._desk.program.passes():
-            self._queue.at(t, Phase.STORE, self._desk.program.pass_on)
+    def _end_wait(self, t: int) -> None:
+        self._wait_end_event = None
+        if self._context.program.wait_is_over():
+            self._queue.at(t, Phase.STORE, self._context.program.end_wait)

@@ -1,4 +1,4 @@
-"""Instructions of the PMC006B4's user program as objects (P006 chapters 12.2..12.4, 12.6)."""
+"""Instructions of the PMC006B4's user program as objects (P006-PRG)."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import NamedTuple
 from ...chip import Phase
 from ...clock import Event
 from ..codes import LETTERS
-from ..desk import Desk, Effect
-from ..pins import Shared
+from ..execution_context import Effect, ExecutionContext
+from ..pins import Services
 from ..settings import BOTH
 
 # Filters of the keys of the PMC006B4: GPI1, GPI2 and FSET (P006-PRG-30, P006-EEP-20).
@@ -29,20 +29,20 @@ class KeyFilter:
 
     def __init__(
         self,
-        shared: Shared,
+        services: Services,
         low_ticks: int,
         high_ticks: int,
         pressed: Callable[[int], None],
         released: Callable[[int], None] | None = None,
         armed: bool = False,
     ) -> None:
-        self._shared, self._ticks = shared, (low_ticks, high_ticks)
+        self._services, self._ticks = services, (low_ticks, high_ticks)
         self._pressed, self._released = pressed, released
         self.armed = armed
         self._level: int | None = None
         self._pending: Event | None = None
 
-    def see(self, t: int, level: int) -> None:
+    def on_level(self, t: int, level: int) -> None:
         """Process the synchronised level from edge t on."""
         if level == self._level:
             return
@@ -54,9 +54,9 @@ class KeyFilter:
         if not ticks:
             self._elapsed(t)
             return
-        us = self._shared.us
+        us = self._services.us
         at = us.edge_of(us.first(t) + ticks - 1)
-        self._pending = self._shared.queue.at(at, Phase.QUEUE, self._elapsed)
+        self._pending = self._services.queue.at(at, Phase.QUEUE, self._elapsed)
 
     def _elapsed(self, t: int) -> None:
         self._pending = None
@@ -73,7 +73,7 @@ COUNT = 100
 TARGETS = range(COUNT)
 
 
-class Then(Enum):
+class NextAction(Enum):
     """Next action of the processor after an instruction."""
 
     NEXT = auto()
@@ -90,7 +90,7 @@ class Outcome(NamedTuple):
     """
 
     effect: Effect = Effect()
-    then: Then = Then.NEXT
+    next_action: NextAction = NextAction.NEXT
     target: int = 0
 
 
@@ -106,9 +106,9 @@ class Operation:
 
     single = True
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome of these fields; operand is signed."""
-        return Outcome(then=Then.HALT)
+        return Outcome(next_action=NextAction.HALT)
 
 
 class End(Operation):
@@ -118,7 +118,7 @@ class End(Operation):
 
 
 @dataclass
-class AsHost(Operation):
+class HostInstruction(Operation):
     """Host instruction of this letter.
 
     The data of the instruction is the operand, or the entry of `data` for the operand.
@@ -127,23 +127,23 @@ class AsHost(Operation):
     letter: str
     data: dict[int, int] | None = None
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome; the instruction is rejected as if the host had sent it."""
         if self.data is None:
-            return Outcome(LETTERS[self.letter](desk, operand))
+            return Outcome(LETTERS[self.letter](context, operand))
         if operand not in self.data:
             return NOTHING
-        return Outcome(LETTERS[self.letter](desk, self.data[operand]))
+        return Outcome(LETTERS[self.letter](context, self.data[operand]))
 
 
 class Speed(Operation):
     """Instruction VSET."""
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome; unlike in v, 0 is legal."""
         if option not in BOTH or operand not in range(16001):
             return NOTHING
-        return Outcome(Effect(put={"vmax": operand, "analog": option}))
+        return Outcome(Effect(registers={"vmax": operand, "analog": option}))
 
 
 @dataclass
@@ -152,10 +152,10 @@ class Counter(Operation):
 
     up: bool
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome; the counter has 32 bits."""
-        fresh = (desk.program.counter + 1) % (1 << 32) if self.up else 0
-        return Outcome(Effect(do=lambda desk, t: setattr(desk.program, "counter", fresh)))
+        new_count = (context.program.counter + 1) % (1 << 32) if self.up else 0
+        return Outcome(Effect(action=lambda context, t: setattr(context.program, "counter", new_count)))
 
 
 @dataclass
@@ -169,13 +169,13 @@ class Jump(Operation):
     on: Container[int]
     single = False
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome; an illegal target halts the program if the jump is executed."""
-        if desk.program.flag not in self.on:
+        if context.program.flag not in self.on:
             return NOTHING
         if operand not in TARGETS:
-            return Outcome(then=Then.HALT)
-        return Outcome(then=Then.JUMP, target=operand)
+            return Outcome(next_action=NextAction.HALT)
+        return Outcome(next_action=NextAction.JUMP, target=operand)
 
 
 class Wait(Operation):
@@ -183,31 +183,31 @@ class Wait(Operation):
 
     single = False
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome; the program continues immediately if the condition is fulfilled."""
-        source = waited(desk, option)
-        return NOTHING if source in (None, operand & 1) else Outcome(then=Then.WAIT)
+        source = wait_source(context, option)
+        return NOTHING if source in (None, operand & 1) else Outcome(next_action=NextAction.WAIT)
 
 
 class Out(Operation):
     """Instruction OUT."""
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome, one bit of GPO."""
         if option not in range(1, 6):
             return NOTHING
         mask = 1 << option - 1
-        gpo = desk.settings.gpo & ~mask | (mask if operand & 1 else 0)
-        return Outcome(Effect(put={"gpo": gpo}))
+        gpo = context.settings.gpo & ~mask | (mask if operand & 1 else 0)
+        return Outcome(Effect(registers={"gpo": gpo}))
 
 
 class Compare(Operation):
     """Instruction CMP."""
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome; an illegal option clears FLAG."""
-        flag = int(compared(desk, option) == operand & 0xFFFF_FFFF)
-        return Outcome(Effect(do=lambda desk, t: setattr(desk.program, "flag", flag)))
+        flag = int(compare_source(context, option) == operand & 0xFFFF_FFFF)
+        return Outcome(Effect(action=lambda context, t: setattr(context.program, "flag", flag)))
 
 
 @dataclass
@@ -221,47 +221,47 @@ class Key(Operation):
     name: str
     single = False
 
-    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+    def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome; with an illegal target RESET_EN is illegal, even if it is to switch off."""
         if option not in BOTH or (self.name == "rsten" and operand not in TARGETS):
             return NOTHING
-        return Outcome(Effect(do=lambda desk, t: desk.program.enable(self.name, option, operand)))
+        return Outcome(Effect(action=lambda context, t: context.program.enable(self.name, option, operand)))
 
 
-def pin(desk: Desk, option: int) -> int | None:
+def pin(context: ExecutionContext, option: int) -> int | None:
     """Return source 1..7 of WAIT and CMP: inputs and EXT flags."""
     if option in range(1, 6):
-        return desk.levels["gpi"] >> option - 1 & 1
-    return int(desk.guard.latched(f"ext{option - 5}")) if option in (6, 7) else None
+        return context.levels["gpi"] >> option - 1 & 1
+    return int(context.stop_monitor.latched(f"ext{option - 5}")) if option in (6, 7) else None
 
 
-def waited(desk: Desk, option: int) -> int | None:
+def wait_source(context: ExecutionContext, option: int) -> int | None:
     """Return the source of WAIT, `None` for an illegal option."""
     if option == 8:
-        return int(desk.motion.busy)
-    return int(desk.guard.stall) if option == 9 else pin(desk, option)
+        return int(context.motion.busy)
+    return int(context.stop_monitor.stall) if option == 9 else pin(context, option)
 
 
-def compared(desk: Desk, option: int) -> int | None:
+def compare_source(context: ExecutionContext, option: int) -> int | None:
     """Return the source of CMP, `None` for an illegal option."""
     if option == 8:
-        return int(desk.program.counter)
-    return desk.levels["gpi"] if option == 9 else pin(desk, option)
+        return int(context.program.counter)
+    return context.levels["gpi"] if option == 9 else pin(context, option)
 
 
 END = End()
 TABLE: dict[int, Operation] = {
     0x00: END,
-    0x01: AsHost("s"),
-    0x02: AsHost("m"),
-    0x03: AsHost("d"),
-    0x04: AsHost("f", {0: 0, 1: 3}),
-    0x05: AsHost("g"),
-    0x06: AsHost("l"),
-    0x07: AsHost("b"),
+    0x01: HostInstruction("s"),
+    0x02: HostInstruction("m"),
+    0x03: HostInstruction("d"),
+    0x04: HostInstruction("f", {0: 0, 1: 3}),
+    0x05: HostInstruction("g"),
+    0x06: HostInstruction("l"),
+    0x07: HostInstruction("b"),
     0x08: Speed(),
-    0x09: AsHost("u", {given: min(given, 5) for given in range(7)}),
-    0x0A: AsHost("J"),
+    0x09: HostInstruction("u", {given: min(given, 5) for given in range(7)}),
+    0x0A: HostInstruction("J"),
     0x0B: Counter(True),
     0x0C: Counter(False),
     0x0D: Jump((0, 1)),

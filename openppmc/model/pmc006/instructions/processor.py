@@ -1,4 +1,4 @@
-"""Processor of the PMC006B4's user program: states, keys (P006 chapter 12)."""
+"""Processor of the PMC006B4's user program: states, keys (P006-PRG)."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from enum import Enum, auto
 from typing import Protocol
 
 from ...chip import Phase
-from ..desk import Desk, Effect
-from .operations import COUNT, Operation, Outcome, Then, decode, waited
+from ..execution_context import Effect, ExecutionContext
+from .operations import COUNT, NextAction, Operation, Outcome, decode, wait_source
 
 WORDS = 2 * COUNT
 
@@ -21,10 +21,10 @@ class State(Enum):
     HELD = auto()
 
 
-class Executes(Protocol):
+class ProgramExecutor(Protocol):
     """Members of the executor, which executes the instructions."""
 
-    def wake(self, t: int, afresh: bool = False) -> None:
+    def resume(self, t: int, restart: bool = False) -> None:
         """Continue the program after edge t."""
 
     def cancel(self, t: int) -> None:
@@ -40,8 +40,8 @@ class Processor:
         words: words of the program, two per instruction.
     """
 
-    def __init__(self, desk: Desk, executor: Executes) -> None:
-        self._desk, self._executor = desk, executor
+    def __init__(self, context: ExecutionContext, executor: ProgramExecutor) -> None:
+        self._context, self._executor = context, executor
         self.words = [0] * WORDS
         self.state = State.HALT
         self.paused = False
@@ -66,7 +66,7 @@ class Processor:
         """Start the program by instruction z or by autostart."""
         self.pc, self.state, self.paused = pc, State.RUN, False
         self.counter = self.flag = self.rsten = self.pauen = 0
-        self._executor.wake(t, afresh=True)
+        self._executor.resume(t, restart=True)
 
     def quit(self, t: int) -> None:
         """Execute instruction F 0."""
@@ -82,20 +82,20 @@ class Processor:
     def next(self) -> Outcome:
         """Return the outcome of the instruction at PC."""
         operation, option, operand = self.fetch(self.pc)
-        return operation(self._desk, option, operand)
+        return operation(self._context, option, operand)
 
-    def once(self, place: int) -> Effect:
+    def single_effect(self, place: int) -> Effect:
         """Return the effect of an instruction of the program that instruction E executes."""
         operation, option, operand = self.fetch(place)
-        return operation(self._desk, option, operand).effect if operation.single else Effect()
+        return operation(self._context, option, operand).effect if operation.single else Effect()
 
     def advance(self, outcome: Outcome) -> None:
         """Continue after the instruction at PC was executed."""
-        if outcome.then is Then.HALT:
+        if outcome.next_action is NextAction.HALT:
             self.state = State.HALT
-        elif outcome.then is Then.WAIT:
+        elif outcome.next_action is NextAction.WAIT:
             self.state = State.WAIT
-        elif outcome.then is Then.JUMP:
+        elif outcome.next_action is NextAction.JUMP:
             self.pc = outcome.target
         else:
             self._step()
@@ -107,19 +107,19 @@ class Processor:
         else:
             self.pc += 1
 
-    def passes(self) -> bool:
+    def wait_is_over(self) -> bool:
         """Return True if the condition of WAIT is fulfilled."""
         if self.state is not State.WAIT or self.paused:
             return False
         _, option, operand = self.fetch(self.pc)
-        return waited(self._desk, option) == operand & 1
+        return wait_source(self._context, option) == operand & 1
 
-    def pass_on(self, t: int) -> None:
+    def end_wait(self, t: int) -> None:
         """End WAIT, unless another event has changed the state."""
         if self.state is State.WAIT:
             self.state = State.RUN
             self._step()
-            self._executor.wake(t)
+            self._executor.resume(t)
 
     # ------------------------------------------------------------------ keys
 
@@ -133,10 +133,10 @@ class Processor:
         """Process a press of GPI1 (P006-PRG-31)."""
         if not self.rsten or self.state is State.HELD:
             return
-        self._desk.stop(t)
+        self._context.stop(t)
         if self.state is not State.HALT:
             self._executor.cancel(t)
-            self._desk.shared.queue.at(t, Phase.END, self._hold)
+            self._context.services.queue.at(t, Phase.END, self._hold)
 
     def _hold(self, t: int) -> None:
         """Change to HELD after all other events of this edge."""
@@ -147,15 +147,15 @@ class Processor:
         """Process the release of GPI1."""
         if self.state is State.HELD:
             self.state = State.RUN
-            self._executor.wake(t)
+            self._executor.resume(t)
 
     def pause_key(self, t: int) -> None:
         """Process a press of GPI2 (P006-PRG-32)."""
         if self.pauen and self.state in (State.RUN, State.WAIT):
-            self._desk.shared.queue.at(t, Phase.END, self._pause)
+            self._context.services.queue.at(t, Phase.END, self._pause)
 
     def _pause(self, t: int) -> None:
         """Change PAUSED after all other events of this edge."""
         if self.state in (State.RUN, State.WAIT):
             self.paused = not self.paused
-            self._executor.wake(t)
+            self._executor.resume(t)

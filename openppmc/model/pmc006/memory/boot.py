@@ -1,13 +1,13 @@
-"""Power-up of the PMC006B4: restore key, bus, parameters, program (P006 chapter 13.2)."""
+"""Power-up of the PMC006B4: restore key, bus, parameters, program (docs/pmc006/README.md, 14 EEPROM)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 from ...chip import Phase
-from ..desk import Desk
+from ..execution_context import ExecutionContext
 from ..settings import PAGE, Settings, framed, values_of
-from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, Course, Engine
+from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, BusSequence, Engine
 
 
 def program_of(block: bytes) -> list[int] | None:
@@ -31,28 +31,28 @@ class Boot:
 
     def __init__(
         self,
-        desk: Desk,
+        context: ExecutionContext,
         engine: Engine,
         bus: Bus,
         ended: Callable[[int, bool], None],
         stored: Callable[[int], None],
     ) -> None:
-        self._desk, self._engine, self._bus = desk, engine, bus
+        self._context, self._engine, self._bus = context, engine, bus
         self._ended, self._stored = ended, stored
-        self._restoring = self._owed = self._whole = False
+        self._restoring = self._restore_pending = self._whole = False
         self._loaded = self._copied = False
         self._page, self._rest = bytearray(PAGE), bytearray(MARK + 1 - PROGRAM)
 
     def begin(self, t: int) -> None:
         """Begin at edge t, the first internal edge."""
-        self._engine.run(t, "boot", self._course(), self._read)
+        self._engine.run(t, "boot", self._read_sequence(), self._process_program)
 
     def restore(self, t: int) -> None:
         """Process FSET, which was low for the required time (P006-EEP-21)."""
-        self._restoring = self._owed = True
-        self._take(t, vars(Settings()))
+        self._restoring = self._restore_pending = True
+        self._apply(t, vars(Settings()))
 
-    def _course(self) -> Course[None]:
+    def _read_sequence(self) -> BusSequence[None]:
         yield
         while not self._bus.level("fset_n") and not self._restoring:
             yield
@@ -63,60 +63,62 @@ class Boot:
         yield from self._engine.fetch(PROGRAM, len(self._rest), self._rest.__setitem__)
         self._whole = True
 
-    def _course_of_copy(self) -> Course[None]:
+    def _copy_read_sequence(self) -> BusSequence[None]:
         """Read the copy into the buffer of page 0, which is invalid."""
         yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
         self._whole = True
 
     # ------------------------------------------------------------------ processing of the data
 
-    def _read(self, t: int) -> None:
+    def _process_program(self, t: int) -> None:
         """Process the program; the bus has been idle for one cycle."""
         words = program_of(bytes(self._rest)) if self._whole else None
         self._valid = words is not None
-        self._desk.program.words[:] = words or [0] * (SIZE // 4)
-        pace = self._desk.shared.pace
-        self._at(t + (pace.kept if self._valid else pace.wiped), self._judge)
+        self._context.program.words[:] = words or [0] * (SIZE // 4)
+        core_timing = self._context.services.core_timing
+        self._at(
+            t + (core_timing.program_kept if self._valid else core_timing.program_cleared), self._check_page
+        )
 
-    def _judge(self, t: int) -> None:
+    def _check_page(self, t: int) -> None:
         """Check the parameter block; the program is stored."""
         if self._whole and framed(bytes(self._page)) and not self._restoring:
-            self._at(t + self._desk.shared.pace.fields, self._load)
+            self._at(t + self._context.services.core_timing.fields, self._load)
         else:
-            self._settle(t)
+            self._schedule_finish(t)
 
     def _load(self, t: int) -> None:
         """Load the parameters; their fields have been checked."""
         values = values_of(bytes(self._page))
         if values is None or self._restoring:
-            self._settle(t)
+            self._schedule_finish(t)
             return
         self._loaded = True
-        pace = self._desk.shared.pace
-        self._at(t + pace.trigm, lambda now: self._store(now, values))
-        self._at(t + pace.fields, self._settle)
+        core_timing = self._context.services.core_timing
+        self._at(t + core_timing.trigm, lambda now: self._store(now, values))
+        self._at(t + core_timing.fields, self._schedule_finish)
 
     def _store(self, t: int, values: dict[str, int]) -> None:
         if not self._restoring:
-            self._take(t, values)
+            self._apply(t, values)
 
-    def _take(self, t: int, values: dict[str, int]) -> None:
-        self._desk.settings.load(values)
+    def _apply(self, t: int, values: dict[str, int]) -> None:
+        self._context.settings.load(values)
         self._stored(t)
 
-    def _settle(self, t: int) -> None:
+    def _schedule_finish(self, t: int) -> None:
         self._at(t + 1, self._finish)
 
     def _finish(self, t: int) -> None:
         """End the sequence, start a restore that was requested before the end, or read the copy."""
-        if self._owed:
-            self._owed = False
-            self._engine.run(t + 1, "fact", self._engine.fact(), self._settle)
+        if self._restore_pending:
+            self._restore_pending = False
+            self._engine.run(t + 1, "fact", self._engine.fact(), self._schedule_finish)
         elif self._whole and not (self._loaded or self._copied or self._restoring):
             self._copied, self._whole = True, False
-            self._engine.run(t + 1, "boot", self._course_of_copy(), self._read)
+            self._engine.run(t + 1, "boot", self._copy_read_sequence(), self._process_program)
         else:
             self._ended(t, self._valid)
 
     def _at(self, t: int, action: Callable[[int], None]) -> None:
-        self._desk.shared.queue.at(t, Phase.STORE, action)
+        self._context.services.queue.at(t, Phase.STORE, action)

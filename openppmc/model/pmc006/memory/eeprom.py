@@ -1,4 +1,4 @@
-"""EEPROM engine of the PMC006B4: power-up read, save, burn and restore (P006 chapter 13)."""
+"""EEPROM engine of the PMC006B4: power-up read, save, burn and restore (P006-EEP)."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from math import ceil
 from typing import TypeVar
 
 from ...chip import Phase
-from ..desk import Desk
-from ..pins import Shared, Ticks
+from ..execution_context import ExecutionContext
+from ..pins import Services, Ticks
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 
-# I2C master of the PMC006B4 with a resolution of quarter bits (P006 chapter 13.1). The actions of a master
-# are generators: each `yield` waits for the next quarter tick, and the code after it runs at the edge of this
-# tick.
+# I2C master of the PMC006B4 with a resolution of quarter bits (docs/pmc006/README.md, 14). The actions of a
+# master are generators: each `yield` waits for the next quarter tick, and the code after it runs at the edge
+# of this tick.
 
 R = TypeVar("R")
-Course = Generator[None, None, R]
+BusSequence = Generator[None, None, R]
 LOW = Fraction(55, 100)
 """Part of a period for which SCL is low: slightly more than two quarters."""
 
@@ -36,10 +36,10 @@ class Bus:
         per_ms: quarter ticks of a millisecond.
     """
 
-    def __init__(self, shared: Shared, levels: Mapping[str, int], hz: int) -> None:
-        self._shared, self._levels = shared, levels
-        self._ticks = Ticks(shared.clk_hz, 4 * hz, shared.us.origin)
-        self._late = ceil(Fraction(LOW * shared.clk_hz, hz)) - shared.clk_hz // (2 * hz)
+    def __init__(self, services: Services, levels: Mapping[str, int], hz: int) -> None:
+        self._services, self._levels = services, levels
+        self._ticks = Ticks(services.clk_hz, 4 * hz, services.us.origin)
+        self._scl_low_cycles = ceil(Fraction(LOW * services.clk_hz, hz)) - services.clk_hz // (2 * hz)
         self.hz = hz
         self.tick = 0
 
@@ -50,23 +50,23 @@ class Bus:
 
     # ------------------------------------------------------------------ time
 
-    def begin(self, t: int, course: Course[None], ended: Callable[[int], None]) -> None:
-        """Run a course from the first tick at or after edge t. ended(t): called at its last tick."""
-        next(course)
-        self._wait(self._ticks.first(t), course, ended)
+    def begin(self, t: int, sequence: BusSequence[None], ended: Callable[[int], None]) -> None:
+        """Run a sequence from the first tick at or after edge t. ended(t): called at its last tick."""
+        next(sequence)
+        self._wait(self._ticks.first(t), sequence, ended)
 
-    def _wait(self, tick: int, course: Course[None], ended: Callable[[int], None]) -> None:
+    def _wait(self, tick: int, sequence: BusSequence[None], ended: Callable[[int], None]) -> None:
         at = self._ticks.edge_of(tick)
-        self._shared.queue.at(at, Phase.FLAG, lambda now: self._resume(now, tick, course, ended))
+        self._services.queue.at(at, Phase.FLAG, lambda now: self._resume(now, tick, sequence, ended))
 
-    def _resume(self, t: int, tick: int, course: Course[None], ended: Callable[[int], None]) -> None:
+    def _resume(self, t: int, tick: int, sequence: BusSequence[None], ended: Callable[[int], None]) -> None:
         self.tick, self._now = tick, t
         try:
-            next(course)
+            next(sequence)
         except StopIteration:
             ended(t)
         else:
-            self._wait(tick + 1, course, ended)
+            self._wait(tick + 1, sequence, ended)
 
     # ------------------------------------------------------------------ lines
 
@@ -74,20 +74,20 @@ class Bus:
         """Return the level of a pin."""
         return self._levels[pin]
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """Release both lines."""
         self._drive("scl", 1)
         self._drive("sda", 1)
 
     def _drive(self, line: str, level: int) -> None:
-        self._shared.log.set(self._now, f"{line}_oe", int(not level))
+        self._services.log.set(self._now, f"{line}_oe", int(not level))
 
-    def _release(self) -> None:
+    def _release_scl(self) -> None:
         """Release SCL when it was low for the required time."""
-        at = self._now + self._late
-        self._shared.queue.at(at, Phase.PIN, lambda now: self._shared.log.set(now, "scl_oe", 0))
+        at = self._now + self._scl_low_cycles
+        self._services.queue.at(at, Phase.PIN, lambda now: self._services.log.set(now, "scl_oe", 0))
 
-    def _rise(self) -> Course[None]:
+    def _rise(self) -> BusSequence[None]:
         """Wait until SCL is high; a device may hold it low for a millisecond."""
         for _ in range(self.per_ms + 1):
             yield
@@ -97,12 +97,12 @@ class Bus:
 
     # ------------------------------------------------------------------ actions of a master
 
-    def start(self) -> Course[None]:
+    def start(self) -> BusSequence[None]:
         """Send a START, also a repeated one."""
         yield
         self._drive("sda", 1)
         yield
-        self._release()
+        self._release_scl()
         yield from self._rise()
         yield
         self._drive("sda", 0)
@@ -110,37 +110,37 @@ class Bus:
         yield
         self._drive("scl", 0)
 
-    def stop(self) -> Course[None]:
+    def stop(self) -> BusSequence[None]:
         """Send a STOP."""
         yield
         self._drive("scl", 0)
         self._drive("sda", 0)
         yield
-        self._release()
+        self._release_scl()
         yield from self._rise()
         yield
         self._drive("sda", 1)
         yield
         yield
 
-    def bit(self, level: int) -> Course[int]:
+    def bit(self, level: int) -> BusSequence[int]:
         """Send a bit, or receive one (level 1)."""
         yield
-        got = yield from self._bit_now(level)
+        received = yield from self._bit_now(level)
         yield
         self._drive("scl", 0)
-        return got
+        return received
 
-    def _bit_now(self, level: int) -> Course[int]:
+    def _bit_now(self, level: int) -> BusSequence[int]:
         """Send or receive a bit, from its first tick to the one that samples."""
         self._drive("scl", 0)
         self._drive("sda", level)
         yield
-        self._release()
+        self._release_scl()
         yield from self._rise()
         return self._levels["sda_i"]
 
-    def write(self, byte: int | Callable[[], int]) -> Course[bool]:
+    def write(self, byte: int | Callable[[], int]) -> BusSequence[bool]:
         """Send a byte; return True if it was acknowledged.
 
         Args:
@@ -157,7 +157,7 @@ class Bus:
             self._drive("scl", 0)
         return not (yield from self.bit(1))
 
-    def read(self, last: bool) -> Course[int]:
+    def read(self, last: bool) -> BusSequence[int]:
         """Receive a byte; the last one is not acknowledged."""
         byte = 0
         for _ in range(8):
@@ -165,16 +165,16 @@ class Bus:
         yield from self.bit(int(last))
         return byte
 
-    def clear(self) -> Course[None]:
-        """Send up to 9 pulses of SCL for a device that holds SDA, then STOP (13.2, step 2)."""
+    def clear(self) -> BusSequence[None]:
+        """Send up to 9 pulses of SCL for a device that holds SDA, then STOP (docs/pmc006/README.md, 14)."""
         for _ in range(8):
             if (yield from self.bit(1)):
                 break
         else:
             yield
-            got = yield from self._bit_now(1)
+            received = yield from self._bit_now(1)
             yield
-            if not got:
+            if not received:
                 raise BusError
             self._drive("scl", 0)
         yield from self.stop()
@@ -201,8 +201,8 @@ class Engine:
         failed: True if the last job except BOOT ended without a response of the device.
     """
 
-    def __init__(self, desk: Desk, bus: Bus, device: int) -> None:
-        self._desk, self._bus, self._device = desk, bus, device
+    def __init__(self, context: ExecutionContext, bus: Bus, device: int) -> None:
+        self._context, self._bus, self._device = context, bus, device
         self._kind: str | None = None
         self._restore = False
         self.failed = False
@@ -230,29 +230,29 @@ class Engine:
 
     def begin(self, t: int, kind: str) -> None:
         """Start t, B, or the restore of the parameters at edge t; the engine is idle."""
-        course = {"save": self._save, "burn": self._burn, "fact": self.fact}[kind]
-        self.run(t, kind, course())
+        sequence = {"save": self._save, "burn": self._burn, "fact": self.fact}[kind]
+        self.run(t, kind, sequence())
 
     def run(
-        self, t: int, kind: str, course: Course[None], ended: Callable[[int], None] | None = None
+        self, t: int, kind: str, sequence: BusSequence[None], ended: Callable[[int], None] | None = None
     ) -> None:
-        """Run a course as a job from edge t on. Any error ends the job.
+        """Run a sequence as a job from edge t on. Any error ends the job.
 
         ended(t): called when the bus has been idle for one cycle; the engine stays busy.
         """
         self._kind = kind
         self.failed = False
 
-        def guarded() -> Course[None]:
+        def guarded() -> BusSequence[None]:
             try:
-                yield from course
+                yield from sequence
             except BusError:
-                self._bus.let_go()
+                self._bus.release()
                 self.failed = kind != "boot"
 
         def last(now: int) -> None:
-            at = now + 1 if ended else now + self._desk.shared.pace.job
-            self._desk.shared.queue.at(at, Phase.STORE, ended or self._end)
+            at = now + 1 if ended else now + self._context.services.core_timing.job
+            self._context.services.queue.at(at, Phase.STORE, ended or self._end)
 
         self._bus.begin(t, guarded(), last)
 
@@ -265,27 +265,27 @@ class Engine:
     def restore(self, t: int) -> None:
         """Process FSET after all other events of edge t (P006-EEP-22)."""
         if self._kind is None:
-            self.begin(t + self._desk.shared.pace.fact, "fact")
+            self.begin(t + self._context.services.core_timing.fact, "fact")
         else:
             self._restore = True
 
-    def _save(self) -> Course[None]:
+    def _save(self) -> BusSequence[None]:
         """Save both pages (P006-EEP-10).
 
         Each register is saved with its value at the time when it is sent.
         """
         for place in (COPY, 0):
-            yield from self._page(place, PAGE, sent(self._desk.settings).__next__)
+            yield from self._page(place, PAGE, sent(self._context.settings).__next__)
 
-    def fact(self) -> Course[None]:
+    def fact(self) -> BusSequence[None]:
         """Write the factory page (P006-EEP-22)."""
         for place in (COPY, 0):
             yield from self._page(place, PAGE, iter(FACTORY_PAGE).__next__)
 
-    def _burn(self) -> Course[None]:
+    def _burn(self) -> BusSequence[None]:
         """Write the program, which is valid only after its last byte (P006-EEP-11)."""
         yield from self._page(MARK, 1, lambda: 0)
-        code = b"".join(word.to_bytes(4, "little") for word in self._desk.program.words)
+        code = b"".join(word.to_bytes(4, "little") for word in self._context.program.words)
         content = iter(code)
         for place in range(0, SIZE, PAGE):
             yield from self._page(PROGRAM + place, PAGE, content.__next__)
@@ -294,14 +294,14 @@ class Engine:
 
     # ------------------------------------------------------------------ device
 
-    def _send(self, *data: int | Callable[[], int]) -> Course[None]:
+    def _send(self, *data: int | Callable[[], int]) -> BusSequence[None]:
         """Send bytes that must all be acknowledged."""
         for byte in data:
             if not (yield from self._bus.write(byte)):
                 yield from self._bus.stop()
                 raise BusError
 
-    def poll(self) -> Course[None]:
+    def poll(self) -> BusSequence[None]:
         """Address the device until it responds, for at most 10 ms."""
         first: int | None = None
         while first is None or self._bus.tick + 1 - first < POLL_MS * self._bus.per_ms:
@@ -313,7 +313,7 @@ class Engine:
                 return
         raise BusError
 
-    def _page(self, address: int, count: int, data: Callable[[], int]) -> Course[None]:
+    def _page(self, address: int, count: int, data: Callable[[], int]) -> BusSequence[None]:
         """Write within a page, then poll until the device responds again.
 
         Args:
@@ -325,7 +325,7 @@ class Engine:
         yield from self._bus.stop()
         yield from self.poll()
 
-    def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> Course[None]:
+    def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> BusSequence[None]:
         """Read bytes from any address; store(place, byte) is called for each."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)

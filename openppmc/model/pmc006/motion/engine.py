@@ -43,12 +43,12 @@ def by_coefficient(change: int, n: int) -> int:
     return min(WHOLE, WHOLE * acceleration(n) // (UPDATES_HZ * change))
 
 
-def by_distance(v: int, ve: int, left: int) -> int:
+def by_distance(v: int, ve: int, steps_left: int) -> int:
     """Return the progress per update of a ramp from v to ve (P006-MOT-11).
 
-    The ramp ends `SPARE` steps before `left`.
+    The ramp ends `SPARE` steps before `steps_left`.
     """
-    way = max(1, left - SPARE)
+    way = max(1, steps_left - SPARE)
     return min(WHOLE, up(WHOLE * (v + ve), 2 * UPDATES_HZ * way))
 
 
@@ -57,15 +57,15 @@ def margin(v: int) -> int:
     return 4 + v // 4096
 
 
-def way(fast: int, slow: int, n: int) -> int:
+def ramp_steps(fast: int, slow: int, n: int) -> int:
     """Return the steps between two speeds at coefficient n, rounded up; fast >= slow."""
     return up((fast + slow) * (fast - slow), 2 * acceleration(n))
 
 
 @lru_cache(maxsize=1 << 14)
-def reach(v: int, ve: int, n: int) -> int:
+def stopping_distance(v: int, ve: int, n: int) -> int:
     """Return the stopping distance from v > ve (P006-MOT-15)."""
-    return way(v, ve, n) + margin(v)
+    return ramp_steps(v, ve, n) + margin(v)
 
 
 class Ramp(NamedTuple):
@@ -104,7 +104,7 @@ def plan(n: int, vs: int, ve: int, target: int, acc: int, dec: int) -> Plan:
     rest = n - margin(target) - 4
     for lift in range(STEEPEST + 1):
         a, d = min(STEEPEST, acc + lift), min(STEEPEST, dec + lift)
-        if way(target, vs, a) + way(target, ve, d) <= rest:
+        if ramp_steps(target, vs, a) + ramp_steps(target, ve, d) <= rest:
             return Plan(target, a, d)
     peak = isqrt(acceleration(STEEPEST) * rest + (vs * vs + ve * ve) // 2)
     return Plan(min(target, peak), STEEPEST, STEEPEST)
@@ -131,7 +131,7 @@ FREE = (Stage.RAMP, Stage.CRUISE)
 NEXT = {Stage.RAMP: Stage.CRUISE, Stage.DEC: Stage.CREEP, Stage.STOP: Stage.END}
 
 
-class Order(NamedTuple):
+class MotionStart(NamedTuple):
     """Values that a motion latches at its start.
 
     Attributes:
@@ -150,7 +150,7 @@ class Order(NamedTuple):
     dec: int
 
 
-class Live(NamedTuple):
+class LiveRegisters(NamedTuple):
     """Registers that `advance` reads.
 
     Attributes:
@@ -167,39 +167,39 @@ class Live(NamedTuple):
 class Engine:
     """One motion.
 
-    Per update, call `load`, `segment`, then `advance` unless `over`. At t = 0, call `advance`, then
+    Per update, call `load`, `segment`, then `advance` unless `finished`. At t = 0, call `advance`, then
     `segment(99)`.
 
     Attributes:
         speed: current V.
-        following: V of the next update.
-        left: remaining steps, `None` without an end.
-        braked: (left, speed) at which the last deceleration began, `None` before it.
+        next_speed: V of the next update.
+        steps_left: remaining steps, `None` without an end.
+        decel_start: (steps_left, speed) at which the last deceleration began, `None` before it.
     """
 
-    def __init__(self, order: Order) -> None:
-        self.order = order
-        self.left = order.n
-        self.acc, self.dec = order.acc, order.dec
-        self.over = False
+    def __init__(self, request: MotionStart) -> None:
+        self.request = request
+        self.steps_left = request.n
+        self.acc, self.dec = request.acc, request.dec
+        self.finished = False
         self.stage = Stage.CRUISE
-        self.braked: tuple[int, int] | None = None
-        self._target = order.target
+        self.decel_start: tuple[int, int] | None = None
+        self._target = request.target
         self._phase = 0
         self._progress = 0
-        self._before = order.n
-        self.short = order.n is not None and order.n < SHORT
-        self.speed = order.vs if self.short else min(order.vs, order.target)
-        self.following = self.goal = self.speed
+        self._before = request.n
+        self.short = request.n is not None and request.n < SHORT
+        self.speed = request.vs if self.short else min(request.vs, request.target)
+        self.next_speed = self.goal = self.speed
         if self.short:
-            self._begin_short(order.vs, order.ve, order.n or 0)
+            self._begin_short(request.vs, request.ve, request.n or 0)
         else:
-            self._begin(order)
+            self._begin(request)
 
-    def _begin(self, order: Order) -> None:
-        goal = order.target
-        if order.n is not None:
-            goal, self.acc, self.dec = plan(order.n, order.vs, order.ve, goal, order.acc, order.dec)
+    def _begin(self, request: MotionStart) -> None:
+        goal = request.target
+        if request.n is not None:
+            goal, self.acc, self.dec = plan(request.n, request.vs, request.ve, goal, request.acc, request.dec)
         if goal != self.speed:
             self._ramp(Stage.RAMP, goal, by_coefficient(abs(goal - self.speed), self.acc))
 
@@ -211,62 +211,62 @@ class Engine:
 
     def _ramp(self, stage: Stage, goal: int, rate: int, smooth: bool = True) -> None:
         self.stage, self.goal, self._progress = stage, goal, 0
-        self._line = Ramp(self.speed, goal, rate, smooth)
+        self._curve = Ramp(self.speed, goal, rate, smooth)
 
     # ------------------------------------------------------------------ steps
 
     def load(self) -> None:
         """Begin an update: the new speed becomes active."""
-        self.speed = self.following
+        self.speed = self.next_speed
 
     def segment(self, ticks: int = UPDATE) -> Sequence[int]:
         """Return the steps of the next `ticks` us at the current speed, as 1 .. ticks.
 
-        The last step of the motion sets `over`.
+        The last step of the motion sets `finished`.
         """
         count, rest = divmod(self._phase + ticks * self.speed, SECOND)
-        self._before = self.left
+        self._before = self.steps_left
         if not count:
             self._phase = rest
             return ()
-        made = [-((self._phase - k * SECOND) // self.speed) for k in range(1, count + 1)]
+        steps = [-((self._phase - k * SECOND) // self.speed) for k in range(1, count + 1)]
         self._phase = rest
-        if self.left is not None:
-            self.over = len(made) >= self.left
-            made = made[: self.left]
-            self._before = self.left - (made[0] == 1)
-            self.left -= len(made)
-        return made
+        if self.steps_left is not None:
+            self.finished = len(steps) >= self.steps_left
+            steps = steps[: self.steps_left]
+            self._before = self.steps_left - (steps[0] == 1)
+            self.steps_left -= len(steps)
+        return steps
 
     # ------------------------------------------------------------------ speed
 
-    def advance(self, live: Live) -> None:
-        """Calculate `following` (P006 5.5).
+    def advance(self, live: LiveRegisters) -> None:
+        """Calculate `next_speed` (docs/pmc006/README.md, 6.1 Exact arithmetic).
 
         In an update, call it after the first us was processed, and before the second one.
         """
         if self.stage in (Stage.STOP, Stage.END) and not live.stop:
             self.stage, self._target = Stage.CRUISE, self.speed
         if self.stage in FREE and not self.short:
-            if self.order.n is None and live.stop:
-                self._brake_to_end()
+            if self.request.n is None and live.stop:
+                self._end_speed_mode()
             else:
-                self._aim(live)
-                self._brake()
+                self._change_target(live)
+                self._begin_final_decel()
         if self.stage in NEXT:
-            self._climb()
+            self._advance_ramp()
         elif self.stage is not Stage.END:
-            self.following = self.speed
+            self.next_speed = self.speed
 
-    def _brake_to_end(self) -> None:
+    def _end_speed_mode(self) -> None:
         """Decelerate after the speed mode was switched off (P006-MOT-41)."""
-        slow = self.order.ve
+        slow = self.request.ve
         if self.speed <= slow:
             self.stage = Stage.END
         else:
             self._ramp(Stage.STOP, slow, by_coefficient(self.speed - slow, self.dec))
 
-    def _aim(self, live: Live) -> None:
+    def _change_target(self, live: LiveRegisters) -> None:
         """Begin a ramp to a new target (P006-MOT-30)."""
         if live.target == self._target:
             return
@@ -278,16 +278,20 @@ class Engine:
         else:
             self.stage = Stage.CRUISE
 
-    def _brake(self) -> None:
+    def _begin_final_decel(self) -> None:
         """Begin the final deceleration of a displacement if it is required."""
-        slow, left = self.order.ve, self._before
-        if left is not None and self.speed > slow and left <= reach(self.speed, slow, self.dec):
-            self.braked = (left, self.speed)
-            self._ramp(Stage.DEC, slow, by_distance(self.speed, slow, left))
+        slow, steps_left = self.request.ve, self._before
+        if (
+            steps_left is not None
+            and self.speed > slow
+            and steps_left <= stopping_distance(self.speed, slow, self.dec)
+        ):
+            self.decel_start = (steps_left, self.speed)
+            self._ramp(Stage.DEC, slow, by_distance(self.speed, slow, steps_left))
 
-    def _climb(self) -> None:
-        self._progress += self._line.rate
+    def _advance_ramp(self) -> None:
+        self._progress += self._curve.rate
         if self._progress >= WHOLE:
-            self.following, self.stage = self._line.goal, NEXT[self.stage]
+            self.next_speed, self.stage = self._curve.goal, NEXT[self.stage]
         else:
-            self.following = self._line.at(self._progress)
+            self.next_speed = self._curve.at(self._progress)

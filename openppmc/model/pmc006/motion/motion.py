@@ -14,24 +14,24 @@ from typing import Protocol
 
 from ...chip import Phase
 from ...clock import Callback, Event
-from ..desk import Desk
-from ..pins import Shared
-from .engine import UPDATE, Engine, Live, Order, Stage
+from ..execution_context import ExecutionContext
+from ..pins import Services
+from .engine import UPDATE, Engine, LiveRegisters, MotionStart, Stage
 
-# Guard of the PMC006B4: emergency inputs and the stall detector (P006 chapters 4.3, 7.1, 7.2).
+# Stop monitor of the PMC006B4: emergency inputs and the stall detector (P006-EXT, P006-STL).
 
 EXTS = ("ext1", "ext2")
 
 
-class Guard:
+class StopMonitor:
     """Emergency inputs and stall detector.
 
     Attributes:
         stall, stpos: the flag STALL, and the position at which it was set.
     """
 
-    def __init__(self, desk: Desk) -> None:
-        self._desk, self._queue, self._regs = desk, desk.shared.queue, desk.settings
+    def __init__(self, context: ExecutionContext) -> None:
+        self._context, self._queue, self._regs = context, context.services.queue, context.settings
         self._level = dict.fromkeys(EXTS, 1)
         self._set_at: dict[str, int] = {}
         self._flags = dict.fromkeys(EXTS, False)
@@ -51,13 +51,13 @@ class Guard:
 
     # ------------------------------------------------------------------ emergency inputs
 
-    def see(self, t: int, levels: Mapping[str, int]) -> None:
+    def on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         """Compare synchronised levels at edge t with those of the previous cycle (P006-EXT-04)."""
         for place, ext in enumerate(EXTS):
             before, self._level[ext] = self._level[ext], levels[ext]
-            wanted = self._regs.trigm >> place & 1
-            if levels[ext] != before and levels[ext] == wanted and self._regs.exten >> place & 1:
-                self._desk.stop(t)
+            active_level = self._regs.trigm >> place & 1
+            if levels[ext] != before and levels[ext] == active_level and self._regs.exten >> place & 1:
+                self._context.stop(t)
                 self._queue.at(t, Phase.FLAG, self._setter(ext))
 
     def _setter(self, ext: str) -> Callback:
@@ -69,10 +69,10 @@ class Guard:
     # ------------------------------------------------------------------ stall
 
     @property
-    def _watches(self) -> bool:
+    def _is_monitoring(self) -> bool:
         """True if a sample is evaluated (P006-STL-01)."""
-        motion = self._desk.motion
-        return bool(self._regs.stcfg & 1) and not self.stall and motion.busy and motion.steady
+        motion = self._context.motion
+        return bool(self._regs.stcfg & 1) and not self.stall and motion.busy and motion.at_constant_speed
 
     def strobe(self, t: int, valid: int, level: int) -> None:
         """Process the levels of the pins that edge t samples."""
@@ -88,29 +88,29 @@ class Guard:
             self._queue.at(t + 1, Phase.COMMAND, lambda now: self._evaluate(now, below))
 
     def _evaluate(self, t: int, below: bool) -> None:
-        watches = self._watches
-        self._count = self._count + 1 if watches and below else 0
-        if watches and self._count >= max(1, self._regs.stlen):
-            position = self._desk.position
+        monitoring = self._is_monitoring
+        self._count = self._count + 1 if monitoring and below else 0
+        if monitoring and self._count >= max(1, self._regs.stlen):
+            position = self._context.position
             self._queue.at(t, Phase.FLAG, lambda now: self._stalled(now, position))
             if self._regs.stcfg & 2:
-                self._desk.stop(t)
-        elif watches and self._valid:
+                self._context.stop(t)
+        elif monitoring and self._valid:
             # A strobe that stays high is a sample in every cycle.
             self._sample(t)
 
     def _stalled(self, t: int, position: int) -> None:
         self.stall, self.stpos, self._set_at["stall"] = True, position, t
 
-    def look(self, t: int) -> None:
+    def evaluate(self, t: int) -> None:
         """Process the state after edge t."""
-        if self._valid and self._sampled < t and self._watches:
+        if self._valid and self._sampled < t and self._is_monitoring:
             self._sample(t)
-        if self.stall and self._regs.stcfg & 2 and self._desk.motion.busy:
-            self._queue.at(t + 1, Phase.QUEUE, self._desk.stop)
+        if self.stall and self._regs.stcfg & 2 and self._context.motion.busy:
+            self._queue.at(t + 1, Phase.QUEUE, self._context.stop)
 
     @property
-    def pull(self) -> bool:
+    def pulls_gpo5(self) -> bool:
         """True if STALL pulls GPO5."""
         return self.stall and bool(self._regs.stcfg & 4)
 
@@ -162,7 +162,7 @@ class Listener(Protocol):
         """Process a step at edge t."""
 
     def changed(self, t: int) -> None:
-        """Process a change of busy, b or w at edge t."""
+        """Process a change of busy, current_comp or lead_angle at edge t."""
 
 
 class Motion:
@@ -173,20 +173,20 @@ class Motion:
         ended: ended(t) is called when BUSY has fallen at edge t without a stop.
 
     Attributes:
-        busy, forward, b, w: levels after the last edge that was run.
+        busy, forward, current_comp, lead_angle: levels after the last edge that was run.
         increment: angle units per step.
-        steady: True at constant speed (P006-STL-01).
+        at_constant_speed: True at constant speed (P006-STL-01).
         tick: number of the us tick that is t = 0, `None` before the end of planning.
     """
 
     def __init__(
-        self, shared: Shared, stepped: Callable[[int, bool], None], ended: Callable[[int], None]
+        self, services: Services, stepped: Callable[[int, bool], None], ended: Callable[[int], None]
     ) -> None:
-        self._shared, self._stepped, self._ended = shared, stepped, ended
+        self._services, self._stepped, self._ended = services, stepped, ended
         self.listener: Listener | None = None
-        self.busy = self.steady = self._steady = False
+        self.busy = self.at_constant_speed = self._next_constant_speed = False
         self.forward = True
-        self.increment, self.b, self.w = 8, 0, 0
+        self.increment, self.current_comp, self.lead_angle = 8, 0, 0
         self.engine: Engine | None = None
         self.tick: int | None = None
         self._speed_mode = False
@@ -220,36 +220,36 @@ class Motion:
     def halt(self, t: int) -> None:
         """Stop immediately: BUSY falls at edge t, and a step at this edge is suppressed (P006-STA-10)."""
         if self.busy:
-            self._rest(t)
+            self._stop(t)
 
     # ------------------------------------------------------------------ start
 
     def _start(self, t: int, count: int | None) -> None:
-        shared, now = self._shared, self._shared.settings
+        services, now = self._services, self._services.settings
         self._copy = self._adc_read(t)
         target = self._target()
-        order = Order(count, now.vstart, now.vstop, target, now.acc, now.dec)
+        request = MotionStart(count, now.vstart, now.vstop, target, now.acc, now.dec)
         self.busy, self.forward = True, bool(now.dir)
         self._mstep = now.mstep
         self.increment = 128 // max(1, now.mstep)
-        self._following = (0, 0)
+        self._next_compensation = (0, 0)
         self._updates = 0
-        tick = shared.us.first(t + shared.pace.plan)
+        tick = services.us.first(t + services.core_timing.plan)
 
         def begin(at: int) -> None:
-            self.engine, self.tick = Engine(order), tick
+            self.engine, self.tick = Engine(request), tick
             self._advance(at)
             self._plan_steps(0, UPDATE - 1)
 
-        self._at(shared.us.edge_of(tick), Phase.RUN, begin)
-        self._tell(t)
+        self._at(services.us.edge_of(tick), Phase.RUN, begin)
+        self._notify(t)
 
     def _adc_read(self, t: int) -> int:
         return self._adc if t > self._adc_at else self._adc_before
 
     def _target(self) -> int:
         """Return the current target (P006-MOT-50, -51)."""
-        now = self._shared.settings
+        now = self._services.settings
         if not now.analog:
             return now.vmax
         return now.vmax * (self._copy + (self._copy >> 9)) >> 10
@@ -261,12 +261,12 @@ class Motion:
         engine = self.engine
         assert engine is not None
         if engine.stage is Stage.END and not self._speed_mode:
-            self._at(t + self._shared.pace.run_end, Phase.PULSE, self._end)
+            self._at(t + self._services.core_timing.run_end, Phase.PULSE, self._end)
             return
         engine.load()
-        if self._following != (self.b, self.w):
-            self.b, self.w = self._following
-            self._tell(t)
+        if self._next_compensation != (self.current_comp, self.lead_angle):
+            self.current_comp, self.lead_angle = self._next_compensation
+            self._notify(t)
         self._updates += 1
         if self._updates % ANALOG_UPDATES == 0:
             self._copy = self._adc_read(t)
@@ -278,31 +278,31 @@ class Motion:
 
         The call returns False if the first us contains the last step.
         """
-        engine, us, lag = self.engine, self._shared.us, self._shared.pace.step
+        engine, us, lag = self.engine, self._services.us, self._services.core_timing.step
         assert engine is not None and self.tick is not None
         first = self.tick + before
-        made = engine.segment(ticks)
-        for offset in made:
+        steps = engine.segment(ticks)
+        for offset in steps:
             self._at(us.edge_of(first + offset) + lag, Phase.PULSE, self._step)
-        if engine.over:
-            last = us.edge_of(first + made[-1]) + lag + self._shared.pace.move_end
+        if engine.finished:
+            last = us.edge_of(first + steps[-1]) + lag + self._services.core_timing.move_end
             self._at(last, Phase.BASE, self._end)
-            return made[-1] > 1
+            return steps[-1] > 1
         self._at(us.edge_of(first + ticks + 1), Phase.RUN, self._update)
         return True
 
     def _advance(self, t: int) -> None:
         """Calculate the values that the next update loads, from the registers before edge t."""
-        engine, now = self.engine, self._shared.settings
+        engine, now = self.engine, self._services.settings
         assert engine is not None
-        self._steady = engine.stage is Stage.CRUISE and engine.speed > 0
-        if self._steady != self.steady:
-            self._at(t, Phase.STORE, self._set_steady)
-        engine.advance(Live(self._target(), bool(now.analog), not self._speed_mode))
-        self._following = compensation(engine.speed, self._mstep, now.cur, now.ccomp, now.scomp)
+        self._next_constant_speed = engine.stage is Stage.CRUISE and engine.speed > 0
+        if self._next_constant_speed != self.at_constant_speed:
+            self._at(t, Phase.STORE, self._update_constant_speed)
+        engine.advance(LiveRegisters(self._target(), bool(now.analog), not self._speed_mode))
+        self._next_compensation = compensation(engine.speed, self._mstep, now.cur, now.ccomp, now.scomp)
 
-    def _set_steady(self, t: int) -> None:
-        self.steady = self._steady
+    def _update_constant_speed(self, t: int) -> None:
+        self.at_constant_speed = self._next_constant_speed
 
     # ------------------------------------------------------------------ steps and ends
 
@@ -312,19 +312,19 @@ class Motion:
         self._stepped(t, self.forward)
 
     def _end(self, t: int) -> None:
-        self._rest(t)
+        self._stop(t)
         self._ended(t)
 
-    def _rest(self, t: int) -> None:
+    def _stop(self, t: int) -> None:
         for event in self._events.values():
             event.cancel()
         self._events.clear()
-        self.busy = self.steady = self._speed_mode = False
-        self.b = self.w = 0
+        self.busy = self.at_constant_speed = self._speed_mode = False
+        self.current_comp = self.lead_angle = 0
         self.engine = self.tick = None
-        self._tell(t)
+        self._notify(t)
 
-    def _tell(self, t: int) -> None:
+    def _notify(self, t: int) -> None:
         if self.listener:
             self.listener.changed(t)
 
@@ -337,4 +337,4 @@ class Motion:
             del self._events[serial]
             action(at)
 
-        self._events[serial] = self._shared.queue.at(t, phase, act)
+        self._events[serial] = self._services.queue.at(t, phase, act)

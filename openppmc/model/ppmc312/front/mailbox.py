@@ -2,7 +2,7 @@
 
 Rules: P312-PAR-01..08, -12.
 
-Any host side has the members `offer`, `done`, `levels`, `ready` and `answer`.
+Any host side has the members `notify_response`, `done`, `levels`, `ready` and `answer`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Protocol
 from ...chip import Context, Phase
 from ...clock import EdgeLog, Event, Scheduler
 from ..codes import Source
-from ..pace import Pace
+from ..timing import CoreTiming
 from .responses import Responses
 
 # Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11). They belong to the pins, not to the
@@ -30,7 +30,7 @@ class Registers(Protocol):
     def store(self, t: int, reg: int, byte: int) -> None:
         """Process the end of a write strobe."""
 
-    def show(self, t: int, reg: int) -> int:
+    def read_value(self, t: int, reg: int) -> int:
         """Return the value that a read strobe outputs from edge t on."""
 
     def after_read(self, t: int, reg: int) -> None:
@@ -51,47 +51,47 @@ class Strobes:
         self._queue, self._log, self.registers = queue, log, registers
         self._pins: Mapping[str, int] = IDLE
         self._writing = self._reading = False
-        self._showing: int | None = None
+        self._read_register: int | None = None
         self._closed = -1
 
-    def replaced(self, t: int, registers: Registers) -> None:
+    def replace_registers(self, t: int, registers: Registers) -> None:
         """Replace the registers at edge t; the new ones are in reset at the next edge."""
         self.registers, self._closed = registers, t + 1
-        self._queue.at(t + 2, Phase.LEVELS, self._tell)
+        self._queue.at(t + 2, Phase.LEVELS, self._notify_access)
 
     def sample(self, t: int, pins: Mapping[str, int]) -> None:
         """Sample new levels of the bus pins at edge t (P312-PAR-10, -11)."""
         levels = {pin: pins[pin] for pin in IDLE}
-        self._queue.at(t + SYNC, Phase.BUS, lambda at: self._see(at, levels))
+        self._queue.at(t + SYNC, Phase.BUS, lambda at: self._on_levels(at, levels))
 
-    def _tell(self, t: int) -> None:
+    def _notify_access(self, t: int) -> None:
         reg = self._pins["rs"] if self._writing or self._reading else None
         self.registers.access(t, reg, self._writing)
 
-    def _see(self, t: int, pins: Mapping[str, int]) -> None:
+    def _on_levels(self, t: int, pins: Mapping[str, int]) -> None:
         """Process these levels, which decisions use from edge t on."""
-        chosen = not pins["cs_n"] and pins["we_n"] != pins["oe_n"]
-        writing, reading = bool(chosen and not pins["we_n"]), bool(chosen and not pins["oe_n"])
+        is_selected = not pins["cs_n"] and pins["we_n"] != pins["oe_n"]
+        writing, reading = bool(is_selected and not pins["we_n"]), bool(is_selected and not pins["oe_n"])
         is_open, old, wrote, was_reading = t > self._closed, self._pins, self._writing, self._reading
         self._writing, self._reading, self._pins = writing, reading, pins
         if is_open:
             if wrote and not writing:
                 self.registers.store(t, old["rs"], old["d_i"])
-            self._tell(t)
+            self._notify_access(t)
         if reading and not was_reading:
-            self._queue.at(t + 1, Phase.CHOPPER, self._show)
-        elif self._showing is not None and not reading:
-            reg, self._showing = self._showing, None
+            self._queue.at(t + 1, Phase.CHOPPER, self._load_output)
+        elif self._read_register is not None and not reading:
+            reg, self._read_register = self._read_register, None
             self._log.set(t, "d_oe", 0)
             if is_open:
                 self._queue.at(t, Phase.QUEUE, lambda at: self.registers.after_read(at, reg))
 
-    def _show(self, t: int) -> None:
+    def _load_output(self, t: int) -> None:
         """Load d_o from the register, once per strobe, at the second edge that has seen the strobe."""
-        if self._reading and self._showing is None:
-            self._showing = self._pins["rs"]
+        if self._reading and self._read_register is None:
+            self._read_register = self._pins["rs"]
             self._log.set(t, "d_oe", 1)
-            self._log.set(t, "d_o", self.registers.show(t, self._showing))
+            self._log.set(t, "d_o", self.registers.read_value(t, self._read_register))
 
 
 CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
@@ -107,9 +107,13 @@ class Mailbox:
     """
 
     def __init__(
-        self, context: Context, pace: Pace, responses: Responses, take: Callable[[int, bytes], None]
+        self,
+        context: Context,
+        core_timing: CoreTiming,
+        responses: Responses,
+        take: Callable[[int, bytes], None],
     ) -> None:
-        self._context, self._pace = context, pace
+        self._context, self._core_timing = context, core_timing
         self._responses, self._take = responses, take
         self._enables = 0
         self._armed = False
@@ -121,7 +125,7 @@ class Mailbox:
         self._at = 0
         self._free_from = 0
         self._loading: Event | None = None
-        self._picked = self._taken = False
+        self._selected = self._response_was_read = False
         self._accessing = False
         self._access_end = -(1 << 40)
         self._wait_until: int | None = None
@@ -139,11 +143,11 @@ class Mailbox:
     def _open(self, t: int) -> None:
         self._busy = False
 
-    def offer(self, t: int) -> None:
+    def notify_response(self, t: int) -> None:
         """Load a response that may wait from edge t on, if the window is free (P312-PAR-08)."""
-        if self._window or self._picked or self._loading:
+        if self._window or self._selected or self._loading:
             return
-        at = max(t + self._pace.load, self._free_from)
+        at = max(t + self._core_timing.load, self._free_from)
         self._loading = self._context.queue.at(at, Phase.PINS, self._load)
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
@@ -151,8 +155,8 @@ class Mailbox:
 
     def levels(self) -> dict[str, int]:
         """Return the internal level of irq_n."""
-        wants = (self._enables & EWIRQ and not self.mwef) or (self._enables & ERIRQ and self._window)
-        return {"irq_n": int(not wants)}
+        interrupt = (self._enables & EWIRQ and not self.mwef) or (self._enables & ERIRQ and self._window)
+        return {"irq_n": int(not interrupt)}
 
     @property
     def csr(self) -> int:
@@ -167,20 +171,22 @@ class Mailbox:
     def _load(self, t: int) -> None:
         """Select the response to load; the host can read it when its bytes are loaded."""
         self._loading = None
-        picked = self._responses.pick()
-        if picked is not None:
-            self._picked = True
-            self._context.queue.at(t + self._pace.show, Phase.STORE, lambda at: self._display(picked))
+        selected = self._responses.select()
+        if selected is not None:
+            self._selected = True
+            self._context.queue.at(
+                t + self._core_timing.show, Phase.STORE, lambda at: self._fill_window(selected)
+            )
 
-    def _display(self, block: bytes) -> None:
-        self._picked = False
+    def _fill_window(self, block: bytes) -> None:
+        self._selected = False
         self._window, self._at = block[::-1], 0
 
     # ------------------------------------------------------------------ strobes
 
-    def show(self, t: int, reg: int) -> int:
+    def read_value(self, t: int, reg: int) -> int:
         """Return the value that a read strobe outputs from edge t on."""
-        self._taken = bool(self._window)
+        self._response_was_read = bool(self._window)
         return self._register(reg)
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
@@ -190,7 +196,7 @@ class Mailbox:
         if self._accessing and not accessing:
             self._access_end = t
         elif accessing and not self._accessing:
-            gap = self._pace.wrq_fast
+            gap = self._core_timing.wrq_fast
             if self._context.datasheet:
                 gap = -(-19 * timebase.clk_hz // (2 * timebase.xtal_hz))
             over = self._access_end + gap
@@ -219,16 +225,16 @@ class Mailbox:
 
         A strobe that began before there was a response has read none of its bytes.
         """
-        if not self._taken:
+        if not self._response_was_read:
             return
         if reg == CONTROL:
             self._at = 0
         elif reg == READ:
             self._at += 1
             if self._at == len(self._window):
-                self._window, self._at, self._free_from = b"", 0, t + self._pace.reload
+                self._window, self._at, self._free_from = b"", 0, t + self._core_timing.reload
                 self._responses.read(t)
-                self.offer(t)
+                self.notify_response(t)
 
     # ------------------------------------------------------------------ write window
 

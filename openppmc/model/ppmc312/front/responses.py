@@ -1,6 +1,6 @@
 """Response store of the PPMC-312: eight classes of responses and reports (P312-RSP-10..22).
 
-The host side fetches one block at a time with `pick`, and calls `read` when the host has read it.
+The host side fetches one block at a time with `select`, and calls `read` when the host has read it.
 """
 
 from __future__ import annotations
@@ -43,26 +43,26 @@ class Responses:
     """Stores of all classes.
 
     Args:
-        offered: offered(t) is called when a new block may be loaded.
+        on_stored: on_stored(t) is called when a new block may be loaded.
         was_read: was_read(t, report, block) is called when the host has read a block, which report.blocks no
             longer contains.
-        holding: holding() returns True if a response is about to be stored.
+        response_pending: response_pending() returns True if a response is about to be stored.
 
     Attributes:
-        fresh: classes whose content is the state at the time of loading.
+        live_content: classes whose content is the state at the time of loading.
         serial: True in serial mode: a newer report of classes 3 to 5 replaces the older one, and no report
             waits for responses (P312-SER-21).
     """
 
     def __init__(
         self,
-        offered: Callable[[int], None],
+        on_stored: Callable[[int], None],
         was_read: Callable[[int, Report, bytes], None],
-        holding: Callable[[], bool],
+        response_pending: Callable[[], bool],
     ) -> None:
-        self._offered, self._was_read, self._holding = offered, was_read, holding
+        self._on_stored, self._was_read, self._response_pending = on_stored, was_read, response_pending
         self.serial = False
-        self.fresh: dict[int, Callable[[], bytes]] = {}
+        self.live_content: dict[int, Callable[[], bytes]] = {}
         self._stores: dict[int, list[Report]] = {kind: [] for kind in CLASSES}
         self.loaded: Report | None = None
 
@@ -86,7 +86,7 @@ class Responses:
                 return False
             self._stores[kind].clear()
         self._stores[kind].append(Report(kind, list(blocks), source))
-        self._offered(t)
+        self._on_stored(t)
         return True
 
     def report(self, t: int, kind: int, code: Answer, *content: int | bytes) -> bool:
@@ -98,13 +98,13 @@ class Responses:
         if not self.report(t, INPUT, Answer.INPUT_CHANGE, 0, data):
             self._stores[INPUT][1].blocks = [block(SPONTANEOUS, Answer.INPUT_CHANGE, 1, data)]
 
-    def withdraw(self, kind: int) -> None:
+    def discard(self, kind: int) -> None:
         """Discard the reports of a class that are not loaded."""
         self._stores[kind] = [report for report in self._stores[kind] if report is self.loaded]
 
     # ------------------------------------------------------------------ methods that the host side calls
 
-    def pick(self) -> bytes | None:
+    def select(self) -> bytes | None:
         """Return the next block for the host (P312-RSP-11).
 
         The block is that of the waiting class with the lowest number.
@@ -112,21 +112,21 @@ class Responses:
         While a response is about to be stored, reports of classes 3 to 8 wait for it.
         """
         for kind in CLASSES:
-            if self._stores[kind] and (kind <= ANSWER or self.serial or not self._holding()):
+            if self._stores[kind] and (kind <= ANSWER or self.serial or not self._response_pending()):
                 self.loaded = self._stores[kind][0]
-                if kind in self.fresh:
-                    self.loaded.blocks = [self.fresh[kind]()]
+                if kind in self.live_content:
+                    self.loaded.blocks = [self.live_content[kind]()]
                 return self.loaded.blocks[0]
         return None
 
     @property
-    def alarmed(self) -> bool:
+    def alarm_waits(self) -> bool:
         """True if an alarm report waits."""
         return bool(self._stores[ALARM])
 
     def take(self, t: int) -> tuple[int, bytes] | None:
         """Return class and block of the first waiting report, and mark it as read (serial mode)."""
-        block = self.pick()
+        block = self.select()
         if block is None or self.loaded is None:
             return None
         kind = self.loaded.kind
@@ -135,11 +135,11 @@ class Responses:
 
     @property
     def any_waiting(self) -> bool:
-        """True if `pick` has a block."""
+        """True if `select` has a block."""
         return any(self._stores.values())
 
     def read(self, t: int) -> None:
-        """Process the read of the block that was picked."""
+        """Process the read of the block that was selected."""
         report, self.loaded = self.loaded, None
         assert report is not None
         block = report.blocks.pop(0)

@@ -1,6 +1,6 @@
 """Serial mode of the PPMC-312: line rates, frames, instruction codes and replies.
 
-Rules: chapter 3.6, P312-SER-01, -20..47.
+Rules: P312-SER-01, -20..47.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class Parser:
         if len(self._open) != size:
             return None
         finished, self._open = self._open, b""
-        return self._judge(finished)
+        return self._check(finished)
 
     def silence(self) -> Frame | None:
         """Process 20 ms without a character (P312-SER-12, -17).
@@ -123,7 +123,7 @@ class Parser:
             return None
         return 1 + 2 * (1 + self._lengths[code[0]]) + 1
 
-    def _judge(self, given: bytes) -> Frame:
+    def _check(self, given: bytes) -> Frame:
         data = _bytes(given[1:-1])
         if data is None or given[-1] != checksum(given[0], data, self._mode):
             return Frame(Outcome.FAULT)
@@ -151,7 +151,7 @@ def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
 
 
 @unique
-class Note(IntEnum):
+class ReportCode(IntEnum):
     """Data byte of a specific report."""
 
     INTERLOCK = 0x22
@@ -194,24 +194,24 @@ END_CODES = {
     Cause.NORMAL: 0x38,
     Cause.LOW: 0x39,
 }
-"""Table 10.3."""
+"""Reply to the end-status instruction 40 (P312-SER-46)."""
 
 ERRORS = {
-    Answer.PARAMETER: Note.PARAMETER,
-    Answer.STATUS: Note.STATUS,
-    Answer.LIMIT: Note.LIMIT,
-    Answer.COMMAND: Note.UNKNOWN,
-    Answer.SIZE: Note.SIZE,
-    Answer.REGISTRATION: Note.REGISTRATION,
+    Answer.PARAMETER: ReportCode.PARAMETER,
+    Answer.STATUS: ReportCode.STATUS,
+    Answer.LIMIT: ReportCode.LIMIT,
+    Answer.COMMAND: ReportCode.UNKNOWN,
+    Answer.SIZE: ReportCode.SIZE,
+    Answer.REGISTRATION: ReportCode.REGISTRATION,
 }
 _TRIGGERS = {0x00: (0x00, 0), 0x10: (OV, 4), 0x20: (OV | 1, 0), 0x30: (OV | 3, 0)}
 """By bits 5:4 of 80, 81, 89, 8A: flag byte, number of further bytes (P312-SER-40)."""
 _AUTO = 0x02
-_REFUSED = (1, 2, 5)
+_REJECTED = (1, 2, 5)
 """Status bytes of 49: trigger in use, buffer full, nothing to delete (P312-SER-43)."""
 
 
-class Form(NamedTuple):
+class SerialInstruction(NamedTuple):
     """Serial instruction: number of data bytes, parallel code, flag byte before the data."""
 
     n: int
@@ -219,20 +219,41 @@ class Form(NamedTuple):
     flags: bytes = b""
 
 
-def _forms() -> dict[int, Form]:
-    forms = {0x00: Form(8, Code.INITIAL), 0x02: Form(3, Code.IN_POSITION), 0x03: Form(3, Code.ENCODE)}
-    forms |= {0x04: Form(4, Code.INTERLOCK_POSITION), 0x05: Form(2, Code.SPEED_LIMIT)}
-    forms |= {0x06: Form(1, Code.END_TERMINAL), 0x26: Form(1, Code.OUTPUT), 0x28: Form(1, Code.MASK, b"\x01")}
-    forms |= {code: Form(0, code) for code in (0x20, 0x21, 0x22, 0x23, 0x24, 0x25, 0x27, 0x44, 0x45, 0x4D)}
-    forms |= {0x41: Form(0, Code.VERSION), 0xFF: Form(0, Code.RESET)}
+def _serial_instructions() -> dict[int, SerialInstruction]:
+    instructions = {
+        0x00: SerialInstruction(8, Code.INITIAL),
+        0x02: SerialInstruction(3, Code.IN_POSITION),
+        0x03: SerialInstruction(3, Code.ENCODE),
+    }
+    instructions |= {
+        0x04: SerialInstruction(4, Code.INTERLOCK_POSITION),
+        0x05: SerialInstruction(2, Code.SPEED_LIMIT),
+    }
+    instructions |= {
+        0x06: SerialInstruction(1, Code.END_TERMINAL),
+        0x26: SerialInstruction(1, Code.OUTPUT),
+        0x28: SerialInstruction(1, Code.MASK, b"\x01"),
+    }
+    instructions |= {
+        code: SerialInstruction(0, code)
+        for code in (0x20, 0x21, 0x22, 0x23, 0x24, 0x25, 0x27, 0x44, 0x45, 0x4D)
+    }
+    instructions |= {0x41: SerialInstruction(0, Code.VERSION), 0xFF: SerialInstruction(0, Code.RESET)}
     for bit, flag in ((0x00, b"\x00"), (0x20, b"\x01")):
-        forms |= {0x42 + bit: Form(0, Code.POSITION_READ, flag), 0x43 + bit: Form(4, Code.POSITION_SET, flag)}
+        instructions |= {
+            0x42 + bit: SerialInstruction(0, Code.POSITION_READ, flag),
+            0x43 + bit: SerialInstruction(4, Code.POSITION_SET, flag),
+        }
     for number in (0, 1):
-        forms[0x49 | number << 4] = Form(10, Code.EVENT_SET, bytes([number]))
-        forms[0x69 | number << 4] = Form(0, Code.EVENT_SET, bytes([number | 2]))
+        instructions[0x49 | number << 4] = SerialInstruction(10, Code.EVENT_SET, bytes([number]))
+        instructions[0x69 | number << 4] = SerialInstruction(0, Code.EVENT_SET, bytes([number | 2]))
     for bits, (flags, more) in _TRIGGERS.items():
-        forms |= {first + bits: Form(more, first, bytes([flags])) for first in (0x80, 0x81)}
-        forms |= {first + bits: Form(2 + more, first - 2, bytes([flags])) for first in (0x89, 0x8A)}
+        instructions |= {
+            first + bits: SerialInstruction(more, first, bytes([flags])) for first in (0x80, 0x81)
+        }
+        instructions |= {
+            first + bits: SerialInstruction(2 + more, first - 2, bytes([flags])) for first in (0x89, 0x8A)
+        }
     starts = {
         0x82: (0, Code.STEP),
         0x83: (6, Code.RAMP),
@@ -244,30 +265,30 @@ def _forms() -> dict[int, Form]:
     }
     for first, (n, code) in starts.items():
         for bit, way in ((0x00, 0), (0x20, DIR)):
-            forms[first + bit] = Form(n, code, bytes([way]))
+            instructions[first + bit] = SerialInstruction(n, code, bytes([way]))
             if code in (Code.ORIGIN_SEARCH, Code.ZERO_RETURN):
-                forms[first + bit + 0x10] = Form(n, code, bytes([way | IDX]))
-    return forms
+                instructions[first + bit + 0x10] = SerialInstruction(n, code, bytes([way | IDX]))
+    return instructions
 
 
-FORMS = _forms()
-LENGTHS = {code: form.n for code, form in FORMS.items()} | dict.fromkeys(Local, 0)
+SERIAL_INSTRUCTIONS = _serial_instructions()
+LENGTHS = {code: instruction.n for code, instruction in SERIAL_INSTRUCTIONS.items()} | dict.fromkeys(Local, 0)
 """Number of data bytes of every serial instruction."""
 
 
 def block_of(code: int, data: bytes) -> bytes:
     """Return the parallel block of a serial instruction in logical order; not for `Local` ones."""
-    form, given = FORMS[code], data
+    instruction, given = SERIAL_INSTRUCTIONS[code], data
     if code == 0x00:
         data = bytes([data[0] & 0x0F]) + data[1:]
     elif code in (0x02, 0x03):
         data = bytes([data[0] | _AUTO]) + data[1:]
-    elif form.code == Code.EVENT_SET and data:
+    elif instruction.code == Code.EVENT_SET and data:
         data = data[: data[1] + 2]
         if len(data) != given[1] + 2:
             # The embedded block is longer than its frame, so the length of the block is wrong, too.
-            return bytes([0x03, 0, form.code]) + form.flags + data
-    body = bytes([form.code]) + form.flags + data
+            return bytes([0x03, 0, instruction.code]) + instruction.flags + data
+    body = bytes([instruction.code]) + instruction.flags + data
     return bytes([0x03, len(body)]) + body
 
 
@@ -280,8 +301,8 @@ def reply_of(answer: bytes) -> tuple[int, bytes]:
     code, content = answer[2], answer[3:]
     if code in ERRORS:
         return SPECIFIC, bytes([ERRORS[Answer(code)]])
-    if code == Code.EVENT_SET and content[0] in _REFUSED:
-        return SPECIFIC, bytes([Note.REGISTRATION])
+    if code == Code.EVENT_SET and content[0] in _REJECTED:
+        return SPECIFIC, bytes([ReportCode.REGISTRATION])
     if code in (Code.INPUT, Code.TERMINALS, Code.VERSION, Code.STATUS):
         return DATA, content
     if code == Code.POSITION_READ:
@@ -289,7 +310,7 @@ def reply_of(answer: bytes) -> tuple[int, bytes]:
     return READY, b""
 
 
-def news_of(kind: int, report: bytes) -> tuple[int, bytes]:
+def poll_reply_of(kind: int, report: bytes) -> tuple[int, bytes]:
     """Return kind and data of the reply to a poll (P312-SER-30).
 
     Args:
@@ -299,9 +320,9 @@ def news_of(kind: int, report: bytes) -> tuple[int, bytes]:
     if kind == responses.STOPPED:
         return DATA, bytes([END_CODES[Cause(content[0])]])
     if kind == responses.INPUT:
-        return SPECIFIC, bytes([Note.INPUT]) + content
+        return SPECIFIC, bytes([ReportCode.INPUT]) + content
     if kind in (responses.POSITION, responses.ENCODE):
-        inside = Note.POSITION_INSIDE if kind == responses.POSITION else Note.ENCODE_INSIDE
+        inside = ReportCode.POSITION_INSIDE if kind == responses.POSITION else ReportCode.ENCODE_INSIDE
         return SPECIFIC, bytes([inside + content[0]])
-    single = {responses.ALARM: Note.ALARM, responses.INTERLOCK: Note.INTERLOCK}
-    return SPECIFIC, bytes([single.get(kind, Note.HOLD)])
+    single = {responses.ALARM: ReportCode.ALARM, responses.INTERLOCK: ReportCode.INTERLOCK}
+    return SPECIFIC, bytes([single.get(kind, ReportCode.HOLD)])

@@ -14,7 +14,7 @@ from ...chip import Context, Phase
 from ...clock import Event
 from ...uart import Receiver, Transmitter
 from ..codes import Answer, Cause, Source, State
-from ..pace import SILENCE, Pace
+from ..timing import SILENCE, CoreTiming
 from .responses import Responses
 from .serial import (
     BUSY,
@@ -25,13 +25,13 @@ from .serial import (
     SPECIFIC,
     Frame,
     Local,
-    Note,
     Outcome,
     Parser,
+    ReportCode,
     addressed,
     block_of,
     frame,
-    news_of,
+    poll_reply_of,
     reply_of,
 )
 
@@ -44,7 +44,7 @@ class HostSide(Protocol):
     def levels(self) -> dict[str, int]:
         """Return the internal levels of the pins of this side."""
 
-    def offer(self, t: int) -> None:
+    def notify_response(self, t: int) -> None:
         """Process a response that may wait in the store."""
 
     def done(self, t: int) -> None:
@@ -57,8 +57,15 @@ class HostSide(Protocol):
         """Send the response to an instruction; serial mode only, where no store holds it."""
 
 
-_MOST = 255
-_KEPT = (Note.PARAMETER, Note.STATUS, Note.LIMIT, Note.UNKNOWN, Note.SIZE, Note.REGISTRATION)
+_MAX_COUNT = 255
+_STORED_ERRORS = (
+    ReportCode.PARAMETER,
+    ReportCode.STATUS,
+    ReportCode.LIMIT,
+    ReportCode.UNKNOWN,
+    ReportCode.SIZE,
+    ReportCode.REGISTRATION,
+)
 """Values that the error-code register stores (P312-SER-45)."""
 
 
@@ -81,7 +88,7 @@ class Core(Protocol):
     """Members of the part that a station needs."""
 
     context: Context
-    pace: Pace
+    core_timing: CoreTiming
     responses: Responses
 
     @property
@@ -136,18 +143,18 @@ class Station:
         log: Log,
         driver: Driver,
     ) -> None:
-        self._core, self._queue, self._pace = core, core.context.queue, core.pace
+        self._core, self._queue, self._core_timing = core, core.context.queue, core.core_timing
         self._address, self._mode = address, mode
         self._is_ready = False
         self._parser = Parser(address, LENGTHS, mode)
-        self._receiver = Receiver(core.context, bit, self.hear) if bit else None
+        self._receiver = Receiver(core.context, bit, self.on_char) if bit else None
         self._transmitter = Transmitter(core.context, bit, log.sent, driver.lead) if bit else None
         self._silence: Event | None = None
         self._bit = bit
-        self._heard: int | None = None
-        self._busy = self._asked = False
+        self._last_char_at: int | None = None
+        self._busy = self._instruction_pending = False
         self._code = 0
-        self._news: Note | None = None
+        self._result_code: ReportCode | None = None
         self._error = 0
         self.framing = self.overruns = self.checksums = 0
         self._log, self._wait = log, driver.wait
@@ -159,17 +166,17 @@ class Station:
         if self._receiver:
             level = pins["rxd"]
             at = t + self._core.context.latency.input_sync
-            self._queue.at(at, Phase.PINS, lambda now: self._see(now, level))
+            self._queue.at(at, Phase.PINS, lambda now: self._on_level(now, level))
 
-    def _see(self, t: int, level: int) -> None:
+    def _on_level(self, t: int, level: int) -> None:
         assert self._receiver
-        self._receiver.see(t, level)
+        self._receiver.on_level(t, level)
 
     def levels(self) -> dict[str, int]:
         """Return the internal levels of the pins of the other host side, which are inactive."""
         return {"irq_n": 1}
 
-    def offer(self, t: int) -> None:
+    def notify_response(self, t: int) -> None:
         """Do nothing, because a report waits for a poll."""
 
     def done(self, t: int) -> None:
@@ -186,10 +193,10 @@ class Station:
 
     # ------------------------------------------------------------------ characters
 
-    def hear(self, t: int, byte: int | None) -> None:
+    def on_char(self, t: int, byte: int | None) -> None:
         """Process a character whose stop bit was sampled at edge t. `None`: without a stop bit."""
-        self._heard = t
-        self._queue.at(t + self._pace.heard, Phase.BUS, lambda now: self._character(now, byte))
+        self._last_char_at = t
+        self._queue.at(t + self._core_timing.character, Phase.BUS, lambda now: self._character(now, byte))
 
     def _character(self, t: int, byte: int | None) -> None:
         if not self._is_ready or self._transmitter is None:
@@ -198,18 +205,18 @@ class Station:
             self._silence.cancel()
             self._silence = None
         if byte is None:
-            self.framing = min(self.framing + 1, _MOST)
+            self.framing = min(self.framing + 1, _MAX_COUNT)
             self._parser.abandon()
             return
         if self._busy and addressed(byte, self._address):
-            self.overruns = min(self.overruns + 1, _MOST)
+            self.overruns = min(self.overruns + 1, _MAX_COUNT)
             self._parser.abandon()
             return
         finished = self._parser.take(byte)
         if finished:
             self._take(t, finished)
         elif self._parser.unfinished:
-            at = t + self._core.context.timebase.cyc(SILENCE) + self._pace.silence
+            at = t + self._core.context.timebase.cyc(SILENCE) + self._core_timing.silence
             self._silence = self._queue.at(at, Phase.LEVELS, self._silent)
 
     def _silent(self, t: int) -> None:
@@ -226,24 +233,30 @@ class Station:
         self._busy = True
         code, data = finished.code, finished.data
         if finished.outcome is Outcome.INSTRUCTION and code not in list(Local):
-            self._queue.at(t + self._pace.frame, Phase.BUS, lambda now: self._ask(now, code, data))
+            self._queue.at(t + self._core_timing.frame, Phase.BUS, lambda now: self._forward(now, code, data))
             return
         self._queue.at(
-            t + self._pace.look, Phase.BUS, lambda now: self._reply(now, *self._answer(now, finished))
+            t + self._core_timing.sampling,
+            Phase.BUS,
+            lambda now: self._reply(now, *self._answer(now, finished)),
         )
 
-    def _ask(self, t: int, code: int, data: bytes) -> None:
-        self._asked = True
+    def _forward(self, t: int, code: int, data: bytes) -> None:
+        self._instruction_pending = True
         self._core.unit.host_block(t, block_of(code, data))
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
         """Process a response of the unit in logical order (P312-SER-20, -22)."""
         if source is Source.EVENT:
-            self._news = Note.EVENT_FAILED if block[2] == Answer.EVENT_FAILED else Note.EVENT_DONE
+            self._result_code = (
+                ReportCode.EVENT_FAILED if block[2] == Answer.EVENT_FAILED else ReportCode.EVENT_DONE
+            )
         elif source is Source.OVERRIDE:
-            self._news = Note.OVERRIDE_FAILED if block[2] == Answer.OVERRIDE_FAILED else Note.OVERRIDE_DONE
-        elif self._asked:
-            self._asked = False
+            self._result_code = (
+                ReportCode.OVERRIDE_FAILED if block[2] == Answer.OVERRIDE_FAILED else ReportCode.OVERRIDE_DONE
+            )
+        elif self._instruction_pending:
+            self._instruction_pending = False
             self._reply(t, *reply_of(block))
 
     def _answer(self, t: int, finished: Frame) -> tuple[int, bytes]:
@@ -251,15 +264,15 @@ class Station:
         if finished.outcome is Outcome.POLL:
             return self._poll(t)
         if finished.outcome is Outcome.FAULT:
-            self.checksums = min(self.checksums + 1, _MOST)
-            return SPECIFIC, bytes([Note.CHECKSUM])
+            self.checksums = min(self.checksums + 1, _MAX_COUNT)
+            return SPECIFIC, bytes([ReportCode.CHECKSUM])
         if finished.outcome is Outcome.UNKNOWN:
-            return SPECIFIC, bytes([Note.UNKNOWN])
+            return SPECIFIC, bytes([ReportCode.UNKNOWN])
         if finished.code == Local.END_STATUS:
             cause = self._core.operation.last_cause
             return DATA, bytes([END_CODES[cause] if cause else 0])
         if self._core.state not in (State.INI, State.NOR):
-            return SPECIFIC, bytes([Note.STATUS])
+            return SPECIFIC, bytes([ReportCode.STATUS])
         if finished.code == Local.ERROR_CODE:
             error, self._error = self._error, 0
             return DATA, bytes([error])
@@ -273,12 +286,12 @@ class Station:
         The order is: the alarm, then the result of an event or override, then the other classes.
         """
         responses = self._core.responses
-        if self._news is not None and not responses.alarmed:
-            news, self._news = self._news, None
-            return SPECIFIC, bytes([news])
-        taken = responses.take(t)
-        if taken:
-            return news_of(*taken)
+        if self._result_code is not None and not responses.alarm_waits:
+            result, self._result_code = self._result_code, None
+            return SPECIFIC, bytes([result])
+        report = responses.take(t)
+        if report:
+            return poll_reply_of(*report)
         moving = self._core.state in (State.ACC, State.FIX, State.WRN)
         return (BUSY if moving else READY), b""
 
@@ -287,12 +300,12 @@ class Station:
 
         snd does not rise before the line is free (P312-SER-18).
         """
-        if kind == SPECIFIC and data[0] in _KEPT:
+        if kind == SPECIFIC and data[0] in _STORED_ERRORS:
             self._error = data[0]
         message = frame(kind | self._address, data, self._mode)
-        at = t + self._pace.reply
-        if self._bit and self._heard is not None and self._heard < t:
-            at = max(at, self._heard + ceil(self._bit * (1 + self._wait)) + self._pace.clear)
+        at = t + self._core_timing.reply
+        if self._bit and self._last_char_at is not None and self._last_char_at < t:
+            at = max(at, self._last_char_at + ceil(self._bit * (1 + self._wait)) + self._core_timing.clear)
         self._queue.at(at, Phase.PIN, lambda now: self._send(now, message))
 
     def _send(self, t: int, message: bytes) -> None:

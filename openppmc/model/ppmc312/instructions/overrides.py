@@ -15,9 +15,9 @@ from ..front.responses import Responses
 from ..front.station import HostSide
 from ..motion.inputs import InputChange, Outputs
 from ..motion.operation import Operation
-from ..motion.position import Counters, Interlock, Watch
-from ..pace import Pace
+from ..motion.position import Counters, Interlock, WindowMonitors
 from ..stages import FreeCurve, Table
+from ..timing import CoreTiming
 
 # Members of the part that instructions need: its blocks and its state. `ppmc312.core.Core` implements them.
 
@@ -34,7 +34,7 @@ class Core(Protocol):
     table: Table | None
     transfer: FreeCurve | None
     context: Context
-    pace: Pace
+    core_timing: CoreTiming
     version: int
     host: HostSide
     responses: Responses
@@ -44,7 +44,7 @@ class Core(Protocol):
     events: tuple[EventBuffer, EventBuffer]
     outputs: Outputs
     operation: Operation
-    watch: Watch
+    monitors: WindowMonitors
     input_change: InputChange
 
     @property
@@ -54,7 +54,7 @@ class Core(Protocol):
     def reset(self, t: int, source: Source, /) -> None:
         """Execute the software reset, which sends a response."""
 
-    def forget_table(self) -> None:
+    def discard_table(self) -> None:
         """Change to state INI: no table, no registered instructions."""
 
     def set_table(self, table: Table) -> None:

@@ -1,13 +1,13 @@
-"""Setting instructions of the PPMC-312: 00..06 (chapter 3.2)."""
+"""Setting instructions of the PPMC-312: 00..06 (P312-CMD-00..06)."""
 
 from __future__ import annotations
 
 from ...chip import Phase
-from .. import pace
+from .. import timing
 from ..codes import FO, LE, Answer
 from ..stages import FreeCurve, SettingError, build
 from .overrides import Core
-from .work import Refusal, Work
+from .work import Rejection, Work
 
 LENGTH, BAD_RATE, BAD_VALUE, BAD_RANGE = 0x00, 0x20, 0x23, {0x02: 0x26, 0x03: 0x27}
 
@@ -30,28 +30,28 @@ def initial(core: Core, data: bytes) -> Work:
             counts = _number(data[7:10]), _number(data[10:13])
         table = build(*rates, *counts, flags & 7, sigmoid, separate)
     except SettingError as error:
-        core.forget_table()
-        clk = core.pace.filling(error.table) + 1 if error.table else 0
-        raise Refusal(Answer.PARAMETER, error.number, clk) from None
+        core.discard_table()
+        clk = core.core_timing.filling(error.table) + 1 if error.table else 0
+        raise Rejection(Answer.PARAMETER, error.number, clk) from None
 
     def begin(t: int) -> None:
-        core.forget_table()
+        core.discard_table()
 
     def finish(t: int) -> bytes:
         core.set_table(table)
         return b"\x00"
 
-    clk = core.pace.filling(table) + core.pace.looking_up()
-    return Work(finish, clk, pace.BUILD[sigmoid, separate], begin=begin)
+    clk = core.core_timing.filling(table) + core.core_timing.looking_up()
+    return Work(finish, clk, timing.BUILD[sigmoid, separate], begin=begin)
 
 
 def open_curve(core: Core, header: int, data: bytes) -> Work:
     """Return the work of instruction 01, the code block."""
-    core.forget_table()
+    core.discard_table()
     try:
         transfer = FreeCurve(header, data)
     except SettingError as error:
-        raise Refusal(Answer.PARAMETER, error.number) from None
+        raise Rejection(Answer.PARAMETER, error.number) from None
 
     def finish(t: int) -> bytes:
         core.transfer = transfer
@@ -68,7 +68,7 @@ def add_to_curve(core: Core, header: int, data: bytes) -> Work:
         transfer.add(header, data)
     except SettingError as error:
         core.transfer = None
-        raise Refusal(Answer.PARAMETER, error.number, core.pace.data + len(data)) from None
+        raise Rejection(Answer.PARAMETER, error.number, core.core_timing.data + len(data)) from None
 
     def finish(t: int) -> bytes:
         if transfer.table is not None:
@@ -76,19 +76,19 @@ def add_to_curve(core: Core, header: int, data: bytes) -> Work:
             core.set_table(transfer.table)
         return b"\x01" + transfer.answer()
 
-    clk = core.pace.data + len(data)
-    return Work(finish, clk + core.pace.looking_up() if transfer.table else clk)
+    clk = core.core_timing.data + len(data)
+    return Work(finish, clk + core.core_timing.looking_up() if transfer.table else clk)
 
 
 def monitor(core: Core, code: int, data: bytes) -> Work:
     """Return the work of instruction 02 or 03."""
     distance = _number(data[1:3])
     if data[0] & 1 and not distance:
-        raise Refusal(Answer.PARAMETER, BAD_RANGE[code])
+        raise Rejection(Answer.PARAMETER, BAD_RANGE[code])
 
     def finish(t: int) -> bytes:
-        watch = core.watch
-        watch.set_up(t, watch.in_position if code == 0x02 else watch.encode, data[0], distance)
+        monitor = core.monitors
+        monitor.set_up(t, monitor.in_position if code == 0x02 else monitor.encode, data[0], distance)
         return bytes([code])
 
     return Work(finish)
@@ -108,7 +108,7 @@ def speed_limit(core: Core, data: bytes) -> Work:
     """Return the work of instruction 05."""
     rate = _number(data)
     if rate < 2:
-        raise Refusal(Answer.PARAMETER, BAD_RATE)
+        raise Rejection(Answer.PARAMETER, BAD_RATE)
 
     def finish(t: int) -> bytes:
         core.operation.speed_limit = rate
@@ -120,11 +120,11 @@ def speed_limit(core: Core, data: bytes) -> Work:
 def end_terminal(core: Core, data: bytes) -> Work:
     """Return the work of instruction 06."""
     if data[0] > 1:
-        raise Refusal(Answer.PARAMETER, BAD_VALUE)
+        raise Rejection(Answer.PARAMETER, BAD_VALUE)
 
     def finish(t: int) -> bytes:
         core.operation.end_monitored = bool(data[0])
-        core.context.queue.at(t + 1, Phase.QUEUE, core.operation.look_at_end)
+        core.context.queue.at(t + 1, Phase.QUEUE, core.operation.check_end)
         return b"\x06" + data
 
     return Work(finish)

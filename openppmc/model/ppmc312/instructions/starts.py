@@ -1,12 +1,12 @@
 """Operation instructions of the PPMC-312: 10, 11, 80..88 with OV = 0.
 
-Rules: chapter 3.3, checks 7 and 8.
+Rules: P312-BLK-01, P312-CMD-10, -11, -80..88 (parameter checks and starts).
 """
 
 from __future__ import annotations
 
 from ...chip import Phase
-from .. import pace
+from .. import timing
 from ..codes import (
     DIR,
     IDX,
@@ -24,12 +24,12 @@ from ..codes import (
     accepts,
     known,
 )
-from ..motion.motion import Order
+from ..motion.motion import MotionRequest
 from ..motion.sequence import Change
 from ..stages import TRAPEZOID, Plan, Table, constant, ramped
 from . import settings, terminals
 from .overrides import Core, Entry
-from .work import Refusal, Work
+from .work import Rejection, Work
 
 # Checks 1..7 on an instruction block of the PPMC-312, and its registration (P312-BLK-01, P312-OVR-01).
 
@@ -52,7 +52,7 @@ def check(core: Core, block: bytes, source: Source, at_position: bool = False) -
         at_position: True if a position has released it, which affects the DATASHEET time of instruction 80.
 
     Raises:
-        Refusal: the block is rejected. State that a rejection clears is already cleared.
+        Rejection: the block is rejected. State that a rejection clears is already cleared.
     """
     _check_size(core, block)
     header, body = block[0], block[2:]
@@ -60,21 +60,21 @@ def check(core: Core, block: bytes, source: Source, at_position: bool = False) -
         if header in (MORE, LAST):
             return settings.add_to_curve(core, header, body)
         core.transfer = None
-        raise Refusal(Answer.STATUS, DATA_DUE)
+        raise Rejection(Answer.STATUS, DATA_DUE)
     if header not in (CODE_MORE, CODE_LAST):
-        raise Refusal(Answer.STATUS, INSTRUCTION_DUE)
+        raise Rejection(Answer.STATUS, INSTRUCTION_DUE)
     code, data = body[0], body[1:]
     if not known(code):
-        raise Refusal(Answer.COMMAND, code)
+        raise Rejection(Answer.COMMAND, code)
     if header == CODE_MORE and code != Code.FREE_CURVE:
-        raise Refusal(Answer.STATUS, INSTRUCTION_DUE)
+        raise Rejection(Answer.STATUS, INSTRUCTION_DUE)
     override = code in OVERRIDABLE and bool(data) and bool(data[0] & OV)
     if source is Source.EVENT and (override or code in NOT_FROM_EVENTS):
-        raise Refusal(Answer.PARAMETER)
+        raise Rejection(Answer.PARAMETER)
     override = override and source is Source.HOST
     operation = core.operation
     if not accepts(code, core.state, override, operation.waits_for_end, core.table is not None):
-        raise Refusal(Answer.STATUS)
+        raise Rejection(Answer.STATUS)
     _check_length(core, header, code, len(body))
     if override:
         return _registration(core, code, data, block)
@@ -92,17 +92,17 @@ def _check_size(core: Core, block: bytes) -> None:
         return
     if core.transfer is not None:
         core.transfer = None
-        raise Refusal(Answer.PARAMETER, TOO_LONG if length > LONGEST else BAD_SIZE)
-    raise Refusal(Answer.SIZE, length)
+        raise Rejection(Answer.PARAMETER, TOO_LONG if length > LONGEST else BAD_SIZE)
+    raise Rejection(Answer.SIZE, length)
 
 
 def _check_length(core: Core, header: int, code: int, length: int) -> None:
     if length in LENGTHS[code] or code == Code.FREE_CURVE:
         return
     if code == Code.INITIAL:
-        core.forget_table()
-        raise Refusal(Answer.PARAMETER, settings.LENGTH)
-    raise Refusal(Answer.PARAMETER, EVENT_LENGTH if code == Code.EVENT_SET else BAD_OPERANDS)
+        core.discard_table()
+        raise Rejection(Answer.PARAMETER, settings.LENGTH)
+    raise Rejection(Answer.PARAMETER, EVENT_LENGTH if code == Code.EVENT_SET else BAD_OPERANDS)
 
 
 def _registration(core: Core, code: int, data: bytes, block: bytes) -> Work:
@@ -111,22 +111,22 @@ def _registration(core: Core, code: int, data: bytes, block: bytes) -> Work:
     position = 0
     if trigger is Trigger.POSITION:
         if code not in POSITION_TRIGGERED:
-            raise Refusal(Answer.PARAMETER, NO_TRIGGER)
+            raise Rejection(Answer.PARAMETER, NO_TRIGGER)
         place = 3 if code in (Code.RAMP_CHANGE, Code.CHANGE) else 1
         if len(data) < place + 4:
-            raise Refusal(Answer.PARAMETER, BAD_OPERANDS)
+            raise Rejection(Answer.PARAMETER, BAD_OPERANDS)
         position = int.from_bytes(data[place : place + 4], "big")
 
     if trigger is not Trigger.POSITION and core.events[trigger - 1].entries:
-        raise Refusal(Answer.REGISTRATION, EVT_IN_USE)
+        raise Rejection(Answer.REGISTRATION, EVT_IN_USE)
     if core.fifo.full:
-        raise Refusal(Answer.REGISTRATION, FIFO_FULL)
+        raise Rejection(Answer.REGISTRATION, FIFO_FULL)
 
     def register(t: int) -> bytes:
-        core.fifo.register(Entry(block, trigger, position), t + core.pace.armed)
+        core.fifo.register(Entry(block, trigger, position), t + core.core_timing.armed)
         return bytes([Answer.REGISTERED])
 
-    return Work(register, core.pace.copy)
+    return Work(register, core.core_timing.copy)
 
 
 def _work(core: Core, block: bytes, at_position: bool) -> Work:
@@ -146,7 +146,7 @@ def _work(core: Core, block: bytes, at_position: bool) -> Work:
     }
     if code in simple:
         return simple[Code(code)](core, data)
-    return terminals.act(core, code, data)
+    return terminals.execute(core, code, data)
 
 
 BAD_RATE, BAD_VALUE = 0x20, 0x23
@@ -162,14 +162,14 @@ def _rate(table: Table, data: bytes, zero: bool = True) -> int:
     if not rate and zero:
         return table.high
     if not table.contains(rate):
-        raise Refusal(Answer.PARAMETER, BAD_RATE)
+        raise Rejection(Answer.PARAMETER, BAD_RATE)
     return rate
 
 
 def _count(data: bytes) -> int:
     n = int.from_bytes(data, "big")
     if not n:
-        raise Refusal(Answer.PARAMETER, BAD_VALUE)
+        raise Rejection(Answer.PARAMETER, BAD_VALUE)
     return n
 
 
@@ -181,21 +181,21 @@ def _plan(code: int, table: Table, data: bytes) -> tuple[Plan, int]:
         count = _count(data[-4:])  # checked before the rate
         plan = ramped(table, _rate(table, given), count)
         if any(given):
-            slow = pace.TRAPEZOID_RATE, pace.OTHER_SHAPE_RATE
+            slow = timing.TRAPEZOID_RATE, timing.OTHER_SHAPE_RATE
         else:
-            slow = pace.TRAPEZOID, pace.OTHER_SHAPE
+            slow = timing.TRAPEZOID, timing.OTHER_SHAPE
         return plan, slow[plan.kind != TRAPEZOID]
     if code == Code.CONSTANT:
         count = _count(data[3:7])
-        return constant(table, _rate(table, given), count), pace.CONSTANT
+        return constant(table, _rate(table, given), count), timing.CONSTANT
     if code == Code.STEP:
-        return constant(table, table.rates[table.sa], 1), pace.GENERAL
+        return constant(table, table.rates[table.sa], 1), timing.GENERAL
     if code == Code.FOREVER_CONSTANT:
-        return constant(table, _rate(table, given)), pace.CONSTANT
+        return constant(table, _rate(table, given)), timing.CONSTANT
     if code == Code.ORIGIN_SEARCH:
-        return constant(table, _rate(table, given, zero=False)), pace.GENERAL
+        return constant(table, _rate(table, given, zero=False)), timing.GENERAL
     plan = ramped(table, _rate(table, given), None)
-    return plan, pace.ENDLESS_RATE if any(given) else pace.ENDLESS
+    return plan, timing.ENDLESS_RATE if any(given) else timing.ENDLESS
 
 
 def start(core: Core, block: bytes) -> Work:
@@ -210,21 +210,23 @@ def start(core: Core, block: bytes) -> Work:
     plan, cycles = _plan(code, table, data)
     search = code in (Code.ORIGIN_SEARCH, Code.ZERO_RETURN)
     index = search and bool(data[0] & IDX)
-    order = Order(plan, int(bool(data[0] & DIR)), plan.rate, search, code == Code.ZERO_RETURN, index)
+    request = MotionRequest(
+        plan, int(bool(data[0] & DIR)), plan.rate, search, code == Code.ZERO_RETURN, index
+    )
 
     def check(t: int) -> None:
-        if core.operation.limited(order):
-            raise Refusal(Answer.LIMIT)
+        if core.operation.is_start_blocked(request):
+            raise Rejection(Answer.LIMIT)
 
     def begin(t: int) -> bytes:
         if core.state is State.ABN:
-            raise Refusal(Answer.STATUS)
-        held = core.operation.start(t, order)
+            raise Rejection(Answer.STATUS)
+        waits_for_run = core.operation.start(t, request)
         kind = plan.kind if code == Code.RAMP else 0
-        return bytes([code]) if code == Code.STEP else bytes([code, kind | held])
+        return bytes([code]) if code == Code.STEP else bytes([code, kind | waits_for_run])
 
     ramped_plan = code in (Code.RAMP, Code.FOREVER_RAMP, Code.ZERO_RETURN)
-    clk = core.pace.starting(plan, code == Code.STEP, ramped_plan)
+    clk = core.core_timing.starting(plan, code == Code.STEP, ramped_plan)
     return Work(begin, clk, cycles, starts=True, check=check)
 
 
@@ -239,15 +241,15 @@ def stop(core: Core, code: int, at_position: bool) -> Work:
         if not core.operation.waits_for_end:
             core.operation.stop(t)
 
-    def act(t: int) -> bytes:
+    def execute(t: int) -> bytes:
         if code == Code.STOP:
-            core.context.queue.at(t + core.pace.halt, Phase.BUS, halt)
+            core.context.queue.at(t + core.core_timing.halt, Phase.BUS, halt)
         else:
             core.operation.slow_stop(t)
         return bytes([code])
 
     delayed = code == Code.STOP and not at_position
-    return Work(act, cycles=pace.STOP if delayed else None)
+    return Work(execute, cycles=timing.STOP if delayed else None)
 
 
 def change(core: Core, code: int, data: bytes) -> Work:
@@ -255,8 +257,8 @@ def change(core: Core, code: int, data: bytes) -> Work:
     assert core.table is not None
     rate = _rate(core.table, data[1:3], zero=False)
 
-    def act(t: int) -> bytes:
+    def execute(t: int) -> bytes:
         core.operation.change(t, Change(rate, code == Code.RAMP_CHANGE))
         return bytes([code])
 
-    return Work(act, core.pace.look_up())
+    return Work(execute, core.core_timing.look_up())

@@ -1,16 +1,16 @@
-"""Terminal and aiding instructions of the PPMC-312: 20..28, 40..4D (chapter 3.4)."""
+"""Terminal and aiding instructions of the PPMC-312: 20..28, 40..4D (P312-CMD-20..4D)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
 from ...chip import Phase
-from .. import pace
+from .. import timing
 from ..codes import Answer, Code, Trigger
 from ..front.responses import INPUT
 from ..stages import read_back
 from .overrides import Core
-from .work import Refusal, Work
+from .work import Rejection, Work
 
 BAD_VALUE, NO_BUFFER, BAD_EVENT = 0x23, 0x24, 0x25
 REGISTERED, IN_USE, FULL, DELETED, NOW_EMPTY, NOTHING = range(6)
@@ -34,9 +34,15 @@ def terminals(core: Core) -> bytes:
 
 def status(core: Core) -> bytes:
     """Return the parameters of the response to 4D (P312-CMD-4D)."""
-    operation, watch, fifo = core.operation, core.watch, core.fifo
-    first = [operation.run_ignored, core.interlock.on, 0, watch.encode.enabled, watch.in_position.enabled]
-    first += [operation.end_monitored, watch.encode.outside, watch.in_position.outside]
+    operation, monitors, fifo = core.operation, core.monitors, core.fifo
+    first = [
+        operation.run_ignored,
+        core.interlock.on,
+        0,
+        monitors.encode.enabled,
+        monitors.in_position.enabled,
+    ]
+    first += [operation.end_monitored, monitors.encode.outside, monitors.in_position.outside]
     events = [bool(core.events[1].entries), bool(core.events[0].entries)]
     events += [fifo.uses(Trigger.EVT1), fifo.uses(Trigger.EVT0)]
     return bytes([_bits(first), core.state, _bits(events) << 4 | len(fifo.waiting)])
@@ -48,7 +54,7 @@ def _alarm_clear(core: Core, t: int, data: bytes) -> bytes:
 
 
 def _mask(core: Core, t: int, data: bytes) -> bytes:
-    core.responses.withdraw(INPUT)
+    core.responses.discard(INPUT)
     core.input_change.set_up(t, data[1], bool(data[0] & 1))
     return b""
 
@@ -64,7 +70,7 @@ def _position_set(core: Core, t: int, data: bytes) -> bytes:
         core.counters.encoder = value
     else:
         core.counters.pulse = value
-    core.watch.look(t)
+    core.monitors.evaluate(t)
     return b""
 
 
@@ -75,7 +81,7 @@ def _interlock(core: Core, t: int, data: bytes) -> bytes:
 
 def _run_monitor(core: Core, t: int, data: bytes) -> bytes:
     core.operation.run_ignored = not core.operation.run_ignored
-    core.context.queue.at(t + 1, Phase.QUEUE, core.operation.look_at_run)
+    core.context.queue.at(t + 1, Phase.QUEUE, core.operation.check_run)
     return bytes([core.operation.run_ignored])
 
 
@@ -87,32 +93,32 @@ def _event_set(core: Core, data: bytes) -> Work:
     """Return the work of instruction 49 with legal parameters."""
     number, deletes = data[0] & 1, data[0] & 2
     buffer = core.events[number]
-    said, act = REGISTERED, None
+    result, action = REGISTERED, None
     if deletes:
-        said = NOTHING if not buffer.entries else DELETED if len(buffer.entries) > 1 else NOW_EMPTY
-        act = buffer.delete
+        result = NOTHING if not buffer.entries else DELETED if len(buffer.entries) > 1 else NOW_EMPTY
+        action = buffer.delete
     elif core.fifo.uses((Trigger.EVT0, Trigger.EVT1)[number]):
-        said = IN_USE
+        result = IN_USE
     elif buffer.full:
-        said = FULL
+        result = FULL
     else:
-        act = lambda: buffer.register(data[1:])  # noqa: E731
+        action = lambda: buffer.register(data[1:])  # noqa: E731
 
     def finish(t: int) -> bytes:
-        if act:
-            act()
-        return bytes([Code.EVENT_SET, said])
+        if action:
+            action()
+        return bytes([Code.EVENT_SET, result])
 
-    return Work(finish, core.pace.copy if said == REGISTERED else 0)
+    return Work(finish, core.core_timing.copy if result == REGISTERED else 0)
 
 
 def _set(**levels: int) -> Callable[[Core, int, bytes], bytes]:
-    def act(core: Core, t: int, data: bytes) -> bytes:
+    def action(core: Core, t: int, data: bytes) -> bytes:
         for name, level in levels.items():
             setattr(core.outputs, name, level)
         return b""
 
-    return act
+    return action
 
 
 def _output(core: Core, t: int, data: bytes) -> bytes:
@@ -139,7 +145,7 @@ _READS: dict[int, Callable[[Core, bytes], bytes]] = {
     Code.STATUS: lambda core, data: status(core),
 }
 # Actions of the other instructions at edge t; they return the parameters of the response.
-_ACTS: dict[int, Callable[[Core, int, bytes], bytes]] = {
+_ACTIONS: dict[int, Callable[[Core, int, bytes], bytes]] = {
     Code.EXCITATION_ON: _set(exon_n=0),
     Code.EXCITATION_OFF: _set(exon_n=1),
     Code.COUNTER_CLEAR: _counter_clear,
@@ -162,10 +168,10 @@ def _check_event(data: bytes) -> None:
             len(data) >= 4 and data[1] == 0x03 and 1 <= data[2] <= _LONGEST_EVENT and len(data) == 3 + data[2]
         )
     if not legal:
-        raise Refusal(Answer.PARAMETER, BAD_EVENT)
+        raise Rejection(Answer.PARAMETER, BAD_EVENT)
 
 
-def act(core: Core, code: int, data: bytes) -> Work:
+def execute(core: Core, code: int, data: bytes) -> Work:
     """Return the work of one of these instructions with a legal length.
 
     Args:
@@ -174,20 +180,20 @@ def act(core: Core, code: int, data: bytes) -> Work:
     if code == Code.TABLE_READ:
         return Work(lambda t: _table(core))
     if code in (Code.POSITION_READ, Code.POSITION_SET) and data[0] > 1:
-        raise Refusal(Answer.PARAMETER, BAD_VALUE)
+        raise Rejection(Answer.PARAMETER, BAD_VALUE)
     if code == Code.EVENT_READ and data and data[0] > 1:
-        raise Refusal(Answer.PARAMETER, NO_BUFFER)
+        raise Rejection(Answer.PARAMETER, NO_BUFFER)
     if code == Code.EVENT_SET:
         _check_event(data)
         return _event_set(core, data)
     if code in _PINS:
         return Work(lambda t: bytes([code]) + _PINS[code](core))
     if code in _READS:
-        told = bytes([code]) + _READS[code](core, data)
-        return Work(lambda t: told)
+        response = bytes([code]) + _READS[code](core, data)
+        return Work(lambda t: response)
     return Work(
-        lambda t: bytes([code]) + _ACTS[code](core, t, data),
-        cycles=pace.OUTPUT if code == Code.OUTPUT else None,
+        lambda t: bytes([code]) + _ACTIONS[code](core, t, data),
+        cycles=timing.OUTPUT if code == Code.OUTPUT else None,
     )
 
 

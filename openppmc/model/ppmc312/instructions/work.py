@@ -9,7 +9,7 @@ from ..codes import Answer, Source, State
 from ..front.responses import block
 
 
-class Refusal(Exception):  # noqa: N818 - an answer, not a fault of the program
+class Rejection(Exception):  # noqa: N818 - an answer, not a fault of the program
     """Rejection with an abnormality response.
 
     Args:
@@ -27,13 +27,13 @@ class Work(NamedTuple):
 
     Attributes:
         finish: finish(t) executes it at its edge. It returns the response without header and length, or
-            several whole blocks; it may raise Refusal.
+            several whole blocks; it may raise Rejection.
         clk: cycles from the effect of a short instruction to finish.
         cycles: DATASHEET time in crystal cycles from the write of the header, or from the trigger; `None` for
             the time of FAST.
         starts: True if this time is that of pulse 1, which is TW after t0.
         begin: begin(t) executes the immediate part, at the edge of the effect of a short instruction.
-        check: check(t) checks the limits of a start before it is planned; it may raise Refusal.
+        check: check(t) checks the limits of a start before it is planned; it may raise Rejection.
     """
 
     finish: Callable[[int], bytes | list[bytes]]
@@ -48,16 +48,16 @@ _FAILURES = {Answer.STATUS: 0x01, Answer.LIMIT: 0x02, Answer.COMMAND: 0x05}
 _ECHO = 28
 
 
-def refusal_block(refusal: Refusal, source: Source, state: State, given: bytes) -> bytes:
-    """Return the response (10.1).
+def rejection_block(rejection: Rejection, source: Source, state: State, given: bytes) -> bytes:
+    """Return the response (docs/ppmc312/README.md, 6.1 Blocks).
 
     Args:
         given: code and parameters as received.
     """
     if source is not Source.HOST:
         failed = Answer.EVENT_FAILED if source is Source.EVENT else Answer.OVERRIDE_FAILED
-        return block(source, failed, _FAILURES.get(refusal.answer, 0x00))
-    answer, number = refusal.answer, refusal.number
+        return block(source, failed, _FAILURES.get(rejection.answer, 0x00))
+    answer, number = rejection.answer, rejection.number
     if answer is Answer.PARAMETER:
         return block(source, answer, number, given[:_ECHO])
     if answer is Answer.STATUS:

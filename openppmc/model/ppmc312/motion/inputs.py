@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from ...chip import Context, Phase
 from ...clock import Callback, Event
 from ..front.responses import Responses
-from ..pace import CLEAR_PULSE, CURRENT_DOWN, EVT_LOW, PIN_LOW, SAMPLE
+from ..timing import CLEAR_PULSE, CURRENT_DOWN, EVT_LOW, PIN_LOW, SAMPLE
 
 SLOW_PINS = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n")
 EVENT_PINS = ("evt0_n", "evt1_n")
@@ -27,12 +27,12 @@ class Filters:
         self.levels = dict(self._plain)
         self._pending: dict[str, Event] = {}
 
-    def see(self, t: int, levels: Mapping[str, int]) -> None:
+    def on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         """Process synchronised levels from edge t on."""
-        fresh = [pin for pin in self._plain if levels[pin] != self._plain[pin]]
-        for pin in fresh:
+        changed_pins = [pin for pin in self._plain if levels[pin] != self._plain[pin]]
+        for pin in changed_pins:
             self._plain[pin] = levels[pin]
-        for pin in fresh:
+        for pin in changed_pins:
             if not levels[pin] and self._context.datasheet:
                 at = t + self._context.timebase.cyc(EVT_LOW if pin in EVENT_PINS else PIN_LOW)
                 self._pending[pin] = self._context.queue.at(at, Phase.LEVELS, self._low(pin))
@@ -57,7 +57,7 @@ class InputChange:
 
     def __init__(self, context: Context, responses: Responses) -> None:
         self._context, self._responses = context, responses
-        self._mask = self._former = 0
+        self._mask = self._last_level = 0
         self._auto = False
         self._since = 0
         self._next: Event | None = None
@@ -65,12 +65,12 @@ class InputChange:
     def set_up(self, t: int, mask: int, auto: bool) -> None:
         """Execute instruction 28."""
         self._mask, self._auto, self._since = mask, auto, t
-        self._former = self._context.levels["auxi"]
+        self._last_level = self._context.levels["auxi"]
         if self._next:
             self._next.cancel()
             self._next = None
 
-    def see(self, t: int) -> None:
+    def on_change(self, t: int) -> None:
         """Process a change of auxi at edge t: the next sample compares it."""
         if not self._mask or self._next:
             return
@@ -84,7 +84,7 @@ class InputChange:
     def _sample(self, t: int) -> None:
         self._next = None
         level = self._context.levels["auxi"]
-        data, self._former = (self._former ^ level) & self._mask, level
+        data, self._last_level = (self._last_level ^ level) & self._mask, level
         if data:
             self._responses.input_change(t, data)
             if not self._auto:

@@ -11,21 +11,21 @@ from dataclasses import dataclass
 from ...chip import Context, Phase
 from ...clock import Event
 from ..codes import IMMEDIATE, Cause
-from ..pace import Pace
 from ..stages import DIVIDERS, Plan
+from ..timing import CoreTiming
 from .sequence import Change, Sequence
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
 
 
 @dataclass(slots=True)
-class Order:
-    """Order of an operation.
+class MotionRequest:
+    """Request of an operation.
 
     Attributes:
         target: rate that the start check compares with the high-speed limit.
         origin: True if the operation ends at the origin.
-        turns: True in phase 1 of a zero return.
+        reverses_at_origin: True in phase 1 of a zero return.
         index: True if the origin also requires an index (index_n).
     """
 
@@ -33,7 +33,7 @@ class Order:
     direction: int
     target: int
     origin: bool = False
-    turns: bool = False
+    reverses_at_origin: bool = False
     index: bool = False
 
 
@@ -46,7 +46,7 @@ class Motion:
         on_count: on_count(t, direction) is called when POS counts a pulse.
         on_compare: on_compare(t, direction) is called when POS is compared; True means a stop at this
             position (P312-OVR-12).
-        settled: settled() returns True if everything that such a stop waits for is done.
+        overrides_done: overrides_done() returns True if everything that such a stop waits for is done.
         on_end: on_end(t, cause) is called when the pulse output has ended, or with Cause.RETURN after phase 1
             of a zero return.
     """
@@ -54,52 +54,52 @@ class Motion:
     def __init__(
         self,
         context: Context,
-        pace: Pace,
+        core_timing: CoreTiming,
         pins: Mapping[str, int],
         speed_limit: Callable[[], int],
         on_count: Callable[[int, int], None],
         on_compare: Callable[[int, int], bool],
-        settled: Callable[[], bool],
+        overrides_done: Callable[[], bool],
         on_end: Callable[[int, Cause], None],
     ) -> None:
-        self._context, self._pace, self._pins = context, pace, pins
+        self._context, self._core_timing, self._pins = context, core_timing, pins
         self._speed_limit, self._on_count, self._on_compare = speed_limit, on_count, on_compare
-        self._settled, self._on_end = settled, on_end
+        self._overrides_done, self._on_end = overrides_done, on_end
         self.active = False
         self.direction = self.pout = 0
         self._ended: Cause | None = None
-        self._rest_from = 0
+        self._standstill_from = 0
         self._at_position = False
-        self._wants: set[Cause] = set()
+        self._requested_causes: set[Cause] = set()
         self._events: dict[str, Event] = {}
         self._changes: list[tuple[int, Event]] = []
 
     # ------------------------------------------------------------------ start
 
-    def start(self, t: int, order: Order) -> None:
+    def start(self, t: int, request: MotionRequest) -> None:
         """Process t0 (P312-MOT-01)."""
-        self.active, self.direction, self.order = True, order.direction, order
-        self.sequence = Sequence(order.plan)
-        self._wants.clear()
+        self.active, self.direction, self.request = True, request.direction, request
+        self.sequence = Sequence(request.plan)
+        self._requested_causes.clear()
         self._changes.clear()
         self._ended, self._at_position = None, False
         self._slow_from: int | None = None
         self._limit, self._limit_before, self._limit_at = False, False, t
-        self._began = self._flat_from = t
-        clk = order.plan.table.clk
+        self._began = self._const_rate_from = t
+        clk = request.plan.table.clk
         self._divider = DIVIDERS.get(clk)
         first = t + self._context.timebase.w
         self._armed_from = first
         if self._divider is not None:
-            self._due = first
+            self._next_boundary = first
             self._events["pulse"] = self._context.queue.at(first, Phase.PULSE, self._pulse)
-        self.look(t + 1)
-        self.look(t + self._pace.young)
+        self.schedule_check(t + 1)
+        self.schedule_check(t + self._core_timing.limit_from)
 
     @property
-    def due(self) -> int | None:
+    def next_boundary(self) -> int | None:
         """Edge of the next boundary, `None` if it is unknown."""
-        return self._due if self.active and self._divider is not None else None
+        return self._next_boundary if self.active and self._divider is not None else None
 
     @property
     def busy(self) -> bool:
@@ -113,87 +113,92 @@ class Motion:
 
     # ------------------------------------------------------------------ requests
 
-    def look(self, t: int) -> None:
+    def schedule_check(self, t: int) -> None:
         """Schedule a check of the inputs at edge t."""
-        self._context.queue.at(t, Phase.GUARD, self._judge)
+        self._context.queue.at(t, Phase.GUARD, self._check_causes)
 
     def stop(self, t: int, cause: Cause) -> None:
         """Process an immediate stop by 80 or by an alarm (P312-MOT-34)."""
         if self.active:
-            self._wants.add(cause)
-            self.look(t)
+            self._requested_causes.add(cause)
+            self.schedule_check(t)
         elif self._ended is Cause.RETURN:
-            self._stay(t, cause)
+            self._replace_cause(t, cause)
         elif cause is Cause.ALARM and self._at_position and self._ended is Cause.STOP:
-            self._stay(t, cause)
+            self._replace_cause(t, cause)
         if cause is Cause.ALARM:
             # An alarm does not wait for instructions that the position has released.
-            self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
+            self._context.queue.at(t + 1, Phase.BEGIN, self.check_standstill)
 
     def slow_stop(self, t: int) -> None:
         """Process instruction 81 (P312-MOT-30)."""
         if self.active:
             sequence = self.sequence
             self._slow_from = t + 1
-            self.look(t + 1)
-            self._flag(t + self._pace.slow_lead, lambda at: sequence.request(Cause.SLOW))
+            self.schedule_check(t + 1)
+            self._flag(t + self._core_timing.slow_lead, lambda at: sequence.request(Cause.SLOW))
         elif self._ended is Cause.RETURN:
-            self._stay(t, Cause.LOW)
+            self._replace_cause(t, Cause.LOW)
 
-    def _stay(self, t: int, cause: Cause) -> None:
+    def _replace_cause(self, t: int, cause: Cause) -> None:
         """Process a stop between the phases of a zero return, or an alarm after a stop at a position."""
         self._ended = cause
-        self._rest_at(t + 1)
+        self._standstill_at(t + 1)
 
     def change(self, t: int, change: Change) -> None:
         """Process instruction 87 or 88."""
         if self.active:
-            sequence, lead = self.sequence, self._pace.ramp_lead if change.ramp else self._pace.change_lead
+            sequence, lead = (
+                self.sequence,
+                self._core_timing.ramp_lead if change.ramp else self._core_timing.change_lead,
+            )
             # A change that is still pending is removed before the new change takes effect.
-            self._flag(t + self._pace.drop_lead, lambda at: sequence.drop_change())
+            self._flag(t + self._core_timing.drop_lead, lambda at: sequence.drop_change())
             self._changes.append((t, self._flag(t + lead, lambda at: sequence.change(change))))
             if change.ramp:
-                held = self._flag(t + self._pace.change_lead, lambda at: sequence.hold())
-                self._changes.append((t, held))
+                announced = self._flag(
+                    t + self._core_timing.change_lead, lambda at: sequence.announce_change()
+                )
+                self._changes.append((t, announced))
 
     def _flag(self, t: int, action: Callable[[int], None]) -> Event:
         return self._context.queue.at(t, Phase.FLAG, action)
 
-    def _judge(self, t: int) -> None:
+    def _check_causes(self, t: int) -> None:
         if not self.active or t <= self._began:
             return
-        pins, order, direction = self._pins, self.order, self.direction
-        at_origin = order.origin and not pins["org_n"] and not (order.index and pins["index_n"])
-        causes, self._wants = self._wants, set()
+        pins, request, direction = self._pins, self.request, self.direction
+        at_origin = request.origin and not pins["org_n"] and not (request.index and pins["index_n"])
+        causes, self._requested_causes = self._requested_causes, set()
         causes |= {Cause.LIMIT} if not pins[LIMITS[direction]] else set()
-        causes |= {Cause.ORIGIN} if at_origin and not order.turns else set()
+        causes |= {Cause.ORIGIN} if at_origin and not request.reverses_at_origin else set()
         if causes:
             self._end(t, next(cause for cause in IMMEDIATE if cause in causes))
             return
-        self._look_at_limit(t, not pins[SLOW_LIMITS[direction]])
-        turns = at_origin and order.turns
+        self._check_slow_limit(t, not pins[SLOW_LIMITS[direction]])
+        reverses = at_origin and request.reverses_at_origin
         if self.sequence.running is None:
             slow = self._limit_before or (self._slow_from is not None and self._slow_from <= t)
-            if slow or turns:
+            if slow or reverses:
                 self._end(t, Cause.LOW if slow else Cause.RETURN)
-        elif turns:
+        elif reverses:
             sequence = self.sequence
-            self._flag(t + self._pace.origin_lead, lambda at: sequence.request(Cause.RETURN))
+            self._flag(t + self._core_timing.origin_lead, lambda at: sequence.request(Cause.RETURN))
 
-    def _look_at_limit(self, t: int, low: bool) -> None:
+    def _check_slow_limit(self, t: int, low: bool) -> None:
         """Process the high-speed limit, which is a level (P312-INP-12).
 
         The limit counts for boundaries `lead` cycles later.
         """
         if t > self._limit_at:
             self._limit_before, self._limit_at = self._limit, t
-        limit = low and t >= self._began + self._pace.young
+        limit = low and t >= self._began + self._core_timing.limit_from
         limit = limit and self.sequence.present.rate <= self._speed_limit()
         if limit != self._limit:
             self._limit = limit
             sequence = self.sequence
-            self._flag(t + self._pace.lead, lambda at: sequence.limit_level(limit))
-            self.look(t + 1)
+            self._flag(t + self._core_timing.lead, lambda at: sequence.limit_level(limit))
+            self.schedule_check(t + 1)
 
     # ------------------------------------------------------------------ end
 
@@ -203,21 +208,26 @@ class Motion:
         self.active = False
         self._cancel("pulse")
         if not self.pout:
-            self._rest_at(t + self._pace.rest)
+            self._standstill_at(t + self._core_timing.rest)
 
-    def _rest_at(self, t: int) -> None:
-        self._rest_from = t
-        self._context.queue.at(t, Phase.BEGIN, self.look_at_rest)
+    def _standstill_at(self, t: int) -> None:
+        self._standstill_from = t
+        self._context.queue.at(t, Phase.BEGIN, self.check_standstill)
 
-    def look_at_rest_soon(self, t: int) -> None:
+    def schedule_standstill_check(self, t: int) -> None:
         """Schedule a check at edge t, because a condition of a stop at a position may have become true."""
         if self._at_position and self._ended is not None:
-            self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
+            self._context.queue.at(t + 1, Phase.BEGIN, self.check_standstill)
 
-    def look_at_rest(self, t: int) -> None:
+    def check_standstill(self, t: int) -> None:
         """End the motion if the last pulse is over and no condition is pending."""
         cause = self._ended
-        if cause is None or self.pout or t < self._rest_from or (self._at_position and not self._settled()):
+        if (
+            cause is None
+            or self.pout
+            or t < self._standstill_from
+            or (self._at_position and not self._overrides_done())
+        ):
             return
         self._ended = None
         self._on_end(t, cause)
@@ -237,36 +247,39 @@ class Motion:
         if self.pout and self._ticks == running.rate // 2:
             self._low_at(t)
         if self._ticks == running.rate and self.active:
-            due = max(t, self._risen + self._pace.least)
-            self._events["pulse"] = self._context.queue.at(due, Phase.BASE, self._pulse)
+            boundary = max(t, self._risen + self._core_timing.least)
+            self._events["pulse"] = self._context.queue.at(boundary, Phase.BASE, self._pulse)
 
     def _pulse(self, t: int) -> None:
         """Process the boundary at edge t: the next pulse, or the end."""
         if not self.active:
             return
         sequence, constant = self.sequence, not self.sequence.in_table
-        flat_for = t - self._flat_from - self._pace.search * sequence.sought
-        step = sequence.boundary(flat_for >= self._pace.flat_lead, flat_for >= self._pace.slow_lead)
+        const_rate_cycles = t - self._const_rate_from - self._core_timing.search * sequence.was_searched
+        step = sequence.boundary(
+            const_rate_cycles >= self._core_timing.const_rate_lead,
+            const_rate_cycles >= self._core_timing.slow_lead,
+        )
         if isinstance(step, Cause):
             self._end(t, step)
             return
         # A change that was requested in time for this boundary is discarded with the final deceleration, or
         # dropped.
-        lead = 1 if sequence.walk_begins else self._pace.change_lead
-        if sequence.walk_begins or sequence.drops:
+        lead = 1 if sequence.decel_begins else self._core_timing.change_lead
+        if sequence.decel_begins or sequence.change_dropped:
             for since, event in self._changes:
                 if since + lead <= t:
                     event.cancel()
         if step.stage is None and not constant:
-            self._flat_from = t
+            self._const_rate_from = t
         self.pout = 1
         self._ticks, self._risen = 0, t
         self._low_at(t + self._context.timebase.w)
         if self._divider is not None:
             self._plan_interval(t, step.rate, self._divider)
-        self._context.queue.at(t + self._pace.count, Phase.PULSE, self._count)
-        self._context.queue.at(t + self._pace.compare, Phase.PULSE, self._compare)
-        self.look(t + 1)
+        self._context.queue.at(t + self._core_timing.count, Phase.PULSE, self._count)
+        self._context.queue.at(t + self._core_timing.compare, Phase.PULSE, self._compare)
+        self.schedule_check(t + 1)
 
     def _count(self, t: int) -> None:
         self._on_count(t, self.direction)
@@ -281,8 +294,8 @@ class Motion:
             return
         self._at_position = True
         if self.active:
-            self._wants.add(Cause.STOP)
-            self._judge(t)
+            self._requested_causes.add(Cause.STOP)
+            self._check_causes(t)
 
     def _plan_interval(self, t: int, rate: int, divider: int) -> None:
         """Schedule the fall of pout and the next boundary.
@@ -298,8 +311,8 @@ class Motion:
             return self._origin + timebase.cyc(divider * number)
 
         self._low_at(min(t + timebase.w, edge(tick + rate // 2)))
-        due = self._due = max(edge(tick + rate), t + self._pace.least)
-        self._events["pulse"] = self._context.queue.at(due, Phase.PULSE, self._pulse)
+        boundary = self._next_boundary = max(edge(tick + rate), t + self._core_timing.least)
+        self._events["pulse"] = self._context.queue.at(boundary, Phase.PULSE, self._pulse)
 
     def _low_at(self, t: int) -> None:
         self._cancel("low")
@@ -308,7 +321,7 @@ class Motion:
     def _low(self, t: int) -> None:
         self.pout = 0
         if self._ended is not None:
-            self._rest_at(t + self._pace.rest)
+            self._standstill_at(t + self._core_timing.rest)
 
     def _cancel(self, name: str) -> None:
         event = self._events.pop(name, None)

@@ -2,7 +2,7 @@
 
 It includes RUN, END, zero return and alarms.
 
-Rules: P312-INP-11, -20, -30; P312-MOT-06, -35, -42, -43; the state table of chapter 4.
+Rules: P312-INP-11, -20, -30; P312-MOT-06, -35, -42, -43; P312-STA-01, -02.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from ...chip import Context, Phase
 from ..codes import Alarm, Answer, Cause, State
 from ..front import responses as responses312
 from ..front.responses import Responses
-from ..pace import Pace
 from ..stages import constant
+from ..timing import CoreTiming
 from .inputs import Outputs
-from .motion import LIMITS, SLOW_LIMITS, Motion, Order
+from .motion import LIMITS, SLOW_LIMITS, Motion, MotionRequest
 from .position import Counters
 from .sequence import Change
 
@@ -27,9 +27,10 @@ class Operation:
     Args:
         pins: input levels for decisions.
         alarm: alarm(t, status) is called on a multiple occurrence.
-        rested: rested(t) is called when the position has changed, or the pulse output has ended.
-        settled: settled() returns False while an instruction waits for which a position has stopped the
-            motor.
+        on_pulses_ended: on_pulses_ended(t) is called when the position has changed, or the pulse output
+            has ended.
+        overrides_done: overrides_done() returns False while an instruction waits for which a position has
+            stopped the motor.
         abnormal: abnormal() returns True in state ABN.
 
     Attributes:
@@ -43,28 +44,35 @@ class Operation:
     def __init__(
         self,
         context: Context,
-        pace: Pace,
+        core_timing: CoreTiming,
         pins: Mapping[str, int],
         outputs: Outputs,
         counters: Counters,
         responses: Responses,
         on_pulse: Callable[[int, int], bool],
         alarm: Callable[[int, Alarm], None],
-        rested: Callable[[int], None],
-        settled: Callable[[], bool],
+        on_pulses_ended: Callable[[int], None],
+        overrides_done: Callable[[], bool],
         abnormal: Callable[[], bool],
     ) -> None:
-        self._context, self._pace, self._pins = context, pace, pins
+        self._context, self._core_timing, self._pins = context, core_timing, pins
         self._outputs, self._counters, self._responses = outputs, counters, responses
-        self._alarm, self._rested, self._abnormal = alarm, rested, abnormal
+        self._alarm, self._on_pulses_ended, self._abnormal = alarm, on_pulses_ended, abnormal
         self.motion = Motion(
-            context, pace, pins, lambda: self.speed_limit, self._count, on_pulse, settled, self._pulses_ended
+            context,
+            core_timing,
+            pins,
+            lambda: self.speed_limit,
+            self._count,
+            on_pulse,
+            overrides_done,
+            self._pulses_ended,
         )
-        self._looked_at: Callable[[int], None] = rested
+        self._on_position: Callable[[int], None] = on_pulses_ended
         self.speed_limit = 0xFFFF
         self.end_monitored = self.run_ignored = False
         self.run_level = context.levels["run"]
-        self._held: Order | None = None
+        self._waiting_for_run: MotionRequest | None = None
         self._end_wait: Cause | None = None
         self._alarm_at = -1
         self.last_cause: Cause | None = None
@@ -74,7 +82,7 @@ class Operation:
     @property
     def state(self) -> State | None:
         """ACC, FIX or WRN; `None` if stopped."""
-        if self._held:
+        if self._waiting_for_run:
             return State.WRN
         if self.motion.in_table:
             return State.ACC
@@ -86,52 +94,52 @@ class Operation:
         return self._end_wait is not None
 
     @property
-    def at_rest(self) -> bool:
+    def at_standstill(self) -> bool:
         """True if the pulse output is inactive."""
         return not self.motion.busy
 
     def _count(self, t: int, direction: int) -> None:
         """Count a pulse in POS."""
         self._counters.count_pulse(direction)
-        self._looked_at(t)
+        self._on_position(t)
 
     # ------------------------------------------------------------------ start
 
-    def limited(self, order: Order) -> bool:
+    def is_start_blocked(self, request: MotionRequest) -> bool:
         """Return True if a limit forbids the start (P312-INP-11)."""
-        slow = not self._pins[SLOW_LIMITS[order.direction]] and order.target <= self.speed_limit
-        return not self._pins[LIMITS[order.direction]] or slow
+        slow = not self._pins[SLOW_LIMITS[request.direction]] and request.target <= self.speed_limit
+        return not self._pins[LIMITS[request.direction]] or slow
 
     @property
     def may_run(self) -> bool:
         """True if RUN is high or not monitored."""
         return bool(self.run_level) or self.run_ignored
 
-    def start(self, t: int, order: Order) -> bool:
-        """Start at t0, or change to state WRN; return True if the operation is held."""
+    def start(self, t: int, request: MotionRequest) -> bool:
+        """Start at t0, or change to state WRN; return True if the operation waits for RUN."""
         if self.may_run:
-            self._begin(t, order)
+            self._begin(t, request)
             return False
-        self._held = order
+        self._waiting_for_run = request
         return True
 
-    def look_at_run(self, t: int) -> None:
+    def check_run(self, t: int) -> None:
         """Process a change of RUN or of its monitoring."""
-        if self._held and self.may_run:
-            self._context.queue.at(t + self._pace.held, Phase.BEGIN, self._release)
+        if self._waiting_for_run and self.may_run:
+            self._context.queue.at(t + self._core_timing.run_to_t0, Phase.BEGIN, self._release)
 
     def _release(self, t: int) -> None:
-        if self._held is None or not self.may_run:
+        if self._waiting_for_run is None or not self.may_run:
             return
         if not self._responses.report(t, responses312.HOLD, Answer.HOLD_EXECUTED):
             self._alarm(t, Alarm.INTERLOCK_OR_HOLD)
-        order, self._held = self._held, None
-        self._begin(t, order)
+        request, self._waiting_for_run = self._waiting_for_run, None
+        self._begin(t, request)
 
-    def _begin(self, t: int, order: Order) -> None:
+    def _begin(self, t: int, request: MotionRequest) -> None:
         self._outputs.begin()
-        self._looked_at(t)
-        self.motion.start(t, order)
+        self._on_position(t)
+        self.motion.start(t, request)
 
     # ------------------------------------------------------------------ stops
 
@@ -139,8 +147,8 @@ class Operation:
         """Process instruction 80, or the alarm of a multiple occurrence or of alm_n."""
         if cause is Cause.ALARM:
             self._alarm_at = t
-        if self._held:
-            self._held = None
+        if self._waiting_for_run:
+            self._waiting_for_run = None
             self._report(t, cause)
         elif self._end_wait is not None and cause is Cause.ALARM:
             self._context.queue.at(t + 1, Phase.QUEUE, self._leave_end_wait)
@@ -159,7 +167,7 @@ class Operation:
 
     def _pulses_ended(self, t: int, cause: Cause) -> None:
         if cause is Cause.RETURN:
-            self._turn_back(t)
+            self._start_phase_2(t)
             return
         self._outputs.pulses_ended(t)
         # In ABN, END is not awaited, for any cause; ABN entered at this edge ends the wait immediately.
@@ -170,16 +178,18 @@ class Operation:
                 self._context.queue.at(t + 1, Phase.QUEUE, self._leave_end_wait)
         else:
             self._report(t, cause)
-        self._rested(t)
+        self._on_pulses_ended(t)
 
-    def _turn_back(self, t: int) -> None:
+    def _start_phase_2(self, t: int) -> None:
         """Process t0 of phase 2."""
-        order = self.motion.order
-        table = order.plan.table
+        request = self.motion.request
+        table = request.plan.table
         rate = table.rates[table.sa]
-        self._begin(t, Order(constant(table, rate), 1 - order.direction, rate, True, False, order.index))
+        self._begin(
+            t, MotionRequest(constant(table, rate), 1 - request.direction, rate, True, False, request.index)
+        )
 
-    def look_at_end(self, t: int) -> None:
+    def check_end(self, t: int) -> None:
         """Process a change of end_n or of its monitoring."""
         if self._end_wait is not None and (not self.end_monitored or not self._pins["end_n"]):
             self._leave_end_wait(t)
@@ -190,7 +200,7 @@ class Operation:
             self._report(t, cause)
 
     def _report(self, t: int, cause: Cause) -> None:
-        self._context.queue.at(t + self._pace.report, Phase.END, lambda at: self._store(at, cause))
+        self._context.queue.at(t + self._core_timing.report, Phase.END, lambda at: self._store(at, cause))
 
     def _store(self, t: int, cause: Cause) -> None:
         position = self._counters.pulse.to_bytes(4, "big")

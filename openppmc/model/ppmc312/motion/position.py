@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from ...chip import Context, Phase
 from ..codes import SPONTANEOUS, Answer
 from ..front.responses import Responses, block
-from ..pace import Pace
+from ..timing import CoreTiming
 
 _WRAP = (1 << 32) - 1
 _LONG, _SHORT = 14, 4
@@ -65,23 +65,23 @@ class Monitor:
 
     Attributes:
         enabled: bit EN of the status.
-        far: True if the distance is out of range.
+        out_of_range: True if the distance is out of range.
     """
 
     def __init__(self, kind: int, code: Answer, responses: Responses) -> None:
         self.kind, self._code, self._responses = kind, code, responses
         self.enabled = self.auto = self.clamps = False
         self.range = 0
-        self.far = False
-        self._told = self._shown = self._kept = False
-        self.known_range = 0
-        self._report_from = self._look_from = 0
-        responses.fresh[kind] = self._block
+        self.out_of_range = False
+        self._reported = self._loaded_state = self._report_pending = False
+        self.effective_range = 0
+        self._report_from = self._evaluate_from = 0
+        responses.live_content[kind] = self._block
 
     @property
     def outside(self) -> bool:
         """True if the distance is out of range; False while the monitor is off."""
-        return self.enabled and self.far
+        return self.enabled and self.out_of_range
 
     @property
     def _loaded(self) -> bool:
@@ -89,15 +89,15 @@ class Monitor:
         return loaded is not None and loaded.kind == self.kind
 
     def _block(self) -> bytes:
-        self._shown, self._kept = self.far, False
-        return block(SPONTANEOUS, self._code, self._shown)
+        self._loaded_state, self._report_pending = self.out_of_range, False
+        return block(SPONTANEOUS, self._code, self._loaded_state)
 
     def set_up(self, t: int, flags: int, distance: int) -> None:
         """Execute instruction 02 or 03 with legal parameters."""
-        self._responses.withdraw(self.kind)
+        self._responses.discard(self.kind)
         self.enabled, self.auto, self.clamps = bool(flags & 1), bool(flags & 2), bool(flags & 4)
-        self.range, self.far, self._told, self._kept = distance, False, False, False
-        self._report_from, self._look_from = t + 1, t + 2
+        self.range, self.out_of_range, self._reported, self._report_pending = distance, False, False, False
+        self._report_from, self._evaluate_from = t + 1, t + 2
 
     def clock(self, t: int, inside: bool, evaluate: bool) -> None:
         """Process one cycle (P312-RSP-22, P312-MON-05).
@@ -106,68 +106,68 @@ class Monitor:
         """
         if t < self._report_from:
             return
-        far, enabled = self.far, self.enabled
-        if enabled and evaluate and t >= self._look_from:
-            self.far = not inside
+        out_of_range, enabled = self.out_of_range, self.enabled
+        if enabled and evaluate and t >= self._evaluate_from:
+            self.out_of_range = not inside
         if self._loaded:
             return
-        news = enabled and far != self._told
-        if not (news or self._kept):
-            self._responses.withdraw(self.kind)
+        changed = enabled and out_of_range != self._reported
+        if not (changed or self._report_pending):
+            self._responses.discard(self.kind)
         elif not self._responses.occupied(self.kind):
             self._responses.post(t, self.kind, [b""])
-        if news and not self.auto:
-            self.enabled, self._kept = False, True
+        if changed and not self.auto:
+            self.enabled, self._report_pending = False, True
 
     def was_read(self, t: int) -> None:
         """Process the read of a report."""
-        self._told = self._shown
+        self._reported = self._loaded_state
         self._report_from = t + 1
 
 
-class Watch:
+class WindowMonitors:
     """Both monitors on both counters.
 
-    at_rest(): returns True if the pulse output is inactive. clamp(): asserts zclmp_n (low). end_low():
+    at_standstill(): returns True if the pulse output is inactive. clamp(): asserts zclmp_n (low). end_low():
     returns True if end_n is low.
     """
 
     def __init__(
         self,
         context: Context,
-        pace: Pace,
+        core_timing: CoreTiming,
         counters: Counters,
         in_position: Monitor,
         encode: Monitor,
-        at_rest: Callable[[], bool],
+        at_standstill: Callable[[], bool],
         clamp: Callable[[], None],
         end_low: Callable[[], bool],
     ) -> None:
-        self._queue, self._pace, self._counters = context.queue, pace, counters
+        self._queue, self._core_timing, self._counters = context.queue, core_timing, counters
         self.in_position, self.encode = in_position, encode
-        self._at_rest, self._clamp, self._end_low = at_rest, clamp, end_low
-        self._distances = [0] * pace.compare_lag
+        self._at_standstill, self._clamp, self._end_low = at_standstill, clamp, end_low
+        self._distances = [0] * core_timing.compare_lag
         self._inside = {in_position.kind: False, encode.kind: False}
-        self._clamps, self._resting, self._quiet = False, True, 0
+        self._clamps, self._was_at_standstill, self._standstill_cycles = False, True, 0
         self._until = -1
-        self._awake = False
+        self._active = False
 
     def set_up(self, t: int, monitor: Monitor, flags: int, distance: int) -> None:
         """Execute instruction 02 or 03."""
         monitor.set_up(t, flags, distance)
         if monitor is self.in_position:
-            self._quiet = -1
-        self.look(t)
+            self._standstill_cycles = -1
+        self.evaluate(t)
 
-    def look(self, t: int) -> None:
+    def evaluate(self, t: int) -> None:
         """Run the comparison after a change at edge t.
 
         The change is a count, a position, a setting, the end of the pulse output, or end_n.
         """
         busy = self.in_position.enabled or self.encode.enabled
         self._until = max(self._until, t + (_LONG if busy else _SHORT))
-        if not self._awake:
-            self._awake = True
+        if not self._active:
+            self._active = True
             self._queue.at(t, Phase.PIN, self._clock)
 
     def _clock(self, t: int) -> None:
@@ -176,21 +176,30 @@ class Watch:
         The comparison uses the state before edge t.
         """
         position, encode = self.in_position, self.encode
-        quiet = self._quiet >= self._pace.quiet and self._resting
-        if quiet and self._clamps and self._at_rest() and (self._inside[position.kind] or self._end_low()):
+        is_settled = self._standstill_cycles >= self._core_timing.standstill and self._was_at_standstill
+        if (
+            is_settled
+            and self._clamps
+            and self._at_standstill()
+            and (self._inside[position.kind] or self._end_low())
+        ):
             self._clamp()
         encode.clock(t, self._inside[encode.kind], True)
-        position.clock(t, self._inside[position.kind], quiet)
-        self._quiet = min(self._quiet + 1, self._pace.quiet) if self._resting or self._quiet < 0 else 0
+        position.clock(t, self._inside[position.kind], is_settled)
+        self._standstill_cycles = (
+            min(self._standstill_cycles + 1, self._core_timing.standstill)
+            if self._was_at_standstill or self._standstill_cycles < 0
+            else 0
+        )
         self._clamps = position.enabled and position.clamps
-        self._resting = self._at_rest()
+        self._was_at_standstill = self._at_standstill()
         distance = self._distances.pop(0)
         self._distances.append(self._counters.distance)
         for monitor in (position, encode):
-            self._inside[monitor.kind] = distance <= monitor.known_range
-            monitor.known_range = monitor.range
-        self._awake = t < self._until
-        if self._awake:
+            self._inside[monitor.kind] = distance <= monitor.effective_range
+            monitor.effective_range = monitor.range
+        self._active = t < self._until
+        if self._active:
             self._queue.at(t + 1, Phase.PIN, self._clock)
 
     def was_read(self, t: int, kind: int) -> None:
@@ -198,4 +207,4 @@ class Watch:
         for monitor in (self.in_position, self.encode):
             if monitor.kind == kind:
                 monitor.was_read(t)
-        self.look(t)
+        self.evaluate(t)

@@ -26,7 +26,7 @@ class _Mode(Enum):
     PLAN = auto()
     CONSTANT = auto()
     RAMP = auto()
-    WALK = auto()
+    DECEL = auto()
     FINAL = auto()
 
 
@@ -36,10 +36,10 @@ class Sequence:
     Attributes:
         done: pulses output.
         running: current pulse and interval, `None` before pulse 1.
-        walk_begins: True if the last boundary began the deceleration to the end.
-        drops: True if the last boundary discarded a waiting instruction 87.
-        sought: True if the constant rate of the last boundary was that of a stage, so t(x) had to be searched
-            for it.
+        decel_begins: True if the last boundary began the deceleration to the end.
+        change_dropped: True if the last boundary discarded a waiting instruction 87.
+        was_searched: True if the constant rate of the last boundary was that of a stage, so t(x) had to be
+            searched for it.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -49,12 +49,12 @@ class Sequence:
         self._mode = _Mode.PLAN
         self._stages: list[list[int]] = []
         self._rate = plan.rate
-        self._walk_cause = Cause.SLOW
+        self._decel_cause = Cause.SLOW
         self._requests: set[Cause] = set()
         self._limit = False
-        self.walk_begins = self.drops = self.sought = False
+        self.decel_begins = self.change_dropped = self.was_searched = False
         self._change: Change | None = None
-        self._held = self._changed = self._from_stage = False
+        self._change_waits = self._changed = self._from_stage = False
 
     @property
     def complete(self) -> bool:
@@ -75,9 +75,9 @@ class Sequence:
 
     def request(self, cause: Cause) -> None:
         """Request a deceleration for 81 or for the origin of a zero return (P312-MOT-30, -43)."""
-        if self._mode is _Mode.WALK:
-            if self._walk_cause is Cause.RETURN and cause in _DECELERATING:
-                self._walk_cause = cause
+        if self._mode is _Mode.DECEL:
+            if self._decel_cause is Cause.RETURN and cause in _DECELERATING:
+                self._decel_cause = cause
             return
         self._requests.add(cause)
 
@@ -89,19 +89,19 @@ class Sequence:
             self._requests.discard(Cause.LIMIT_SLOW)
         self._limit = active
 
-    def hold(self) -> None:
+    def announce_change(self) -> None:
         """Record a waiting 87, which may soon take effect."""
-        self._held = True
+        self._change_waits = True
 
     def change(self, change: Change) -> None:
         """Process instruction 87 or 88 for the next boundary; it replaces a waiting one."""
         self._change = change
-        self._held = change.ramp
+        self._change_waits = change.ramp
 
     def drop_change(self) -> None:
         """Discard a waiting change: a newer 87 or 88 follows, or changes do not count any more."""
         self._change = None
-        self._held = False
+        self._change_waits = False
 
     # ------------------------------------------------------------------ boundary
 
@@ -114,36 +114,36 @@ class Sequence:
             ramps: True if instruction 87 may take effect at this boundary.
             found: True if the search for t(x) has ended; without effect if no search was required.
         """
-        self.walk_begins = self.drops = False
+        self.decel_begins = self.change_dropped = False
         if self.complete:
             return Cause.NORMAL
-        if self._mode is _Mode.WALK and not self._stages_left():
-            return self._walk_cause
-        if found or not self.sought or not self._walk_from(self.present):
-            wanted = self._requests
+        if self._mode is _Mode.DECEL and not self._stages_left():
+            return self._decel_cause
+        if found or not self.was_searched or not self._decel_from(self.present):
+            causes = self._requests
             self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
         else:
-            wanted = set()  # the first stage of the deceleration is not known yet, so the deceleration waits
-        if wanted and self._mode is not _Mode.WALK:
-            end = self._decelerate(next(cause for cause in _ORDER if cause in wanted))
+            causes = set()  # the first stage of the deceleration is not known yet, so the deceleration waits
+        if causes and self._mode is not _Mode.DECEL:
+            end = self._decelerate(next(cause for cause in _ORDER if cause in causes))
             if end is not None:
                 return end
         self._ramps = ramps
-        self._take_change()
+        self._apply_change()
         plan = self.plan
-        if plan.n is not None and plan.n - self.done == plan.down and self._mode is not _Mode.WALK:
-            if self._held:
+        if plan.n is not None and plan.n - self.done == plan.down and self._mode is not _Mode.DECEL:
+            if self._change_waits:
                 # The change could only accelerate the remaining pulses, so it is discarded.
                 self.drop_change()
-                self.drops = self._changed = True
+                self.change_dropped = self._changed = True
             if self._changed:
-                self._final()
+                self._begin_final()
         self.running = self._next()
         self.done += 1
-        self.sought = self._mode is _Mode.FINAL and self._from_stage and self.running.stage is None
+        self.was_searched = self._mode is _Mode.FINAL and self._from_stage and self.running.stage is None
         return self.running
 
-    def _walk_from(self, step: Step) -> list[list[int]]:
+    def _decel_from(self, step: Step) -> list[list[int]]:
         """Return stages and pulses of the deceleration from a step (P312-MOT-20).
 
         The list is empty if no deceleration is required.
@@ -155,16 +155,16 @@ class Sequence:
         return [[i, table.pd[i]] for i in range(top, table.sd - 1, -1)]
 
     def _decelerate(self, request: Cause) -> Cause | None:
-        walk = self._walk_from(self.present)
-        if self.running is None or not walk:
+        decel = self._decel_from(self.present)
+        if self.running is None or not decel:
             return Cause.RETURN if request is Cause.RETURN else Cause.LOW
         if not self.running.planned:
-            self._mode, self._stages, self._walk_cause = _Mode.WALK, walk, request
+            self._mode, self._stages, self._decel_cause = _Mode.DECEL, decel, request
             self.drop_change()
-            self.walk_begins = True
+            self.decel_begins = True
         return None
 
-    def _take_change(self) -> None:
+    def _apply_change(self) -> None:
         """Apply a waiting 87 or 88; 87 requires a constant speed before."""
         change = self._change
         if change is None or (change.ramp and not self._ramps):
@@ -190,11 +190,11 @@ class Sequence:
         self._mode = _Mode.RAMP
         self._stages = [[i, pulses[i]] for i in stages if pulses[i]]
 
-    def _final(self) -> None:
+    def _begin_final(self) -> None:
         """Begin the final deceleration after a change (P312-MOT-33)."""
         table = self.plan.table
         start = Step(self._rate) if self._mode is _Mode.CONSTANT else self.present
-        self._stages = self._walk_from(start)
+        self._stages = self._decel_from(start)
         self._rate = table.rates[table.sd] if self._stages else start.rate
         self._from_stage = bool(self._stages) or start.stage is not None
         self._mode = _Mode.FINAL

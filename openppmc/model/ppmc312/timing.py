@@ -15,15 +15,15 @@ US, WIDTH = 16, 80
 
 
 @dataclass(frozen=True)
-class Pace:
+class CoreTiming:
     """Constants of one core in cycles, except `early`.
 
     The times of plans and tables depend on the table.
 
     Attributes:
-        turn: instructions: header write event, trigger, or end of the last instruction to the begin of
+        arbitration: instructions: header write event, trigger, or end of the last instruction to the begin of
             processing. The block is fetched at one byte per cycle and checked.
-        judge: begin of processing to the checks.
+        check: begin of processing to the checks.
         effect: begin of processing to the effect of a short instruction.
         copy: additional time of an instruction that is registered.
         data: additional time of a data block of a free curve, without its bytes (one cycle each).
@@ -35,46 +35,47 @@ class Pace:
         reopen: reset by FF to MWEF = 0.
         alarm: multiple occurrence to its alarm.
         halt: effect of 80 to its stop.
-        late: responses: read of an earlier response to the one that waited for it (P312-RSP-20, <= 4).
+        next_response: responses: read of an earlier response to the one that waited for it (P312-RSP-20,
+            <= 4).
         load: store to load.
         show: load to MREF = 0.
         reload: MREF = 1 to the next load (P312-PAR-08).
         rest: motion: end of the pulses, or fall of pout, to standstill.
         report: standstill to E0 (<= 64).
         turn_back: phase 1 of a zero return to t0 of phase 2 (<= 64).
-        held: RUN to t0 of a held operation.
+        run_to_t0: RUN to t0 of an operation that waits for RUN.
         count: pulse to POS.
         compare: pulse to the actions that the position triggers (P312-MOT-05, P312-OVR-12).
         unlock: pulse to E1.
         lead, slow_lead, change_lead, ramp_lead, origin_lead: least time until a boundary for which the
             high-speed limit, 81, 88, 87, the level of the origin counts.
         drop_lead: the same for a change that a newer 87 or 88 replaces.
-        flat_lead: 87 requires a constant rate for this time.
-        search: addition to flat_lead after the rate of a stage has become the constant rate, whose t(x) must
-            be searched first.
+        const_rate_lead: 87 requires a constant rate for this time.
+        search: addition to const_rate_lead after the rate of a stage has become the constant rate, whose
+            t(x) must be searched first.
         scan: one pass over the table.
-        young: t0 to the first check of the high-speed limit.
+        limit_from: t0 to the first check of the high-speed limit.
         least: shortest interval (P312-MOT-04).
         armed: new head of the command FIFO to its trigger (P312-OVR-02, <= 4).
         compare_lag: monitors: change of POS or ENC to the result of the comparison. The status bit follows
             one cycle later, the report two cycles later.
-        quiet: standstill to the first evaluation of the in-position monitor.
-        heard: serial mode: middle of the stop bit to the character.
+        standstill: standstill to the first evaluation of the in-position monitor.
+        character: serial mode: middle of the stop bit to the character.
         frame: last character to the event that is a header write in parallel mode.
-        look: last character to the sampling of reports, state and counters.
+        sampling: last character to the sampling of reports, state and counters.
         reply: that sampling, or the stored response, to the rise of snd.
         clear: snd does not rise earlier than this time plus one bit after the middle of the stop bit.
         silence: addition to the 20 ms.
         early: DATASHEET: crystal cycles that a time is shortened by, for the time that has already passed.
-        paced: end of a DATASHEET time to the effect.
+        proc_time: end of a DATASHEET time to the effect.
         pins: internal level to irq_n and intlk_n.
         wrq_fast: T_WRQ with FAST timing.
         ready: first edge after a reset to out_oe with FAST timing.
         start: addition to the DATASHEET time from a reset to out_oe.
     """
 
-    turn: int = 1
-    judge: int = 22
+    arbitration: int = 1
+    check: int = 22
     effect: int = 23
     copy: int = 19
     data: int = 3
@@ -86,14 +87,14 @@ class Pace:
     reopen: int = 4
     alarm: int = 1
     halt: int = 1
-    late: int = 1
+    next_response: int = 1
     load: int = 1
     show: int = 6
     reload: int = 10
     rest: int = 1
     report: int = 0
     turn_back: int = 1
-    held: int = 0
+    run_to_t0: int = 0
     count: int = 1
     compare: int = 2
     unlock: int = 3
@@ -102,23 +103,23 @@ class Pace:
     change_lead: int = 5
     drop_lead: int = 3
     ramp_lead: int = 9
-    flat_lead: int = 7
+    const_rate_lead: int = 7
     search: int = 129
     origin_lead: int = 2
     scan: int = 131
-    young: int = 6
+    limit_from: int = 6
     least: int = 4
     armed: int = 2
     compare_lag: int = 3
-    quiet: int = 4
-    heard: int = 1
+    standstill: int = 4
+    character: int = 1
     frame: int = 1
-    look: int = 1
+    sampling: int = 1
     reply: int = 1
     clear: int = 2
     silence: int = 1
     early: int = 8
-    paced: int = 3
+    proc_time: int = 3
     pins: int = 1
     wrq_fast: int = 6
     ready: int = 3
@@ -184,7 +185,7 @@ class Pace:
         return len(block) + 3 * stages
 
 
-# Times of section 8 in crystal cycles from the write of the header, or from the trigger.
+# Times of P312-TIM in crystal cycles from the write of the header, or from the trigger.
 READY = 1600 * US
 BUILD = {(False, False): 115_000 * US, (False, True): 200_000 * US}
 BUILD |= {(True, False): 175_000 * US, (True, True): 260_000 * US}

@@ -1,8 +1,8 @@
 """Protocols for the instructions of the PMC006B4, and the instructions as objects.
 
-The desk is the execution context of instructions: everything that they read and change.
+The execution context is everything that instructions read and change.
 
-`instructions.executor.Desk` implements the protocols.
+`instructions.executor.ExecutionContext` implements the protocols.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Callable, Container
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
-from .pins import Shared
+from .pins import Services
 from .settings import LEGAL, Settings
 
 
@@ -23,11 +23,11 @@ class Motion(Protocol):
         """True while BUSY is set."""
 
     @property
-    def steady(self) -> bool:
+    def at_constant_speed(self) -> bool:
         """True at constant speed."""
 
 
-class Guard(Protocol):
+class StopMonitor(Protocol):
     """Latches of the emergency inputs and of the stall detector."""
 
     stall: bool
@@ -83,7 +83,7 @@ class Eeprom(Protocol):
         """Start a job at edge t (t or B)."""
 
 
-class Desk(Protocol):
+class ExecutionContext(Protocol):
     """Everything that instructions read and change.
 
     Attributes:
@@ -91,7 +91,7 @@ class Desk(Protocol):
         version: value of FW_VERSION.
     """
 
-    shared: Shared
+    services: Services
     settings: Settings
     levels: dict[str, int]
     echo: bool
@@ -104,8 +104,8 @@ class Desk(Protocol):
         """Motor."""
 
     @property
-    def guard(self) -> Guard:
-        """Guard, which stops the motor."""
+    def stop_monitor(self) -> StopMonitor:
+        """Monitor of emergency inputs and stall, which stops the motor."""
 
     @property
     def program(self) -> Program:
@@ -143,8 +143,9 @@ class Desk(Protocol):
         """Execute instruction N while the speed mode is running or ending."""
 
 
-# Instructions of the PMC006B4 (P006 chapters 3.1, 3.2). An instruction is an object that reads the desk and
-# its data and returns an `Effect`. Nothing changes before the executor applies the effect.
+# Instructions of the PMC006B4 (docs/pmc006/README.md, 4). An instruction is an object that reads the
+# execution context and its data, and returns an `Effect`. Nothing changes before the executor
+# applies the effect.
 
 
 class Effect(NamedTuple):
@@ -152,27 +153,27 @@ class Effect(NamedTuple):
 
     Attributes:
         reply: data of the answer; a function is called one cycle later.
-        put: registers.
+        registers: new register values.
         halt: True if the motor stops immediately.
-        do: function for any other effect, called with the desk and the edge.
-        early: the same, before the motion is processed at that edge.
-        still: True if no step may be counted in that cycle.
-        once: instruction of the program that E executes.
+        action: function for any other effect, called with the context and the edge.
+        early_action: the same, before the motion is processed at that edge.
+        excludes_step: True if no step may be counted in that cycle.
+        program_index: number of the instruction of the program that E executes.
     """
 
-    reply: int | Callable[[Desk], int] = 0
-    put: dict[str, int] | None = None
+    reply: int | Callable[[ExecutionContext], int] = 0
+    registers: dict[str, int] | None = None
     halt: bool = False
-    do: Callable[[Desk, int], None] | None = None
-    early: Callable[[Desk, int], None] | None = None
-    still: bool = False
-    once: int | None = None
+    action: Callable[[ExecutionContext, int], None] | None = None
+    early_action: Callable[[ExecutionContext, int], None] | None = None
+    excludes_step: bool = False
+    program_index: int | None = None
 
 
 class Instruction:
     """Instruction; an unknown one has no effect."""
 
-    def __call__(self, desk: Desk, data: int) -> Effect:
+    def __call__(self, context: ExecutionContext, data: int) -> Effect:
         """Return the effect of `data`."""
         return Effect()
 
@@ -189,39 +190,39 @@ class Setting(Instruction):
     legal: Container[int] | None = None
     also: dict[str, int] | None = None
 
-    def __call__(self, desk: Desk, data: int) -> Effect:
+    def __call__(self, context: ExecutionContext, data: int) -> Effect:
         """Return the effect; rejected data changes nothing, and the answer is the active value."""
         if data in (LEGAL[self.name] if self.legal is None else self.legal):
             return Effect(self.now, {self.name: data, **(self.also or {})})
         return Effect(self.now)
 
-    def now(self, desk: Desk) -> int:
+    def now(self, context: ExecutionContext) -> int:
         """Return the active value."""
-        return int(getattr(desk.settings, self.name))
+        return int(getattr(context.settings, self.name))
 
 
 @dataclass
 class Read(Instruction):
     """Instruction that answers with a value."""
 
-    what: Callable[[Desk], int]
+    get: Callable[[ExecutionContext], int]
 
-    def __call__(self, desk: Desk, data: int) -> Effect:
+    def __call__(self, context: ExecutionContext, data: int) -> Effect:
         """Return the effect, which does not depend on the data."""
-        return Effect(self.what)
+        return Effect(self.get)
 
 
 @dataclass
-class Deed(Instruction):
+class ActionInstruction(Instruction):
     """Instruction of any other kind: a function that returns its effect."""
 
-    what: Callable[[Desk, int], Effect]
+    action: Callable[[ExecutionContext, int], Effect]
 
-    def __call__(self, desk: Desk, data: int) -> Effect:
+    def __call__(self, context: ExecutionContext, data: int) -> Effect:
         """Return the effect of `data`."""
-        return self.what(desk, data)
+        return self.action(context, data)
 
 
 def value(name: str) -> Read:
     """Return an instruction that reads a register."""
-    return Read(lambda desk: int(getattr(desk.settings, name)))
+    return Read(lambda context: int(getattr(context.settings, name)))
