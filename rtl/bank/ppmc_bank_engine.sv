@@ -2,9 +2,9 @@
 // ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, decides, and
 //         writes the state back.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_update.
-// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters in each cycle:
-//         0 address    1 RAM    2 compare    3 plan    4 update    5 write; pin_cmd_o is
-//         loaded    6 the command is valid in the pin block: first cycle at whose end an edge can be ordered
+// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters in each cycle.
+//         Stages: 0 address, 1 RAM, 2 compare, 3 plan, 4 update, 5 write and load of pin_cmd_o, 6 the command
+//         is valid in the pin block: the first cycle at whose end a pin can change.
 //         The interval is read two cycles earlier, because the address of a threshold contains the rate.
 `default_nettype none
 
@@ -47,8 +47,7 @@ module ppmc_bank_engine
   localparam int unsigned HoldBits = $clog2(HoldRounds);
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
-  // Small FPGAs have few block RAMs. With few axes, the memory with the fewest bits is therefore built from
-  // logic. Only an attribute uses this parameter, and simulation ignores attributes.
+  // Small FPGAs have few block RAMs: with few axes, the smallest memory is built from logic.
   // verilator lint_off UNUSEDPARAM
   localparam string IntervalStyle = (Round > 8) ? "block" : "logic";
   // verilator lint_on UNUSEDPARAM
@@ -56,7 +55,6 @@ module ppmc_bank_engine
   typedef logic [RoundBits-1:0] axis_t;
 
   // ---- memories ------------------------------------------------------------------------------------
-
   // state_s1_t is read in stage 1, because the comparisons need it; state_s2_t is read in stage 2.
   typedef struct packed {
     logic [TimeBits-1:0] cycles_left;  // cycles to the awaited edge
@@ -140,7 +138,7 @@ module ppmc_bank_engine
   logic in_buf_new_s3_q, threshold_reached, ramp_motion, build_busy;
   axis_t build_axis;
   decoded_t decoded_s3_q;
-  cmd_error_e value_s3_q;
+  cmd_error_e param_error_s3_q;
   logic [TimeBits-1:0] go_delay_s3_q;
   motion_state_t motion_s2;
 
@@ -160,7 +158,7 @@ module ppmc_bank_engine
     go_delay_s3_q <= go_delay_i;
     in_buf_new_s3_q <= in_buf_s2_q.seq != state1_s2_q.parser.ack_seq;
     decoded_s3_q <= decode(in_buf_s2_q.data);
-    value_s3_q <= ppmc104_pkg::check_params({in_buf_s2_q.data, last_cmd_s2_q.params});
+    param_error_s3_q <= ppmc104_pkg::check_params({in_buf_s2_q.data, last_cmd_s2_q.params});
     compare_s3_q.edge_in_round <= state1_s2_q.cycles_left[TimeBits-1:RoundBits] == '0;
     if (interval_s2_q.decel)
       compare_s3_q.rate_mismatch <= ramp_motion
@@ -184,11 +182,11 @@ module ppmc_bank_engine
   logic [7:0] code, code_s4_q;
   logic [31:0] params, params_s4_q;
   logic [TimeBits-1:0] add_cycles, add_cycles_s4_q;
-  ppmc_code_pkg::parser_state_t asking, asking_s3;
+  ppmc_code_pkg::parser_state_t parser_state, parser_state_s3;
   parser_t parser_s3, parser_s4_q;
 
   assign parser_s3 = state1_s3_q.parser;
-  assign asking_s3 = '{
+  assign parser_state_s3 = '{
           error: parser_s3.error,
           number: parser_s3.number,
           code: last_cmd_s3_q.code,
@@ -212,9 +210,9 @@ module ppmc_bank_engine
       .in_buf_i      (in_buf_s3_q),
       .in_buf_new_i  (in_buf_new_s3_q),
       .decoded_i     (decoded_s3_q),
-      .value_i       (value_s3_q),
-      .asking_i      (asking_s3),
-      .parser_o      (asking),
+      .param_error_i (param_error_s3_q),
+      .parser_i      (parser_state_s3),
+      .parser_o      (parser_state),
       .take_o        (take),
       .code_o        (code),
       .params_o      (params),
@@ -254,8 +252,8 @@ module ppmc_bank_engine
     {take_s4_q, ramp_s4_q, chop_units_s4_q} <= {take, ramp_s3_q, chop_units_s3_q};
     parser_s4_q <= '{
         ack_seq: take ? in_buf_s3_q.seq : parser_s3.ack_seq,
-        error: asking.error,
-        number: asking.number
+        error: parser_state.error,
+        number: parser_state.number
     };
   end
 
@@ -268,7 +266,7 @@ module ppmc_bank_engine
   logic unused_words;
 
   assign init = init_code_t'(code_s4_q);
-  assign unused_words = ^{init, asking};
+  assign unused_words = ^{init, parser_state};
 
   ppmc_bank_update #(
       .HoldRounds(HoldRounds),

@@ -32,9 +32,9 @@ module ppmc_bank_plan
     input wire in_buf_t in_buf_i,  // byte of the host
     input wire logic in_buf_new_i,  // in_buf_i is not yet accepted
     input wire decoded_t decoded_i,  // in_buf_i.data as a code
-    input wire cmd_error_e value_i,  // error in an initialisation that in_buf_i completes
-    input wire parser_state_t asking_i,  // state before this byte
-    output parser_state_t asking_o,  // state after this byte
+    input wire cmd_error_e param_error_i,  // error in an initialisation that in_buf_i completes
+    input wire parser_state_t parser_i,  // state before this byte
+    output parser_state_t parser_o,  // state after this byte
     output logic take_o,  // the byte is accepted
     output logic [7:0] code_o,  // code of the actions in plan_o
     output logic [31:0] params_o,  // parameters of code_o
@@ -78,21 +78,21 @@ module ppmc_bank_plan
   // ---- the byte ------------------------------------------------------------------------------------
 
   assign pulses_done = !motion_i.more_pulses || abort_motion;
-  assign is_init = asking_i.code[7:6] == 2'b00;
-  assign last_init_byte = is_init && !in_buf_i.is_command && !asking_i.error && asking_i.number == 3'd1;
+  assign is_init = parser_i.code[7:6] == 2'b00;
+  assign last_init_byte = is_init && !in_buf_i.is_command && !parser_i.error && parser_i.number == 3'd1;
   assign accept_ok = !finish && !init_state_i.building && !(compare_i.go && pin_status_i.in_group)
       && !chop_edge && (builder_free_i || !last_init_byte);
   assign take_o = in_buf_new_i && accept_ok;
-  assign code_o = in_buf_i.is_command ? in_buf_i.data : asking_i.code;
-  assign params_o = {in_buf_i.data, asking_i.params[31:8]};
+  assign code_o = in_buf_i.is_command ? in_buf_i.data : parser_i.code;
+  assign params_o = {in_buf_i.data, parser_i.params[31:8]};
 
-  parser_state_t asking;
+  parser_state_t parser;
   always_comb begin
-    asking_o = asking;
+    parser_o = parser;
     if (go_reject) begin
-      asking_o.error  = 1'b1;
-      asking_o.number = init_state_i.initialised ? ErrUndefined : ErrNotReady;
-      if (motion_i.busy && !finish) asking_o.number = ErrBusy;
+      parser_o.error  = 1'b1;
+      parser_o.number = init_state_i.initialised ? ErrUndefined : ErrNotReady;
+      if (motion_i.busy && !finish) parser_o.number = ErrBusy;
     end
   end
 
@@ -104,14 +104,14 @@ module ppmc_bank_plan
       .byte_i        (in_buf_i.data),
       .data_i        (in_buf_i.data),
       .decoded_i,
-      .param_error_i (value_i),
+      .param_error_i (param_error_i),
       .is_checked_i  (is_init),
       .busy_i        (motion_i.busy),
       .ramp_i        (has_ramp),
       .decelerating_i(motion_i.decel_forced || motion_i.decel_natural || pulses_done),
       .initialised_i (init_state_i.initialised),
-      .parser_i      (asking_i),
-      .parser_o      (asking),
+      .parser_i      (parser_i),
+      .parser_o      (parser),
       .act_o         (act),
       .stop_o        (unused_stop)
   );

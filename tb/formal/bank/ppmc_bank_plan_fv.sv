@@ -22,15 +22,15 @@ module ppmc_bank_plan_fv
     input wire in_buf_t              in_buf_i,
     input wire logic                 in_buf_new_i,
     input wire decoded_t             decoded_i,
-    input wire cmd_error_e           value_i,
-    input wire parser_state_t        asking_i,
+    input wire cmd_error_e           param_error_i,
+    input wire parser_state_t        parser_i,
     input wire logic          [17:0] go_delay_i,
     input wire logic          [17:0] after_low_i
 );
 
   localparam int unsigned Quantum = 25, Round = 32, WidthCycles = 20 * Quantum;  // cycles
 
-  parser_state_t asking_o;
+  parser_state_t parser_o;
   logic take_o, restart_time_o;
   logic [7:0] code_o;
   logic [31:0] params_o;
@@ -49,7 +49,7 @@ module ppmc_bank_plan_fv
   );
 
   assign completes_init =
-      !in_buf_i.is_command && asking_i.code[7:6] == 2'b00 && !asking_i.error && asking_i.number == 3'd1;
+      !in_buf_i.is_command && parser_i.code[7:6] == 2'b00 && !parser_i.error && parser_i.number == 3'd1;
 
   logic go;  // GO acts on this axis
   logic host_action;  // an action that a host requests with a byte
@@ -75,7 +75,7 @@ module ppmc_bank_plan_fv
   `FV_ASSERT(bank_hsk_02_accepts_otherwise, bank_hsk_02_accepts_otherwise_holds)
   `FV_ASSERT(host_action_needs_a_byte, take_o || !host_action)
   `FV_ASSERT(bank_grp_02_accepted_or_rejected, 2'(decision_o.go_accept) + 2'(decision_o.go_reject) == 2'(go))
-  `FV_ASSERT(bank_grp_02_reject_is_an_error, !decision_o.go_reject || asking_o.error)
+  `FV_ASSERT(bank_grp_02_reject_is_an_error, !decision_o.go_reject || parser_o.error)
   logic bank_grp_02_first_pulse_holds;
   assign bank_grp_02_first_pulse_holds =
       !decision_o.go_accept || decision_o.finish || decision_o.pulse_end ||
@@ -85,7 +85,7 @@ module ppmc_bank_plan_fv
              !decision_o.start || (restart_time_o && add_cycles_o == 18'(WidthCycles - Round)))
   `FV_ASSERT(bank_mot_04_no_edge_at_the_end,
              !decision_o.finish || !(decision_o.pulse || decision_o.pulse_end || decision_o.start))
-  `FV_ASSERT(p104_err_00_no_action_on_error, !(take_o && asking_o.error) || !host_action)
+  `FV_ASSERT(p104_err_00_no_action_on_error, !(take_o && parser_o.error) || !host_action)
   `FV_COVER(seen_go, decision_o.go_accept && in_buf_new_i)
   `FV_COVER(seen_start, decision_o.start && take_o)
 

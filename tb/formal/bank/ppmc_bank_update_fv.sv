@@ -26,15 +26,15 @@ module ppmc_bank_update_fv
     input wire in_buf_t              in_buf_i,
     input wire logic                 in_buf_new_i,
     input wire decoded_t             decoded_i,
-    input wire cmd_error_e           value_i,
-    input wire parser_state_t        asking_i,
+    input wire cmd_error_e           param_error_i,
+    input wire parser_state_t        parser_i,
     input wire logic          [17:0] go_delay_i,
     input wire logic          [17:0] after_low_i,
     input wire logic          [16:0] hold_left_i,
     input wire logic          [31:0] position_i
 );
 
-  parser_state_t asking_o;
+  parser_state_t parser_o;
   logic take_o, restart_time_o, irq_set_o, irq_clear_o;
   logic [7:0] code_o;
   logic [31:0] params_o, position_o;
@@ -67,7 +67,7 @@ module ppmc_bank_update_fv
   `FV_ASSUME(valid_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)
   `FV_ASSUME(valid_params,
              decoded_i.params == '0 || decoded_i.kind inside {CmdInit, CmdOperation, CmdSwitching})
-  `FV_ASSUME(no_open_params_while_busy, !(motion_i.busy && !asking_i.error && asking_i.number != '0))
+  `FV_ASSUME(no_open_params_while_busy, !(motion_i.busy && !parser_i.error && parser_i.number != '0))
 
   `FV_ASSERT(one_pin_action, 2'(pin_cmd_o.pulse) + 2'(pin_cmd_o.pulse_end) + 2'(pin_cmd_o.set_pins) <= 2'd1)
   `FV_ASSERT(bank_mot_03_position_by_one, position_o - position_i inside {32'd0, 32'd1, 32'hFFFFFFFF})

@@ -27,9 +27,9 @@ module ppmc_bank_plan
     input wire in_buf_t in_buf_i,  // byte of the host
     input wire logic in_buf_new_i,  // in_buf_i is not yet accepted
     input wire decoded_t decoded_i,  // in_buf_i.data as a code
-    input wire cmd_error_e value_i,  // error in an initialisation that in_buf_i completes
-    input wire parser_state_t asking_i,  // state before this byte
-    output parser_state_t asking_o,  // state after this byte
+    input wire cmd_error_e param_error_i,  // error in an initialisation that in_buf_i completes
+    input wire parser_state_t parser_i,  // state before this byte
+    output parser_state_t parser_o,  // state after this byte
     output logic take_o,  // the byte is accepted
     output logic [7:0] code_o,  // code of the actions in plan_o
     output logic [31:0] params_o,  // parameters of code_o
