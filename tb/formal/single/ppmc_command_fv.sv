@@ -59,9 +59,9 @@ module ppmc_command_fv
   `FV_ASSUME(decoder_stands, $past(byte_i) != byte_i || $past(command_i)
              != command_i || decoded_byte_i == $past(decoded_byte_i))
   `FV_ASSUME(known_kind, decoded_byte_i.kind <= CmdAuxOff && decoded_byte_i.params <= 3'd4)
-  `FV_ASSUME(
-      params_of_rest,
-      decoded_byte_i.params == '0 || decoded_byte_i.kind inside {CmdInit, CmdOperation, CmdSwitching, CmdAuxOut})
+  logic has_params;  // a code of this kind may have parameters
+  assign has_params = decoded_byte_i.kind inside {CmdInit, CmdOperation, CmdSwitching, CmdAuxOut};
+  `FV_ASSUME(params_of_rest, decoded_byte_i.params == '0 || has_params)
   `FV_ASSUME(codes_with_parameters,
              decoded_byte_i.params == '0 || (decoded_byte_i.kind == CmdOperation) == byte_i[6])
   `FV_ASSUME(code_of_aux, decoded_byte_i.kind != CmdAuxOut || byte_i[7:6] == 2'b10)

@@ -56,7 +56,8 @@ module ppmc_single_fv
 
   always_ff @(posedge clk_i) init_open_q <= on && (act.init || (init_open_q && !dut.u_single.ready_init));
 
-  // Assumptions of the proofs of axis, finish, table and builder, setup, mailbox, command and judge.
+  // Assumptions of the proofs of axis, finish status, table and builder, setup, mailbox, command and its
+  // check.
   `FV_ASSERT(start_at_rest, !on || !act.start || !(busy || dut.u_single.event_now.done || building))
   `FV_ASSERT(table_once, !on || !(act.init && building))
   `FV_ASSERT(ramp_stands, !$past(on) || !busy || rates == $past(rates))
