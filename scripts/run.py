@@ -60,9 +60,9 @@ class Goal:
         self.given = {name: given.get(name, os.environ.get(name) or None) for name in self.known}
         self.old_variables = []
         for old, new in OLD_VARIABLES.items():
-            value = given[old] if old in given else os.environ.get(old) or None
-            if new in self.known and self.given[new] is None and value is not None:
-                self.given[new] = value
+            old_value = given[old] if old in given else os.environ.get(old) or None
+            if new in self.known and self.given[new] is None and old_value is not None:
+                self.given[new] = old_value
                 self.old_variables.append(old)
 
     def check(self) -> None:
