@@ -97,10 +97,10 @@ module ppmc312
 
   localparam bit Datasheet = 128'(TIMING) == "DATASHEET";
   // DATASHEET: 9.5 crystal periods
-  localparam int unsigned WaitClk = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
+  localparam int unsigned WaitCycles = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
   // ---- reset --------------------------------------------------------------------------------------
 
-  logic rst_core, rst_host, rst_bus, boot, reset, serial, talks, open;
+  logic rst_core_n, rst_host_n, rst_bus_n, boot, reset, serial, talks, open;
   logic [2:0] speed;
   logic [3:0] number;
 
@@ -115,9 +115,9 @@ module ppmc312
       .mode_i     (mode),
       .mod_i      (mod),
       .adr_i      (adr),
-      .rst_core_no(rst_core),
-      .rst_host_no(rst_host),
-      .rst_bus_no (rst_bus),
+      .rst_core_no(rst_core_n),
+      .rst_host_no(rst_host_n),
+      .rst_bus_no (rst_bus_n),
       .boot_o     (boot),
       .ready_o    (out_oe),
       .open_o     (open),
@@ -139,7 +139,7 @@ module ppmc312
       .Datasheet(Datasheet)
   ) u_pins (
       .clk_i(clk),
-      .rst_ni(rst_core),
+      .rst_ni(rst_core_n),
       .pins_i(
       '{
           alm_n: alm_n,
@@ -162,44 +162,44 @@ module ppmc312
 
   // ---- host ---------------------------------------------------------------------------------------
 
-  offer_t bus_offer, line_offer, offer;
-  line_byte_t line_byte;
-  answered_t answered;
+  host_block_t bus_block, line_block, host_block;
+  block_write_t block_write;
+  host_result_t host_result;
   status_e status;
-  poll_t found;
+  poll_result_t poll_result;
   logic blk_done, rd_any, bus_load, line_load, rd_done;
   logic [BLOCK_BITS:0] rd_size;
   logic [BLOCK_BITS-1:0] blk_addr, bus_addr, line_addr;
   logic [7:0] blk_data, rd_data;
 
   ppmc312_mailbox #(
-      .WaitClk(WaitClk)
+      .WaitCycles(WaitCycles)
   ) u_mailbox (
-      .clk_i     (clk),
-      .rst_ni    (rst_host),
-      .rst_bus_ni(rst_bus),
-      .ready_i   (open),
-      .off_i     (serial),
-      .rs_i      (rs),
-      .cs_ni     (cs_n),
-      .we_ni     (we_n),
-      .oe_ni     (oe_n),
+      .clk_i        (clk),
+      .rst_ni       (rst_host_n),
+      .rst_bus_ni   (rst_bus_n),
+      .ready_i      (open),
+      .off_i        (serial),
+      .rs_i         (rs),
+      .cs_ni        (cs_n),
+      .we_ni        (we_n),
+      .oe_ni        (oe_n),
       .d_i,
       .d_o,
-      .d_oe_o    (d_oe),
-      .wrq_no    (wrq_n),
-      .irq_no    (irq_n),
-      .offer_o   (bus_offer),
-      .blk_addr_i(blk_addr),
-      .blk_data_o(blk_data),
-      .blk_done_i(blk_done),
-      .line_i    (line_byte),
-      .rd_any_i  (rd_any && !serial),
-      .rd_load_o (bus_load),
-      .rd_size_i (rd_size),
-      .rd_addr_o (bus_addr),
-      .rd_data_i (rd_data),
-      .rd_done_o (rd_done)
+      .d_oe_o       (d_oe),
+      .wrq_no       (wrq_n),
+      .irq_no       (irq_n),
+      .host_block_o (bus_block),
+      .blk_addr_i   (blk_addr),
+      .blk_data_o   (blk_data),
+      .blk_done_i   (blk_done),
+      .block_write_i(block_write),
+      .rd_any_i     (rd_any && !serial),
+      .rd_load_o    (bus_load),
+      .rd_size_i    (rd_size),
+      .rd_addr_o    (bus_addr),
+      .rd_data_i    (rd_data),
+      .rd_done_o    (rd_done)
   );
 
   // The station is silent in binary mode (bit 2 low), which is not documented, and with speed 0, which does
@@ -213,28 +213,28 @@ module ppmc312
       .SndLead (SND_LEAD),
       .SndWait (SND_WAIT)
   ) u_serial (
-      .clk_i     (clk),
-      .rst_ni    (rst_host),
-      .ready_i   (out_oe),
-      .enable_i  (talks),
-      .rate_i    (speed[1:0]),
-      .adr_i     (number),
-      .rxd_i     (rxd),
-      .txd_o     (txd),
-      .snd_o     (snd),
-      .offer_o   (line_offer),
-      .byte_o    (line_byte),
-      .answered_i(answered),
-      .rd_addr_o (line_addr),
-      .rd_data_i (rd_data),
-      .status_i  (status),
-      .take_o    (line_load),
-      .found_i   (found)
+      .clk_i        (clk),
+      .rst_ni       (rst_host_n),
+      .ready_i      (out_oe),
+      .enable_i     (talks),
+      .rate_i       (speed[1:0]),
+      .adr_i        (number),
+      .rxd_i        (rxd),
+      .txd_o        (txd),
+      .snd_o        (snd),
+      .host_block_o (line_block),
+      .block_write_o(block_write),
+      .host_result_i(host_result),
+      .rd_addr_o    (line_addr),
+      .rd_data_i    (rd_data),
+      .status_i     (status),
+      .report_take_o(line_load),
+      .poll_result_i(poll_result)
   );
 
-  assign offer = '{
-          valid: line_offer.valid || bus_offer.valid,
-          size: serial ? line_offer.size : bus_offer.size
+  assign host_block = '{
+          valid: line_block.valid || bus_block.valid,
+          size: serial ? line_block.size : bus_block.size
       };
 
   // ---- core ---------------------------------------------------------------------------------------
@@ -247,27 +247,27 @@ module ppmc312
       .Datasheet(Datasheet),
       .Version  (8'(VERSION))
   ) u_core (
-      .clk_i     (clk),
-      .rst_ni    (rst_core),
-      .serial_i  (serial),
-      .boot_i    (boot && !serial),
-      .reset_o   (reset),
-      .offer_i   (offer),
-      .blk_addr_o(blk_addr),
-      .blk_data_i(blk_data),
-      .blk_done_o(blk_done),
-      .rd_any_o  (rd_any),
-      .rd_load_i (line_load || bus_load),
-      .rd_size_o (rd_size),
-      .rd_addr_i (serial ? line_addr : bus_addr),
-      .rd_data_o (rd_data),
-      .rd_done_i (rd_done),
-      .answered_o(answered),
-      .status_o  (status),
-      .poll_o    (found),
-      .inputs_i  (inputs),
-      .extck_i   (extck),
-      .outputs_o (outputs)
+      .clk_i        (clk),
+      .rst_ni       (rst_core_n),
+      .serial_i     (serial),
+      .boot_i       (boot && !serial),
+      .reset_o      (reset),
+      .host_block_i (host_block),
+      .blk_addr_o   (blk_addr),
+      .blk_data_i   (blk_data),
+      .blk_done_o   (blk_done),
+      .rd_any_o     (rd_any),
+      .rd_load_i    (line_load || bus_load),
+      .rd_size_o    (rd_size),
+      .rd_addr_i    (serial ? line_addr : bus_addr),
+      .rd_data_o    (rd_data),
+      .rd_done_i    (rd_done),
+      .host_result_o(host_result),
+      .status_o     (status),
+      .poll_result_o(poll_result),
+      .inputs_i     (inputs),
+      .extck_i      (extck),
+      .outputs_o    (outputs)
   );
 
   assign pout    = outputs.pout;

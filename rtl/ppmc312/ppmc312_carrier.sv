@@ -2,7 +2,7 @@
 // ppmc312_carrier: PPMC-312 board without clock generator and pads: ppmc312, and as host interface the UART
 //         bridge, the pins of the parallel bus or the serial line of the PPMC-312.
 // Rules:  HOST = "UART": docs/uart_bridge.md; strap bits 0, 1, 2 are ANDed with run, evt0_n, evt1_n. HOST =
-//         "BUS": section 1.3 of the PPMC-312 rules. HOST = "SERIAL": section 2.4; frames are received from
+//         "BUS": the bus pins of the PPMC-312. HOST = "SERIAL": its serial station; frames are received from
 //         both lines (one master at a time), replies are sent to both. Wiring: docs/boards.md.
 // Timing: that of ppmc312; with RECORD != 0 inputs other than those of the host act 2 cycles later. No input
 //         needs an external synchroniser.

@@ -15,57 +15,57 @@ module ppmc312_core
     parameter bit                Datasheet = 1'b0,
     parameter logic        [7:0] Version   = 8'h12        // value that the version instruction returns
 ) (
-    input  wire logic                     clk_i,       // clock
-    input  wire logic                     rst_ni,      // reset, asynchronous
-    input  wire logic                     serial_i,    // 1: the front end is the serial station
-    input  wire logic                     boot_i,      // leaving a reset by an instruction: report it
-    output logic                          reset_o,     // strobe: an instruction requests a reset
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic serial_i,  // 1: the front end is the serial station
+    input wire logic boot_i,  // leaving a reset by an instruction: report it
+    output logic reset_o,  // strobe: an instruction requests a reset
     // front end: blocks of the host, reports to it, in logical order
-    input  wire offer_t                   offer_i,     // block from the host
-    output logic         [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
-    input  wire logic    [           7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
-    output logic                          blk_done_o,  // strobe: the block is processed and answered
-    output logic                          rd_any_o,    // a report is pending
-    input  wire logic                     rd_load_i,   // strobe: load the next report
-    output logic         [  BLOCK_BITS:0] rd_size_o,   // bytes, 3 .. 32; valid 2 cycles after rd_load_i
-    input  wire logic    [BLOCK_BITS-1:0] rd_addr_i,   // byte of the report, 0 = header
-    output logic         [           7:0] rd_data_o,   // byte at rd_addr_i, two cycles later
-    input  wire logic                     rd_done_i,   // strobe: the report has been read
+    input wire host_block_t host_block_i,  // block from the host
+    output logic [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
+    input wire logic [7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
+    output logic blk_done_o,  // strobe: the block is processed, its response stored
+    output logic rd_any_o,  // a report is pending
+    input wire logic rd_load_i,  // strobe: load the next report
+    output logic [BLOCK_BITS:0] rd_size_o,  // bytes, 3 .. 32; valid 2 cycles after rd_load_i
+    input wire logic [BLOCK_BITS-1:0] rd_addr_i,  // byte of the report, 0 = header
+    output logic [7:0] rd_data_o,  // byte at rd_addr_i, two cycles later
+    input wire logic rd_done_i,  // strobe: the report has been read
     // for the serial station only
-    output answered_t                     answered_o,  // result of the block from the host
-    output status_e                       status_o,    // status of the device
-    output poll_t                         poll_o,      // result of a poll; rd_load_i consumes it
+    output host_result_t host_result_o,  // result of the block from the host
+    output status_e status_o,  // status of the device
+    output poll_result_t poll_result_o,  // result of a poll; rd_load_i consumes it
     // pins
-    input  wire inputs_t                  inputs_i,    // input pins, synchronised
-    input  wire logic                     extck_i,     // external clock, asynchronous
-    output outputs_t                      outputs_o    // output pins, registered
+    input wire inputs_t inputs_i,  // input pins, synchronised
+    input wire logic extck_i,  // external clock, asynchronous
+    output outputs_t outputs_o  // output pins, registered
 );
 
   block_t block;
-  motion_order_t order;
+  motion_req_t motion_req;
   axis_state_t state;
-  notice_t notice;
-  alarm_t multi, over, late_q;
+  axis_event_t axis_event;
+  alarm_event_t multi, discarded, discarded_q;
   table_t curve;
-  target_t home;
-  look_t look;
+  target_t start_target;
+  table_addr_t table_addr;
   stage_t stage;
-  windows_t windows;
-  window_take_t take;
-  answer_byte_t answer_byte;
-  commit_t commit;
-  class2_t class2;
-  logic act, exec_multi, built, hold, mask, aux_report;
+  monitor_req_t monitor_req;
+  monitor_ack_t monitor_ack;
+  response_write_t response_write;
+  response_done_t response_done;
+  response_queue_t response_queue;
+  logic execute, exec_multi, built, hold, mask, aux_report;
   logic [7:0] aux_data;
 
   assign status_o = state.status;
-  assign mask = act && block.code == I_MASK;
+  assign mask = execute && block.code == I_MASK;
   // The multiple-occurrence alarm of a discarded report follows one cycle later.
-  assign multi = '{valid: exec_multi || late_q.valid, code: exec_multi ? 2'd1 : late_q.code};
+  assign multi = '{valid: exec_multi || discarded_q.valid, code: exec_multi ? 2'd1 : discarded_q.code};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) late_q <= '0;
-    else late_q <= over;
+    if (!rst_ni) discarded_q <= '0;
+    else discarded_q <= discarded;
   end
 
   ppmc312_instr_unit #(
@@ -79,26 +79,26 @@ module ppmc312_core
       .serial_i,
       .boot_i,
       .reset_o,
-      .offer_i,
+      .host_block_i,
       .blk_addr_o,
       .blk_data_i,
       .blk_done_o,
       .inputs_i,
-      .state_i (state),
-      .block_o (block),
-      .do_o    (act),
-      .multi_o (exec_multi),
-      .order_o (order),
-      .built_o (built),
-      .table_o (curve),
-      .home_o  (home),
-      .look_i  (look),
-      .stage_o (stage),
-      .byte_o  (answer_byte),
-      .hold_o  (hold),
-      .commit_o(commit),
-      .answered_o,
-      .class2_i(class2)
+      .state_i         (state),
+      .block_o         (block),
+      .execute_o       (execute),
+      .multi_o         (exec_multi),
+      .motion_req_o    (motion_req),
+      .built_o         (built),
+      .table_o         (curve),
+      .start_target_o  (start_target),
+      .table_addr_i    (table_addr),
+      .stage_o         (stage),
+      .response_write_o(response_write),
+      .hold_o          (hold),
+      .response_done_o (response_done),
+      .host_result_o,
+      .response_queue_i(response_queue)
   );
 
   ppmc312_axis #(
@@ -107,22 +107,22 @@ module ppmc312_core
   ) u_axis (
       .clk_i,
       .rst_ni,
-      .act_i    (act),
-      .block_i  (block),
-      .order_i  (order),
-      .multi_i  (multi),
-      .built_i  (built),
-      .table_i  (curve),
-      .home_i   (home),
-      .look_o   (look),
-      .stage_i  (stage),
+      .execute_i     (execute),
+      .block_i       (block),
+      .motion_req_i  (motion_req),
+      .multi_i       (multi),
+      .built_i       (built),
+      .table_i       (curve),
+      .start_target_i(start_target),
+      .table_addr_o  (table_addr),
+      .stage_i       (stage),
       .inputs_i,
       .extck_i,
       .outputs_o,
-      .state_o  (state),
-      .notice_o (notice),
-      .windows_o(windows),
-      .take_i   (take)
+      .state_o       (state),
+      .axis_event_o  (axis_event),
+      .monitor_req_o (monitor_req),
+      .monitor_ack_i (monitor_ack)
   );
 
   ppmc312_aux_monitor #(
@@ -143,21 +143,21 @@ module ppmc312_core
       .clk_i,
       .rst_ni,
       .serial_i,
-      .notice_i   (notice),
-      .pos_i      (state.pos),
-      .over_o     (over),
-      .byte_i     (answer_byte),
-      .commit_i   (commit),
-      .class2_o   (class2),
-      .aux_clear_i(mask),
-      .aux_i      (aux_report),
-      .aux_data_i (aux_data),
-      .windows_i  (windows),
-      .take_o     (take),
-      .hold_i     (hold),
+      .axis_event_i    (axis_event),
+      .pos_i           (state.pos),
+      .discarded_o     (discarded),
+      .response_write_i(response_write),
+      .response_done_i (response_done),
+      .response_queue_o(response_queue),
+      .aux_clear_i     (mask),
+      .aux_i           (aux_report),
+      .aux_data_i      (aux_data),
+      .monitor_req_i   (monitor_req),
+      .monitor_ack_o   (monitor_ack),
+      .hold_i          (hold),
       .rd_any_o,
       .rd_load_i,
-      .poll_o,
+      .poll_result_o,
       .rd_size_o,
       .rd_addr_i,
       .rd_data_o,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_link_pkg: types of the signals between front end, instructions and motor side of the PPMC-312.
-// Rules:  sections 2.3, 10.1..10.3; P312-GEN-04, P312-RSP-10/20/21, P312-PRT-04, P312-MON-01..06.
+// Rules:  docs/ppmc312/README.md, Pins, Answers and reports; P312-GEN-04, P312-RSP-10/20/21, P312-PRT-04,
+//         P312-MON-01..06.
 // Note:   all fields are synchronous to clk. A strobe is high for one cycle. Names that end in _n are active
 //         low, as on the pin; all others are active high.
 `default_nettype none
@@ -18,11 +19,11 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic                valid;  // a block is pending, until it is processed
     logic [BLOCK_BITS:0] size;   // bytes of the block, 1 .. 32; stable while valid
-  } offer_t;
+  } host_block_t;
 
   // ---- an instruction in progress -----------------------------------------------------------------
 
-  // Source of an instruction; coded as RESP in the header of the answer.
+  // Source of an instruction; coded as RESP in the header of the response.
   typedef enum logic [1:0] {
     SrcHost     = 2'b00,
     SrcEvent    = 2'b01,
@@ -45,18 +46,18 @@ package ppmc312_link_pkg;
 
   // ---- pins of the motor side ---------------------------------------------------------------------
 
-  typedef struct packed {logic alm_n, end_n, index_n, org_n, fhl_n, bhl_n, fl_n, bl_n;} levels_t;
+  typedef struct packed {logic alm_n, end_n, index_n, org_n, fhl_n, bhl_n, fl_n, bl_n;} motor_inputs_t;
 
   // All inputs except EXTCK, synchronised.
   typedef struct packed {
-    levels_t    plain;   // not filtered
-    levels_t    levels;  // filtered
-    logic [1:0] evt_n;   // [n]: event pin n, not filtered
-    logic [1:0] fell;    // strobes: falling edge of event n, filtered
-    logic       run;     // 1: starts are not held
-    logic       epin;    // encoder, counted at its rising edge
-    logic       epdir;   // 0: up, 1: down
-    logic [7:0] auxi;    // generalized input
+    motor_inputs_t unfiltered;  // not filtered
+    motor_inputs_t filtered;    // filtered
+    logic [1:0]    evt_n;       // [n]: event pin n, not filtered
+    logic [1:0]    evt_fall;    // strobes: falling edge of event n, filtered
+    logic          run;         // 1: starts are not held
+    logic          epin;        // encoder, counted at its rising edge
+    logic          epdir;       // 0: up, 1: down
+    logic [7:0]    auxi;        // generalized input
   } inputs_t;
 
   typedef struct packed {
@@ -78,38 +79,38 @@ package ppmc312_link_pkg;
     logic zero;    // zero return: a second phase follows
     logic origin;  // ends at the origin (constant-speed search)
     logic index;   // the origin also requires INDEX
-  } op_t;
+  } operation_t;
 
   typedef struct packed {
-    logic start;  // strobe: start op along plan; only at standstill
-    op_t op;  // valid with start
-    logic change;  // strobe: change the rate to plan.to
-    plan_t plan;  // stable from start to t0; plan.to until 2 cycles after change
-    logic home;  // stable like plan; 1: one pulse at the start-up rate, not plan.to, regardless of plan.dec
+    logic start;  // strobe: start op along profile; only at standstill
+    operation_t op;  // valid with start
+    logic change;  // strobe: change the rate to profile.target
+    profile_t profile;  // stable from start to t0; target until 2 cycles after change
+    logic single_pulse;  // 1: one pulse at the start-up rate, ignore target, dec_pulses; stable like profile
     logic pos_halt;  // strobe: the position of an immediate stop is reached
-    logic settled;  // 1: all triggered instructions are processed
-  } motion_order_t;
+    logic triggers_done;  // 1: all triggered instructions are processed
+  } motion_req_t;
 
   // ---- settings for motions, made by instructions -------------------------------------------------
 
   typedef struct packed {
-    logic [15:0] limit_rate;  // HSL, base clocks; high-speed limits act at this rate and at faster ones
-    logic        end_watch;   // 1: END is monitored
-    logic        ungated;     // 1: RUN is not monitored
-  } settings_t;
+    logic [15:0] limit_rate;     // HSL, base clocks; high-speed limits act at this rate and at faster ones
+    logic        end_monitored;  // 1: END is monitored
+    logic        run_ignored;    // 1: RUN is not monitored
+  } motion_settings_t;
 
   // ---- state of the motor side --------------------------------------------------------------------
 
   typedef struct packed {
-    status_e     status;
-    logic        end_wait;   // a motion waits for END
-    settings_t   settings;
-    logic [31:0] pos;        // position, pulses, two's complement
-    logic [31:0] enc;        // encoder position, edges
-    logic        counted;    // strobe: a pulse has been counted in pos
-    logic        lock;       // interlock control is active
-    logic [1:0]  window_on;  // monitor is enabled, [0]: in-position, [1]: encode
-    logic [1:0]  outside;    // monitor is enabled, and the position is outside
+    status_e          status;
+    logic             end_wait;   // a motion waits for END
+    motion_settings_t settings;
+    logic [31:0]      pos;        // position, pulses, two's complement
+    logic [31:0]      enc;        // encoder position, edges
+    logic             counted;    // strobe: a pulse has been counted in pos
+    logic             lock;       // interlock control is active
+    logic [1:0]       window_on;  // monitor is enabled, [0]: in-position, [1]: encode
+    logic [1:0]       outside;    // monitor is enabled, and the position is outside
   } axis_state_t;
 
   // ---- reports of the motor side ------------------------------------------------------------------
@@ -117,26 +118,26 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic       valid;  // strobe
     logic [1:0] code;   // 0: pin; multiple occurrence: 1: class 2, 2: class 3 or 4, 3: class 5
-  } alarm_t;
+  } alarm_event_t;
 
   typedef struct packed {
-    alarm_t alarm;   // class 1
-    logic   unlock;  // class 3, strobe: interlock control ends
-    logic   held;    // class 4, strobe: a held start begins
-    logic   stop;    // class 5, strobe: a motion has ended
-    cause_t cause;   // cause of the end; valid with stop
-  } notice_t;
+    alarm_event_t alarm;  // class 1
+    logic unlock;  // class 3, strobe: interlock control ends
+    logic hold_end;  // class 4, strobe: RUN releases a start that it held
+    logic stop;  // class 5, strobe: a motion has ended
+    end_cause_t cause;  // cause of the end; valid with stop
+  } axis_event_t;
 
   // Monitors, classes 7 and 8: [0] in-position, [1] encode.
   typedef struct packed {
-    logic [1:0] waits;    // a report is pending
+    logic [1:0] pending;  // a report is pending
     logic [1:0] outside;  // content of the report: 1: outside, 0: inside
-  } windows_t;
+  } monitor_req_t;
 
   typedef struct packed {
     logic [1:0] load;  // strobe: the report is being loaded
     logic [1:0] read;  // strobe: the report has been read; together with load: it is read in the same cycle
-  } window_take_t;
+  } monitor_ack_t;
 
   // ---- instructions to reports: class 2 -----------------------------------------------------------
 
@@ -144,36 +145,36 @@ package ppmc312_link_pkg;
     logic                  we;
     logic [BLOCK_BITS-1:0] addr;  // logical: 0 = header
     logic [7:0]            data;  // byte at addr
-  } answer_byte_t;
+  } response_write_t;
 
-  // Result of a triggered instruction. The comments are the codes in the answer to a poll.
+  // Result of a triggered instruction. The comments are the codes in the reply to a poll.
   typedef enum logic [1:0] {
     DoneOverride = 2'b00,  // 28
     DoneEvent    = 2'b01,  // 29
     FailEvent    = 2'b10,  // 4A
     FailOverride = 2'b11   // 4B
-  } triggered_e;
+  } trigger_result_e;
 
   typedef struct packed {
-    logic                valid;  // strobe: an answer is complete
-    logic                host;   // the answer is for the host
-    triggered_e          what;   // if not for the host: result of the triggered instruction
-    logic [BLOCK_BITS:0] size;   // bytes, 3 .. 32
-  } commit_t;
+    logic                valid;           // strobe: a response is complete
+    logic                host;            // the response is for the host
+    trigger_result_e     trigger_result;  // if not for the host: result of the triggered instruction
+    logic [BLOCK_BITS:0] size;            // bytes, 3 .. 32
+  } response_done_t;
 
-  // State of the two-entry store of class 2.
+  // State of the two-entry queue of class 2.
   typedef struct packed {
-    logic full;       // an answer can be read
-    logic full_host;  // this answer is for the host
-    logic waits;      // a second answer waits after this one
-  } class2_t;
+    logic full;       // a response can be read
+    logic full_host;  // this response is for the host
+    logic pending;    // a second response waits after this one
+  } response_queue_t;
 
   // Result of a block from the host, for the serial station.
   typedef struct packed {
     logic       valid;  // strobe: the block is executed
-    logic [7:0] code;   // code of the answer, one cycle later
+    logic [7:0] code;   // code of the response, one cycle later
     logic [2:0] first;  // low bits of the first byte after the code, one cycle later
-  } answered_t;
+  } host_result_t;
 
   // verilator lint_on UNUSEDPARAM
 

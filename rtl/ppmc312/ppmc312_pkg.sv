@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_pkg: instruction codes, statuses, accept table, instruction lengths, reports and errors of the
 // PPMC-312.
-// Rules:  P312-STA-01 (accept table), section 3.1 (lengths), sections 10.1..10.3 (reports, errors, causes).
+// Rules:  P312-STA-01 (accept table), P312-BLK-01 (lengths); docs/ppmc312/README.md, Answers
+//         and reports (reports, errors, causes).
 `default_nettype none
 
 package ppmc312_pkg;
@@ -69,98 +70,98 @@ package ppmc312_pkg;
   // ---- properties of an instruction code ----------------------------------------------------------
 
   typedef struct packed {
-    logic       known;
-    logic       has_ov;     // bit 2 of the first parameter (OV) requests registration
-    logic       starts;     // starts pulses
-    logic       rated;      // parameters 1, 2 are a rate
-    logic       rate_zero;  // a rate of 0 selects RH
-    logic       counted;    // parameters 3 .. 6 are a number of pulses
-    logic [5:0] now;        // statuses that accept the code with OV = 0
-    logic [5:0] later;      // statuses that accept the code with OV = 1
-    logic [4:0] len_a;      // longer legal length of code and parameters
-    logic [4:0] len_b;      // shorter legal length, at most len_a
-  } info_t;
+    logic       is_known;
+    logic       has_ov;         // bit 2 of the first parameter (OV) requests registration
+    logic       starts_motion;  // starts pulses
+    logic       has_rate;       // parameters 1, 2 are a rate
+    logic       zero_is_rh;     // a rate of 0 selects RH
+    logic       has_count;      // parameters 3 .. 6 are a number of pulses
+    logic [5:0] states_ov0;     // statuses that accept the code with OV = 0
+    logic [5:0] states_ov1;     // statuses that accept the code with OV = 1
+    logic [4:0] len_long;       // longer legal length of code and parameters
+    logic [4:0] len_short;      // shorter legal length, at most len_long
+  } instr_info_t;
 
-  localparam logic [5:0] AT_REST = StatusIni | StatusNor;
-  localparam logic [5:0] RUNNING = StatusAcc | StatusFix;
-  localparam logic [5:0] LATER = StatusNor | StatusAcc | StatusFix;
-  localparam logic [5:0] ALWAYS = 6'b111111;
+  localparam logic [5:0] STATES_STANDSTILL = StatusIni | StatusNor;
+  localparam logic [5:0] STATES_RUNNING = StatusAcc | StatusFix;
+  localparam logic [5:0] STATES_OV1 = StatusNor | StatusAcc | StatusFix;
+  localparam logic [5:0] STATES_ALL = 6'b111111;
 
-  function automatic info_t common_info(logic [5:0] now, logic [4:0] len);
+  function automatic instr_info_t common_info(logic [5:0] states_ov0, logic [4:0] len);
     return
     '{
-        known: 1'b1,
+        is_known: 1'b1,
         has_ov: 1'b0,
-        starts: 1'b0,
-        rated: 1'b0,
-        rate_zero: 1'b0,
-        counted: 1'b0,
-        now: now,
-        later: now,
-        len_a: len,
-        len_b: len
+        starts_motion: 1'b0,
+        has_rate: 1'b0,
+        zero_is_rh: 1'b0,
+        has_count: 1'b0,
+        states_ov0: states_ov0,
+        states_ov1: states_ov0,
+        len_long: len,
+        len_short: len
     }
     ;
   endfunction
 
-  function automatic info_t info_of(logic [7:0] code);
-    info_t i;
-    i = common_info(ALWAYS, 5'd1);
+  function automatic instr_info_t instr_info(logic [7:0] code);
+    instr_info_t i;
+    i = common_info(STATES_ALL, 5'd1);
     unique case (code)
       I_INIT: begin
-        i = common_info(AT_REST, 5'd14);
-        i.len_b = 5'd9;
+        i = common_info(STATES_STANDSTILL, 5'd14);
+        i.len_short = 5'd9;
       end
       I_FREE: begin
-        i = common_info(AT_REST, 5'd4);
-        i.len_b = 5'd3;
+        i = common_info(STATES_STANDSTILL, 5'd4);
+        i.len_short = 5'd3;
       end
-      I_INPOS, I_ENCODE:                              i = common_info(AT_REST, 5'd4);
-      I_LOCK_POS:                                     i = common_info(AT_REST, 5'd5);
-      I_LIMIT:                                        i = common_info(StatusNor, 5'd3);
-      I_END:                                          i = common_info(AT_REST, 5'd2);
-      I_EXC_ON, I_EXC_OFF, I_CCLR, I_CLAMP, I_TABLE:  i = common_info(AT_REST, 5'd1);
-      I_ACLR:                                         i = common_info(AT_REST | StatusAbn | StatusWrn, 5'd1);
-      I_AUX_IN, I_PINS, I_VERSION, I_STATUS, I_RESET: i = common_info(ALWAYS, 5'd1);
-      I_AUX_OUT, I_POS:                               i = common_info(ALWAYS, 5'd2);
-      I_MASK:                                         i = common_info(AT_REST, 5'd3);
-      I_POS_SET:                                      i = common_info(AT_REST, 5'd6);
-      I_LOCK:                                         i = common_info(StatusNor, 5'd1);
-      I_SYNC:                                         i = common_info(StatusNor | StatusWrn, 5'd1);
+      I_INPOS, I_ENCODE: i = common_info(STATES_STANDSTILL, 5'd4);
+      I_LOCK_POS: i = common_info(STATES_STANDSTILL, 5'd5);
+      I_LIMIT: i = common_info(StatusNor, 5'd3);
+      I_END: i = common_info(STATES_STANDSTILL, 5'd2);
+      I_EXC_ON, I_EXC_OFF, I_CCLR, I_CLAMP, I_TABLE: i = common_info(STATES_STANDSTILL, 5'd1);
+      I_ACLR: i = common_info(STATES_STANDSTILL | StatusAbn | StatusWrn, 5'd1);
+      I_AUX_IN, I_PINS, I_VERSION, I_STATUS, I_RESET: i = common_info(STATES_ALL, 5'd1);
+      I_AUX_OUT, I_POS: i = common_info(STATES_ALL, 5'd2);
+      I_MASK: i = common_info(STATES_STANDSTILL, 5'd3);
+      I_POS_SET: i = common_info(STATES_STANDSTILL, 5'd6);
+      I_LOCK: i = common_info(StatusNor, 5'd1);
+      I_SYNC: i = common_info(StatusNor | StatusWrn, 5'd1);
       I_EVT_READ: begin
         i = common_info(StatusNor, 5'd2);
-        i.len_b = 5'd1;
+        i.len_short = 5'd1;
       end
-      I_EVT_SET:                                      i = common_info(StatusNor, 5'd2);
+      I_EVT_SET: i = common_info(StatusNor, 5'd2);
       I_HALT, I_DECEL: begin
-        i = common_info(RUNNING, 5'd6);
-        i.len_b = 5'd2;
+        i = common_info(STATES_RUNNING, 5'd6);
+        i.len_short = 5'd2;
       end
       I_MOVE: begin
         i = common_info(StatusNor, 5'd8);
-        i.len_b = 5'd6;
+        i.len_short = 5'd6;
       end
-      I_CONST:                                        i = common_info(StatusNor, 5'd8);
-      I_STEP:                                         i = common_info(StatusNor, 5'd2);
-      I_HIGH, I_CONT, I_ORIGIN, I_ZERO:               i = common_info(StatusNor, 5'd4);
+      I_CONST: i = common_info(StatusNor, 5'd8);
+      I_STEP: i = common_info(StatusNor, 5'd2);
+      I_HIGH, I_CONT, I_ORIGIN, I_ZERO: i = common_info(StatusNor, 5'd4);
       I_RAMP: begin
         i = common_info(StatusFix, 5'd8);
-        i.len_b = 5'd4;
+        i.len_short = 5'd4;
       end
       I_SPEED: begin
-        i = common_info(RUNNING, 5'd8);
-        i.len_b = 5'd4;
+        i = common_info(STATES_RUNNING, 5'd8);
+        i.len_short = 5'd4;
       end
-      default:                                        i.known = 1'b0;
+      default: i.is_known = 1'b0;
     endcase
     if (code inside {I_HALT, I_DECEL, I_MOVE, I_CONST, I_HIGH, I_CONT, I_RAMP, I_SPEED}) begin
       i.has_ov = 1'b1;
-      i.later  = LATER;
+      i.states_ov1 = STATES_OV1;
     end
-    i.starts    = code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_STEP, I_HIGH, I_CONT};
-    i.rated     = code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_HIGH, I_CONT, I_RAMP, I_SPEED};
-    i.rate_zero = code inside {I_ZERO, I_MOVE, I_CONST, I_HIGH, I_CONT};
-    i.counted   = code inside {I_MOVE, I_CONST};
+    i.starts_motion = code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_STEP, I_HIGH, I_CONT};
+    i.has_rate      = code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_HIGH, I_CONT, I_RAMP, I_SPEED};
+    i.zero_is_rh    = code inside {I_ZERO, I_MOVE, I_CONST, I_HIGH, I_CONT};
+    i.has_count     = code inside {I_MOVE, I_CONST};
     return i;
   endfunction
 
@@ -168,7 +169,7 @@ package ppmc312_pkg;
 
   localparam logic [7:0] A_STOP = 8'he0;
   localparam logic [7:0] A_UNLOCK = 8'he1;
-  localparam logic [7:0] A_HELD = 8'he2;
+  localparam logic [7:0] A_HOLD_END = 8'he2;
   localparam logic [7:0] A_ENCODE = 8'he3;
   localparam logic [7:0] A_INPOS = 8'he4;
   localparam logic [7:0] A_STORED = 8'he8;
@@ -188,7 +189,7 @@ package ppmc312_pkg;
   localparam logic [7:0] E_SPREAD = 8'h02;
   localparam logic [7:0] E_ORDER = 8'h03;
   localparam logic [7:0] E_CLOSE = 8'h04;
-  localparam logic [7:0] E_THIN = 8'h05;
+  localparam logic [7:0] E_TOO_FEW_PULSES = 8'h05;
   localparam logic [7:0] E_FREE_HEADER = 8'h10;
   localparam logic [7:0] E_FREE_STAGES = 8'h11;
   localparam logic [7:0] E_FREE_LONG = 8'h15;
@@ -205,8 +206,8 @@ package ppmc312_pkg;
   localparam logic [7:0] E_INPOS_ZERO = 8'h26;
   localparam logic [7:0] E_ENCODE_ZERO = 8'h27;
 
-  // Causes of the end of a motion, in the bit order of the byte in E0 (section 10.3). Exactly one bit is set.
-  typedef struct packed {logic als, nos, org, low, dec, stp, del, stl;} cause_t;
+  // Causes of the end of a motion, in the bit order of the byte in report E0. Exactly one bit is set.
+  typedef struct packed {logic als, nos, org, low, dec, stp, del, stl;} end_cause_t;
 
   // verilator lint_on UNUSEDPARAM
 

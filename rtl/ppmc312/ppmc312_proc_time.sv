@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_proc_time: delays the effect of an instruction by the processing time of the old chip (Datasheet = 1).
+// ppmc312_proc_time: delays the effect of an instruction by the processing time of the old chip (Datasheet =
+//         1).
 // Rules:  P312-TIM-02..13, P312-TIM-20.
-// Timing: open_o is high when the time of block_i has passed, counted from the last cycle of idle_i. With
+// Timing: elapsed_o is high when the time of block_i has passed, counted from the last cycle of idle_i. With
 //         Datasheet = 0 it is always high.
 // Note:   the time of a start ends at pulse 1, which occurs TW after t0.
 `default_nettype none
@@ -14,22 +15,22 @@ module ppmc312_proc_time
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0
 ) (
-    input  wire logic         clk_i,    // clock
-    input  wire logic         rst_ni,   // reset, asynchronous
-    input  wire logic         idle_i,   // no instruction is being processed
-    input  wire block_t       block_i,  // the instruction; its time starts when idle_i falls
-    input  wire logic   [7:0] kind_i,   // profile of a planned operation; 0: trapezoidal
-    output logic              open_o    // the processing time has passed
+    input  wire logic         clk_i,     // clock
+    input  wire logic         rst_ni,    // reset, asynchronous
+    input  wire logic         idle_i,    // no instruction is being processed
+    input  wire block_t       block_i,   // the instruction; its time starts when idle_i falls
+    input  wire logic   [7:0] kind_i,    // profile of a planned operation; 0: trapezoidal
+    output logic              elapsed_o  // the processing time has passed
 );
 
   localparam int unsigned Width = 22;
 
-  if (Datasheet) begin : g_pace
+  if (Datasheet) begin : g_datasheet
     // Times in crystal periods. The latency of the instruction up to this block, about 1 us, is neglected.
     localparam int unsigned PerUs = 16;
     localparam int unsigned Lead = WIDTH_XTAL + 8;
 
-    logic past, paced_q, given;
+    logic past, elapsed_q, rate_given;
     logic [Width-1:0] limit, limit_q;
 
     function automatic logic [Width-1:0] us(int unsigned n);
@@ -40,7 +41,7 @@ module ppmc312_proc_time
       return Width'(PerUs * n - Lead);
     endfunction
 
-    assign given = {block_i.par[1], block_i.par[2]} != '0;
+    assign rate_given = {block_i.par[1], block_i.par[2]} != '0;
 
     always_comb begin
       limit = '0;
@@ -56,11 +57,11 @@ module ppmc312_proc_time
           endcase
         end
         I_MOVE: begin
-          if (given) limit = (kind_i == '0) ? pulse_us(900) : pulse_us(1400);
+          if (rate_given) limit = (kind_i == '0) ? pulse_us(900) : pulse_us(1400);
           else limit = (kind_i == '0) ? pulse_us(100) : pulse_us(700);
         end
         I_CONST, I_CONT: limit = pulse_us(400);
-        I_HIGH, I_ZERO:  limit = given ? pulse_us(400) : pulse_us(60);
+        I_HIGH, I_ZERO:  limit = rate_given ? pulse_us(400) : pulse_us(60);
         I_ORIGIN, I_STEP: limit = pulse_us(500);
         // A halt at a position has no processing time, because the position comparison stops the pulses.
         I_HALT:    limit = (block_i.source == SrcOverride && !block_i.par[0][0]) ? '0 : us(350);
@@ -69,14 +70,14 @@ module ppmc312_proc_time
       endcase
     end
 
-    // limit_q is one cycle late, so limit must be unchanged for two cycles.
+    // limit_q follows limit by one cycle, so limit must be unchanged for two cycles.
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
-        limit_q <= '0;
-        paced_q <= 1'b0;
+        limit_q   <= '0;
+        elapsed_q <= 1'b0;
       end else begin
-        limit_q <= limit;
-        paced_q <= past && limit == limit_q;
+        limit_q   <= limit;
+        elapsed_q <= past && limit == limit_q;
       end
     end
 
@@ -92,13 +93,13 @@ module ppmc312_proc_time
         .past_o   (past)
     );
 
-    assign open_o = paced_q;
+    assign elapsed_o = elapsed_q;
   end else begin : g_fast
     localparam int unsigned Unused = ClkHz + XtalHz + Width;
     logic unused_bits;
 
     assign unused_bits = &{1'b0, Unused[0], clk_i, rst_ni, idle_i, block_i, kind_i};
-    assign open_o = 1'b1;
+    assign elapsed_o   = 1'b1;
   end
 
   logic unused_block;

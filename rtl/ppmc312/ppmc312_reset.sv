@@ -31,18 +31,18 @@ module ppmc312_reset #(
 
   localparam int unsigned StartXtal = 25_600;
 
-  // rst_pin resets flip-flops and is also a data signal, which restarts the delay.
+  // rst_pin_n resets flip-flops and is also a data signal, which restarts the delay.
   // verilator lint_off SYNCASYNCNET
-  logic rst_pin;
+  logic rst_pin_n;
   // verilator lint_on SYNCASYNCNET
-  logic rst_q, rst_host_q, started;
+  logic rst_core_nq, rst_host_nq, started;
   logic [1:0] boot_q;
   logic [7:0] pins, unused_meta;
 
   ppmc_reset u_reset (
       .clk_i,
       .rst_ni,
-      .rst_no(rst_pin)
+      .rst_no(rst_pin_n)
   );
 
   if (Datasheet) begin : g_start
@@ -50,7 +50,7 @@ module ppmc312_reset #(
         .Ticks(ppmc_pkg::cyc(StartXtal, ClkHz, XtalHz))
     ) u_start (
         .clk_i,
-        .restart_i(!rst_pin),
+        .restart_i(!rst_pin_n),
         .tick_i   (1'b1),
         .past_o   (started)
     );
@@ -59,8 +59,8 @@ module ppmc312_reset #(
     logic unused_start;
 
     assign unused_start = Unused[0];
-    always_ff @(posedge clk_i or negedge rst_pin) begin
-      if (!rst_pin) started <= 1'b0;
+    always_ff @(posedge clk_i or negedge rst_pin_n) begin
+      if (!rst_pin_n) started <= 1'b0;
       else started <= 1'b1;
     end
   end
@@ -76,28 +76,28 @@ module ppmc312_reset #(
       .q2_o  (pins)
   );
 
-  always_ff @(posedge clk_i or negedge rst_pin) begin
-    if (!rst_pin) begin
-      rst_q                    <= 1'b0;
-      rst_host_q               <= 1'b0;
+  always_ff @(posedge clk_i or negedge rst_pin_n) begin
+    if (!rst_pin_n) begin
+      rst_core_nq              <= 1'b0;
+      rst_host_nq              <= 1'b0;
       boot_o                   <= 1'b0;
       boot_q                   <= '0;
       ready_o                  <= 1'b0;
       {serial_o, mod_o, adr_o} <= {1'b1, 7'd0};  // serial at speed 0: no front end is active
     end else begin
-      ready_o    <= started;
-      rst_q      <= started && !reset_i;
-      rst_host_q <= !reset_i;
-      boot_o     <= reset_i || (boot_o && !rst_q);
-      boot_q     <= {boot_q[0], boot_o};
-      if (!rst_host_q) {serial_o, mod_o, adr_o} <= {!pins[7], pins[6:0]};
+      ready_o     <= started;
+      rst_core_nq <= started && !reset_i;
+      rst_host_nq <= !reset_i;
+      boot_o      <= reset_i || (boot_o && !rst_core_nq);
+      boot_q      <= {boot_q[0], boot_o};
+      if (!rst_host_nq) {serial_o, mod_o, adr_o} <= {!pins[7], pins[6:0]};
     end
   end
 
   // The pin resets all blocks immediately, regardless of the registers of the resets.
-  assign rst_core_no = rst_q && rst_pin;
-  assign rst_host_no = rst_host_q && rst_pin;
-  assign rst_bus_no  = rst_pin;
+  assign rst_core_no = rst_core_nq && rst_pin_n;
+  assign rst_host_no = rst_host_nq && rst_pin_n;
+  assign rst_bus_no  = rst_pin_n;
   // A strobe that begins during the reset still reads "busy".
   assign open_o      = ready_o && !boot_o && boot_q == '0;
 

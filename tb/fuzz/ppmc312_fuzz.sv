@@ -11,7 +11,7 @@ module ppmc312_fuzz
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic  [7:0] byte_i,     // a character
+    input  wire logic [ 7:0] byte_i,     // a character
     input  wire logic        valid_i,    // strobe: byte_i was received
     input  wire logic        error_i,    // strobe: byte_i has no stop bit
     input  wire logic        silence_i,  // 1 during a silence
@@ -21,8 +21,8 @@ module ppmc312_fuzz
 
   serial_code_t info;
   logic [7:0] code, data;
-  logic we, head, poll, run, fault, strange, overrun;
-  logic [3:0] at;
+  logic we, generated, poll, run, fault, unknown_code, overrun;
+  logic [ 3:0] addr;
   logic [15:0] count_q;
   logic [31:0] digest_q;
 
@@ -33,22 +33,22 @@ module ppmc312_fuzz
   ) dut (
       .clk_i,
       .rst_ni,
-      .adr_i    (4'd5),
+      .adr_i         (4'd5),
       .byte_i,
       .valid_i,
       .error_i,
-      .busy_i   (1'b0),
-      .code_o   (code),
-      .info_i   (info),
-      .we_o     (we),
-      .head_o   (head),
-      .at_o     (at),
-      .data_o   (data),
-      .poll_o   (poll),
-      .run_o    (run),
-      .fault_o  (fault),
-      .strange_o(strange),
-      .overrun_o(overrun)
+      .busy_i        (1'b0),
+      .code_o        (code),
+      .info_i        (info),
+      .we_o          (we),
+      .generated_o   (generated),
+      .addr_o        (addr),
+      .data_o        (data),
+      .poll_o        (poll),
+      .run_o         (run),
+      .fault_o       (fault),
+      .unknown_code_o(unknown_code),
+      .overrun_o     (overrun)
   );
 
   ppmc312_serial_code_rom u_code_rom (
@@ -57,24 +57,24 @@ module ppmc312_fuzz
       .info_o(info)
   );
 
-  assign event_o = poll || run || fault || strange;
+  assign event_o = poll || run || fault || unknown_code;
   always_comb begin
     what_o = {8'd1, 56'd0};
     if (run) what_o = {8'd2, code, count_q, digest_q};
     else if (fault) what_o = {8'd3, 56'd0};
-    else if (strange) what_o = {8'd4, code, 48'd0};
+    else if (unknown_code) what_o = {8'd4, code, 48'd0};
   end
 
   always_ff @(posedge clk_i) begin
     if (valid_i && byte_i[7]) {count_q, digest_q} <= '0;
-    else if (we && !head) begin
+    else if (we && !generated) begin
       count_q  <= count_q + 1'b1;
       digest_q <= digest_q * 32'd31 + 32'(data) + 32'd1;
     end
   end
 
   logic unused;
-  assign unused = &{1'b0, silence_i, at, overrun};
+  assign unused = &{1'b0, silence_i, addr, overrun};
 
 endmodule
 

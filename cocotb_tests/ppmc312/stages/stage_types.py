@@ -13,7 +13,7 @@ GROUPS = ("common", "motion", "stage")
 CLOCKS = (8_000_000, 16_000_000, 50_000_000)
 """Clock frequencies of the instances of ppmc312_interval, with a 16 MHz crystal."""
 PACKAGE = "ppmc312_stage_pkg::"
-INTERVAL = "base_i:3 extck_i arm_i first_i fire_i rate_i:16 due_o high_o"
+INTERVAL = "base_i:3 extck_i arm_i first_i fire_i rate_i:16 ready_o high_o"
 BLOCKS = {
     "muldiv": Block(
         "ppmc312_muldiv",
@@ -22,17 +22,18 @@ BLOCKS = {
     "rom": Block("ppmc312_cosine_rom", "clk_i linear_i index_i:7 weight_o:17", bare=True),
     "unit": Block(
         "ppmc312_stage_unit",
-        f"drop_i build_i curve_i:101:{PACKAGE}curve_t busy_o thin_o open_i open_acc_i:7 open_dec_i:7"
-        f" entry_i:34:{PACKAGE}entry_t close_i table_o:115 home_o:38 read_i:8:{PACKAGE}look_t read_o:40"
-        f" plan_i:51:{PACKAGE}plan_order_t plan_busy_o plan_kind_o:8 plan_o:128 look_i:8:{PACKAGE}look_t"
+        f"drop_i build_i curve_i:101:{PACKAGE}curve_t busy_o too_few_pulses_o open_i open_acc_i:7"
+        f" open_dec_i:7 table_write_i:34:{PACKAGE}table_write_t close_i table_o:115 start_target_o:38"
+        f" read_addr_i:8:{PACKAGE}table_addr_t read_stage_o:40 profile_req_i:51:{PACKAGE}profile_req_t"
+        f" plan_busy_o plan_kind_o:8 profile_o:128 table_addr_i:8:{PACKAGE}table_addr_t"
         " stage_o:40",
     ),
     "seq": Block(
         "ppmc312_stage_seq",
-        f"first_acc_i:7 first_dec_i:7 rate_dec_i:16 look_o:8 stage_i:40:{PACKAGE}stage_t"
-        f" load_i plan_i:128:{PACKAGE}plan_t single_i change_i change_ramp_i slow_i"
-        " next_end_o next_low_o next_count_o next_slow_o next_walk_o next_rate_o:16 step_i rate_o:16 flat_o"
-        " walk_o first_o complete_o",
+        f"first_acc_i:7 first_dec_i:7 rate_dec_i:16 table_addr_o:8 stage_i:40:{PACKAGE}stage_t"
+        f" load_i profile_i:128:{PACKAGE}profile_t single_i change_i change_ramp_i slow_i"
+        " next_end_o next_low_o next_count_o next_slow_o next_final_decel_o next_rate_o:16 step_i"
+        " rate_o:16 const_rate_o final_decel_o first_o complete_o",
     ),
     **{
         f"interval{clk // 1_000_000}": Block(

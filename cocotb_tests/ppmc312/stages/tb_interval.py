@@ -66,9 +66,9 @@ class Bench:
 
     async def fire(self, rate: int) -> int:
         """Fire the next pulse in the cycle in which it is scheduled; return its edge."""
-        await Timer(1, "step")  # due_o follows the inputs
-        if not self.u.get("due_o"):
-            await RisingEdge(self.u.pins["due_o"])
+        await Timer(1, "step")  # ready_o follows the inputs
+        if not self.u.get("ready_o"):
+            await RisingEdge(self.u.pins["ready_o"])
         at = await self.strobe(fire_i=1, rate_i=rate)
         self.u.put(first_i=0, rate_i=0xFFFF)
         return at

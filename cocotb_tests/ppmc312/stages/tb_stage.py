@@ -130,9 +130,9 @@ async def _read(u: Unit) -> list[list[tuple[int, ...]]]:
     for side in (0, 1):
         seen = []
         for i in [*range(STAGES), 0, 0]:
-            u.put(read_i=pack((side, 1), (i, 7)), look_i=pack((side, 1), (LAST - i, 7)))
+            u.put(read_addr_i=pack((side, 1), (i, 7)), table_addr_i=pack((side, 1), (LAST - i, 7)))
             await u.clk()
-            seen.append((*divmod(u.get("read_o"), 1 << 24), *divmod(u.get("stage_o"), 1 << 24)))
+            seen.append((*divmod(u.get("read_stage_o"), 1 << 24), *divmod(u.get("stage_o"), 1 << 24)))
         words.append(seen[1:-1])  # read after the edge, thus one cycle less
     planner = [(*up[:2], down[1]) for up, down in zip(*words, strict=True)]
     motion = [(*up[2:], down[3]) for up, down in zip(*words, strict=True)]
@@ -146,7 +146,11 @@ async def _check(u: Unit, table: Table, what: str, clk: int, pulses: tuple[int, 
     )
     want = want << 80 | pack((table.rates[table.sd], 16), (table.high, 16), (pulses[0], 24), (pulses[1], 24))
     same(f"{what}: description", f"{u.get('table_o'):x}", f"{want:x}")
-    same(f"{what}: home_o", Target.split(u.get("home_o")), Target.of(table, table.rates[table.sa]))
+    same(
+        f"{what}: start_target_o",
+        Target.split(u.get("start_target_o")),
+        Target.of(table, table.rates[table.sa]),
+    )
     for port, got in zip(("planner", "motion"), await _read(u), strict=True):
         for i in range(table.first, STAGES):
             # Below the first stage of a ramp, its pulse numbers have no meaning.
@@ -185,9 +189,13 @@ async def stage_tables_exact(dut):
         except SettingError as refused:
             same(f"{setting}: why refused", refused.number, 0x05)
             thin += 1
-            same(f"{setting}: thin, valid", (u.get("thin_o"), u.get("table_o") >> 114), (1, 0))
+            same(
+                f"{setting}: too few pulses, valid",
+                (u.get("too_few_pulses_o"), u.get("table_o") >> 114),
+                (1, 0),
+            )
             continue
-        same(f"{setting}: thin", u.get("thin_o"), 0)
+        same(f"{setting}: too few pulses", u.get("too_few_pulses_o"), 0)
         await _check(u, table, str(setting), 5, (acc, dec if separate else acc))
     assert thin >= 2, "no refused setting"
     cocotb.log.info("longest build: %d clk", longest)
@@ -224,8 +232,8 @@ async def _load(u: Unit, table: Table) -> None:
         columns[1:] = [(3, table.pa, table.sa)]
     for which, values, first in columns:
         for i in range(LAST, first - 1, -1):
-            await u.clk(entry_i=pack((which, 3), (i, 7), (values[i], 24)))
-    u.put(entry_i=0)
+            await u.clk(table_write_i=pack((which, 3), (i, 7), (values[i], 24)))
+    u.put(table_write_i=0)
     sums = pack((table.na, 24), (table.nd, 24))
     await u.clk(close_i=1, curve_i=pack((0, 1), (table.separate, 1), (table.clk, 3), (0, 48)) << 48 | sums)
     u.put(close_i=0)
@@ -260,12 +268,12 @@ async def stage_plans_exact(dut):
             rate, count = operation(rand, table)
             ramp = int(rand.random() < 0.9)
             steady = ((ramp, 1), (count is None, 1), (rate, 16), (count or rand.getrandbits(32), 32))
-            await u.clk(plan_i=pack((1, 1), *steady))
-            u.put(plan_i=pack((0, 1), *steady))
+            await u.clk(profile_req_i=pack((1, 1), *steady))
+            u.put(profile_req_i=pack((0, 1), *steady))
             took = await _idle(u, "plan_busy_o")
             where = f"curve {case} {brief(table)}, rate {rate}, {count} pulses"
             assert 0 < took <= LONGEST_PLAN, f"{where}: {took} clk"
-            got = u.get("plan_o")
+            got = u.get("profile_o")
             same(f"{where}: target", Target.split(got & (1 << 38) - 1), Target.of(table, rate))
             endless, climb = got >> 127, got >> 126 & 1
             same(f"{where}: endless", endless, count is None)

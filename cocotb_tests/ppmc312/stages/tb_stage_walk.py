@@ -54,7 +54,7 @@ class Walker:
 
     def __init__(self, u: Unit, table: Table, plan: Plan, rand: random.Random) -> None:
         self.u, self.table, self.plan, self.rand = u, table, plan, rand
-        self.asked = deque([(0, 0), (0, 0)])
+        self.reads = deque([(0, 0), (0, 0)])
         self.sequence = Sequence(plan)
         self.story: list[str] = []
         self.busy = rand.choice((0.1, 0.4))
@@ -64,14 +64,14 @@ class Walker:
     async def clk(self, **inputs: int) -> tuple[int, ...]:
         """Run one cycle; return the watched outputs before its edge."""
         out = await self.look(**inputs)
-        self.asked.popleft()
-        self.asked.append(divmod(self.u.get("look_o"), 128))
+        self.reads.popleft()
+        self.reads.append(divmod(self.u.get("table_addr_o"), 128))
         await self.u.clk()
         return out
 
     async def look(self, **inputs: int) -> tuple[int, ...]:
         """Return the watched outputs with these inputs and the response of the table in this cycle."""
-        side, i = self.asked[0]
+        side, i = self.reads[0]
         table, i = self.table, min(i, STAGES - 1)
         pulses = table.pd if side else table.pa
         self.u.put(stage_i=pack((table.rates[i], 16), (pulses[i], 24)))
@@ -87,13 +87,13 @@ class Walker:
         walk = ((plan.down, 24), (stage, 7), (part, 1), (left * part, 24))
         target = Target.of(table, plan.rate).packed
         begin = pack((plan.n is None, 1), (plan.up > 0, 1), (plan.n or 7, 32), *walk, (target, 38))
-        await self.clk(load_i=1, plan_i=begin)
-        self.u.put(load_i=0, plan_i=self.plan_word(0))
+        await self.clk(load_i=1, profile_i=begin)
+        self.u.put(load_i=0, profile_i=self.plan_word(0))
         for _ in range(12):
             await self.clk()
 
     def plan_word(self, target: int) -> int:
-        """Return plan_t after the load: only its target has a meaning."""
+        """Return profile_t after the load: only its target has a meaning."""
         return self.rand.getrandbits(90) << 38 | target
 
     def plan_requests(self) -> dict[int, str]:
@@ -118,8 +118,8 @@ class Walker:
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
         if self.sequence.sought and self.rand.random() < 0.3:
             # A boundary at which the result of the search just takes effect, or just does not.
-            wanted = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
-            longest = max(longest, wanted - self.flat_for)
+            cycles = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
+            longest = max(longest, cycles - self.flat_for)
         self.flat_for += longest
         slow, target = self.slow, {}
         for left in range(longest - 1, 0, -1):
@@ -134,8 +134,10 @@ class Walker:
                 self.story[-1] += f" to {rate}"
                 self.sequence.change(Change(rate, what == "ramp"))
                 plan = self.plan_word(Target.of(self.table, rate).packed)
-                target = {left - TARGET_CLK: {"plan_i": plan, "change_ramp_i": what == "ramp"}}
-            self.u.put(plan_i=self.plan_word(self.rand.getrandbits(38)), change_ramp_i=self.rand.randrange(2))
+                target = {left - TARGET_CLK: {"profile_i": plan, "change_ramp_i": what == "ramp"}}
+            self.u.put(
+                profile_i=self.plan_word(self.rand.getrandbits(38)), change_ramp_i=self.rand.randrange(2)
+            )
             await self.clk(slow_i=slow, change_i=bool(what) and what != "slow", **target.get(left, {}))
         self.u.put(change_i=0)
 
@@ -160,7 +162,7 @@ class Walker:
             await self.clk(step_i=1)
             self.u.put(step_i=0, slow_i=0)
             await self.u.settle()
-            got = [self.u.get(name) for name in ("rate_o", "flat_o", "first_o", "complete_o")]
+            got = [self.u.get(name) for name in ("rate_o", "const_rate_o", "first_o", "complete_o")]
             same(f"{where}: rate, flat", got, [want.rate, want.stage is None, 0, self.sequence.complete])
         return "endless"
 

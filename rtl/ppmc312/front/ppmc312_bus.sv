@@ -10,7 +10,7 @@
 `default_nettype none
 
 module ppmc312_bus #(
-    parameter int unsigned WaitClk = 6  // T_WRQ in cycles
+    parameter int unsigned WaitCycles = 6  // T_WRQ in cycles
 ) (
     input  wire logic       clk_i,        // clock
     input  wire logic       rst_ni,       // reset, asynchronous
@@ -38,11 +38,11 @@ module ppmc312_bus #(
 
   localparam logic [2:0] RegDwr = 3'b101;
   localparam logic [2:0] RegDrr = 3'b111;
-  localparam int unsigned Width = ppmc_pkg::cnt_width(WaitClk);
+  localparam int unsigned Width = ppmc_pkg::cnt_width(WaitCycles);
 
-  logic cs_n, we_n, oe_n, wr2, rd2, wr3_q, rd3_q, busy2, busy3_q;
-  logic [2:0] rs2, rs_q;
-  logic [ 7:0] d2;
+  logic cs_n, we_n, oe_n, wr_s2, rd_s2, wr_s3_q, rd_s3_q, busy_s2, busy_s3_q;
+  logic [2:0] rs_s2, rs_q;
+  logic [ 7:0] d_s2;
   logic [13:0] unused_meta;
 
   ppmc_sync #(
@@ -52,36 +52,36 @@ module ppmc312_bus #(
       .rst_ni,
       .d_i ({cs_ni || off_i, we_ni, oe_ni, rs_i, d_i}),
       .q1_o(unused_meta),
-      .q2_o({cs_n, we_n, oe_n, rs2, d2})
+      .q2_o({cs_n, we_n, oe_n, rs_s2, d_s2})
   );
 
-  assign wr2 = !cs_n && !we_n && oe_n;
-  assign rd2 = !cs_n && we_n && !oe_n;
-  assign wr_o = wr3_q && !wr2 && !off_i;
-  assign rd_show_o = rd2 && rd3_q && !d_oe_o;
-  assign rd_done_o = d_oe_o && !rd2;
-  assign rd_rs_o = d_oe_o ? rs_q : rs2;
+  assign wr_s2 = !cs_n && !we_n && oe_n;
+  assign rd_s2 = !cs_n && we_n && !oe_n;
+  assign wr_o = wr_s3_q && !wr_s2 && !off_i;
+  assign rd_show_o = rd_s2 && rd_s3_q && !d_oe_o;
+  assign rd_done_o = d_oe_o && !rd_s2;
+  assign rd_rs_o = d_oe_o ? rs_q : rs_s2;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      wr3_q     <= 1'b0;
-      rd3_q     <= 1'b0;
+      wr_s3_q   <= 1'b0;
+      rd_s3_q   <= 1'b0;
       wr_rs_o   <= '0;
       wr_data_o <= '0;
       rs_q      <= '0;
       d_oe_o    <= 1'b0;
       d_o       <= '0;
     end else begin
-      wr3_q <= wr2;
-      rd3_q <= rd2;
-      if (wr2) begin
-        wr_rs_o   <= rs2;
-        wr_data_o <= d2;
+      wr_s3_q <= wr_s2;
+      rd_s3_q <= rd_s2;
+      if (wr_s2) begin
+        wr_rs_o   <= rs_s2;
+        wr_data_o <= d_s2;
       end
       // The address lines may still change at the first sample, so the second sample is used.
-      d_oe_o <= rd2 && rd3_q;
+      d_oe_o <= rd_s2 && rd_s3_q;
       if (rd_show_o) begin
-        rs_q <= rs2;
+        rs_q <= rs_s2;
         d_o  <= rd_data_i;
       end
     end
@@ -93,27 +93,27 @@ module ppmc312_bus #(
   logic [Width-1:0] wait_q;  // remaining cycles of the wait
   logic early;
 
-  assign busy2 = (wr2 && rs2 == RegDwr) || (rd2 && rs2 == RegDrr);
-  assign early = busy2 && !busy3_q && wait_i && age_q != Width'(WaitClk);
+  assign busy_s2 = (wr_s2 && rs_s2 == RegDwr) || (rd_s2 && rs_s2 == RegDrr);
+  assign early   = busy_s2 && !busy_s3_q && wait_i && age_q != Width'(WaitCycles);
 
   always_ff @(posedge clk_i or negedge rst_wait_ni) begin
     if (!rst_wait_ni) begin
-      busy3_q <= 1'b0;
-      age_q   <= Width'(WaitClk);
-      wait_q  <= '0;
-      wrq_no  <= 1'b1;
+      busy_s3_q <= 1'b0;
+      age_q <= Width'(WaitCycles);
+      wait_q <= '0;
+      wrq_no <= 1'b1;
     end else begin
-      busy3_q <= busy2;
-      if (busy3_q && !busy2) age_q <= Width'(1);
-      else if (age_q != Width'(WaitClk)) age_q <= age_q + 1'b1;
-      if (early) wait_q <= Width'(WaitClk) - age_q;
+      busy_s3_q <= busy_s2;
+      if (busy_s3_q && !busy_s2) age_q <= Width'(1);
+      else if (age_q != Width'(WaitCycles)) age_q <= age_q + 1'b1;
+      if (early) wait_q <= Width'(WaitCycles) - age_q;
       else if (wait_q != '0) wait_q <= wait_q - 1'b1;
       wrq_no <= !early && wait_q <= Width'(1);
     end
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p312_par_09, !(wr2 && rd2))
+  `PPMC_ASSERT(p312_par_09, !(wr_s2 && rd_s2))
   `PPMC_ASSERT(p312_par_11_still, !(d_oe_o && $past(d_oe_o)) || d_o == $past(d_o))
 `endif
 

@@ -15,7 +15,7 @@ module ppmc312_mailbox
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 #(
-    parameter int unsigned WaitClk = 6  // T_WRQ in cycles
+    parameter int unsigned WaitCycles = 6  // T_WRQ in cycles
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
@@ -33,11 +33,11 @@ module ppmc312_mailbox
     output logic wrq_no,  // wait request
     output logic irq_no,  // interrupt
     // blocks from the host
-    output offer_t offer_o,  // block for the core
+    output host_block_t host_block_o,  // block for the core
     input wire logic [BLOCK_BITS-1:0] blk_addr_i,  // byte of the block, 0 = header
     output logic [7:0] blk_data_o,  // byte at blk_addr_i, two cycles later
-    input wire logic blk_done_i,  // strobe: the block is processed and answered
-    input wire line_byte_t line_i,  // byte of a block from the serial station
+    input wire logic blk_done_i,  // strobe: the block is processed, its response stored
+    input wire block_write_t block_write_i,  // byte of a block from the serial station
     // reports to the host
     input wire logic rd_any_i,  // a report is pending
     output logic rd_load_o,  // strobe: load the next report
@@ -52,17 +52,17 @@ module ppmc312_mailbox
   localparam logic [2:0] RegAr = 3'b011;  // WAR, RAR
   localparam logic [2:0] RegDwr = 3'b101;
   localparam logic [2:0] RegDrr = 3'b111;
-  localparam logic [7:0] Arm = 8'h20;
-  localparam logic [BLOCK_BITS:0] Top = (BLOCK_BITS + 1)'(32);
+  localparam logic [7:0] ArmCode = 8'h20;
+  localparam logic [BLOCK_BITS:0] WindowBytes = (BLOCK_BITS + 1)'(32);
 
-  logic wr, rd_show, rd_done, mwef, mref, take, enable_wrq_q, enable_write_q, enable_read_q, armed_q;
+  logic wr, rd_show, rd_done, mwef, mref, write_byte, enable_wrq_q, enable_write_q, enable_read_q, armed_q;
   logic [2:0] wr_rs, rd_rs;
   logic [7:0] wr_data, rd_data;
   logic [BLOCK_BITS:0] at_q;  // write pointer; 0x20: writes are ignored
   logic [BLOCK_BITS:0] left_q;  // unread bytes of the report; 0: no report
 
   ppmc312_bus #(
-      .WaitClk(WaitClk)
+      .WaitCycles(WaitCycles)
   ) u_bus (
       .clk_i,
       .rst_ni     (rst_bus_ni),
@@ -86,30 +86,32 @@ module ppmc312_mailbox
       .rd_done_o  (rd_done)
   );
 
-  assign mwef = offer_o.valid || !ready_i;
+  assign mwef = host_block_o.valid || !ready_i;
   assign mref = left_q == '0;
 
   // ---- write window -------------------------------------------------------------------------------
 
-  assign take = wr && wr_rs == RegDwr && !mwef && armed_q && at_q != Top;
+  assign write_byte = wr && wr_rs == RegDwr && !mwef && armed_q && at_q != WindowBytes;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {enable_wrq_q, enable_write_q, enable_read_q} <= '0;
       armed_q                                       <= 1'b0;
-      at_q                                          <= Top;
-      offer_o.size                                  <= '0;
-      offer_o.valid                                 <= 1'b0;
+      at_q                                          <= WindowBytes;
+      host_block_o.size                             <= '0;
+      host_block_o.valid                            <= 1'b0;
     end else begin
       if (wr && wr_rs == RegCsr) {enable_wrq_q, enable_write_q, enable_read_q} <= wr_data[6:4];
-      if (wr && wr_rs == RegCr && !mwef) armed_q <= wr_data == Arm;
+      if (wr && wr_rs == RegCr && !mwef) armed_q <= wr_data == ArmCode;
       if (wr && wr_rs == RegAr && !mwef) begin
-        at_q         <= (wr_data < 8'(Top)) ? wr_data[BLOCK_BITS:0] : Top;
-        offer_o.size <= 6'(ppmc_pkg::inc({26'd0, ~wr_data[BLOCK_BITS:0]})) ^ Top;  // Top - wr_data
+        at_q <= (wr_data < 8'(WindowBytes)) ? wr_data[BLOCK_BITS:0] : WindowBytes;
+        host_block_o.size <= 6'(ppmc_pkg::inc(
+            {26'd0, ~wr_data[BLOCK_BITS:0]}
+        )) ^ WindowBytes;  // WindowBytes - wr_data
       end
-      if (take) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
-      if (take && at_q == Top - 1'b1) offer_o.valid <= 1'b1;
-      else if (blk_done_i) offer_o.valid <= 1'b0;
+      if (write_byte) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
+      if (write_byte && at_q == WindowBytes - 1'b1) host_block_o.valid <= 1'b1;
+      else if (blk_done_i) host_block_o.valid <= 1'b0;
     end
   end
 
@@ -118,9 +120,9 @@ module ppmc312_mailbox
       .AddrBits(BLOCK_BITS)
   ) u_window (
       .clk_i,
-      .we_i   (take || line_i.we),
-      .waddr_i(line_i.we ? ~BLOCK_BITS'(line_i.at) : at_q[BLOCK_BITS-1:0]),
-      .wdata_i(line_i.we ? line_i.data : wr_data),
+      .we_i   (write_byte || block_write_i.we),
+      .waddr_i(block_write_i.we ? ~BLOCK_BITS'(block_write_i.addr) : at_q[BLOCK_BITS-1:0]),
+      .wdata_i(block_write_i.we ? block_write_i.data : wr_data),
       .raddr_i(~blk_addr_i),
       .rdata_o(blk_data_o)
   );
@@ -177,7 +179,7 @@ module ppmc312_mailbox
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p312_par_07, mref || left_q <= rd_size_i)
-  `PPMC_ASSERT(p312_par_06, !(take && mwef))
+  `PPMC_ASSERT(p312_par_06, !(write_byte && mwef))
 `endif
 
 endmodule

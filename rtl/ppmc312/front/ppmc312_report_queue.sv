@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_report_queue: holds reports until the host has read them: eight classes, each with a separate store.
-// Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30, section 10.1.
+// ppmc312_report_queue: stores reports until the host has read them: eight classes, each with a separate
+//         queue.
+// Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30.
 // Timing: an event is stored one cycle later. rd_size_o and the bytes are valid 2 cycles after rd_load_i.
-// Note:   the store of class 2 has two entries: the host reads one while the next answer is written to the
-//         other. A complete answer (commit_i) becomes readable as soon as the previous one has been read. In
-//         serial mode the station reads the answer to the host from the entry that is written, and class 2
-//         reports the result of triggered instructions; rd_load_i consumes a report, and a newer report
-//         replaces a pending one.
+// Note:   the queue of class 2 has two entries: the host reads one while the next response is written to the
+//         other. A complete response (response_done_i) becomes readable as soon as the previous one has been
+//         read. In serial mode the station reads the response to the host from the entry that is written, and
+//         class 2 reports the result of triggered instructions; rd_load_i consumes a report, and a newer
+//         report replaces a pending one.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -19,54 +20,60 @@ module ppmc312_report_queue
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: the front end is the serial station
     // events
-    input wire notice_t notice_i,  // events of classes 1, 3, 4, 5
-    input wire logic [31:0] pos_i,  // position in pulses; valid with notice_i.stop
-    output alarm_t over_o,  // multiple occurrence: a report of class 3, 4 or 5 is discarded
-    input wire answer_byte_t byte_i,  // class 2: byte of an answer
-    input wire commit_t commit_i,  // class 2: an answer is complete
-    output class2_t class2_o,  // class 2: state of the store
+    input wire axis_event_t axis_event_i,  // events of classes 1, 3, 4, 5
+    input wire logic [31:0] pos_i,  // position in pulses; valid with axis_event_i.stop
+    output alarm_event_t discarded_o,  // multiple occurrence: a report of class 3, 4 or 5 is discarded
+    input wire response_write_t response_write_i,  // class 2: byte of a response
+    input wire response_done_t response_done_i,  // class 2: a response is complete
+    output response_queue_t response_queue_o,  // class 2: state of the queue
     input wire logic aux_clear_i,  // class 6, strobe: discard waiting reports
     input wire logic aux_i,  // strobe: the generalized input has changed
     input wire logic [7:0] aux_data_i,  // changed bits; valid with aux_i
-    input wire windows_t windows_i,  // classes 7 and 8
-    output window_take_t take_o,  // classes 7 and 8: report is loaded, has been read
+    input wire monitor_req_t monitor_req_i,  // classes 7 and 8
+    output monitor_ack_t monitor_ack_o,  // classes 7 and 8: report is loaded, has been read
     // front end
-    input wire logic hold_i,  // 1: an answer follows soon; only classes 1, 2 are offered
+    input wire logic hold_i,  // 1: a response follows soon; only classes 1, 2 are offered
     output logic rd_any_o,  // a report is pending
     input wire logic rd_load_i,  // strobe: load the next report
-    output poll_t poll_o,  // serial mode: report that rd_load_i consumes
+    output poll_result_t poll_result_o,  // serial mode: report that rd_load_i consumes
     output logic [BLOCK_BITS:0] rd_size_o,  // bytes of the loaded report, 3 .. 32
     input wire logic [BLOCK_BITS-1:0] rd_addr_i,  // byte of the report, 0 = header
     output logic [7:0] rd_data_o,  // byte at rd_addr_i, two cycles later
     input wire logic rd_done_i  // strobe: the report has been read
 );
 
-  logic [8:1] waiting, offered;
+  logic [8:1] pending, offered;
   logic hold, load, done;
   logic [3:0] lowest, class_q, class_done;
-  triggered_e what_q;
-  logic told_q;  // serial mode: class 2 is pending
+  trigger_result_e trigger_result_q;
+  logic class2_pending_q;  // serial mode: class 2 is pending
   logic loaded_q, bank_q, value, value_q, aux_busy, shift, host_q;
   logic [1:0] alarm_q;
   logic [5:3] once_q, once, once_done;
-  logic alarm_full_q, full_q, waits_q;
+  logic alarm_full_q, full_q, pending_q;
   logic [1:0] aux_count_q;
   logic [1:0][7:0] aux_q;
-  logic aux_over_q, aux_flag_q;
-  logic [BLOCK_BITS:0] size_q, wait_size_q;
-  cause_t cause_q;
+  logic aux_discarded_q, aux_flag_q;
+  logic [BLOCK_BITS:0] size_q, pending_size_q;
+  end_cause_t cause_q;
   logic [31:0] pos_q;
-  logic [7:0] ram_byte, own_byte, own_q, code;
-  logic [2:0] own_size, own_at_q;
+  logic [7:0] ram_byte, local_byte, local_q, code;
+  logic [2:0] local_size, local_at_q;
 
   // ---- pending reports, next report ---------------------------------------------------------------
 
-  assign waiting = {
-    windows_i.waits, aux_count_q != '0, once_q[5], once_q[4], once_q[3], full_q || told_q, alarm_full_q
+  assign pending = {
+    monitor_req_i.pending,
+    aux_count_q != '0,
+    once_q[5],
+    once_q[4],
+    once_q[3],
+    full_q || class2_pending_q,
+    alarm_full_q
   };
-  // Reports that an instruction causes follow its answer.
-  assign hold = !serial_i && (hold_i || (waits_q && !full_q));
-  assign offered = hold ? {6'd0, waiting[2:1]} : waiting;
+  // Reports that an instruction causes follow its response.
+  assign hold = !serial_i && (hold_i || (pending_q && !full_q));
+  assign offered = hold ? {6'd0, pending[2:1]} : pending;
   assign rd_any_o = offered != '0 && !loaded_q;
 
   always_comb begin
@@ -77,14 +84,15 @@ module ppmc312_report_queue
   assign load = rd_load_i && !serial_i;
   assign done = serial_i ? rd_load_i && offered != '0 : rd_done_i;
   assign class_done = serial_i ? lowest : class_q;
-  assign take_o.load = {rd_load_i && lowest == 4'd8, rd_load_i && lowest == 4'd7} & windows_i.waits;
-  assign take_o.read = {done && class_done == 4'd8, done && class_done == 4'd7};
-  assign value = windows_i.outside[lowest==4'd8];
-  assign poll_o = '{
-          item: (offered == '0) ? 4'd0 : lowest,
-          triggered: what_q,
+  assign monitor_ack_o.load = {rd_load_i && lowest == 4'd8, rd_load_i && lowest == 4'd7} &
+      monitor_req_i.pending;
+  assign monitor_ack_o.read = {done && class_done == 4'd8, done && class_done == 4'd7};
+  assign value = monitor_req_i.outside[lowest==4'd8];
+  assign poll_result_o = '{
+          report_class: (offered == '0) ? 4'd0 : lowest,
+          trigger_result: trigger_result_q,
           cause: cause_q,
-          flag: aux_flag_q,
+          discarded: aux_flag_q,
           data: aux_q[0],
           outside: value
       };
@@ -105,11 +113,11 @@ module ppmc312_report_queue
 
   // ---- classes 1, 3, 4, 5 -------------------------------------------------------------------------
 
-  assign once = {notice_i.stop, notice_i.held, notice_i.unlock};
+  assign once = {axis_event_i.stop, axis_event_i.hold_end, axis_event_i.unlock};
   assign once_done = {class_done == 4'd5, class_done == 4'd4, class_done == 4'd3} & {3{done}};
-  assign over_o = '{
+  assign discarded_o = '{
           valid: !serial_i && (once & once_q & ~once_done) != '0,
-          code: (notice_i.stop && once_q[5] && !once_done[5]) ? 2'd3 : 2'd2
+          code: (axis_event_i.stop && once_q[5] && !once_done[5]) ? 2'd3 : 2'd2
       };
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -121,51 +129,51 @@ module ppmc312_report_queue
       pos_q        <= '0;
     end else begin
       once_q <= (once_q & ~once_done) | once;
-      if (notice_i.stop && (serial_i || !once_q[5] || once_done[5])) begin
-        cause_q <= notice_i.cause;
+      if (axis_event_i.stop && (serial_i || !once_q[5] || once_done[5])) begin
+        cause_q <= axis_event_i.cause;
         pos_q   <= pos_i;
       end
-      if (done && class_done == 4'd1 && !(serial_i && notice_i.alarm.valid)) alarm_full_q <= 1'b0;
-      else if (notice_i.alarm.valid && !alarm_full_q) begin
+      if (done && class_done == 4'd1 && !(serial_i && axis_event_i.alarm.valid)) alarm_full_q <= 1'b0;
+      else if (axis_event_i.alarm.valid && !alarm_full_q) begin
         alarm_full_q <= 1'b1;
-        alarm_q      <= notice_i.alarm.code;
+        alarm_q      <= axis_event_i.alarm.code;
       end
     end
   end
 
   // ---- class 2 ------------------------------------------------------------------------------------
 
-  assign class2_o = '{full: full_q, full_host: full_q && host_q, waits: waits_q};
+  assign response_queue_o = '{full: full_q, full_host: full_q && host_q, pending: pending_q};
 
-  logic wait_host_q, go;
-  assign go = waits_q && !full_q;
+  logic pending_host_q, promote;
+  assign promote = pending_q && !full_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      full_q      <= 1'b0;
-      waits_q     <= 1'b0;
-      bank_q      <= 1'b0;
-      host_q      <= 1'b0;
-      wait_host_q <= 1'b0;
-      what_q      <= DoneOverride;
-      told_q      <= 1'b0;
-      size_q      <= '0;
-      wait_size_q <= '0;
+      full_q           <= 1'b0;
+      pending_q        <= 1'b0;
+      bank_q           <= 1'b0;
+      host_q           <= 1'b0;
+      pending_host_q   <= 1'b0;
+      trigger_result_q <= DoneOverride;
+      class2_pending_q <= 1'b0;
+      size_q           <= '0;
+      pending_size_q   <= '0;
     end else begin
-      if (commit_i.valid && !serial_i) begin
-        waits_q     <= 1'b1;
-        wait_size_q <= commit_i.size;
-        wait_host_q <= commit_i.host;
-      end else if (go) waits_q <= 1'b0;
-      if (serial_i && commit_i.valid && !commit_i.host) begin
-        told_q <= 1'b1;
-        what_q <= commit_i.what;
-      end else if (done && class_done == 4'd2) told_q <= 1'b0;
-      if (go) begin
+      if (response_done_i.valid && !serial_i) begin
+        pending_q      <= 1'b1;
+        pending_size_q <= response_done_i.size;
+        pending_host_q <= response_done_i.host;
+      end else if (promote) pending_q <= 1'b0;
+      if (serial_i && response_done_i.valid && !response_done_i.host) begin
+        class2_pending_q <= 1'b1;
+        trigger_result_q <= response_done_i.trigger_result;
+      end else if (done && class_done == 4'd2) class2_pending_q <= 1'b0;
+      if (promote) begin
         full_q <= 1'b1;
         bank_q <= !bank_q;
-        size_q <= wait_size_q;
-        host_q <= wait_host_q;
+        size_q <= pending_size_q;
+        host_q <= pending_host_q;
       end else if (done && class_done == 4'd2) full_q <= 1'b0;
     end
   end
@@ -175,9 +183,9 @@ module ppmc312_report_queue
       .AddrBits(BLOCK_BITS + 1)
   ) u_answers (
       .clk_i,
-      .we_i   (byte_i.we && (!serial_i || commit_i.host)),
-      .waddr_i({!bank_q, byte_i.addr}),
-      .wdata_i(byte_i.data),
+      .we_i   (response_write_i.we && (!serial_i || response_done_i.host)),
+      .waddr_i({!bank_q, response_write_i.addr}),
+      .wdata_i(response_write_i.data),
       .raddr_i({bank_q ^ serial_i, rd_addr_i}),
       .rdata_o(ram_byte)
   );
@@ -189,9 +197,9 @@ module ppmc312_report_queue
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      aux_count_q <= '0;
-      aux_q       <= '0;
-      aux_over_q  <= 1'b0;
+      aux_count_q     <= '0;
+      aux_q           <= '0;
+      aux_discarded_q <= 1'b0;
     end else if (aux_clear_i) begin
       aux_count_q <= (aux_busy && !shift) ? 2'd1 : 2'd0;
     end else begin
@@ -199,27 +207,27 @@ module ppmc312_report_queue
       if (shift) aux_q[0] <= aux_q[1];
       if (aux_i && aux_count_q == 2'(shift)) aux_q[0] <= aux_data_i;
       else if (aux_i) aux_q[1] <= aux_data_i;
-      if (aux_i && aux_count_q == 2'd2 && !shift) aux_over_q <= 1'b1;
-      else if (aux_i && aux_count_q[0] != shift) aux_over_q <= 1'b0;
+      if (aux_i && aux_count_q == 2'd2 && !shift) aux_discarded_q <= 1'b1;
+      else if (aux_i && aux_count_q[0] != shift) aux_discarded_q <= 1'b0;
     end
   end
 
   // The flag belongs to the data of the second entry and moves with these data to the first entry.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) aux_flag_q <= 1'b0;
-    else if (shift) aux_flag_q <= aux_over_q && aux_count_q == 2'd2;
+    else if (shift) aux_flag_q <= aux_discarded_q && aux_count_q == 2'd2;
     else if (aux_count_q == '0) aux_flag_q <= 1'b0;
   end
 
   // ---- bytes --------------------------------------------------------------------------------------
 
   always_comb begin
-    own_size = 3'd2;
+    local_size = 3'd2;
     unique case (class_q)
-      4'd3: {code, own_size} = {A_UNLOCK, 3'd1};
-      4'd4: {code, own_size} = {A_HELD, 3'd1};
-      4'd5: {code, own_size} = {A_STOP, 3'd6};
-      4'd6: {code, own_size} = {A_AUX, 3'd3};
+      4'd3: {code, local_size} = {A_UNLOCK, 3'd1};
+      4'd4: {code, local_size} = {A_HOLD_END, 3'd1};
+      4'd5: {code, local_size} = {A_STOP, 3'd6};
+      4'd6: {code, local_size} = {A_AUX, 3'd3};
       4'd7: code = A_INPOS;
       4'd8: code = A_ENCODE;
       default: code = A_ALARM;
@@ -227,37 +235,37 @@ module ppmc312_report_queue
   end
 
   always_comb begin
-    unique case (own_at_q)
-      3'd0:    own_byte = 8'h23;
-      3'd1:    own_byte = 8'(own_size);
-      3'd2:    own_byte = code;
+    unique case (local_at_q)
+      3'd0:    local_byte = 8'h23;
+      3'd1:    local_byte = 8'(local_size);
+      3'd2:    local_byte = code;
       3'd3: begin
         unique case (class_q)
-          4'd5:       own_byte = cause_q;
-          4'd6:       own_byte = 8'(aux_flag_q);
-          4'd7, 4'd8: own_byte = 8'(value_q);
-          default:    own_byte = 8'(alarm_q);
+          4'd5:       local_byte = cause_q;
+          4'd6:       local_byte = 8'(aux_flag_q);
+          4'd7, 4'd8: local_byte = 8'(value_q);
+          default:    local_byte = 8'(alarm_q);
         endcase
       end
-      3'd4:    own_byte = (class_q == 4'd6) ? aux_q[0] : pos_q[31:24];
-      3'd5:    own_byte = pos_q[23:16];
-      3'd6:    own_byte = pos_q[15:8];
-      default: own_byte = pos_q[7:0];
+      3'd4:    local_byte = (class_q == 4'd6) ? aux_q[0] : pos_q[31:24];
+      3'd5:    local_byte = pos_q[23:16];
+      3'd6:    local_byte = pos_q[15:8];
+      default: local_byte = pos_q[7:0];
     endcase
   end
 
   // Two registers, so that these bytes have the same latency as the RAM.
   always_ff @(posedge clk_i) begin
-    own_at_q <= rd_addr_i[2:0];
-    own_q <= own_byte;
+    local_at_q <= rd_addr_i[2:0];
+    local_q <= local_byte;
   end
 
-  assign rd_size_o = (class_q == 4'd2) ? size_q : (BLOCK_BITS + 1)'(own_size) + (BLOCK_BITS + 1)'(2);
-  assign rd_data_o = (serial_i || class_q == 4'd2) ? ram_byte : own_q;
+  assign rd_size_o = (class_q == 4'd2) ? size_q : (BLOCK_BITS + 1)'(local_size) + (BLOCK_BITS + 1)'(2);
+  assign rd_data_o = (serial_i || class_q == 4'd2) ? ram_byte : local_q;
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p312_rsp_10_order, !load || offered != '0)
-  `PPMC_ASSERT(p312_rsp_20_bank, !(byte_i.we && waits_q))
+  `PPMC_ASSERT(p312_rsp_20_bank, !(response_write_i.we && pending_q))
 `endif
 
 endmodule

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_serial: serial front end: a station on a line with a host. It receives frames, passes blocks to the
 //         core and sends replies.
-// Rules:  section 2.4, P312-PRT-01..03, P312-BAD-16/17.
-// Timing: a character is received in the middle of its stop bit. See ppmc312_serial_reply and ppmc312_serial_tx.
+// Rules:  P312-SER-01..22, P312-PRT-01..03, P312-BAD-16/17.
+// Timing: a character is received in the middle of its stop bit. See ppmc312_serial_reply, ppmc312_serial_tx.
 // Rate:   bits are timed by a phase accumulator with an exact modulus: XTAL * {3/2500, 6/2500, 1/192} baud. A
 //         bit lasts a whole number of phases.
 `include "ppmc_assert.svh"
@@ -19,27 +19,27 @@ module ppmc312_serial
     parameter int unsigned SndLead  = 1,           // bits from the rise of snd_o to the start bit, 1 .. 16
     parameter int unsigned SndWait  = 0            // bits of wait before snd_o in addition to 0.5, 0 .. 8
 ) (
-    input  wire logic                       clk_i,       // clock
-    input  wire logic                       rst_ni,      // reset, asynchronous
-    input  wire logic                       ready_i,     // 0: received characters are ignored
-    input  wire logic                       enable_i,    // 0: nothing is received or sent
-    input  wire logic      [           1:0] rate_i,      // 1: 19 200, 2: 38 400, 3: 83 333 baud
-    input  wire logic      [           3:0] adr_i,       // station number
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic ready_i,  // 0: received characters are ignored
+    input wire logic enable_i,  // 0: nothing is received or sent
+    input wire logic [1:0] rate_i,  // 1: 19 200, 2: 38 400, 3: 83 333 baud
+    input wire logic [3:0] adr_i,  // station number
     // pins
-    input  wire logic                       rxd_i,       // line, asynchronous; idle high
-    output logic                            txd_o,       // line, idle high
-    output logic                            snd_o,       // 1: drive the line
+    input wire logic rxd_i,  // line, asynchronous; idle high
+    output logic txd_o,  // line, idle high
+    output logic snd_o,  // 1: drive the line
     // blocks from the host
-    output offer_t                          offer_o,     // block for the core
-    output line_byte_t                      byte_o,      // byte for the write window
-    // answers to these blocks
-    input  wire answered_t                  answered_i,  // result of the executed block
-    output logic           [BLOCK_BITS-1:0] rd_addr_o,   // byte of the answer, 0 = header
-    input  wire logic      [           7:0] rd_data_i,   // byte at rd_addr_o, two cycles later
+    output host_block_t host_block_o,  // block for the core
+    output block_write_t block_write_o,  // byte for the write window
+    // responses to these blocks
+    input wire host_result_t host_result_i,  // result of the executed block
+    output logic [BLOCK_BITS-1:0] rd_addr_o,  // byte of the response, 0 = header
+    input wire logic [7:0] rd_data_i,  // byte at rd_addr_o, two cycles later
     // state and reports
-    input  wire status_e                    status_i,    // status of the device
-    output logic                            take_o,      // strobe: the report in found_i is consumed
-    input  wire poll_t                      found_i      // report that a poll finds
+    input wire status_e status_i,  // status of the device
+    output logic report_take_o,  // strobe: the report in poll_result_i is consumed
+    input wire poll_result_t poll_result_i  // report that a poll finds
 );
 
   // A bit lasts Modulus / step cycles.
@@ -56,11 +56,11 @@ module ppmc312_serial
   logic [Width-1:0] step, wrap;
   logic [7:0] char, code, data;
   logic valid, error, take_valid, framing, unused_break;
-  logic head, poll, run, fault, strange, overrun, busy, send, sent;
+  logic generated, poll, run, fault, unknown_code, overrun, busy, send, sent;
   logic [1:0] index;
   logic we;
-  logic [3:0] at;
-  logic [7:0] placed;
+  logic [3:0] addr;
+  logic [7:0] block_byte;
   serial_code_t info;  // meaning of code
   reply_t reply;
 
@@ -113,59 +113,59 @@ module ppmc312_serial
       .clk_i,
       .rst_ni,
       .adr_i,
-      .byte_i   (char),
-      .valid_i  (take_valid),
-      .error_i  (framing),
-      .busy_i   (busy),
-      .code_o   (code),
-      .info_i   (info),
-      .we_o     (we),
-      .head_o   (head),
-      .at_o     (at),
-      .data_o   (data),
-      .poll_o   (poll),
-      .run_o    (run),
-      .fault_o  (fault),
-      .strange_o(strange),
-      .overrun_o(overrun)
+      .byte_i        (char),
+      .valid_i       (take_valid),
+      .error_i       (framing),
+      .busy_i        (busy),
+      .code_o        (code),
+      .info_i        (info),
+      .we_o          (we),
+      .generated_o   (generated),
+      .addr_o        (addr),
+      .data_o        (data),
+      .poll_o        (poll),
+      .run_o         (run),
+      .fault_o       (fault),
+      .unknown_code_o(unknown_code),
+      .overrun_o     (overrun)
   );
 
   ppmc312_serial_block u_block (
       .clk_i,
       .info_i(info),
-      .we_i  (we),
-      .head_i(head),
-      .at_i  (at),
+      .we_i(we),
+      .generated_i(generated),
+      .addr_i(addr),
       .data_i(data),
-      .data_o(placed),
-      .size_o(offer_o.size)
+      .data_o(block_byte),
+      .size_o(host_block_o.size)
   );
 
-  assign byte_o = '{we: we, at: at, data: placed};
+  assign block_write_o = '{we: we, addr: addr, data: block_byte};
 
   ppmc312_serial_reply u_reply (
       .clk_i,
       .rst_ni,
-      .poll_i     (poll),
-      .run_i      (run),
-      .fault_i    (fault),
-      .strange_i  (strange),
-      .code_i     (code),
-      .info_i     (info),
-      .framing_i  (framing),
-      .overrun_i  (overrun),
-      .busy_o     (busy),
+      .poll_i        (poll),
+      .run_i         (run),
+      .fault_i       (fault),
+      .unknown_code_i(unknown_code),
+      .code_i        (code),
+      .info_i        (info),
+      .framing_i     (framing),
+      .overrun_i     (overrun),
+      .busy_o        (busy),
       .status_i,
-      .take_o,
-      .found_i,
-      .blk_valid_o(offer_o.valid),
-      .answered_i,
-      .send_o     (send),
-      .reply_o    (reply),
-      .sent_i     (sent)
+      .report_take_o,
+      .poll_result_i,
+      .blk_valid_o   (host_block_o.valid),
+      .host_result_i,
+      .send_o        (send),
+      .reply_o       (reply),
+      .sent_i        (sent)
   );
 
-  // The answer to I_POS names the selected position in an extra byte before the value; a reply omits this
+  // The response to I_POS names the selected position in an extra byte before the value; a reply omits this
   // byte.
   assign rd_addr_o = BLOCK_BITS'(index) + ((info.code == I_POS) ? 5'd4 : 5'd3);
 
@@ -178,14 +178,14 @@ module ppmc312_serial
       .clk_i,
       .rst_ni,
       .adr_i,
-      .step_i  (step),
-      .wrap_i  (wrap),
-      .heard_i (take_valid || framing),
-      .send_i  (send),
-      .reply_i (reply),
-      .index_o (index),
-      .stored_i(rd_data_i),
-      .sent_o  (sent),
+      .step_i(step),
+      .wrap_i(wrap),
+      .rx_char_i(take_valid || framing),
+      .send_i(send),
+      .reply_i(reply),
+      .index_o(index),
+      .response_byte_i(rd_data_i),
+      .sent_o(sent),
       .txd_o,
       .snd_o
   );

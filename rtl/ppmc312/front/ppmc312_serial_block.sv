@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_block: converts an instruction received in serial mode to the equivalent block of the parallel bus.
+// ppmc312_serial_block: converts an instruction received in serial mode to the equivalent block of the
+//         parallel bus.
 // Rules:  P312-SER-40..43, P312-GEN-04.
 // Timing: data_o is combinational; size_o is valid from the last data byte on.
 `default_nettype none
@@ -8,48 +9,48 @@ module ppmc312_serial_block
   import ppmc312_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire logic                        clk_i,   // clock
-    input  wire serial_code_t                info_i,  // meaning of the received code, stable
+    input wire logic clk_i,  // clock
+    input wire serial_code_t info_i,  // meaning of the received code, stable
     // bytes for the write window
-    input  wire logic                        we_i,    // strobe: a byte
-    input  wire logic                        head_i,  // the byte is generated: header, length, code, flags
-    input  wire logic         [         3:0] at_i,    // position of the byte, 0 = header
-    input  wire logic         [         7:0] data_i,  // received byte
-    output logic              [         7:0] data_o,  // byte for the window
-    output logic              [BLOCK_BITS:0] size_o   // bytes of the block, 2 .. 15
+    input wire logic we_i,  // strobe: a byte
+    input wire logic generated_i,  // the byte is generated: header, length, code, flags
+    input wire logic [3:0] addr_i,  // position of the byte, 0 = header
+    input wire logic [7:0] data_i,  // received byte
+    output logic [7:0] data_o,  // byte for the window
+    output logic [BLOCK_BITS:0] size_o  // bytes of the block, 2 .. 15
 );
 
-  localparam logic [3:0] Flags = 4'd3;  // position of the first parameter
-  localparam logic [3:0] InnerLen = 4'd5;  // position of the length byte of the embedded block
-  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes that precede those counted by the inner length
-  localparam logic [BLOCK_BITS:0] None = 6'd2;  // causes the error "size abnormality"
+  localparam logic [3:0] FlagsAt = 4'd3;  // position of the first parameter
+  localparam logic [3:0] InnerLenAt = 4'd5;  // position of the length byte of the embedded block
+  localparam logic [BLOCK_BITS:0] InnerOverhead = 6'd6;  // bytes before those that the inner length counts
+  localparam logic [BLOCK_BITS:0] InvalidSize = 6'd2;  // causes the error "size abnormality"
 
   logic [3:0] inner_q;
-  logic long_q;
+  logic too_long_q;
 
   always_ff @(posedge clk_i) begin
-    if (we_i && !head_i && at_i == InnerLen) begin
+    if (we_i && !generated_i && addr_i == InnerLenAt) begin
       inner_q <= data_i[3:0];
-      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // the received length is above 8
+      too_long_q <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // the received length is above 8
     end
   end
 
   always_comb begin
     size_o = (BLOCK_BITS + 1)'(info_i.size);
-    if (info_i.embeds) size_o = long_q ? None : (BLOCK_BITS + 1)'(inner_q) + Inner;
+    if (info_i.has_inner) size_o = too_long_q ? InvalidSize : (BLOCK_BITS + 1)'(inner_q) + InnerOverhead;
   end
 
   // The serial mode has no split tables, and its monitors always repeat.
   always_comb begin
     data_o = data_i;
-    if (head_i) begin
-      unique case (at_i[1:0])
+    if (generated_i) begin
+      unique case (addr_i[1:0])
         2'd0:    data_o = 8'h03;
         2'd1:    data_o = 8'(size_o) - 8'd2;
         2'd2:    data_o = info_i.code;
         default: data_o = info_i.flags;
       endcase
-    end else if (at_i == Flags) begin
+    end else if (addr_i == FlagsAt) begin
       if (info_i.code == I_INIT) data_o[7:4] = '0;
       if (info_i.code inside {I_INPOS, I_ENCODE}) data_o[1] = 1'b1;
     end

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_errors: counts framing, overrun and checksum errors since the last read (0 to 255, saturating).
+// ppmc312_serial_errors: counts framing, overrun and checksum errors since the last read (0 to 255,
+//         saturating).
 // Rules:  P312-SER-14, P312-SER-15, P312-SER-45.
 // Timing: count_o follows error_i and read_i by one cycle.
 // Assumes: at most one error per cycle, no error in the cycle of read_i.

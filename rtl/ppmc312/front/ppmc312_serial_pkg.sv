@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_serial_pkg: types of the serial station: instruction codes, polled reports, replies.
-// Rules:  sections 2.4 and 3.6; P312-SER-20, P312-SER-30, section 10.3 (END codes).
+// Rules:  P312-SER-20, P312-SER-30 (END codes), P312-SER-40..44.
 `default_nettype none
 
 package ppmc312_serial_pkg;
@@ -11,14 +11,14 @@ package ppmc312_serial_pkg;
   // ---- an instruction code of the serial mode -----------------------------------------------------
 
   typedef struct packed {
-    logic       known;
-    logic       local_read;  // answered by the station: 40, 4E, 4F
-    logic       embeds;      // event registration; the embedded block has its own length byte
-    logic [7:0] code;        // code of the same instruction on the parallel bus
-    logic [3:0] size;        // bytes of the parallel block, header to last parameter
-    logic       flagged;     // the first parameter is generated, not received
-    logic [7:0] flags;       // generated first parameter
-    logic [2:0] reads;       // data bytes of the reply; 0: acknowledgement only
+    logic       is_known;
+    logic       local_read;   // answered by the station: 40, 4E, 4F
+    logic       has_inner;    // event registration; the embedded block has its own length byte
+    logic [7:0] code;         // code of the same instruction on the parallel bus
+    logic [3:0] size;         // bytes of the parallel block, header to last parameter
+    logic       has_flags;    // the first parameter is generated, not received
+    logic [7:0] flags;        // generated first parameter
+    logic [2:0] reply_bytes;  // data bytes of the reply; 0: acknowledgement only
   } serial_code_t;
 
   localparam logic [7:0] S_END = 8'h40;
@@ -28,15 +28,15 @@ package ppmc312_serial_pkg;
   // ---- result of a poll ---------------------------------------------------------------------------
 
   typedef struct packed {
-    logic [3:0]                   item;       // class of the first pending report; 0: no report
-    ppmc312_link_pkg::triggered_e triggered;  // class 2
-    ppmc312_pkg::cause_t          cause;      // class 5; held for the END code
-    logic                         flag;       // class 6: a change was discarded
-    logic [7:0]                   data;       // class 6: changed bits of the input
-    logic                         outside;    // classes 7, 8: 1: outside, 0: inside
-  } poll_t;
+    logic [3:0]                        report_class;    // class of the first pending report; 0: no report
+    ppmc312_link_pkg::trigger_result_e trigger_result;  // class 2
+    ppmc312_pkg::end_cause_t           cause;           // class 5; stored for the END code
+    logic                              discarded;       // class 6: a change was discarded
+    logic [7:0]                        data;            // class 6: changed bits of the input
+    logic                              outside;         // classes 7, 8: 1: outside, 0: inside
+  } poll_result_t;
 
-  function automatic logic [7:0] end_code(ppmc312_pkg::cause_t c);
+  function automatic logic [7:0] end_code(ppmc312_pkg::end_cause_t c);
     return {
       2'b00,
       {2{c != '0}},
@@ -51,25 +51,25 @@ package ppmc312_serial_pkg;
 
   typedef struct packed {
     logic       we;
-    logic [3:0] at;    // position in the block, 0 = header
+    logic [3:0] addr;  // position in the block, 0 = header
     logic [7:0] data;
-  } line_byte_t;
+  } block_write_t;
 
   // ---- a reply ------------------------------------------------------------------------------------
 
   // Coded as bits 5:4 of the control code of the reply.
   typedef enum logic [1:0] {
-    KindBusy     = 2'b00,
-    KindReady    = 2'b01,
-    KindData     = 2'b10,
-    KindSpecific = 2'b11
-  } kind_e;
+    ReplyBusy     = 2'b00,
+    ReplyReady    = 2'b01,
+    ReplyData     = 2'b10,
+    ReplySpecific = 2'b11
+  } reply_kind_e;
 
   typedef struct packed {
-    kind_e           kind;
-    logic [2:0]      count;   // data bytes
-    logic            stored;  // the data bytes are in the answer store
-    logic [2:0][7:0] data;    // otherwise: data bytes, data[0] first
+    reply_kind_e     kind;
+    logic [2:0]      count;          // data bytes
+    logic            from_response;  // the data bytes are in the response queue
+    logic [2:0][7:0] data;           // otherwise: data bytes, data[0] first
   } reply_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_poll: selects the answer to a poll: the first pending report, otherwise busy or ready.
-// Rules:  P312-SER-30, sections 4 and 10.3.
+// ppmc312_serial_poll: selects the reply to a poll: the first pending report, otherwise busy or ready.
+// Rules:  P312-SER-20, P312-SER-30.
 // Timing: combinational.
 `default_nettype none
 
@@ -9,18 +9,18 @@ module ppmc312_serial_poll
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire poll_t   poll_i,    // report that the poll finds
-    input  wire status_e status_i,  // status of the device
-    output reply_t       reply_o    // reply to the poll
+    input  wire poll_result_t poll_result_i,  // report that the poll finds
+    input  wire status_e      status_i,       // status of the device
+    output reply_t            reply_o         // reply to the poll
 );
 
   logic [7:0] code;
 
   always_comb begin
-    unique case (poll_i.item)
+    unique case (poll_result_i.report_class)
       4'd1:    code = 8'h46;
       4'd2: begin
-        unique case (poll_i.triggered)
+        unique case (poll_result_i.trigger_result)
           FailEvent:    code = 8'h4a;
           FailOverride: code = 8'h4b;
           DoneOverride: code = 8'h28;
@@ -29,19 +29,19 @@ module ppmc312_serial_poll
       end
       4'd3:    code = 8'h22;
       4'd4:    code = 8'h23;
-      4'd5:    code = end_code(poll_i.cause);
+      4'd5:    code = end_code(poll_result_i.cause);
       4'd6:    code = 8'h2a;
-      4'd7:    code = {7'h13, poll_i.outside};
-      default: code = {7'h12, poll_i.outside};
+      4'd7:    code = {7'h13, poll_result_i.outside};
+      default: code = {7'h12, poll_result_i.outside};
     endcase
     reply_o = '{
-        kind: (poll_i.item == 4'd5) ? KindData : KindSpecific,
-        count: (poll_i.item == 4'd6) ? 3'd3 : 3'd1,
-        stored: 1'b0,
-        data: {poll_i.data, 7'd0, poll_i.flag, code}
+        kind: (poll_result_i.report_class == 4'd5) ? ReplyData : ReplySpecific,
+        count: (poll_result_i.report_class == 4'd6) ? 3'd3 : 3'd1,
+        from_response: 1'b0,
+        data: {poll_result_i.data, 7'd0, poll_result_i.discarded, code}
     };
-    if (poll_i.item == 4'd0) begin
-      reply_o.kind  = (status_i inside {StatusAcc, StatusFix, StatusWrn}) ? KindBusy : KindReady;
+    if (poll_result_i.report_class == 4'd0) begin
+      reply_o.kind  = (status_i inside {StatusAcc, StatusFix, StatusWrn}) ? ReplyBusy : ReplyReady;
       reply_o.count = 3'd0;
     end
   end

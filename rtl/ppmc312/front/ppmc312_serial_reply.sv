@@ -12,28 +12,28 @@ module ppmc312_serial_reply
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire logic               clk_i,        // clock
-    input  wire logic               rst_ni,       // reset, asynchronous
+    input  wire logic               clk_i,           // clock
+    input  wire logic               rst_ni,          // reset, asynchronous
     // frames: strobes
-    input  wire logic               poll_i,       // a poll
-    input  wire logic               run_i,        // an instruction with a correct checksum
-    input  wire logic               fault_i,      // wrong checksum or invalid character
-    input  wire logic               strange_i,    // unknown code
-    input  wire logic         [7:0] code_i,       // code as received
-    input  wire serial_code_t       info_i,       // meaning of code_i
-    input  wire logic               framing_i,    // a character without a stop bit
-    input  wire logic               overrun_i,    // a frame while busy
-    output logic                    busy_o,       // a reply is pending or being sent
+    input  wire logic               poll_i,          // a poll
+    input  wire logic               run_i,           // an instruction with a correct checksum
+    input  wire logic               fault_i,         // wrong checksum or invalid character
+    input  wire logic               unknown_code_i,  // unknown code
+    input  wire logic         [7:0] code_i,          // code as received
+    input  wire serial_code_t       info_i,          // meaning of code_i
+    input  wire logic               framing_i,       // a character without a stop bit
+    input  wire logic               overrun_i,       // a frame while busy
+    output logic                    busy_o,          // a reply is pending or being sent
     // core
-    input  wire status_e            status_i,     // status of the device
-    output logic                    take_o,       // strobe: the report in found_i is consumed
-    input  wire poll_t              found_i,      // report that a poll finds
-    output logic                    blk_valid_o,  // a block is pending for the core
-    input  wire answered_t          answered_i,   // result of the executed block
+    input  wire status_e            status_i,        // status of the device
+    output logic                    report_take_o,   // strobe: the report in poll_result_i is consumed
+    input  wire poll_result_t       poll_result_i,   // report that a poll finds
+    output logic                    blk_valid_o,     // a block is pending for the core
+    input  wire host_result_t       host_result_i,   // result of the executed block
     // sender
-    output logic                    send_o,       // 1: send reply_o; high until sent_i
-    output reply_t                  reply_o,      // reply, stable while send_o
-    input  wire logic               sent_i        // strobe: the reply has been sent
+    output logic                    send_o,          // 1: send reply_o; high until sent_i
+    output reply_t                  reply_o,         // reply, stable while send_o
+    input  wire logic               sent_i           // strobe: the reply has been sent
 );
 
   typedef enum logic [1:0] {
@@ -43,16 +43,16 @@ module ppmc312_serial_reply
   } state_e;
 
   state_e state_q;
-  reply_t polled, reply;
-  logic poll_q, run_q, fault_q, strange_q, read_counts, fails, refused, own, done_q, reply_we;
+  reply_t poll_reply, reply;
+  logic poll_q, run_q, fault_q, unknown_code_q, read_counts, fails, rejected, local_read, done_q, reply_we;
   logic [3:0] error, error_q;
   logic [2:0] errors_q;
   logic [2:0][7:0] counts;
 
   ppmc312_serial_poll u_poll (
-      .poll_i (found_i),
+      .poll_result_i(poll_result_i),
       .status_i,
-      .reply_o(polled)
+      .reply_o(poll_reply)
   );
 
   ppmc312_serial_errors u_errors (
@@ -63,7 +63,7 @@ module ppmc312_serial_reply
       .count_o(counts)
   );
 
-  // The counters may be one cycle late, because errors and reads of the counters belong to different
+  // The counters follow by one cycle, because errors and reads of the counters belong to different
   // characters.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) errors_q <= '0;
@@ -72,31 +72,31 @@ module ppmc312_serial_reply
 
   // ---- reply --------------------------------------------------------------------------------------
 
-  assign refused = code_i != S_END && !(status_i inside {StatusIni, StatusNor});
-  assign own = run_q && info_i.local_read;
-  assign take_o = poll_q;
-  assign read_counts = own && !refused && code_i == S_COUNTS;
+  assign rejected = code_i != S_END && !(status_i inside {StatusIni, StatusNor});
+  assign local_read = run_q && info_i.local_read;
+  assign report_take_o = poll_q;
+  assign read_counts = local_read && !rejected && code_i == S_COUNTS;
 
   always_comb begin
     fails = 1'b0;
-    error = answered_i.code[3:0] + 4'd2;  // F0: 42, F1: 43, F2: 44, F6: 48, F7: 49
-    if (answered_i.code[7:4] == 4'hf) fails = 1'b1;
-    else if (answered_i.code == I_EVT_SET && answered_i.first inside {3'd1, 3'd2, 3'd5}) begin
+    error = host_result_i.code[3:0] + 4'd2;  // F0: 42, F1: 43, F2: 44, F6: 48, F7: 49
+    if (host_result_i.code[7:4] == 4'hf) fails = 1'b1;
+    else if (host_result_i.code == I_EVT_SET && host_result_i.first inside {3'd1, 3'd2, 3'd5}) begin
       fails = 1'b1;
       error = 4'd9;
     end
-    if (strange_q) error = 4'd7;
-    if (own) error = 4'd3;
+    if (unknown_code_q) error = 4'd7;
+    if (local_read) error = 4'd3;
   end
 
   always_comb begin
-    reply = '{kind: KindSpecific, count: 3'd1, stored: 1'b0, data: {16'd0, 4'h4, error}};
-    if (poll_q) reply = polled;
+    reply = '{kind: ReplySpecific, count: 3'd1, from_response: 1'b0, data: {16'd0, 4'h4, error}};
+    if (poll_q) reply = poll_reply;
     else if (fault_q) reply.data[0] = 8'h41;
-    else if (own && !refused) begin
-      reply.kind = KindData;
+    else if (local_read && !rejected) begin
+      reply.kind = ReplyData;
       unique case (code_i)
-        S_END:   reply.data[0] = end_code(found_i.cause);
+        S_END:   reply.data[0] = end_code(poll_result_i.cause);
         S_ERROR: reply.data[0] = {1'b0, error_q != '0, 2'b00, error_q};
         default: begin
           reply.count = 3'd3;
@@ -104,13 +104,13 @@ module ppmc312_serial_reply
         end
       endcase
     end else if (done_q && !fails) begin
-      reply.kind   = (info_i.reads == '0) ? KindReady : KindData;
-      reply.count  = info_i.reads;
-      reply.stored = 1'b1;
+      reply.kind = (info_i.reply_bytes == '0) ? ReplyReady : ReplyData;
+      reply.count = info_i.reply_bytes;
+      reply.from_response = 1'b1;
     end
   end
 
-  assign reply_we = poll_q || fault_q || strange_q || own || done_q;
+  assign reply_we = poll_q || fault_q || unknown_code_q || local_read || done_q;
 
   always_ff @(posedge clk_i) begin
     if (reply_we) reply_o <= reply;
@@ -118,25 +118,25 @@ module ppmc312_serial_reply
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) error_q <= '0;
-    else if (strange_q || (own && refused) || (done_q && fails)) error_q <= error;
-    else if (own && code_i == S_ERROR) error_q <= '0;
+    else if (unknown_code_q || (local_read && rejected) || (done_q && fails)) error_q <= error;
+    else if (local_read && code_i == S_ERROR) error_q <= '0;
   end
 
   // ---- one frame at a time ------------------------------------------------------------------------
 
-  assign busy_o = state_q != StIdle || run_q || poll_q || fault_q || strange_q;
+  assign busy_o = state_q != StIdle || run_q || poll_q || fault_q || unknown_code_q;
   assign send_o = state_q == StSend;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q                                     <= StIdle;
-      {poll_q, run_q, fault_q, strange_q, done_q} <= '0;
-      blk_valid_o                                 <= 1'b0;
+      state_q                                          <= StIdle;
+      {poll_q, run_q, fault_q, unknown_code_q, done_q} <= '0;
+      blk_valid_o                                      <= 1'b0;
     end else begin
-      {poll_q, run_q, fault_q, strange_q} <= {poll_i, run_i, fault_i, strange_i};
-      done_q <= state_q == StRun && answered_i.valid;
+      {poll_q, run_q, fault_q, unknown_code_q} <= {poll_i, run_i, fault_i, unknown_code_i};
+      done_q <= state_q == StRun && host_result_i.valid;
       // 1 in state StRun until the block is executed; a separate register because of its fan-out.
-      blk_valid_o <= !reply_we && (run_q || (state_q == StRun && !answered_i.valid));
+      blk_valid_o <= !reply_we && (run_q || (state_q == StRun && !host_result_i.valid));
       if (reply_we) state_q <= StSend;
       else if (run_q) state_q <= StRun;
       else if (sent_i) state_q <= StIdle;

@@ -2,8 +2,8 @@
 // ppmc312_serial_tx: sends a reply when the line is free: gate, control code, hexadecimal data, checksum.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
 // Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after
-//         heard_i. heard_i marks the middle of a stop bit, so this is SndWait + 0.5 bits after its end. Edge
-//         n of the frame occurs ceil(n * bit time) after the rise of snd_o; the first start bit is edge
+//         rx_char_i. rx_char_i marks the middle of a stop bit, so this is SndWait + 0.5 bits after its end.
+//         Edge n of the frame occurs ceil(n * bit time) after the rise of snd_o; the first start bit is edge
 //         SndLead, the fall of snd_o is the last edge.
 // Rate:   the phase increases by step_i per cycle. When it overflows (Width bits), a bit has ended, and the
 //         next cycle adds wrap_i instead, which is step_i minus the modulus.
@@ -18,19 +18,19 @@ module ppmc312_serial_tx
     parameter int unsigned SndLead  = 1,     // bits from the rise of snd_o to the start bit, 1 .. 16
     parameter int unsigned SndWait  = 0      // bits of wait before snd_o in addition to 0.5, 0 .. 8
 ) (
-    input  wire logic               clk_i,     // clock
-    input  wire logic               rst_ni,    // reset, asynchronous
-    input  wire logic   [      3:0] adr_i,     // station number
-    input  wire logic   [Width-1:0] step_i,    // phase increment per cycle
-    input  wire logic   [Width-1:0] wrap_i,    // step_i minus the modulus
-    input  wire logic               heard_i,   // strobe: a character has been received
-    input  wire logic               send_i,    // send reply_i; high until sent_o
-    input  wire reply_t             reply_i,   // reply, stable while send_i
-    output logic        [      1:0] index_o,   // index of the data byte
-    input  wire logic   [      7:0] stored_i,  // byte index_o in the answer store, two cycles later
-    output logic                    sent_o,    // strobe: the reply has been sent
-    output logic                    txd_o,     // line, idle high
-    output logic                    snd_o      // 1: drive the line
+    input  wire logic               clk_i,            // clock
+    input  wire logic               rst_ni,           // reset, asynchronous
+    input  wire logic   [      3:0] adr_i,            // station number
+    input  wire logic   [Width-1:0] step_i,           // phase increment per cycle
+    input  wire logic   [Width-1:0] wrap_i,           // step_i minus the modulus
+    input  wire logic               rx_char_i,        // strobe: a character has been received
+    input  wire logic               send_i,           // send reply_i; high until sent_o
+    input  wire reply_t             reply_i,          // reply, stable while send_i
+    output logic        [      1:0] index_o,          // index of the data byte
+    input  wire logic   [      7:0] response_byte_i,  // byte index_o of the response, two cycles later
+    output logic                    sent_o,           // strobe: the reply has been sent
+    output logic                    txd_o,            // line, idle high
+    output logic                    snd_o             // 1: drive the line
 );
 
   typedef enum logic [1:0] {
@@ -43,7 +43,7 @@ module ppmc312_serial_tx
   state_e state_q;
   localparam int unsigned GapBits = $clog2(SndWait + 2);
 
-  logic over, last_q;
+  logic bit_end, last_q;
   logic [GapBits-1:0] gap_q;  // bits until the line is free
   logic [Width-1:0] phase_q;
   logic [2:0] at_q;  // data bytes sent
@@ -64,7 +64,7 @@ module ppmc312_serial_tx
       2'd1:    data = reply_i.data[1];
       default: data = reply_i.data[2];
     endcase
-    if (reply_i.stored) data = stored_i;
+    if (reply_i.from_response) data = response_byte_i;
     nibble = (state_q == StHigh) ? data[7:4] : data[3:0];
     unique case (state_q)
       StControl: char = {1'b1, control};
@@ -75,13 +75,13 @@ module ppmc312_serial_tx
 
   // ---- bits ---------------------------------------------------------------------------------------
 
-  assign sent_o = snd_o && over && left_q == '0 && last_q;
+  assign sent_o = snd_o && bit_end && left_q == '0 && last_q;
 
   // The phase starts one step ahead, which compensates the registers of the pins. It also times the gap: at
   // most 9 bits, so the gap ends before the next stop bit can be received.
   always_ff @(posedge clk_i) begin
-    if (!snd_o && gap_q == '0) {over, phase_q} <= {1'b0, wrap_i};
-    else {over, phase_q} <= {1'b0, phase_q} + {1'b0, over ? wrap_i : step_i};
+    if (!snd_o && gap_q == '0) {bit_end, phase_q} <= {1'b0, wrap_i};
+    else {bit_end, phase_q} <= {1'b0, phase_q} + {1'b0, bit_end ? wrap_i : step_i};
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -92,9 +92,9 @@ module ppmc312_serial_tx
     end else begin
       if (sent_o) snd_o <= 1'b0;
       else if (send_i && gap_q == '0) snd_o <= 1'b1;
-      if (heard_i) gap_q <= GapBits'(SndWait + 1);
-      else if (over && gap_q != '0) gap_q <= gap_q - 1'b1;
-      if (snd_o && over) txd_o <= (left_q == '0) ? last_q : bits_q[0];
+      if (rx_char_i) gap_q <= GapBits'(SndWait + 1);
+      else if (bit_end && gap_q != '0) gap_q <= gap_q - 1'b1;
+      if (snd_o && bit_end) txd_o <= (left_q == '0) ? last_q : bits_q[0];
     end
   end
 
@@ -105,10 +105,10 @@ module ppmc312_serial_tx
       last_q  <= 1'b0;
       at_q    <= '0;
       if (SndLead > 1) bits_q <= '1;
-    end else if (over && left_q != '0) begin
+    end else if (bit_end && left_q != '0) begin
       left_q <= left_q - 1'b1;
       bits_q <= {1'b1, bits_q[7:1]};
-    end else if (over) begin
+    end else if (bit_end) begin
       left_q <= 4'd9;
       bits_q <= char;
       unique case (state_q)

@@ -11,31 +11,32 @@ module ppmc312_arbiter
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;
 (
-    input  wire logic    clk_i,       // clock
-    input  wire logic    rst_ni,      // reset, asynchronous
-    input  wire logic    idle_i,      // 1: the next instruction can be accepted
-    input  wire logic    occupied_i,  // an answer waits to be read or stored
-    input  wire logic    host_i,      // an instruction of the host is pending
-    input  wire stored_t stored_i,    // stored instructions
-    output logic         start_o,     // strobe: an instruction is accepted
-    output source_e      source_o,    // source of this instruction
-    output logic         n_o,         // event buffer of this instruction
-    output logic         lost_o       // a triggered instruction cannot be executed
+    input  wire logic          clk_i,           // clock
+    input  wire logic          rst_ni,          // reset, asynchronous
+    input  wire logic          idle_i,          // 1: the next instruction can be accepted
+    input  wire logic          occupied_i,      // a response waits to be read or stored
+    input  wire logic          host_i,          // an instruction of the host is pending
+    input  wire queue_status_t queue_status_i,  // stored instructions
+    output logic               start_o,         // strobe: an instruction is accepted
+    output source_e            source_o,        // source of this instruction
+    output logic               n_o,             // event buffer of this instruction
+    output logic               missed_o         // a triggered instruction cannot be executed
 );
 
   logic any, host_turn_q, fifo, n;
 
   always_comb begin
-    n    = !stored_i.events[0];
-    fifo = stored_i.due;
-    if (stored_i.due && stored_i.due_trig[0]) begin
-      if (stored_i.events[0]) fifo = 1'b0;
-      if (stored_i.events[1] && stored_i.due_trig[1]) fifo = 1'b0;
+    n    = !queue_status_i.events_triggered[0];
+    fifo = queue_status_i.fifo_triggered;
+    if (queue_status_i.fifo_triggered && queue_status_i.fifo_trig[0]) begin
+      if (queue_status_i.events_triggered[0]) fifo = 1'b0;
+      if (queue_status_i.events_triggered[1] && queue_status_i.fifo_trig[1]) fifo = 1'b0;
     end
   end
 
-  assign any = (stored_i.due || stored_i.events != '0) && !(host_turn_q && host_i);
-  assign lost_o = idle_i && any && occupied_i;
+  assign any = (queue_status_i.fifo_triggered || queue_status_i.events_triggered != '0)
+               && !(host_turn_q && host_i);
+  assign missed_o = idle_i && any && occupied_i;
   assign start_o = idle_i && (any ? !occupied_i : host_i);
   assign n_o = n;
 
@@ -50,7 +51,7 @@ module ppmc312_arbiter
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, stored_i};
+  assign unused_bits = &{1'b0, queue_status_i};
 
 endmodule
 

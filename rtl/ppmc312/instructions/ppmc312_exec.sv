@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_exec: processes one instruction at a time, from the host or triggered: fetch, check, execution,
-//         answer.
-// Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06, sections 3.1..3.5,
-//         10.1.
-// Timing: do_o follows offer_i.valid by 24 cycles; the answer is complete 5 + bytes cycles later. Set-ups,
-//         starts and rate changes add a wait in between. blk_done_o is asserted when the answer is stored.
-// Note:   do_o is the command to the other blocks to execute block_o.
+//         response.
+// Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06;
+//         docs/ppmc312/README.md, Instruction blocks.
+// Timing: execute_o follows host_block_i.valid by 24 cycles; the response is complete 5 + bytes cycles later.
+//         Set-ups, starts and rate changes add a wait in between. blk_done_o is asserted when the response is
+//         stored.
+// Note:   execute_o is the command to the other blocks to execute block_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,52 +16,52 @@ module ppmc312_exec
   import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic                          clk_i,        // clock
-    input  wire logic                          rst_ni,       // reset, asynchronous
-    input  wire logic                          serial_i,     // 1: answers never wait to be read
-    input  wire logic                          boot_i,       // leaving a reset by an instruction: report it
-    output logic                               reset_o,      // strobe: reset the device
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic serial_i,  // 1: responses never wait to be read
+    input wire logic boot_i,  // leaving a reset by an instruction: report it
+    output logic reset_o,  // strobe: reset the device
     // sources of instructions
-    input  wire offer_t                        offer_i,      // block from the host
-    output logic                               blk_done_o,   // strobe: the block is processed and answered
-    output logic              [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
-    input  wire logic         [           7:0] byte_i,       // byte at byte_addr_o, two cycles later
-    input  wire stored_t                       stored_i,     // stored instructions
-    output remove_t                            remove_o,     // removal from the store
-    output put_t                               put_o,        // write port of the store
+    input wire host_block_t host_block_i,  // block from the host
+    output logic blk_done_o,  // strobe: the block is processed, its response stored
+    output logic [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
+    input wire logic [7:0] byte_i,  // byte at byte_addr_o, two cycles later
+    input wire queue_status_t queue_status_i,  // stored instructions
+    output dequeue_t dequeue_o,  // removal from the store
+    output enqueue_t enqueue_o,  // write port of the store
     // state of the device
-    input  wire axis_state_t                   state_i,      // state of the motor side
-    input  wire table_t                        table_i,      // active table
-    input  wire told_t                         told_i,       // data that block_o returns
-    input  wire logic                          open_i,       // the processing time of block_o has passed
-    output logic                               idle_o,       // 1: no instruction is being processed
+    input wire axis_state_t state_i,  // state of the motor side
+    input wire table_t table_i,  // active table
+    input wire result_data_t result_data_i,  // data that block_o returns
+    input wire logic elapsed_i,  // the processing time of block_o has passed
+    output logic idle_o,  // 1: no instruction is being processed
     // execution
-    output block_t                             block_o,      // instruction in progress
-    output logic                               do_o,         // strobe: execute block_o
-    output logic                               multi_o,      // strobe, one cycle late: multiple occurrence
-    output setup_order_t                       setup_o,      // initial setting, free curve
-    input  wire setup_state_t                  setup_i,      // state of the set-up
-    output logic                               move_o,       // strobe: a start or a rate change
-    input  wire move_state_t                   move_i,       // result of move_o
-    // answers
-    output answer_t                            answer_o,     // stable while it is written, until commit_o
-    output write_order_t                       write_o,      // write commands
-    input  wire write_state_t                  write_i,      // state of the writing
-    output logic                               hold_o,       // 1: an answer follows soon
-    output logic                               commit_o,     // strobe: the answer is complete
-    input  wire class2_t                       class2_i      // answers that wait to be read
+    output block_t block_o,  // instruction in progress
+    output logic execute_o,  // strobe: execute block_o
+    output logic multi_o,  // strobe, registered: multiple occurrence
+    output setup_cmd_t setup_cmd_o,  // initial setting, free curve
+    input wire setup_status_t setup_status_i,  // state of the set-up
+    output logic move_o,  // strobe: a start or a rate change
+    input wire move_status_t move_status_i,  // result of move_o
+    // responses
+    output response_t response_o,  // stable while it is written, until response_done_o
+    output response_cmd_t response_cmd_o,  // write commands
+    input wire response_status_t response_status_i,  // state of the writing
+    output logic hold_o,  // 1: a response follows soon
+    output logic response_done_o,  // strobe: the response is complete
+    input wire response_queue_t response_queue_i  // responses that wait to be read
 );
 
   typedef enum logic [3:0] {
     StBoot,
     StIdle,
     StFetch,
-    StFirst,    // checks for reset and unread answers; comparisons settle
+    StFirst,    // checks for reset and unread responses; comparisons settle
     StSettle,
     StAct,
-    StWait,     // processing time of 26 and 80; the verdict is held
+    StWait,     // processing time of 26 and 80; check is stable
     StSetup,
-    StPace,     // remaining processing time
+    StProcTime,     // remaining processing time
     StCopy,
     StMove,
     StWrite,
@@ -68,13 +69,13 @@ module ppmc312_exec
   } state_e;
 
   state_e state_q, state_d;
-  info_t info;
-  verdict_e verdict;
+  instr_info_t info;
+  check_e check;
   source_e source;
-  answer_t next;
+  response_t next;
   logic move_ends, setup_ends;
   logic [7:0] error, code, flags;
-  logic ov, host, start, fetch_done, n, n_q, lost, copy, act, go, registers, unread, idle_read;
+  logic ov, host, start, fetch_done, n, n_q, missed, copy, act, go, registers, unread, idle_read;
   logic host_wait_q, fails, slow;
   logic settle_q, reset_q, plain_q, build_q, used, full, inner, empty, evt_n, unused_busy, write_q, ready;
   logic [2:0] evt_count;
@@ -86,37 +87,37 @@ module ppmc312_exec
 
   // ---- selection ----------------------------------------------------------------------------------
 
-  assign ready = offer_i.valid && !host_wait_q;
+  assign ready = host_block_i.valid && !host_wait_q;
 
   ppmc312_arbiter u_arbiter (
       .clk_i,
       .rst_ni,
       .idle_i    (state_q == StIdle),
-      .occupied_i(class2_i.full || class2_i.waits || host_wait_q),
+      .occupied_i(response_queue_i.full || response_queue_i.pending || host_wait_q),
       .host_i    (ready),
-      .stored_i,
+      .queue_status_i,
       .start_o   (start),
       .source_o  (source),
       .n_o       (n),
-      .lost_o    (lost)
+      .missed_o  (missed)
   );
 
   ppmc312_fetch u_fetch (
       .clk_i,
       .rst_ni,
-      .start_i   (start),
-      .source_i  (source),
-      .size_i    (offer_i.size),
-      .copy_i    (copy),
-      .inner_i   (inner),
-      .busy_o    (unused_busy),
-      .done_o    (fetch_done),
+      .start_i    (start),
+      .source_i   (source),
+      .size_i     (host_block_i.size),
+      .copy_i     (copy),
+      .inner_i    (inner),
+      .busy_o     (unused_busy),
+      .done_o     (fetch_done),
       .block_o,
-      .addr_o    (step_addr),
-      .data_i    (byte_i),
-      .put_we_o  (put_o.we),
-      .put_addr_o(put_o.addr),
-      .put_data_o(put_o.data)
+      .addr_o     (step_addr),
+      .data_i     (byte_i),
+      .copy_we_o  (enqueue_o.we),
+      .copy_addr_o(enqueue_o.addr),
+      .copy_data_o(enqueue_o.data)
   );
 
   ppmc312_instr_rom u_instr_rom (
@@ -130,91 +131,94 @@ module ppmc312_exec
       .rst_ni,
       .block_i   (block_o),
       .info_i    (info),
-      .keep_i    (state_q inside {StAct, StWait}),
+      .hold_i    (state_q inside {StAct, StWait}),
       .status_i  (state_i.status),
       .end_wait_i(state_i.end_wait),
-      .transfer_i(setup_i.transfer),
+      .transfer_i(setup_status_i.transfer),
       .table_i,
-      .verdict_o (verdict),
+      .check_o   (check),
       .error_o   (error),
       .ov_o      (ov)
   );
 
   always_comb begin
     unique case (state_q)
-      StSetup: byte_addr_o = setup_i.addr;
-      StWrite: byte_addr_o = write_i.echo_addr;
+      StSetup: byte_addr_o = setup_status_i.addr;
+      StWrite: byte_addr_o = response_status_i.echo_addr;
       default: byte_addr_o = step_addr;
     endcase
   end
 
-  assign hold_o = act || state_q inside {StWrite, StReadback} || write_i.table_more;
+  assign hold_o = act || state_q inside {StWrite, StReadback} || response_status_i.table_more;
   assign idle_o = state_q == StIdle;
 
-  // A reset is always executed. No other instruction of the host is executed while the last answer is unread.
+  // A reset is always executed. No other instruction of the host is executed while the last response is
+  // unread.
   assign reset_o = state_q == StFirst && reset_q;
-  assign unread = state_q == StFirst && host && class2_i.full_host && !reset_o;
+  assign unread = state_q == StFirst && host && response_queue_i.full_host && !reset_o;
 
   // ---- requested actions --------------------------------------------------------------------------
 
   assign act = state_q == StAct && !slow;
-  assign slow = !open_i && verdict == VerdictGo && !ov && code inside {I_AUX_OUT, I_HALT};
-  assign go = act && verdict == VerdictGo && !ov;
+  assign slow = !elapsed_i && check == CheckOk && !ov && code inside {I_AUX_OUT, I_HALT};
+  assign go = act && check == CheckOk && !ov;
   assign inner = code == I_EVT_SET;
   assign evt_n = inner ? flags[0] : flags[1];
-  assign evt_count = stored_i.event_count[evt_n];
+  assign evt_count = queue_status_i.event_count[evt_n];
   assign empty = evt_count == '0;
   // The event pin is in use by the other kind of trigger (command FIFO or event buffer).
-  assign used = inner ? stored_i.fifo_events[evt_n] : flags[0] && !empty;
-  assign full = inner ? evt_count == 3'd4 : stored_i.fifo_count == 4'd8;
-  assign registers = act && verdict == VerdictGo && (inner ? !flags[1] : ov) && !used && !full;
+  assign used = inner ? queue_status_i.fifo_uses_event[evt_n] : flags[0] && !empty;
+  assign full = inner ? evt_count == 3'd4 : queue_status_i.fifo_count == 4'd8;
+  assign registers = act && check == CheckOk && (inner ? !flags[1] : ov) && !used && !full;
   assign copy = registers;
 
-  assign move_o = go && (info.starts || code inside {I_RAMP, I_SPEED});
-  assign do_o = go && plain_q;
+  assign move_o = go && (info.starts_motion || code inside {I_RAMP, I_SPEED});
+  assign execute_o = go && plain_q;
 
-  assign setup_o.build = go && code == I_INIT;
-  assign setup_o.open = go && code == I_FREE;
-  assign setup_o.data = act && verdict == VerdictData;
+  assign setup_cmd_o.build = go && code == I_INIT;
+  assign setup_cmd_o.open = go && code == I_FREE;
+  assign setup_cmd_o.data = act && check == CheckData;
   // After a failed set-up, and after anything that disturbs a transfer, there is no valid table.
-  assign setup_o.fail = (setup_i.transfer && state_i.status == StatusAbn) ||
-      (act && setup_i.transfer && verdict != VerdictData) ||
-      (act && verdict == VerdictPar && error != '0 && code == I_FREE && block_o.source != SrcEvent) ||
-      (act && verdict == VerdictPar && code == I_INIT);
+  assign setup_cmd_o.fail = (setup_status_i.transfer && state_i.status == StatusAbn) ||
+      (act && setup_status_i.transfer && check != CheckData) ||
+      (act && check == CheckParam && error != '0 && code == I_FREE && block_o.source != SrcEvent) ||
+      (act && check == CheckParam && code == I_INIT);
 
   always_comb begin
-    put_o.to_event = inner;
-    put_o.n        = evt_n;
-    put_o.put      = state_q == StCopy && fetch_done;
-    put_o.code     = inner ? block_o.par[3] : code;
-    put_o.trig     = flags[1:0];
-    put_o.pos      = {block_o.par[3], block_o.par[4], block_o.par[5], block_o.par[6]};
+    enqueue_o.to_event   = inner;
+    enqueue_o.n          = evt_n;
+    enqueue_o.entry_done = state_q == StCopy && fetch_done;
+    enqueue_o.code       = inner ? block_o.par[3] : code;
+    enqueue_o.trig       = flags[1:0];
+    enqueue_o.pos        = {block_o.par[3], block_o.par[4], block_o.par[5], block_o.par[6]};
   end
 
   always_comb begin
-    remove_o            = '0;
-    remove_o.take       = start && source != SrcHost;
-    remove_o.from_event = source == SrcEvent;
-    remove_o.n          = n;
-    remove_o.all        = setup_o.fail || setup_o.build || setup_o.open || (setup_ends && setup_i.bad);
+    dequeue_o = '0;
+    dequeue_o.take = start && source != SrcHost;
+    dequeue_o.from_event = source == SrcEvent;
+    dequeue_o.n = n;
+    dequeue_o.all        = setup_cmd_o.fail || setup_cmd_o.build || setup_cmd_o.open ||
+                           (setup_ends && setup_status_i.failed);
     // If an entry cannot be executed, all entries that wait in the same FIFO or buffer are removed.
-    if (lost && source == SrcOverride) remove_o.fifo = 1'b1;
-    if (lost && source == SrcEvent) remove_o.events[n] = 1'b1;
-    if (fails && block_o.source == SrcOverride) remove_o.fifo = 1'b1;
-    if (fails && block_o.source == SrcEvent) remove_o.events[n_q] = 1'b1;
-    if (go && inner && flags[1] && !empty) remove_o.highest[evt_n] = 1'b1;
+    if (missed && source == SrcOverride) dequeue_o.fifo = 1'b1;
+    if (missed && source == SrcEvent) dequeue_o.events[n] = 1'b1;
+    if (fails && block_o.source == SrcOverride) dequeue_o.fifo = 1'b1;
+    if (fails && block_o.source == SrcEvent) dequeue_o.events[n_q] = 1'b1;
+    if (go && inner && flags[1] && !empty) dequeue_o.highest[evt_n] = 1'b1;
   end
 
-  // ---- answer -------------------------------------------------------------------------------------
+  // ---- response -------------------------------------------------------------------------------------
 
-  assign move_ends = state_q == StMove && move_i.done;
-  assign setup_ends = state_q == StSetup && setup_i.done;
-  assign fails = !host && ((act && verdict != VerdictGo) ||
-      (move_ends && (move_i.limited || move_i.refused)) || (setup_ends && setup_i.bad));
+  assign move_ends = state_q == StMove && move_status_i.done;
+  assign setup_ends = state_q == StSetup && setup_status_i.done;
+  assign fails = !host && ((act && check != CheckOk) ||
+      (move_ends && (move_status_i.at_limit || move_status_i.rejected)) ||
+      (setup_ends && setup_status_i.failed));
 
   ppmc312_response_format u_format (
       .block_i    (block_o),
-      .verdict_i  (verdict),
+      .check_i    (check),
       .error_i    (error),
       .status_i   (state_i.status),
       .at_boot_i  (state_q == StBoot),
@@ -226,57 +230,60 @@ module ppmc312_exec
       .registers_i(ov),
       .used_i     (used),
       .evt_count_i(evt_count),
-      .told_i,
-      .setup_i,
-      .move_i,
-      .answer_o   (next)
+      .result_data_i,
+      .setup_status_i,
+      .move_status_i,
+      .response_o (next)
   );
 
   always_ff @(posedge clk_i) begin
-    if (!(state_q inside {StWrite, StPace})) answer_o <= next;
+    if (!(state_q inside {StWrite, StProcTime})) response_o <= next;
     // Header, length and code are stable long before their use.
     reset_q <= code == I_RESET && block_o.len == 8'd1 &&
         (!host || (block_o.size == 6'd3 && block_o.head == 8'h03));
-    plain_q <= !(info.starts || code inside {I_INIT, I_FREE, I_TABLE, I_EVT_SET, I_RAMP, I_SPEED});
+    plain_q <= !(info.starts_motion || code inside {I_INIT, I_FREE, I_TABLE, I_EVT_SET, I_RAMP, I_SPEED});
   end
 
-  assign write_o = '{
-          answer: write_q,
-          keep: state_q inside {StAct, StWrite},
+  assign response_cmd_o = '{
+          write: write_q,
+          hold_data: state_q inside {StAct, StWrite},
           table_open: go && code == I_TABLE,
           table_next: idle_read
       };
-  assign commit_o = (state_q == StWrite && write_i.answered) || (state_q == StReadback && write_i.table_done);
-  assign blk_done_o = (host_wait_q && !class2_i.waits && !write_i.table_more && state_q == StIdle) || unread;
-  assign idle_read = state_q == StIdle && write_i.table_more && !class2_i.full && !class2_i.waits && !start &&
-      !lost;
+  assign response_done_o = (state_q == StWrite && response_status_i.written) ||
+      (state_q == StReadback && response_status_i.table_done);
+  assign blk_done_o = (host_wait_q && !response_queue_i.pending && !response_status_i.table_more &&
+                       state_q == StIdle) || unread;
+  assign idle_read = state_q == StIdle && response_status_i.table_more &&
+      !response_queue_i.full && !response_queue_i.pending && !start && !missed;
 
   // ---- states -------------------------------------------------------------------------------------
 
   always_comb begin
     state_d = state_q;
     unique case (state_q)
-      StBoot:   state_d = boot_i ? StWrite : StIdle;
+      StBoot: state_d = boot_i ? StWrite : StIdle;
       StIdle: begin
         if (start) state_d = StFetch;
         else if (idle_read) state_d = StReadback;
       end
-      StFetch:  if (fetch_done) state_d = StFirst;
-      StFirst:  state_d = unread ? StIdle : StSettle;
+      StFetch: if (fetch_done) state_d = StFirst;
+      StFirst: state_d = unread ? StIdle : StSettle;
       StSettle: if (settle_q) state_d = StAct;
       StAct: begin
         state_d = StWrite;
         if (slow) state_d = StWait;
-        else if (setup_o.build || setup_o.data) state_d = StSetup;
+        else if (setup_cmd_o.build || setup_cmd_o.data) state_d = StSetup;
         else if (registers) state_d = StCopy;
         else if (move_o) state_d = StMove;
       end
-      StWait:   if (!slow) state_d = StAct;
-      StSetup:  if (setup_ends) state_d = (build_q && !setup_i.bad && !open_i) ? StPace : StWrite;
-      StPace:   if (open_i) state_d = StWrite;
-      StCopy:   if (fetch_done) state_d = StWrite;
-      StMove:   if (move_i.done) state_d = StWrite;
-      default:  if (commit_o) state_d = StIdle;
+      StWait: if (!slow) state_d = StAct;
+      StSetup:
+      if (setup_ends) state_d = (build_q && !setup_status_i.failed && !elapsed_i) ? StProcTime : StWrite;
+      StProcTime: if (elapsed_i) state_d = StWrite;
+      StCopy: if (fetch_done) state_d = StWrite;
+      StMove: if (move_status_i.done) state_d = StWrite;
+      default: if (response_done_o) state_d = StIdle;
     endcase
   end
 
@@ -291,22 +298,22 @@ module ppmc312_exec
       multi_o     <= 1'b0;
     end else begin
       state_q  <= state_d;
-      multi_o  <= lost || unread;  // registered: the path to the pulses is timing-critical
+      multi_o  <= missed || unread;  // registered: the path to the pulses is timing-critical
       settle_q <= state_q == StSettle;
       write_q  <= state_d == StWrite && state_q != StWrite;  // strobe at the start of StWrite
       if (start) n_q <= n;
-      if (setup_o.build || setup_o.data) build_q <= setup_o.build;
+      if (setup_cmd_o.build || setup_cmd_o.data) build_q <= setup_cmd_o.build;
       if (blk_done_o) host_wait_q <= 1'b0;
-      if (commit_o && host && offer_i.valid && !serial_i) host_wait_q <= 1'b1;
+      if (response_done_o && host && host_block_i.valid && !serial_i) host_wait_q <= 1'b1;
     end
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, info, flags, state_i, stored_i};
+  assign unused_bits = &{1'b0, info, flags, state_i, queue_status_i};
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p312_rsp_20, !(start && source != SrcHost && class2_i.full))
-  `PPMC_ASSERT(p312_blk_02, !(do_o && verdict != VerdictGo))
+  `PPMC_ASSERT(p312_rsp_20, !(start && source != SrcHost && response_queue_i.full))
+  `PPMC_ASSERT(p312_blk_02, !(execute_o && check != CheckOk))
 `endif
 
 endmodule

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_fetch: reads an instruction into block_o, or copies it into the store of instructions.
+// ppmc312_fetch: reads an instruction into block_o, or copies it into the instruction queue.
 // Rules:  P312-GEN-04, P312-CMD-00 and P312-CMD-82 (short forms), P312-OVR-01, P312-CMD-49.
 // Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length. data_i is expected two
 //         cycles after addr_o.
@@ -9,42 +9,42 @@ module ppmc312_fetch
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
 (
-    input  wire logic                     clk_i,       // clock
-    input  wire logic                     rst_ni,      // reset, asynchronous
-    input  wire logic                     start_i,     // strobe: read an instruction
-    input  wire source_e                  source_i,    // with start_i: source of the instruction
-    input  wire logic    [  BLOCK_BITS:0] size_i,      // with start_i: bytes of the host's block
-    input  wire logic                     copy_i,      // strobe: copy an instruction
-    input  wire logic                     inner_i,     // 1: copy the block inside an event setting
-    output logic                          busy_o,      // from the cycle after the start to that of done_o
-    output logic                          done_o,      // strobe
-    output block_t                        block_o,     // the instruction; valid from done_o on
+    input  wire logic                     clk_i,        // clock
+    input  wire logic                     rst_ni,       // reset, asynchronous
+    input  wire logic                     start_i,      // strobe: read an instruction
+    input  wire source_e                  source_i,     // with start_i: source of the instruction
+    input  wire logic    [  BLOCK_BITS:0] size_i,       // with start_i: bytes of the host's block
+    input  wire logic                     copy_i,       // strobe: copy an instruction
+    input  wire logic                     inner_i,      // 1: copy the block inside an event setting
+    output logic                          busy_o,       // from the cycle after the start to that of done_o
+    output logic                          done_o,       // strobe
+    output block_t                        block_o,      // the instruction; valid from done_o on
     // source of the instruction
-    output logic         [BLOCK_BITS-1:0] addr_o,      // byte number, 0 = header
-    input  wire logic    [           7:0] data_i,      // byte at addr_o, two cycles later
+    output logic         [BLOCK_BITS-1:0] addr_o,       // byte number, 0 = header
+    input  wire logic    [           7:0] data_i,       // byte at addr_o, two cycles later
     // destination of the copy
-    output logic                          put_we_o,    // strobe
-    output logic         [           3:0] put_addr_o,  // byte number, 0 = header
-    output logic         [           7:0] put_data_o   // with put_we_o
+    output logic                          copy_we_o,    // strobe
+    output logic         [           3:0] copy_addr_o,  // byte number, 0 = header
+    output logic         [           7:0] copy_data_o   // with copy_we_o
 );
 
   localparam logic [4:0] Bytes = 5'd16;
 
   logic run_q, copy_q;
-  logic [4:0] sent_q, was_q, at_q;
+  logic [4:0] sent_q, sent_s1_q, at_q;
   logic [1:0] valid_q;
   logic [BLOCK_BITS:0] left_q;  // remaining bytes of the instruction
   logic [3:0] index;
-  logic shifted, twins;
-  logic [PARAMS-1:0] takes;
+  logic shifted, one_side;
+  logic [PARAMS-1:0] par_we;
 
   // The block inside an event setting begins at byte 4.
   assign addr_o = {(copy_q && inner_i) ? 3'(ppmc_pkg::inc(32'(sent_q[4:2]))) : sent_q[4:2], sent_q[1:0]};
   assign busy_o = run_q;
   assign done_o = run_q && at_q == Bytes;
-  assign put_we_o = copy_q && valid_q[1];
-  assign put_addr_o = at_q[3:0];
-  assign put_data_o = data_i;
+  assign copy_we_o = copy_q && valid_q[1];
+  assign copy_addr_o = at_q[3:0];
+  assign copy_data_o = data_i;
 
   // Parameters go to their places in the long form. The position of 80 and 81 goes to the place of that of 87
   // and 88.
@@ -54,13 +54,13 @@ module ppmc312_fetch
 
   // Without a separate deceleration side, the stop rate and the pulses of the deceleration are those of
   // the acceleration.
-  assign twins = block_o.code == I_INIT && !block_o.par[0][4];
+  assign one_side = block_o.code == I_INIT && !block_o.par[0][4];
 
   always_comb begin
-    for (int unsigned n = 0; n < PARAMS; n++) takes[n] = index == 4'(n);
-    if (twins) begin
-      takes[4:3]   = takes[2:1];
-      takes[12:10] = takes[9:7];
+    for (int unsigned n = 0; n < PARAMS; n++) par_we[n] = index == 4'(n);
+    if (one_side) begin
+      par_we[4:3]   = par_we[2:1];
+      par_we[12:10] = par_we[9:7];
     end
   end
 
@@ -87,8 +87,8 @@ module ppmc312_fetch
 
   // The current byte was requested two cycles before.
   always_ff @(posedge clk_i) begin
-    if (start_i || copy_i) {at_q, was_q} <= '0;
-    else {at_q, was_q} <= {was_q, sent_q};
+    if (start_i || copy_i) {at_q, sent_s1_q} <= '0;
+    else {at_q, sent_s1_q} <= {sent_s1_q, sent_q};
   end
 
   // A stored instruction is as long as its length byte indicates, which has been checked.
@@ -109,7 +109,7 @@ module ppmc312_fetch
           5'd0:    block_o.head <= data_i;
           5'd1:    block_o.len <= (left_q == '0) ? 8'd0 : data_i;
           5'd2:    block_o.code <= data_i;
-          default: for (int unsigned n = 0; n < PARAMS; n++) if (takes[n]) block_o.par[n] <= data_i;
+          default: for (int unsigned n = 0; n < PARAMS; n++) if (par_we[n]) block_o.par[n] <= data_i;
         endcase
       end
     end

@@ -12,38 +12,38 @@ module ppmc312_free_curve
   import ppmc312_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic                  clk_i,       // clock
-    input  wire logic                  rst_ni,      // reset, asynchronous
-    input  wire logic                  open_i,      // strobe: a transfer begins
-    input  wire logic                  split_i,     // with open_i: LE
-    input  wire logic [           6:0] acc_i,       // with open_i: stages of the acceleration, 2 .. 127
-    input  wire logic [           6:0] dec_i,       // with split_i: stages of the deceleration
-    input  wire logic                  abort_i,     // strobe: end the transfer without a table
-    output logic                       transfer_o,  // 1: a transfer is open
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic open_i,  // strobe: a transfer begins
+    input wire logic split_i,  // with open_i: LE
+    input wire logic [6:0] acc_i,  // with open_i: stages of the acceleration, 2 .. 127
+    input wire logic [6:0] dec_i,  // with split_i: stages of the deceleration
+    input wire logic abort_i,  // strobe: end the transfer without a table
+    output logic transfer_o,  // 1: a transfer is open
     // a data block
-    input  wire logic                  data_i,      // strobe: process a block
-    input  wire logic [           4:0] bytes_i,     // bytes of the block, 1 .. 30
-    input  wire logic                  last_i,      // the block is marked as the last one
-    output logic                       busy_o,      // from the cycle after data_i to that of done_o
-    output logic                       done_o,      // strobe: the block is processed
-    output logic      [BLOCK_BITS-1:0] addr_o,      // byte of the block, two cycles before byte_i
-    input  wire logic [           7:0] byte_i,      // byte at addr_o
-    output logic                       bad_o,       // with done_o: the block is invalid
-    output logic      [           7:0] error_o,     // with bad_o: error number of F0
+    input wire logic data_i,  // strobe: process a block
+    input wire logic [4:0] bytes_i,  // bytes of the block, 1 .. 30
+    input wire logic last_i,  // the block is marked as the last one
+    output logic busy_o,  // from the cycle after data_i to that of done_o
+    output logic done_o,  // strobe: the block is processed
+    output logic [BLOCK_BITS-1:0] addr_o,  // byte of the block, two cycles before byte_i
+    input wire logic [7:0] byte_i,  // byte at addr_o
+    output logic bad_o,  // with done_o: the block is invalid
+    output logic [7:0] error_o,  // with bad_o: error number of F0
     // progress
-    output logic                       complete_o,  // the curve is complete
-    output logic      [           1:0] list_o,      // next list, 0: rates, 1: acceleration, 2: deceleration
-    output logic      [           6:0] left_o,      // remaining stages of this list
-    output logic      [          23:0] acc_sum_o,   // acceleration pulses; valid with complete_o
-    output logic      [          23:0] dec_sum_o,   // deceleration pulses; valid with complete_o
-    output entry_t                     entry_o      // word for the table
+    output logic complete_o,  // the curve is complete
+    output logic [1:0] list_o,  // next list, 0: rates, 1: acceleration, 2: deceleration
+    output logic [6:0] left_o,  // remaining stages of this list
+    output logic [23:0] acc_sum_o,  // acceleration pulses; valid with complete_o
+    output logic [23:0] dec_sum_o,  // deceleration pulses; valid with complete_o
+    output table_write_t table_write_o  // word for the table
 );
 
   localparam logic [6:0] Fastest = 7'd126;
 
-  logic [1:0] valid_q, part_q;
-  logic run_q, split_q, whole, tiny, size_q, rate_q, pulses_q, over_q, finishing_q, list_done;
-  logic [4:0] sent_q, was_q, seen_q;
+  logic [1:0] valid_q, byte_q;
+  logic run_q, split_q, whole, tiny, size_bad_q, rate_bad_q, pulses_bad_q, sum_bad_q, finishing_q, list_done;
+  logic [4:0] sent_q, sent_s1_q, received_q;
   logic last_byte;
   logic [6:0] stage_q, acc_q, dec_q;
   logic [15:0] high_q;
@@ -53,19 +53,19 @@ module ppmc312_free_curve
 
   assign rates = list_o == 2'd0;
   assign word = {high_q, byte_i};
-  assign whole = valid_q[1] && part_q == (rates ? 2'd1 : 2'd2);
+  assign whole = valid_q[1] && byte_q == (rates ? 2'd1 : 2'd2);
   assign tiny = (rates ? 24'(word[15:0]) : word) <= 24'd1;
   assign sum = {1'b0, dec_sum_o} + {1'b0, word};  // running sum of the current list
   assign list_done = whole && left_o == 7'd1;
   assign addr_o = {4'(ppmc_pkg::inc(32'(sent_q[4:1]))), sent_q[0]};  // sent_q + 2
   assign busy_o = run_q;
   assign done_o = finishing_q;
-  assign last_byte = 5'(ppmc_pkg::inc(32'(seen_q))) == bytes_i;
+  assign last_byte = 5'(ppmc_pkg::inc(32'(received_q))) == bytes_i;
 
-  assign entry_o = '{
-          rate: whole && rates && !complete_o,
-          acc: whole && list_o == 2'd1 && !complete_o,
-          dec: whole && (list_o == 2'd2 || (list_o == 2'd1 && !split_q)) && !complete_o,
+  assign table_write_o = '{
+          we_rate: whole && rates && !complete_o,
+          we_acc: whole && list_o == 2'd1 && !complete_o,
+          we_dec: whole && (list_o == 2'd2 || (list_o == 2'd1 && !split_q)) && !complete_o,
           stage: stage_q,
           data: rates ? 24'(word[15:0]) : word
       };
@@ -73,10 +73,10 @@ module ppmc312_free_curve
   always_comb begin
     bad_o   = 1'b1;
     error_o = E_FREE_SIZE;
-    if (size_q) error_o = E_FREE_SIZE;
-    else if (rate_q) error_o = E_FREE_RATE;
-    else if (pulses_q) error_o = E_FREE_PULSES;
-    else if (over_q) error_o = E_FREE_SUM;
+    if (size_bad_q) error_o = E_FREE_SIZE;
+    else if (rate_bad_q) error_o = E_FREE_RATE;
+    else if (pulses_bad_q) error_o = E_FREE_PULSES;
+    else if (sum_bad_q) error_o = E_FREE_SUM;
     else if (last_i != complete_o) error_o = E_FREE_LAST;
     else bad_o = 1'b0;
   end
@@ -114,25 +114,25 @@ module ppmc312_free_curve
     if (open_i) left_o <= (split_i && ppmc_pkg::less(32'(acc_i), 32'(dec_i))) ? dec_i : acc_i;
     else if (!data_i && whole) left_o <= !list_done ? 7'(ppmc_pkg::dec(32'(left_o))) : rates ? acc_q : dec_q;
     // The current byte was requested two cycles before.
-    if (data_i) {seen_q, was_q} <= '0;
-    else {seen_q, was_q} <= {was_q, sent_q};
+    if (data_i) {received_q, sent_s1_q} <= '0;
+    else {received_q, sent_s1_q} <= {sent_s1_q, sent_q};
     if (data_i) begin
-      {size_q, rate_q, pulses_q, over_q} <= '0;
-      part_q <= '0;
+      {size_bad_q, rate_bad_q, pulses_bad_q, sum_bad_q} <= '0;
+      byte_q <= '0;
       sent_q <= '0;
     end else begin
       if (run_q && sent_q != bytes_i) sent_q <= 5'(ppmc_pkg::inc(32'(sent_q)));
       if (valid_q[1]) begin
         high_q <= {high_q[7:0], byte_i};
-        part_q <= whole ? '0 : part_q + 1'b1;
+        byte_q <= whole ? '0 : byte_q + 1'b1;
         // A block holds whole stages of one list.
-        if (last_byte ? !whole : list_done) size_q <= 1'b1;
-        if (complete_o) size_q <= 1'b1;
+        if (last_byte ? !whole : list_done) size_bad_q <= 1'b1;
+        if (complete_o) size_bad_q <= 1'b1;
       end
       if (whole) begin
-        if (rates && tiny) rate_q <= 1'b1;
-        if (!rates && tiny) pulses_q <= 1'b1;
-        if (!rates && sum[24]) over_q <= 1'b1;
+        if (rates && tiny) rate_bad_q <= 1'b1;
+        if (!rates && tiny) pulses_bad_q <= 1'b1;
+        if (!rates && sum[24]) sum_bad_q <= 1'b1;
         if (list_o == 2'd1) acc_sum_o <= sum[23:0];
         if (list_done) begin
           list_o     <= list_o + 1'b1;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_check: checks whether a block may be executed: size, header, code, status, length, values, in this
-//         order.
-// Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03, section 10.2.
-// Timing: the verdict is valid three cycles after the block.
+// ppmc312_instr_check: checks whether a block may be executed: size, header, code, status, length, values, in
+//         this order.
+// Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03; docs/ppmc312/README.md, Blocks (error
+//         numbers).
+// Timing: check_o is valid three cycles after the block.
 `default_nettype none
 
 module ppmc312_instr_check
@@ -11,25 +12,25 @@ module ppmc312_instr_check
   import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic          clk_i,       // clock
-    input  wire logic          rst_ni,      // reset, asynchronous
-    input  wire block_t        block_i,     // the instruction
-    input  wire info_t         info_i,      // properties of block_i.code
-    input  wire logic          keep_i,      // 1: the verdict does not change
-    input  wire status_e       status_i,    // status of the device
-    input  wire logic          end_wait_i,  // a motion waits for END
-    input  wire logic          transfer_i,  // a free-curve transfer is open
-    input  wire table_t        table_i,     // active table
-    output verdict_e           verdict_o,   // result of the check
-    output logic         [7:0] error_o,     // error number of F0; byte s of F1
-    output logic               ov_o         // 1: register the instruction in the command FIFO
+    input  wire logic              clk_i,       // clock
+    input  wire logic              rst_ni,      // reset, asynchronous
+    input  wire block_t            block_i,     // the instruction
+    input  wire instr_info_t       info_i,      // properties of block_i.code
+    input  wire logic              hold_i,      // 1: check_o does not change
+    input  wire status_e           status_i,    // status of the device
+    input  wire logic              end_wait_i,  // a motion waits for END
+    input  wire logic              transfer_i,  // a free-curve transfer is open
+    input  wire table_t            table_i,     // active table
+    output check_e                 check_o,     // result of the check
+    output logic             [7:0] error_o,     // error number of F0; byte s of F1
+    output logic                   ov_o         // 1: register the instruction in the command FIFO
 );
 
-  logic host, ov, le, trig_pos, size_bad, len_bad, len_long, huge, accepted, at_table, table_q;
+  logic host, ov, le, trig_pos, size_bad, len_bad, len_is_long, huge, accepted, is_table_read, table_q;
   logic [4:0] few;  // size / 2
   logic [4:0] fits;  // length that matches the size
   logic [7:0] flags, inner, value_error, size_error;
-  logic [15:0] rate, range, start, stop, fast, bound;
+  logic [15:0] rate, range, start_rate, stop_rate, high_rate, bound;
   logic [16:0] above_q;  // a rate minus its bound
   // turn_q: current comparison; above_turn_q: comparison that above_q belongs to
   logic [1:0] turn_q, above_turn_q;
@@ -38,7 +39,7 @@ module ppmc312_instr_check
   logic [31:0] count;
   logic rate_bad_q, count_bad_q, init_rate_q, value_bad;
   logic event_q, embedded_bad;
-  verdict_e verdict;
+  check_e check;
   logic [7:0] error;
 
   assign host = block_i.source == SrcHost;
@@ -49,30 +50,34 @@ module ppmc312_instr_check
   assign rate = {block_i.par[1], block_i.par[2]};
   assign range = rate;
   assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
-  assign at_table = block_i.code == I_TABLE;
+  assign is_table_read = block_i.code == I_TABLE;
 
   // One subtractor makes four comparisons in turn. Two compare the start-up rate and the stop rate of an
   // initialisation with its high-speed rate; a difference below 128 is near. Two compare a rate with the
   // fastest and with the slowest rate of the table. All results are valid long before the block is complete.
-  assign start = rate;
-  assign stop = {block_i.par[3], block_i.par[4]};
-  assign fast = {block_i.par[5], block_i.par[6]};
+  assign start_rate = rate;
+  assign stop_rate = {block_i.par[3], block_i.par[4]};
+  assign high_rate = {block_i.par[5], block_i.par[6]};
   assign above = !above_q[16] && above_q[15:0] != '0;
   assign near = above_q[15:7] == '0;
 
   always_comb begin
-    bound = fast;
-    if (turn_q == 2'd2) bound = table_i.fast;
+    bound = high_rate;
+    if (turn_q == 2'd2) bound = table_i.high_rate;
     if (turn_q == 2'd3) bound = acc_slowest_q ? table_i.rate_acc : table_i.rate_dec;
   end
 
   always_ff @(posedge clk_i) begin
     acc_slowest_q <= ppmc_pkg::less(32'(table_i.first_acc), 32'(table_i.first_dec));
     given_q <= rate != '0;
-    rate_bad_q <= (given_q || !info_i.rate_zero) && (fast_bad_q || slow_bad_q);
+    rate_bad_q <= (given_q || !info_i.zero_is_rh) && (fast_bad_q || slow_bad_q);
     count_bad_q <= count == '0;
-    init_rate_q <= fast[15:1] == '0 || fast[15:4] == '1 || tiny(start) || tiny(stop);
-    above_q <= {1'b0, (turn_q == 2'd1) ? stop : start} - {1'b0, bound};
+    init_rate_q <= high_rate[15:1] == '0 || high_rate[15:4] == '1 || below_17(
+        start_rate
+    ) || below_17(
+        stop_rate
+    );
+    above_q <= {1'b0, (turn_q == 2'd1) ? stop_rate : start_rate} - {1'b0, bound};
     above_turn_q <= turn_q;
     unique case (above_turn_q)
       2'd0: {order_q[0], near_q[0]} <= {!above, near};
@@ -96,21 +101,21 @@ module ppmc312_instr_check
   };
   assign size_bad = host && (few == '0 || block_i.len == '0 || huge || block_i.len[4:0] != fits);
   assign size_error = (few != '0 && huge) ? E_FREE_LONG : E_FREE_SIZE;
-  assign len_long = block_i.len == 8'(info_i.len_a);
+  assign len_is_long = block_i.len == 8'(info_i.len_long);
   // Length of the embedded block: 1 .. 14; the length of the outer block is greater by 4.
   assign inner = block_i.par[2];
   assign embedded_bad = block_i.par[1] != 8'h03 || inner == '0 || inner[7:4] != '0 || inner[3:0] == '1 ||
       block_i.len != {3'd0, inner[3] && inner[2], inner[3] ^ inner[2], !inner[2], inner[1:0]};
 
   always_comb begin
-    len_bad = block_i.len != 8'(info_i.len_a) && block_i.len != 8'(info_i.len_b);
+    len_bad = block_i.len != 8'(info_i.len_long) && block_i.len != 8'(info_i.len_short);
     if (block_i.code == I_INIT && le) len_bad = block_i.len != 8'd14;
     if (block_i.code == I_EVT_SET) len_bad = flags[1] ? block_i.len != 8'd2 : embedded_bad;
   end
 
   // ---- status -------------------------------------------------------------------------------------
 
-  assign accepted = ((ov ? info_i.later : info_i.now) & status_i) != '0
+  assign accepted = ((ov ? info_i.states_ov1 : info_i.states_ov0) & status_i) != '0
                     || (block_i.code == I_END && end_wait_i);
 
   // ---- values -------------------------------------------------------------------------------------
@@ -152,11 +157,11 @@ module ppmc312_instr_check
         value_bad = 1'b0;
         if (ov && trig_pos) begin
           // Only stops and rate changes can wait for a position, and only with a position in the block.
-          value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_long;
+          value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_is_long;
           value_error = (block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) ? E_OPERAND : E_TRIGGER;
-        end else if (!ov && info_i.counted && count_bad_q) begin
+        end else if (!ov && info_i.has_count && count_bad_q) begin
           value_bad = 1'b1;
-        end else if (!ov && info_i.rated && rate_bad_q) begin
+        end else if (!ov && info_i.has_rate && rate_bad_q) begin
           value_bad   = 1'b1;
           value_error = E_RATE_RANGE;
         end
@@ -168,7 +173,7 @@ module ppmc312_instr_check
     return n[7] || n[6:1] == '0;  // below 2 or above 127
   endfunction
 
-  function automatic logic tiny(logic [15:0] r);
+  function automatic logic below_17(logic [15:0] r);
     return r[15:5] == '0 && !(r[4] && r[3:0] != '0);  // below 17
   endfunction
 
@@ -181,38 +186,37 @@ module ppmc312_instr_check
     endcase
   endfunction
 
-  // ---- verdict, in the order of the rules ---------------------------------------------------------
+  // ---- result, in the order of the rules ----------------------------------------------------------
 
   always_comb begin
-    verdict = VerdictGo;
-    error   = 8'h00;
-    if (size_bad && transfer_i) {verdict, error} = {VerdictPar, size_error};
-    else if (size_bad) verdict = VerdictSize;
+    check = CheckOk;
+    error = 8'h00;
+    if (size_bad && transfer_i) {check, error} = {CheckParam, size_error};
+    else if (size_bad) check = CheckSize;
     else if (host && transfer_i) begin
-      if (block_i.head[7:1] != '0) {verdict, error} = {VerdictStatus, 8'h02};
-      else verdict = VerdictData;
-    end else if (host && !(block_i.head inside {8'h02, 8'h03})) {verdict, error} = {VerdictStatus, 8'h01};
-    else if (!info_i.known) verdict = VerdictCommand;
-    else if (event_q) verdict = VerdictPar;
-    else if (host && block_i.head == 8'h02 && block_i.code != I_FREE)
-      {verdict, error} = {VerdictStatus, 8'h01};
-    else if (!accepted || (at_table && !table_q)) verdict = VerdictStatus;
-    else if (len_bad) {verdict, error} = {VerdictPar, len_error(block_i.code, block_i.head)};
-    else if (value_bad) {verdict, error} = {VerdictPar, value_error};
+      if (block_i.head[7:1] != '0) {check, error} = {CheckStatus, 8'h02};
+      else check = CheckData;
+    end else if (host && !(block_i.head inside {8'h02, 8'h03})) {check, error} = {CheckStatus, 8'h01};
+    else if (!info_i.is_known) check = CheckCommand;
+    else if (event_q) check = CheckParam;
+    else if (host && block_i.head == 8'h02 && block_i.code != I_FREE) {check, error} = {CheckStatus, 8'h01};
+    else if (!accepted || (is_table_read && !table_q)) check = CheckStatus;
+    else if (len_bad) {check, error} = {CheckParam, len_error(block_i.code, block_i.head)};
+    else if (value_bad) {check, error} = {CheckParam, value_error};
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      turn_q    <= '0;
-      verdict_o <= VerdictGo;
-      error_o   <= '0;
-      ov_o      <= 1'b0;
+      turn_q  <= '0;
+      check_o <= CheckOk;
+      error_o <= '0;
+      ov_o    <= 1'b0;
     end else begin
       turn_q <= turn_q + 1'b1;
-      if (!keep_i) begin
-        verdict_o <= verdict;
-        error_o   <= error;
-        ov_o      <= ov;
+      if (!hold_i) begin
+        check_o <= check;
+        error_o <= error;
+        ov_o    <= ov;
       end
     end
   end

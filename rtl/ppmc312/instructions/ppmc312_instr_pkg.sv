@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_pkg: types of the signals between the blocks that process instructions: verdict, answer,
+// ppmc312_instr_pkg: types of the signals between the blocks that process instructions: check, response,
 //         stored instructions, set-up, moves.
-// Rules:  sections 3.1..3.5, 10.1, 10.2; P312-OVR-01/10, P312-EVT-01/04, P312-CMD-FC-1..10.
+// Rules:  docs/ppmc312/README.md, Instruction blocks, Answers and reports; P312-OVR-01/10, P312-EVT-01/04,
+//         P312-CMD-FC-1..10.
 // Note:   a strobe is high for one cycle.
 `default_nettype none
 
@@ -12,74 +13,74 @@ package ppmc312_instr_pkg;
 
   import ppmc312_pkg::*;
 
-  // ---- check and answer ---------------------------------------------------------------------------
+  // ---- check and response -------------------------------------------------------------------------
 
   typedef enum logic [2:0] {
-    VerdictGo,
-    VerdictData,     // data block of a free-curve transfer
-    VerdictPar,      // F0 with an error number
-    VerdictStatus,   // F1
-    VerdictCommand,  // F5
-    VerdictSize      // F6
-  } verdict_e;
+    CheckOk,
+    CheckData,     // data block of a free-curve transfer
+    CheckParam,    // F0 with an error number
+    CheckStatus,   // F1
+    CheckCommand,  // F5
+    CheckSize      // F6
+  } check_e;
 
-  // Source of the last bytes of an answer.
+  // Source of the last bytes of a response.
   typedef enum logic [1:0] {
     TailNone,
     TailPos,    // 4 bytes: a position
     TailCodes,  // 4 bytes: codes of an event buffer
     TailSums    // 6 bytes: pulses of both sides of the table
-  } tail_e;
+  } response_tail_e;
 
-  // Data that an executed instruction returns: the bytes after the code of its answer.
+  // Data that an executed instruction returns: the bytes after the code of its response.
   typedef struct packed {
     logic [3:0]      extra;  // number of bytes, 0 .. 9
     logic [2:0][7:0] data;   // first bytes, data[0] first
-    tail_e           tail;   // source of the last bytes
-  } told_t;
+    response_tail_e  tail;   // source of the last bytes
+  } result_data_t;
 
-  // An answer. Its length byte is computed when it is written.
+  // A response. Its length byte is computed when it is written.
   typedef struct packed {
     logic [7:0]      head;
     logic [7:0]      code;
     logic [3:0]      extra;  // bytes after the code, 0 .. 9
     logic [2:0][7:0] data;   // first bytes after the code, data[0] first
-    tail_e           tail;   // source of the last bytes after the code
+    response_tail_e  tail;   // source of the last bytes after the code
     logic            echo;   // 1: append the instruction as received
-  } answer_t;
+  } response_t;
 
-  // Commands to the blocks that write answers and the data blocks of a table read. All except keep are
+  // Commands to the blocks that write responses and the data blocks of a table read. All except hold_data are
   // strobes.
   typedef struct packed {
-    logic answer;      // write the answer
-    logic keep;        // level: hold the data that the instruction returns
+    logic write;       // write the response
+    logic hold_data;   // level: hold the data that the instruction returns
     logic table_open;  // a table read begins; its data blocks follow
     logic table_next;  // write the next data block
-  } write_order_t;
+  } response_cmd_t;
 
   typedef struct packed {
-    logic                  answered;    // strobe: the answer is written
+    logic                  written;     // strobe: the response is written
     logic [BLOCK_BITS-1:0] echo_addr;   // byte of the instruction for the echo, two cycles ahead
     logic                  table_more;  // more data blocks follow
     logic                  table_done;  // strobe: a data block is written
-  } write_state_t;
+  } response_status_t;
 
   // ---- stored instructions, which wait for a trigger ----------------------------------------------
 
-  // Write port of the store: first the bytes of an entry, then put.
+  // Write port of the instruction queue: first the bytes of an entry, then entry_done.
   typedef struct packed {
-    logic        we;        // strobe: write data at addr
-    logic        to_event;  // 1: event buffer n, 0: command FIFO
+    logic        we;          // strobe: write data at addr
+    logic        to_event;    // 1: event buffer n, 0: command FIFO
     logic        n;
-    logic [3:0]  addr;      // byte of the block, 0 = header
-    logic [7:0]  data;      // byte to be written
-    logic        put;       // strobe: the entry is complete
-    logic [7:0]  code;      // instruction code
-    logic [1:0]  trig;      // bits 1:0 of the flags, x0: position, 01: event 0, 11: event 1
-    logic [31:0] pos;       // trigger position in pulses
-  } put_t;
+    logic [3:0]  addr;        // byte of the block, 0 = header
+    logic [7:0]  data;        // byte to be written
+    logic        entry_done;  // strobe: the entry is complete
+    logic [7:0]  code;        // instruction code
+    logic [1:0]  trig;        // bits 1:0 of the flags, x0: position, 01: event 0, 11: event 1
+    logic [31:0] pos;         // trigger position in pulses
+  } enqueue_t;
 
-  // Removal from the store. All except from_event and n are strobes.
+  // Removal from the instruction queue. All except from_event and n are strobes.
   typedef struct packed {
     logic       take;        // take the triggered entry
     logic       from_event;  // with take, 1: event buffer n, 0: command FIFO
@@ -88,18 +89,18 @@ package ppmc312_instr_pkg;
     logic       fifo;        // empty the command FIFO
     logic [1:0] events;      // empty event buffer [n]
     logic [1:0] highest;     // remove the highest entry of event buffer [n]
-  } remove_t;
+  } dequeue_t;
 
-  // Contents of the store.
+  // Contents of the instruction queue.
   typedef struct packed {
-    logic            due;          // a triggered entry of the command FIFO is pending
-    logic [1:0]      due_trig;     // trigger of this entry
-    logic [1:0]      events;       // event buffer [n] has been triggered
-    logic [3:0]      fifo_count;   // entries, 0 .. 8
-    logic [1:0]      fifo_events;  // an entry of the FIFO waits for event pin [n]
-    logic [1:0][2:0] event_count;  // entries, 0 .. 4
-    logic [1:0][1:0] event_next;   // next entry, 0 .. 3
-  } stored_t;
+    logic            fifo_triggered;    // a triggered entry of the command FIFO is pending
+    logic [1:0]      fifo_trig;         // trigger of this entry
+    logic [1:0]      events_triggered;  // event buffer [n] has been triggered
+    logic [3:0]      fifo_count;        // entries, 0 .. 8
+    logic [1:0]      fifo_uses_event;   // an entry of the FIFO waits for event pin [n]
+    logic [1:0][2:0] event_count;       // entries, 0 .. 4
+    logic [1:0][1:0] event_next;        // next entry, 0 .. 3
+  } queue_status_t;
 
   // ---- set-up: initial setting and free curve -----------------------------------------------------
 
@@ -109,34 +110,34 @@ package ppmc312_instr_pkg;
     logic open;   // checked code block of a free curve
     logic data;   // checked data block of a free curve
     logic fail;   // a set-up has failed
-  } setup_order_t;
+  } setup_cmd_t;
 
   // Progress of a free curve.
   typedef struct packed {
-    logic        complete;  // the curve is complete
-    logic [1:0]  which;     // next list, 0: rates, 1: acceleration, 2: deceleration
-    logic [6:0]  left;      // remaining stages of this list
-    logic [23:0] acc_sum;   // acceleration pulses; valid with complete
-    logic [23:0] dec_sum;   // deceleration pulses; valid with complete
-  } progress_t;
+    logic        complete;     // the curve is complete
+    logic [1:0]  list;         // next list, 0: rates, 1: acceleration, 2: deceleration
+    logic [6:0]  stages_left;  // remaining stages of this list
+    logic [23:0] acc_sum;      // acceleration pulses; valid with complete
+    logic [23:0] dec_sum;      // deceleration pulses; valid with complete
+  } curve_progress_t;
 
   typedef struct packed {
     logic                  transfer;  // a free-curve transfer is open
     logic                  done;      // strobe, after build or data
-    logic                  bad;       // with done: the set-up has failed
+    logic                  failed;    // with done: the set-up has failed
     logic [7:0]            error;     // with bad: error number of F0
-    progress_t             progress;  // with done
+    curve_progress_t       progress;  // with done
     logic [BLOCK_BITS-1:0] addr;      // byte of the block to be read, two cycles ahead
-  } setup_state_t;
+  } setup_status_t;
 
   // ---- moves and rate changes ---------------------------------------------------------------------
 
   typedef struct packed {
-    logic       done;     // strobe: finished
-    logic       limited;  // with done: a limit prevents the start
-    logic       refused;  // with done: the status no longer allows the start
-    logic [7:0] kind;     // with done: status byte of the answer
-  } move_state_t;
+    logic       done;         // strobe: finished
+    logic       at_limit;     // with done: a limit prevents the start
+    logic       rejected;     // with done: the status no longer allows the start
+    logic [7:0] status_byte;  // with done: status byte of the response
+  } move_status_t;
 
   // verilator lint_on UNUSEDPARAM
 

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_instr_rom: look-up table of the properties of instruction codes.
-// Rules:  P312-STA-01, section 3.1 (info_of in ppmc312_pkg).
+// Rules:  P312-STA-01, instr_info in ppmc312_pkg.
 // Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
 `default_nettype none
 
 module ppmc312_instr_rom
   import ppmc312_pkg::*;
 (
-    input  wire logic       clk_i,   // clock
-    input  wire logic [7:0] code_i,  // instruction code
-    output info_t           info_o   // properties of code_i, two cycles later
+    input  wire logic         clk_i,   // clock
+    input  wire logic   [7:0] code_i,  // instruction code
+    output instr_info_t       info_o   // properties of code_i, two cycles later
 );
 
-  // The words are a constant, because synthesis evaluates the branches of info_of wrongly in an initial
+  // The words are a constant, because synthesis evaluates the branches of instr_info wrongly in an initial
   // block.
-  function automatic info_t [255:0] every_code();
-    info_t [255:0] words;
-    for (int unsigned i = 0; i < 256; i++) words[8'(i)] = info_of(8'(i));
+  function automatic instr_info_t [255:0] every_code();
+    instr_info_t [255:0] words;
+    for (int unsigned i = 0; i < 256; i++) words[8'(i)] = instr_info(8'(i));
     return words;
   endfunction
 
-  localparam info_t [255:0] Words = every_code();
+  localparam instr_info_t [255:0] Words = every_code();
 
   (* rom_style = "block" *)
-  info_t rom[256];
-  info_t word_q;
+  instr_info_t rom[256];
+  instr_info_t word_q;
 
   initial for (int unsigned i = 0; i < 256; i++) rom[i] = Words[8'(i)];
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_unit: processing of instructions: those of the host, stored ones that wait for a trigger, their
-//         effects and their answers.
+// ppmc312_instr_unit: processing of instructions: those of the host, stored ones that wait for a trigger,
+//         their effects and their responses.
 // Rules:  see its blocks. Timing: see ppmc312_exec.
 `default_nettype none
 
@@ -15,62 +15,63 @@ module ppmc312_instr_unit
     parameter bit                Datasheet = 1'b0,
     parameter logic        [7:0] Version   = 8'h12        // value that the version instruction returns
 ) (
-    input  wire logic                         clk_i,       // clock
-    input  wire logic                         rst_ni,      // reset, asynchronous
-    input  wire logic                         serial_i,    // 1: the front end is the serial station
-    input  wire logic                         boot_i,      // leaving a reset by an instruction: report it
-    output logic                              reset_o,     // strobe: an instruction requests a reset
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic serial_i,  // 1: the front end is the serial station
+    input wire logic boot_i,  // leaving a reset by an instruction: report it
+    output logic reset_o,  // strobe: an instruction requests a reset
     // blocks from the host
-    input  wire offer_t                       offer_i,     // block from the host
-    output logic             [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
-    input  wire logic        [           7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
-    output logic                              blk_done_o,  // strobe: the block is processed and answered
+    input wire host_block_t host_block_i,  // block from the host
+    output logic [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
+    input wire logic [7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
+    output logic blk_done_o,  // strobe: the block is processed, its response stored
     // state of the device
-    input  wire inputs_t                      inputs_i,    // input pins, synchronised
-    input  wire axis_state_t                  state_i,     // state of the motor side
+    input wire inputs_t inputs_i,  // input pins, synchronised
+    input wire axis_state_t state_i,  // state of the motor side
     // execution
-    output block_t                            block_o,     // instruction in progress
-    output logic                              do_o,        // strobe: execute block_o
-    output logic                              multi_o,     // strobe: multiple occurrence, cause 1
-    output motion_order_t                     order_o,     // starts and rate changes
+    output block_t block_o,  // instruction in progress
+    output logic execute_o,  // strobe: execute block_o
+    output logic multi_o,  // strobe: multiple occurrence, cause 1
+    output motion_req_t motion_req_o,  // starts and rate changes
     // table
-    output logic                              built_o,     // strobe: a new table becomes active
-    output table_t                            table_o,     // active table
-    output target_t                           home_o,      // look-up result of table_o.rate_acc
-    input  wire look_t                        look_i,      // read port of the motion
-    output stage_t                            stage_o,     // stage at look_i, two cycles later
-    // answers, class 2
-    output answer_byte_t                      byte_o,      // byte for the store of class 2
-    output logic                              hold_o,      // 1: an answer follows soon
-    output commit_t                           commit_o,    // the answer in the store is complete
-    output answered_t                         answered_o,  // result for the serial station
-    input  wire class2_t                      class2_i     // answers that wait to be read
+    output logic built_o,  // strobe: a new table becomes active
+    output table_t table_o,  // active table
+    output target_t start_target_o,  // look-up result of table_o.rate_acc
+    input wire table_addr_t table_addr_i,  // read port of the motion
+    output stage_t stage_o,  // stage at table_addr_i, two cycles later
+    // responses, class 2
+    output response_write_t response_write_o,  // byte for the queue of class 2
+    output logic hold_o,  // 1: a response follows soon
+    output response_done_t response_done_o,  // the response in the queue is complete
+    output host_result_t host_result_o,  // result for the serial station
+    input wire response_queue_t response_queue_i  // responses that wait to be read
 );
 
-  stored_t stored;
-  put_t put;
-  remove_t remove;
-  told_t told;
-  answer_t answer;
-  write_order_t write;
-  write_state_t write_state;
-  setup_order_t setup;
-  setup_state_t setup_state;
+  queue_status_t queue_status;
+  enqueue_t enqueue;
+  dequeue_t dequeue;
+  result_data_t result_data;
+  response_t response;
+  response_cmd_t response_cmd;
+  response_status_t response_status;
+  setup_cmd_t setup_cmd;
+  setup_status_t setup_status;
   curve_t curve;
-  entry_t entry;
-  plan_t plan;
-  plan_order_t plan_order;
-  move_state_t move_state;
-  look_t read;
+  table_write_t table_write;
+  profile_t profile;
+  profile_req_t profile_req;
+  move_status_t move_status;
+  table_addr_t read_addr;
   stage_t read_stage;
-  logic drop, close, unit_busy, thin, move, plan_busy, paced, idle, commit, read_busy, unused_busy;
+  logic
+      drop, close, unit_busy, too_few_pulses, move, plan_busy, elapsed, idle, commit, read_busy, unused_busy;
   logic [6:0] open_acc, open_dec, first;
   logic [7:0] entry_data, plan_kind;
   logic peek;
   logic [1:0] peek_at;
   logic [31:0] value;
-  answer_byte_t answer_byte, read_byte;
-  logic [BLOCK_BITS:0] answer_size, read_size;
+  response_write_t writer_byte, table_byte;
+  logic [BLOCK_BITS:0] writer_size, table_size;
 
   // ---- execution of one instruction at a time -----------------------------------------------------
 
@@ -80,31 +81,31 @@ module ppmc312_instr_unit
       .serial_i,
       .boot_i,
       .reset_o,
-      .offer_i,
+      .host_block_i,
       .blk_done_o,
-      .byte_addr_o(blk_addr_o),
-      .byte_i     ((block_o.source == SrcHost) ? blk_data_i : entry_data),
-      .stored_i   (stored),
-      .remove_o   (remove),
-      .put_o      (put),
+      .byte_addr_o      (blk_addr_o),
+      .byte_i           ((block_o.source == SrcHost) ? blk_data_i : entry_data),
+      .queue_status_i   (queue_status),
+      .dequeue_o        (dequeue),
+      .enqueue_o        (enqueue),
       .state_i,
-      .table_i    (table_o),
-      .told_i     (told),
-      .open_i     (paced),
-      .idle_o     (idle),
+      .table_i          (table_o),
+      .result_data_i    (result_data),
+      .elapsed_i        (elapsed),
+      .idle_o           (idle),
       .block_o,
-      .do_o,
+      .execute_o,
       .multi_o,
-      .setup_o    (setup),
-      .setup_i    (setup_state),
-      .move_o     (move),
-      .move_i     (move_state),
-      .answer_o   (answer),
-      .write_o    (write),
-      .write_i    (write_state),
+      .setup_cmd_o      (setup_cmd),
+      .setup_status_i   (setup_status),
+      .move_o           (move),
+      .move_status_i    (move_status),
+      .response_o       (response),
+      .response_cmd_o   (response_cmd),
+      .response_status_i(response_status),
       .hold_o,
-      .commit_o   (commit),
-      .class2_i
+      .response_done_o  (commit),
+      .response_queue_i
   );
 
   ppmc312_proc_time #(
@@ -114,10 +115,10 @@ module ppmc312_instr_unit
   ) u_proc_time (
       .clk_i,
       .rst_ni,
-      .idle_i (idle),
+      .idle_i(idle),
       .block_i(block_o),
-      .kind_i (plan_kind),
-      .open_o (paced)
+      .kind_i(plan_kind),
+      .elapsed_o(elapsed)
   );
 
   // ---- stored instructions ------------------------------------------------------------------------
@@ -125,89 +126,90 @@ module ppmc312_instr_unit
   ppmc312_instr_queue u_queue (
       .clk_i,
       .rst_ni,
-      .edge_i       (inputs_i.fell),
-      .counted_i    (state_i.counted),
-      .pos_i        (state_i.pos),
-      .halt_o       (order_o.pos_halt),
-      .stored_o     (stored),
-      .put_i        (put),
-      .remove_i     (remove),
-      .fetch_event_i(block_o.source == SrcEvent),
-      .fetch_addr_i (blk_addr_o[3:0]),
-      .peek_i       (peek),
-      .peek_n_i     (block_o.par[0][0]),
-      .peek_at_i    (peek_at),
-      .fetch_data_o (entry_data)
+      .edge_i        (inputs_i.evt_fall),
+      .counted_i     (state_i.counted),
+      .pos_i         (state_i.pos),
+      .halt_o        (motion_req_o.pos_halt),
+      .queue_status_o(queue_status),
+      .enqueue_i     (enqueue),
+      .dequeue_i     (dequeue),
+      .fetch_event_i (block_o.source == SrcEvent),
+      .fetch_addr_i  (blk_addr_o[3:0]),
+      .peek_i        (peek),
+      .peek_n_i      (block_o.par[0][0]),
+      .peek_at_i     (peek_at),
+      .fetch_data_o  (entry_data)
   );
 
   // A pending alarm is reported before the end of a motion that a position has stopped.
-  assign order_o.settled = !stored.due && !multi_o && (idle || block_o.source != SrcOverride);
+  assign motion_req_o.triggers_done = !queue_status.fifo_triggered && !multi_o &&
+      (idle || block_o.source != SrcOverride);
 
   // ---- effects of instructions --------------------------------------------------------------------
 
   ppmc312_setup u_setup (
       .clk_i,
       .rst_ni,
-      .block_i    (block_o),
-      .order_i    (setup),
-      .state_o    (setup_state),
+      .block_i         (block_o),
+      .cmd_i           (setup_cmd),
+      .status_o        (setup_status),
       .built_o,
-      .byte_i     (blk_data_i),
-      .drop_o     (drop),
-      .curve_o    (curve),
-      .open_acc_o (open_acc),
-      .open_dec_o (open_dec),
-      .entry_o    (entry),
-      .close_o    (close),
-      .unit_busy_i(unit_busy),
-      .thin_i     (thin)
+      .byte_i          (blk_data_i),
+      .drop_o          (drop),
+      .curve_o         (curve),
+      .open_acc_o      (open_acc),
+      .open_dec_o      (open_dec),
+      .table_write_o   (table_write),
+      .close_o         (close),
+      .unit_busy_i     (unit_busy),
+      .too_few_pulses_i(too_few_pulses)
   );
 
   ppmc312_move u_move (
       .clk_i,
       .rst_ni,
-      .begin_i     (move),
-      .block_i     (block_o),
-      .status_i    (state_i.status),
-      .table_i     (table_o),
-      .levels_i    (inputs_i.levels),
-      .limit_rate_i(state_i.settings.limit_rate),
-      .gate_i      (inputs_i.run || state_i.settings.ungated),
-      .open_i      (paced),
-      .state_o     (move_state),
-      .start_o     (order_o.start),
-      .change_o    (order_o.change),
-      .op_o        (order_o.op),
-      .plan_o      (order_o.plan),
-      .home_o      (order_o.home),
-      .planner_o   (plan_order),
-      .plan_busy_i (plan_busy),
-      .plan_kind_i (plan_kind),
-      .plan_i      (plan)
+      .begin_i       (move),
+      .block_i       (block_o),
+      .status_i      (state_i.status),
+      .table_i       (table_o),
+      .levels_i      (inputs_i.filtered),
+      .limit_rate_i  (state_i.settings.limit_rate),
+      .gate_i        (inputs_i.run || state_i.settings.run_ignored),
+      .elapsed_i     (elapsed),
+      .result_o      (move_status),
+      .start_o       (motion_req_o.start),
+      .change_o      (motion_req_o.change),
+      .op_o          (motion_req_o.op),
+      .profile_o     (motion_req_o.profile),
+      .single_pulse_o(motion_req_o.single_pulse),
+      .profile_req_o (profile_req),
+      .plan_busy_i   (plan_busy),
+      .plan_kind_i   (plan_kind),
+      .profile_i     (profile)
   );
 
   ppmc312_stage_unit u_stages (
       .clk_i,
       .rst_ni,
-      .drop_i     (drop),
-      .build_i    (setup.build),
-      .curve_i    (curve),
-      .busy_o     (unit_busy),
-      .thin_o     (thin),
-      .open_i     (setup.open),
-      .open_acc_i (open_acc),
-      .open_dec_i (open_dec),
-      .entry_i    (entry),
-      .close_i    (close),
+      .drop_i          (drop),
+      .build_i         (setup_cmd.build),
+      .curve_i         (curve),
+      .busy_o          (unit_busy),
+      .too_few_pulses_o(too_few_pulses),
+      .open_i          (setup_cmd.open),
+      .open_acc_i      (open_acc),
+      .open_dec_i      (open_dec),
+      .table_write_i   (table_write),
+      .close_i         (close),
       .table_o,
-      .home_o,
-      .read_i     (read),
-      .read_o     (read_stage),
-      .plan_i     (plan_order),
-      .plan_busy_o(plan_busy),
-      .plan_kind_o(plan_kind),
-      .plan_o     (plan),
-      .look_i,
+      .start_target_o,
+      .read_addr_i     (read_addr),
+      .read_stage_o    (read_stage),
+      .profile_req_i   (profile_req),
+      .plan_busy_o     (plan_busy),
+      .plan_kind_o     (plan_kind),
+      .profile_o       (profile),
+      .table_addr_i,
       .stage_o
   );
 
@@ -215,80 +217,84 @@ module ppmc312_instr_unit
       32'(table_o.first_acc), 32'(table_o.first_dec)
   ) ? table_o.first_acc : table_o.first_dec;
 
-  // ---- answers ------------------------------------------------------------------------------------
+  // ---- responses ----------------------------------------------------------------------------------
 
   ppmc312_result_data #(
       .Version(Version)
   ) u_result (
       .clk_i,
-      .block_i (block_o),
+      .block_i(block_o),
       .inputs_i,
       .state_i,
-      .table_i (table_o),
-      .first_i (first),
-      .stored_i(stored),
-      .keep_i  (write.keep),
-      .told_o  (told),
-      .value_o (value)
+      .table_i(table_o),
+      .first_i(first),
+      .queue_status_i(queue_status),
+      .hold_i(response_cmd.hold_data),
+      .result_data_o(result_data),
+      .value_o(value)
   );
 
   ppmc312_response_writer u_writer (
       .clk_i,
       .rst_ni,
-      .start_i    (write.answer),
-      .answer_i   (answer),
-      .blk_size_i (block_o.size),
-      .value_i    (value),
-      .sums_i     ({table_o.acc, table_o.dec}),
-      .codes_i    (stored.event_count[block_o.par[0][0]]),
-      .peek_o     (peek),
-      .peek_at_o  (peek_at),
-      .code_i     (entry_data),
-      .busy_o     (unused_busy),
-      .done_o     (write_state.answered),
-      .echo_addr_o(write_state.echo_addr),
-      .echo_data_i(blk_data_i),
-      .byte_o     (answer_byte),
-      .size_o     (answer_size)
+      .start_i         (response_cmd.write),
+      .response_i      (response),
+      .blk_size_i      (block_o.size),
+      .value_i         (value),
+      .sums_i          ({table_o.acc, table_o.dec}),
+      .codes_i         (queue_status.event_count[block_o.par[0][0]]),
+      .peek_o          (peek),
+      .peek_at_o       (peek_at),
+      .code_i          (entry_data),
+      .busy_o          (unused_busy),
+      .done_o          (response_status.written),
+      .echo_addr_o     (response_status.echo_addr),
+      .echo_data_i     (blk_data_i),
+      .response_write_o(writer_byte),
+      .size_o          (writer_size)
   );
 
   ppmc312_table_read u_table_read (
       .clk_i,
       .rst_ni,
-      .open_i (write.table_open),
-      .more_o (write_state.table_more),
-      .next_i (write.table_next),
-      .busy_o (read_busy),
-      .done_o (write_state.table_done),
+      .open_i(response_cmd.table_open),
+      .more_o(response_status.table_more),
+      .next_i(response_cmd.table_next),
+      .busy_o(read_busy),
+      .done_o(response_status.table_done),
       .table_i(table_o),
       .first_i(first),
-      .look_o (read),
+      .table_addr_o(read_addr),
       .stage_i(read_stage),
-      .byte_o (read_byte),
-      .size_o (read_size)
+      .response_write_o(table_byte),
+      .size_o(table_size)
   );
 
   // The last byte is written in the cycle of the commit.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) byte_o <= '0;
+    if (!rst_ni) response_write_o <= '0;
     else begin
-      byte_o    <= read_busy ? read_byte : answer_byte;
-      byte_o.we <= answer_byte.we || read_byte.we;
+      response_write_o    <= read_busy ? table_byte : writer_byte;
+      response_write_o.we <= writer_byte.we || table_byte.we;
     end
   end
 
   always_comb begin
-    commit_o = '{
+    response_done_o = '{
         valid: commit,
         host: block_o.source == SrcHost,
-        what: (block_o.source == SrcEvent) ? DoneEvent : DoneOverride,
-        size: read_busy ? read_size : answer_size
+        trigger_result: (block_o.source == SrcEvent) ? DoneEvent : DoneOverride,
+        size: read_busy ? table_size : writer_size
     };
-    if (answer.code == A_EVENT) commit_o.what = FailEvent;
-    if (answer.code == A_OVERRIDE) commit_o.what = FailOverride;
+    if (response.code == A_EVENT) response_done_o.trigger_result = FailEvent;
+    if (response.code == A_OVERRIDE) response_done_o.trigger_result = FailOverride;
   end
 
-  assign answered_o = '{valid: commit && commit_o.host, code: answer.code, first: answer.data[0][2:0]};
+  assign host_result_o = '{
+          valid: commit && response_done_o.host,
+          code: response.code,
+          first: response.data[0][2:0]
+      };
 
 endmodule
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_result_data: data that an executed instruction returns: the bytes after the code of its answer.
-// Rules:  section 3.1 (answers), P312-CMD-25/27/40..4D.
+// ppmc312_result_data: data that an executed instruction returns: the bytes after the code of its response.
+// Rules:  docs/ppmc312/instructions.md, P312-CMD-25/27/40..4D.
 // Timing: outputs are registered. All bytes are from the same cycle, so a position of four bytes is a
 //         snapshot.
 `default_nettype none
@@ -13,23 +13,23 @@ module ppmc312_result_data
 #(
     parameter logic [7:0] Version = 8'h12
 ) (
-    input  wire logic               clk_i,     // clock
-    input  wire block_t             block_i,   // the instruction
-    input  wire inputs_t            inputs_i,  // input pins, synchronised
-    input  wire axis_state_t        state_i,   // state of the motor side
-    input  wire table_t             table_i,   // active table
-    input  wire logic        [ 6:0] first_i,   // first used stage of the table
-    input  wire stored_t            stored_i,  // stored instructions
-    input  wire logic               keep_i,    // 1: value_o does not change
-    output told_t                   told_o,    // data of block_i, one cycle later
-    output logic             [31:0] value_o    // TailPos: position, one cycle later
+    input  wire logic                 clk_i,           // clock
+    input  wire block_t               block_i,         // the instruction
+    input  wire inputs_t              inputs_i,        // input pins, synchronised
+    input  wire axis_state_t          state_i,         // state of the motor side
+    input  wire table_t               table_i,         // active table
+    input  wire logic          [ 6:0] first_i,         // first used stage of the table
+    input  wire queue_status_t        queue_status_i,  // stored instructions
+    input  wire logic                 hold_i,          // 1: value_o does not change
+    output result_data_t              result_data_o,   // data of block_i, one cycle later
+    output logic               [31:0] value_o          // TailPos: position, one cycle later
 );
 
   logic n;
   logic [7:0] counts[3];
   logic [3:0] extra;
   logic [2:0][7:0] data;
-  tail_e tail;
+  response_tail_e tail;
 
   assign n = block_i.par[0][0];
   // 127 - n is n with all bits inverted.
@@ -46,10 +46,10 @@ module ppmc312_result_data
       I_AUX_IN:  data[0] = inputs_i.auxi;
       I_VERSION: data[0] = Version;
       I_LOCK:    data[0] = 8'(!state_i.lock);  // state after the execution
-      I_SYNC:    data[0] = 8'(!state_i.settings.ungated);
+      I_SYNC:    data[0] = 8'(!state_i.settings.run_ignored);
       I_PINS: begin
         extra     = 4'd2;
-        data[1:0] = {inputs_i.evt_n, inputs_i.run, 5'd0, inputs_i.plain};
+        data[1:0] = {inputs_i.evt_n, inputs_i.run, 5'd0, inputs_i.unfiltered};
       end
       I_POS: begin
         extra   = 4'd5;
@@ -58,26 +58,26 @@ module ppmc312_result_data
       end
       I_EVT_READ: begin
         extra   = 4'd6;
-        data[0] = 8'(stored_i.event_count[n]);
-        data[1] = 8'(stored_i.event_next[n]);
+        data[0] = 8'(queue_status_i.event_count[n]);
+        data[1] = 8'(queue_status_i.event_next[n]);
         tail    = TailCodes;
       end
       I_STATUS: begin
         extra = 4'd3;
         data[0] = {
-          state_i.settings.ungated,
+          state_i.settings.run_ignored,
           state_i.lock,
           1'b0,
           state_i.window_on,
-          state_i.settings.end_watch,
+          state_i.settings.end_monitored,
           state_i.outside
         };
         data[1] = {2'b00, state_i.status};
         data[2] = {
-          stored_i.event_count[1] != '0,
-          stored_i.event_count[0] != '0,
-          stored_i.fifo_events,
-          stored_i.fifo_count
+          queue_status_i.event_count[1] != '0,
+          queue_status_i.event_count[0] != '0,
+          queue_status_i.fifo_uses_event,
+          queue_status_i.fifo_count
         };
       end
       I_TABLE: begin
@@ -90,12 +90,12 @@ module ppmc312_result_data
   end
 
   always_ff @(posedge clk_i) begin
-    told_o <= '{extra: extra, data: data, tail: tail};
-    if (!keep_i) value_o <= n ? state_i.enc : state_i.pos;
+    result_data_o <= '{extra: extra, data: data, tail: tail};
+    if (!hold_i) value_o <= n ? state_i.enc : state_i.pos;
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, block_i, inputs_i, state_i, table_i, stored_i};
+  assign unused_bits = &{1'b0, block_i, inputs_i, state_i, table_i, queue_status_i};
 
 endmodule
 

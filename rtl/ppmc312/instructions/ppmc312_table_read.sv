@@ -21,10 +21,10 @@ module ppmc312_table_read
     // table
     input wire table_t table_i,  // active table
     input wire logic [6:0] first_i,  // first used stage of the table
-    output look_t look_o,  // read port of the table
-    input wire stage_t stage_i,  // stage at look_o, two cycles later
-    // store of class 2
-    output answer_byte_t byte_o,  // byte of the block
+    output table_addr_t table_addr_o,  // read port of the table
+    input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
+    // queue of class 2
+    output response_write_t response_write_o,  // byte of the block
     output logic [BLOCK_BITS:0] size_o  // bytes of the block, 5 .. 15; with done_o
 );
 
@@ -45,13 +45,13 @@ module ppmc312_table_read
   assign rates = item_q == 2'd1;
   assign last_item = item_q == (table_i.split ? 2'd3 : 2'd2);
   assign room = rates ? 3'd6 : 3'd4;
-  assign look_o = '{side: item_q[0], stage: stage_q};
+  assign table_addr_o = '{side: item_q[0], stage: stage_q};
   assign busy_o = run_q;
   assign in_words = at_q[5:2] != '0 || at_q[1:0] == 2'd3;
   assign done_o = run_q && in_words && left_q == '0;
   assign stage_ends = run_q && !done_o && wait_q == '0 && in_words && part_q == (rates ? 2'd1 : 2'd2);
   assign size_o = at_q;
-  assign byte_o.addr = at_q[BLOCK_BITS-1:0];
+  assign response_write_o.addr = at_q[BLOCK_BITS-1:0];
 
   always_comb begin
     unique case (item_q)
@@ -60,18 +60,18 @@ module ppmc312_table_read
       default: first = table_i.first_dec;
     endcase
     word = rates ? {stage_i.rate, 8'd0} : stage_i.pulses;
-    byte_o.we = run_q && !done_o && (!in_words || wait_q == '0);
+    response_write_o.we = run_q && !done_o && (!in_words || wait_q == '0);
     unique case (at_q)
-      6'd0: byte_o.data = 8'(last_item && ends);
+      6'd0: response_write_o.data = 8'(last_item && ends);
       6'd1: begin
-        byte_o.data = rates ? {4'd0, left_q, 1'b1} : {4'd0, Lengths[left_q]};
+        response_write_o.data = rates ? {4'd0, left_q, 1'b1} : {4'd0, Lengths[left_q]};
       end
-      6'd2: byte_o.data = 8'(item_q);
+      6'd2: response_write_o.data = 8'(item_q);
       default: begin
         unique case (part_q)
-          2'd0:    byte_o.data = word[23:16];
-          2'd1:    byte_o.data = word[15:8];
-          default: byte_o.data = word[7:0];
+          2'd0:    response_write_o.data = word[23:16];
+          2'd1:    response_write_o.data = word[15:8];
+          default: response_write_o.data = word[7:0];
         endcase
       end
     endcase
@@ -105,7 +105,7 @@ module ppmc312_table_read
         more_o  <= !last_item;
       end
     end else if (run_q) begin
-      if (byte_o.we) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
+      if (response_write_o.we) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
       if (wait_q != '0) wait_q <= wait_q - 1'b1;
       else if (in_words) begin
         part_q <= part_q + 1'b1;

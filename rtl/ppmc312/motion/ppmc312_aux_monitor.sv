@@ -21,7 +21,7 @@ module ppmc312_aux_monitor #(
   localparam int unsigned SampleXtal = 800;
 
   logic tick, repeat_q;
-  logic [7:0] mask_q, former_q;
+  logic [7:0] mask_q, prev_q;
 
   ppmc_tick_gen #(
       .ClkHz   (ClkHz),
@@ -34,20 +34,20 @@ module ppmc312_aux_monitor #(
       .tick_o   (tick)
   );
 
-  assign data_o   = (former_q ^ auxi_i) & mask_q;
+  assign data_o   = (prev_q ^ auxi_i) & mask_q;
   assign report_o = tick && data_o != '0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       repeat_q <= 1'b0;
       mask_q   <= '0;
-      former_q <= '0;
+      prev_q   <= '0;
     end else if (set_i) begin
       repeat_q <= repeat_i;
       mask_q   <= mask_i;
-      former_q <= auxi_i;
+      prev_q   <= auxi_i;
     end else if (tick) begin
-      former_q <= auxi_i;
+      prev_q <= auxi_i;
       if (report_o && !repeat_q) mask_q <= '0;
     end
   end

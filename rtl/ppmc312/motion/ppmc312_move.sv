@@ -2,8 +2,8 @@
 // ppmc312_move: executes a checked motion or rate change: limits, look-up or plan, then the start or the
 //         change.
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (8), P312-STA-04.
-// Timing: state_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o and change_o are
-//         asserted with it. Rate and number of pulses are held until t0, regardless of other instructions
+// Timing: result_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o and change_o
+//         are asserted with it. Rate and number of pulses are held until t0, regardless of other instructions
 //         that are executed until then.
 `default_nettype none
 
@@ -13,28 +13,28 @@ module ppmc312_move
   import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic           clk_i,         // clock
-    input  wire logic           rst_ni,        // reset, asynchronous
-    input  wire logic           begin_i,       // strobe: begin with block_i
-    input  wire block_t         block_i,       // the instruction; stable until state_o.done
-    input  wire status_e        status_i,      // status of the device
-    input  wire table_t         table_i,       // active table
-    input  wire levels_t        levels_i,      // input pins, filtered
-    input  wire logic    [15:0] limit_rate_i,  // HSL, base clocks
-    input  wire logic           gate_i,        // 1: a start is not held
-    input  wire logic           open_i,        // the processing time has passed
-    output move_state_t         state_o,       // result
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic begin_i,  // strobe: begin with block_i
+    input wire block_t block_i,  // the instruction; stable until result_o.done
+    input wire status_e status_i,  // status of the device
+    input wire table_t table_i,  // active table
+    input wire motor_inputs_t levels_i,  // input pins, filtered
+    input wire logic [15:0] limit_rate_i,  // HSL, base clocks
+    input wire logic gate_i,  // 1: a start is not held
+    input wire logic elapsed_i,  // the processing time has passed
+    output move_status_t result_o,  // result
     // motion
-    output logic                start_o,       // strobe: start op_o along plan_o
-    output logic                change_o,      // strobe: change the rate to plan_o.to
-    output op_t                 op_o,          // valid with start_o
-    output plan_t               plan_o,        // stable until t0
-    output logic                home_o,        // with start_o: start-up rate instead of plan_o.to
+    output logic start_o,  // strobe: start op_o along profile_o
+    output logic change_o,  // strobe: change the rate to profile_o.target
+    output operation_t op_o,  // valid with start_o
+    output profile_t profile_o,  // stable until t0
+    output logic single_pulse_o,  // with start_o: start-up rate instead of profile_o.target
     // planner
-    output plan_order_t         planner_o,     // command to the planner
-    input  wire logic           plan_busy_i,   // the planner is busy
-    input  wire logic    [ 7:0] plan_kind_i,   // status byte of the plan
-    input  wire plan_t          plan_i         // result of the planner
+    output profile_req_t profile_req_o,  // command to the planner
+    input wire logic plan_busy_i,  // the planner is busy
+    input wire logic [7:0] plan_kind_i,  // status byte of the plan
+    input wire profile_t profile_i  // result of the planner
 );
 
   typedef enum logic [2:0] {
@@ -46,37 +46,37 @@ module ppmc312_move
   } state_e;
 
   state_e state_q;
-  logic starts_q, single_q, ramp_q, endless_q, limited_q, hit, done;
+  logic starts_motion_q, single_q, ramp_q, endless_q, limited_q, hit, done;
   logic [15:0] rate, rate_q;
   logic [31:0] count_q;
   logic [7:0] code;
-  info_t info;
+  instr_info_t info;
 
   assign code = block_i.code;
-  assign info = info_of(code);
+  assign info = instr_info(code);
   assign rate = {block_i.par[1], block_i.par[2]};
   assign hit = op_o.ccw ? !levels_i.bl_n || (!levels_i.bhl_n && rate_q <= limit_rate_i) :
       !levels_i.fl_n || (!levels_i.fhl_n && rate_q <= limit_rate_i);
 
   assign done = state_q == StGo;
-  assign state_o.done = done;
-  assign state_o.limited = starts_q && limited_q;
-  assign state_o.refused = starts_q && !limited_q && status_i != StatusNor;
-  assign start_o = done && starts_q && !limited_q && status_i == StatusNor;
-  assign change_o = done && !starts_q;
-  assign state_o.kind = ((code == I_MOVE) ? plan_kind_i : 8'h00) | 8'(!gate_i);
-  assign planner_o = '{
+  assign result_o.done = done;
+  assign result_o.at_limit = starts_motion_q && limited_q;
+  assign result_o.rejected = starts_motion_q && !limited_q && status_i != StatusNor;
+  assign start_o = done && starts_motion_q && !limited_q && status_i == StatusNor;
+  assign change_o = done && !starts_motion_q;
+  assign result_o.status_byte = ((code == I_MOVE) ? plan_kind_i : 8'h00) | 8'(!gate_i);
+  assign profile_req_o = '{
           start: state_q == StPlan,
           ramp: ramp_q,
           endless: endless_q,
           rate: rate_q,
           count: count_q
       };
-  assign home_o = single_q;
+  assign single_pulse_o = single_q;
 
   always_comb begin
-    plan_o = plan_i;
-    if (single_q) plan_o.climb = 1'b0;
+    profile_o = profile_i;
+    if (single_q) profile_o.starts_with_accel = 1'b0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -85,12 +85,12 @@ module ppmc312_move
       unique case (state_q)
         StIdle:  if (begin_i) state_q <= StLimit;
         StLimit: begin
-          if (starts_q && hit) state_q <= StGo;
+          if (starts_motion_q && hit) state_q <= StGo;
           else if (single_q) state_q <= StWait;
           else state_q <= StPlan;
         end
         StPlan:  state_q <= StWait;
-        StWait:  if (!plan_busy_i && (open_i || !starts_q)) state_q <= StGo;
+        StWait:  if (!plan_busy_i && (elapsed_i || !starts_motion_q)) state_q <= StGo;
         default: state_q <= StIdle;
       endcase
     end
@@ -99,17 +99,17 @@ module ppmc312_move
   // No reset: begin_i sets all of these registers.
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
-      starts_q  <= info.starts;
+      starts_motion_q  <= info.starts_motion;
       single_q  <= code == I_STEP;
       ramp_q    <= code inside {I_MOVE, I_HIGH, I_ZERO};
       endless_q <= !(code inside {I_MOVE, I_CONST, I_STEP});
       count_q   <= {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
-      rate_q    <= (rate == '0) ? table_i.fast : rate;
+      rate_q    <= (rate == '0) ? table_i.high_rate : rate;
       if (code == I_STEP) begin
         count_q[0] <= 1'b1;  // the instruction has no number of pulses: all bits are 0
         rate_q     <= table_i.rate_acc;
       end
-      if (info.starts) begin
+      if (info.starts_motion) begin
         op_o <= '{
             ccw: block_i.par[0][6],
             zero: code == I_ZERO,

@@ -13,30 +13,30 @@ module ppmc312_pins
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0
 ) (
-    input  wire logic          clk_i,    // clock
-    input  wire logic          rst_ni,   // reset, asynchronous
+    input  wire logic                clk_i,    // clock
+    input  wire logic                rst_ni,   // reset, asynchronous
     // pins; the names are those of inputs_t
-    input  wire levels_t       pins_i,   // switches, drive, encoder index
-    input  wire logic    [1:0] evt_ni,   // [n]: event pin n
-    input  wire logic          run_i,    // 1: starts are not held
-    input  wire logic          epin_i,   // encoder, counted at its rising edge
-    input  wire logic          epdir_i,  // 0: up, 1: down
-    input  wire logic    [7:0] auxi_i,   // generalized input
+    input  wire motor_inputs_t       pins_i,   // switches, drive, encoder index
+    input  wire logic          [1:0] evt_ni,   // [n]: event pin n
+    input  wire logic                run_i,    // 1: starts are not held
+    input  wire logic                epin_i,   // encoder, counted at its rising edge
+    input  wire logic                epdir_i,  // 0: up, 1: down
+    input  wire logic          [7:0] auxi_i,   // generalized input
     // core side
-    output inputs_t            inputs_o  // all inputs, synchronised
+    output inputs_t                  inputs_o  // all inputs, synchronised
 );
 
-  localparam int unsigned Filtered = $bits(levels_t) + 2;
+  localparam int unsigned Filtered = $bits(motor_inputs_t) + 2;
   localparam int unsigned Pins = Filtered + 11;
   localparam int unsigned LevelXtal = 3200;
   localparam int unsigned EventXtal = 400_000;
 
   logic [Pins-1:0] unused_meta;
-  levels_t plain;
+  motor_inputs_t unfiltered;
   logic run, epin, epdir;
   logic [1:0] evt_n;
   logic [7:0] auxi;
-  logic [Filtered-1:0] asis, taken;
+  logic [Filtered-1:0] direct, filtered;
   logic [1:0] evt_q;
 
   ppmc_sync #(
@@ -46,14 +46,14 @@ module ppmc312_pins
       .rst_ni,
       .d_i ({auxi_i, run_i, epin_i, epdir_i, evt_ni, pins_i}),
       .q1_o(unused_meta),
-      .q2_o({auxi, run, epin, epdir, evt_n, plain})
+      .q2_o({auxi, run, epin, epdir, evt_n, unfiltered})
   );
 
-  assign asis = {evt_n, plain};
+  assign direct = {evt_n, unfiltered};
 
   if (Datasheet) begin : g_filter
     for (genvar n = 0; n < Filtered; n++) begin : g_pin
-      localparam int unsigned Limit = (n < $bits(levels_t)) ? LevelXtal : EventXtal;
+      localparam int unsigned Limit = (n < $bits(motor_inputs_t)) ? LevelXtal : EventXtal;
       logic past;
 
       // The reset of the device is long enough for a synchronous restart.
@@ -61,26 +61,26 @@ module ppmc312_pins
           .Ticks(ppmc_pkg::cyc(Limit, ClkHz, XtalHz))
       ) u_timer (
           .clk_i,
-          .restart_i(asis[n] || !rst_ni),
+          .restart_i(direct[n] || !rst_ni),
           .tick_i   (1'b1),
           .past_o   (past)
       );
 
-      assign taken[n] = asis[n] || !past;
+      assign filtered[n] = direct[n] || !past;
     end
   end else begin : g_plain
     localparam int unsigned Unused = ClkHz + XtalHz + LevelXtal + EventXtal;
     logic unused_times;
 
     assign unused_times = Unused[0];
-    assign taken = asis;
+    assign filtered = direct;
   end
 
   assign inputs_o = '{
-          plain: plain,
-          levels: taken[$bits(levels_t)-1:0],
+          unfiltered: unfiltered,
+          filtered: filtered[$bits(motor_inputs_t)-1:0],
           evt_n: evt_n,
-          fell: evt_q & ~taken[Filtered-1-:2],
+          evt_fall: evt_q & ~filtered[Filtered-1-:2],
           run: run,
           epin: epin,
           epdir: epdir,
@@ -89,7 +89,7 @@ module ppmc312_pins
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) evt_q <= '1;
-    else evt_q <= taken[Filtered-1-:2];
+    else evt_q <= filtered[Filtered-1-:2];
   end
 
 endmodule

@@ -8,57 +8,57 @@
 module ppmc312_position
   import ppmc312_pkg::*;
 (
-    input  wire logic        clk_i,           // clock
-    input  wire logic        rst_ni,          // reset, asynchronous
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
     // pulses
-    input  wire logic        count_i,         // strobe: a pulse
-    input  wire logic        ccw_i,           // direction of the pulse: 1: down
-    input  wire logic        output_i,        // 1: pulses are being output
+    input wire logic count_i,  // strobe: a pulse
+    input wire logic ccw_i,  // direction of the pulse: 1: down
+    input wire logic output_i,  // 1: pulses are being output
     // encoder, synchronous
-    input  wire logic        epin_i,          // counted at its rising edge
-    input  wire logic        epdir_i,         // 0: up, 1: down
+    input wire logic epin_i,  // counted at its rising edge
+    input wire logic epdir_i,  // 0: up, 1: down
     // instructions
-    input  wire logic [31:0] value_i,         // new position; pulses, two's complement
-    input  wire logic [31:0] lock_value_i,    // new interlock position
-    input  wire logic        set_pos_i,       // strobe: set the position
-    input  wire logic        set_enc_i,       // strobe: set the encoder position
-    input  wire logic        set_lock_i,      // strobe: set the interlock position
-    input  wire logic        toggle_lock_i,   // strobe: interlock control on or off
-    input  wire logic [ 1:0] set_window_i,    // strobes: latch flags and range, [0]: in-position, [1]: encode
-    input  wire logic [ 2:0] window_flags_i,  // FO, RES, EN
-    input  wire logic [15:0] window_range_i,  // range in pulses
+    input wire logic [31:0] value_i,  // new position; pulses, two's complement
+    input wire logic [31:0] lock_value_i,  // new interlock position
+    input wire logic set_pos_i,  // strobe: set the position
+    input wire logic set_enc_i,  // strobe: set the encoder position
+    input wire logic set_lock_i,  // strobe: set the interlock position
+    input wire logic toggle_lock_i,  // strobe: interlock control on or off
+    input wire logic [1:0] set_window_i,  // strobes: latch flags and range, [0]: in-position, [1]: encode
+    input wire logic [2:0] window_flags_i,  // FO, RES, EN
+    input wire logic [15:0] window_range_i,  // range in pulses
     // positions
-    output logic      [31:0] pos_o,           // position in pulses
-    output logic      [31:0] enc_o,           // encoder position in edges
-    output logic             counted_o,       // strobe: a pulse has been counted in pos_o
+    output logic [31:0] pos_o,  // position in pulses
+    output logic [31:0] enc_o,  // encoder position in edges
+    output logic counted_o,  // strobe: a pulse has been counted in pos_o
     // interlock
-    output logic             lock_o,          // 1: interlock control is active
-    output logic             unlock_o,        // strobe: report E1
+    output logic lock_o,  // 1: interlock control is active
+    output logic unlock_o,  // strobe: report E1
     // monitors, [0]: in-position, [1]: encode
-    output logic      [ 1:0] window_on_o,     // monitor is enabled
-    output logic      [ 1:0] outside_o,       // monitor is enabled, and the position is outside
-    output logic      [ 1:0] wait_o,          // a report is pending
-    output logic      [ 1:0] value_o,         // content of the report: 1: outside
-    input  wire logic [ 1:0] load_i,          // strobes: the report is being loaded
-    input  wire logic [ 1:0] read_i,          // strobes: the report has been read
-    output logic             near_o,          // 1: coupled to the zero clamp, pulses ended, position inside
-    output logic             coupled_o        // 1: coupled to the zero clamp, in-position evaluated
+    output logic [1:0] window_on_o,  // monitor is enabled
+    output logic [1:0] outside_o,  // monitor is enabled, and the position is outside
+    output logic [1:0] pending_o,  // a report is pending
+    output logic [1:0] value_o,  // content of the report: 1: outside
+    input wire logic [1:0] load_i,  // strobes: the report is being loaded
+    input wire logic [1:0] read_i,  // strobes: the report has been read
+    output logic coupled_inside_o,  // 1: coupled to the zero clamp, pulses ended, position inside
+    output logic coupled_o  // 1: coupled to the zero clamp, in-position evaluated
 );
 
-  logic epin_q, couple_q, hit, quiet;
+  logic epin_q, couple_q, hit, settled;
   logic [31:0] lock_pos_q, diff_q;
   logic [15:0] size_q;
   logic negative_q, large_q;
-  logic [1:0][16:0] room;  // range - size; bit 16 = 1: not negative
+  logic [1:0][16:0] margin;  // range - size; bit 16 = 1: not negative
   logic [1:0][15:0] range_q;
   logic [1:0] inside_q, evaluate;
-  logic [3:0] quiet_q;
+  logic [3:0] settle_q;
 
   assign hit = counted_o && lock_o && pos_o == lock_pos_q;
-  assign quiet = quiet_q[3] && !output_i;
-  assign evaluate = {1'b1, quiet};
-  assign coupled_o = couple_q && window_on_o[0] && quiet;
-  assign near_o = coupled_o && inside_q[0];
+  assign settled = settle_q[3] && !output_i;
+  assign evaluate = {1'b1, settled};
+  assign coupled_o = couple_q && window_on_o[0] && settled;
+  assign coupled_inside_o = coupled_o && inside_q[0];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -70,7 +70,7 @@ module ppmc312_position
       lock_o     <= 1'b0;
       unlock_o   <= 1'b0;
       couple_q   <= 1'b0;
-      quiet_q    <= '0;
+      settle_q   <= '0;
     end else begin
       counted_o <= count_i;
       if (set_pos_i) pos_o <= value_i;
@@ -86,13 +86,13 @@ module ppmc312_position
       else if (toggle_lock_i) lock_o <= !lock_o;
 
       if (set_window_i[0]) couple_q <= window_flags_i[2];
-      quiet_q <= (output_i || set_window_i[0]) ? '0 : {quiet_q[2:0], 1'b1};
+      settle_q <= (output_i || set_window_i[0]) ? '0 : {settle_q[2:0], 1'b1};
     end
   end
 
   always_comb begin
     for (int unsigned n = 0; n < 2; n++) begin
-      room[n] = {1'b0, range_q[n]} + {1'b0, ~size_q} + 17'(!negative_q);
+      margin[n] = {1'b0, range_q[n]} + {1'b0, ~size_q} + 17'(!negative_q);
     end
   end
 
@@ -105,7 +105,7 @@ module ppmc312_position
     large_q <= diff_q[31:16] != {16{diff_q[31]}};
     for (int unsigned n = 0; n < 2; n++) begin
       if (set_window_i[n]) range_q[n] <= window_range_i;
-      inside_q[n] <= !large_q && room[n][16];
+      inside_q[n] <= !large_q && margin[n][16];
     end
   end
 
@@ -120,7 +120,7 @@ module ppmc312_position
         .inside_i  (inside_q[n]),
         .enabled_o (window_on_o[n]),
         .outside_o (outside_o[n]),
-        .wait_o    (wait_o[n]),
+        .pending_o (pending_o[n]),
         .value_o   (value_o[n]),
         .load_i    (load_i[n]),
         .read_i    (read_i[n])

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_window_monitor: one of the two position monitors (in-position, encode): inside or outside its range, and
-//         its reports.
+// ppmc312_window_monitor: one of the two position monitors (in-position, encode): inside or outside its
+//         range, and its reports.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
-// Timing: wait_o follows inside_i by two cycles.
+// Timing: pending_o follows inside_i by two cycles.
 // Note:   a report is pending while the state differs from the state that the host has read last.
 `default_nettype none
 
@@ -16,13 +16,13 @@ module ppmc312_window_monitor (
     input  wire logic inside_i,    // 1: the position is within the range
     output logic      enabled_o,   // 1: the monitor is active
     output logic      outside_o,   // 1: active, and the position is outside
-    output logic      wait_o,      // 1: a report is pending
+    output logic      pending_o,   // 1: a report is pending
     output logic      value_o,     // content of the report: 1: outside
     input  wire logic load_i,      // strobe: the report is being loaded
     input  wire logic read_i       // strobe: the report has been read; may coincide with load_i
 );
 
-  logic repeat_q, told_q, loaded_q, shown_q, kept_q, fresh_q;
+  logic repeat_q, reported_q, loaded_q, loaded_value_q, disabled_pending_q, restarted_q;
 
   assign outside_o = enabled_o && value_o;
 
@@ -31,36 +31,36 @@ module ppmc312_window_monitor (
       enabled_o <= 1'b0;
       repeat_q  <= 1'b0;
       value_o   <= 1'b0;
-      told_q    <= 1'b0;
+      reported_q    <= 1'b0;
       loaded_q  <= 1'b0;
-      shown_q   <= 1'b0;
-      kept_q    <= 1'b0;
-      wait_o    <= 1'b0;
-      fresh_q   <= 1'b0;
+      loaded_value_q   <= 1'b0;
+      disabled_pending_q    <= 1'b0;
+      pending_o    <= 1'b0;
+      restarted_q   <= 1'b0;
     end else begin
-      fresh_q <= set_i;  // the state of the new range is not valid yet
+      restarted_q <= set_i;  // the state of the new range is not valid yet
       if (load_i) begin
         loaded_q <= !read_i;
-        shown_q  <= value_o;
-        kept_q   <= 1'b0;
-        if (read_i) told_q <= value_o;
+        loaded_value_q <= value_o;
+        disabled_pending_q <= 1'b0;
+        if (read_i) reported_q <= value_o;
       end else if (read_i) begin
-        loaded_q <= 1'b0;
-        told_q   <= shown_q;
+        loaded_q   <= 1'b0;
+        reported_q <= loaded_value_q;
       end
       if (set_i) begin
         enabled_o <= enable_i;
         repeat_q  <= repeat_i;
         value_o   <= 1'b0;
-        told_q    <= 1'b0;
-        kept_q    <= 1'b0;
-        wait_o    <= 1'b0;
+        reported_q    <= 1'b0;
+        disabled_pending_q    <= 1'b0;
+        pending_o    <= 1'b0;
       end else begin
-        if (enabled_o && evaluate_i && !fresh_q) value_o <= !inside_i;
-        wait_o <= !load_i && !loaded_q && (kept_q || (enabled_o && value_o != told_q));
-        if (enabled_o && !repeat_q && value_o != told_q && !loaded_q) begin
+        if (enabled_o && evaluate_i && !restarted_q) value_o <= !inside_i;
+        pending_o <= !load_i && !loaded_q && (disabled_pending_q || (enabled_o && value_o != reported_q));
+        if (enabled_o && !repeat_q && value_o != reported_q && !loaded_q) begin
           enabled_o <= 1'b0;
-          kept_q    <= !load_i;
+          disabled_pending_q    <= !load_i;
         end
       end
     end

@@ -2,7 +2,7 @@
 // ppmc312_interval: determines when the next pulse of a motion begins and how long it lasts. The rate is the
 //         number of base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
-// Timing: due_o is combinational. For pulse 1 it is asserted CYC(WidthXtal) cycles after arm_i. Each later
+// Timing: ready_o is combinational. For pulse 1 it is asserted CYC(WidthXtal) cycles after arm_i. Each later
 //         pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1; with the external clock,
 //         on the tick itself. Two pulses are at least 4 cycles apart; lost time is not made up.
 // Note:   ppmc_base_clock and ppmc_rate_counter need 3 cycles per base clock; here a base clock may last one
@@ -22,9 +22,9 @@ module ppmc312_interval #(
     input  wire logic                extck_i,  // external clock pin; base_i 6 and 7 use its edges
     input  wire logic                arm_i,    // strobe: start of a motion
     input  wire logic                first_i,  // 1: the next pulse is pulse 1
-    input  wire logic                fire_i,   // strobe: a pulse, in a cycle of due_o
+    input  wire logic                fire_i,   // strobe: a pulse, in a cycle of ready_o
     input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next one, at least 2
-    output logic                     due_o,    // 1: a pulse may begin
+    output logic                     ready_o,  // 1: a pulse may begin
     output logic                     high_o    // 1: a pulse is active
 );
 
@@ -32,7 +32,7 @@ module ppmc312_interval #(
   localparam int unsigned PreBits = 9;
 
   logic quantum, tick, restart, level, last_q, edge_now, external, cut, up, unused_meta;
-  logic past_q, elapsed, old, elapsed_now;
+  logic past_q, elapsed, min_gap, elapsed_now;
   logic [2:0] age_q;  // cycles since the pulse, up to 4
   logic [PreBits-1:0] pre_q, pre_load;
   logic rest_q;  // 1: pre_q is 0; separate because of its fan-out
@@ -78,10 +78,10 @@ module ppmc312_interval #(
   end
 
   // A base clock in the cycle of a pulse belongs to the previous interval.
-  assign old = age_q[2];
+  assign min_gap = age_q[2];
   assign elapsed_now = tick && left_q == RateBits'(1);
   assign elapsed = elapsed_now || past_q;
-  assign due_o = first_i ? up && (!external || tick) : elapsed && old;
+  assign ready_o = first_i ? up && (!external || tick) : elapsed && min_gap;
   assign cut = tick && left_q == half_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -112,7 +112,7 @@ module ppmc312_interval #(
         half_q <= RateBits'(((RateBits + 1)'(rate_i) + (RateBits + 1)'(3)) >> 1);
       end else begin
         if (elapsed_now) past_q <= 1'b1;
-        if (!old) age_q <= age_q + 1'b1;
+        if (!min_gap) age_q <= age_q + 1'b1;
         // left_q may wrap below 0; past_q is 1 by then
         if (tick) left_q <= left_q - 1'b1;
       end

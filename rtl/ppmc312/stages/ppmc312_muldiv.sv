@@ -32,35 +32,39 @@ module ppmc312_muldiv #(
   logic [5:0] left_q;
   logic mul_q, load, last;
   logic busy_q, shift_q;  // busy_q: left_q is not 0; shift_q: a division is in progress
-  logic mend_q;  // adds the operand to a remainder below 0
-  logic take_q, less_q, take, less;  // take…: the operand is used; less…: the operand is subtracted
+  logic correct_q;  // adds the operand to a remainder below 0
+  logic
+      use_operand_q,
+      subtract_q,
+      use_operand,
+      subtract;  // take…: the operand is used; less…: the operand is subtracted
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;
 
-  assign busy_o = busy_q || mend_q;
-  assign load   = start_i && !keep_i;
-  assign last   = left_q == 6'd1;
-  assign under  = sum[HiBits-1];
-  assign hi_o   = hi_q;
+  assign busy_o = busy_q || correct_q;
+  assign load = start_i && !keep_i;
+  assign last = left_q == 6'd1;
+  assign under = sum[HiBits-1];
+  assign hi_o = hi_q;
 
   // A load also uses the adder: h is added to 0.
-  assign take   = take_q || load;
-  assign less   = less_q && !load;
+  assign use_operand = use_operand_q || load;
+  assign subtract = subtract_q && !load;
 
   always_comb begin
     x   = load ? '0 : shift_q ? {hi_q[HiBits-2:0], lo_o[LoBits-1]} : hi_q;
-    y   = (take ? operand_i : '0) ^ {HiBits{less}};
-    sum = {1'b0, x} + {1'b0, y} + (HiBits + 1)'(less);
+    y   = (use_operand ? operand_i : '0) ^ {HiBits{subtract}};
+    sum = {1'b0, x} + {1'b0, y} + (HiBits + 1)'(subtract);
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       left_q <= '0;
       busy_q <= 1'b0;
-      mend_q <= 1'b0;
+      correct_q <= 1'b0;
     end else begin
-      mend_q <= busy_q && last && !mul_q;
+      correct_q <= busy_q && last && !mul_q;
       if (start_i) begin
         left_q <= steps_i;
         busy_q <= 1'b1;
@@ -74,14 +78,14 @@ module ppmc312_muldiv #(
   // No reset: every use begins with a load.
   always_ff @(posedge clk_i) begin
     if (start_i) begin
-      mul_q   <= mul_i;
+      mul_q <= mul_i;
       shift_q <= !mul_i;
-      take_q  <= !mul_i || (keep_i ? lo_o[0] : lo_i[0]);
-      less_q  <= !mul_i;
+      use_operand_q <= !mul_i || (keep_i ? lo_o[0] : lo_i[0]);
+      subtract_q <= !mul_i;
     end else if (busy_q) begin
       shift_q <= !mul_q && !last;
-      take_q  <= mul_q ? lo_o[1] && !last : under || !last;
-      less_q  <= !mul_q && !under && !last;
+      use_operand_q <= mul_q ? lo_o[1] && !last : under || !last;
+      subtract_q <= !mul_q && !under && !last;
     end
     if (load || busy_o) hi_q <= (mul_q && !load) ? sum[HiBits:1] : sum[HiBits-1:0];
     if (load) lo_o <= lo_i;

@@ -20,8 +20,8 @@ module ppmc312_stage_builder
     input wire logic start_i,  // strobe
     input wire curve_t curve_i,  // ramp, stable while busy_o
     output logic busy_o,  // from the cycle after start_i until all is written
-    output logic thin_o,  // a stage has at most 1 pulse; valid until the next start
-    output entry_t entry_o,  // write port of the table
+    output logic too_few_pulses_o,  // a stage has at most 1 pulse; valid until the next start
+    output table_write_t table_write_o,  // write port of the table
     output logic [1:0] begins_o,  // strobes: first stage of a side, if no later strobe follows
     input wire logic [6:0] first_acc_i,  // stage of the last begins_o[0], 0 .. 126
     input wire logic [6:0] first_dec_i,  // stage of the last begins_o[1], 0 .. 126
@@ -49,16 +49,16 @@ module ppmc312_stage_builder
     StRate,    // / D
     StBegin,   // checks whether a side begins here
     StSum,     // S + D
-    StShare,   // P * D + remainder
+    StProportion,   // P * D + remainder
     StPulses,  // / S
     StWrite,
     StNext
   } state_e;
 
   typedef enum logic [3:0] {
-    WordFast,
-    WordSlow,
-    WordSpread,
+    WordHigh,
+    WordSlowest,
+    WordDiff,
     WordBase,
     WordScale,
     WordSpeed,
@@ -66,8 +66,8 @@ module ppmc312_stage_builder
     WordZero,    // never written
     WordSum,     // sum of the first side
     WordSumDec,
-    WordRest,
-    WordRestDec
+    WordRemainder,
+    WordRemainderDec
   } word_e;
 
   state_e state_q;
@@ -77,7 +77,7 @@ module ppmc312_stage_builder
   logic [6:0] stage_q;
   logic [1:0][6:0] first;
   logic [16:0] weight;
-  logic [15:0] slow_q, spread_q, rate, limit, given;
+  logic [15:0] slowest_q, diff_q, rate, limit, copy_value;
   logic [39:0] result;
   logic hit, opens;
 
@@ -89,9 +89,9 @@ module ppmc312_stage_builder
   );
 
   assign rate = lo_i[15:0];
-  assign limit = side_q ? curve_i.stop : curve_i.start;
+  assign limit = side_q ? curve_i.stop_rate : curve_i.start_rate;
   // The slower side has all stages, regardless of the rounding of R[1].
-  assign hit = (limit == slow_q) ? stage_q == '0 : rate >= limit;
+  assign hit = (limit == slowest_q) ? stage_q == '0 : rate >= limit;
   assign opens = stage_q == first[side_q];
   assign last_side = side_q || !curve_i.split;
 
@@ -101,7 +101,8 @@ module ppmc312_stage_builder
 
   // ---- one operation per state: read h, read the operand, start the operation ---------------------
 
-  assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum, StShare, StPulses};
+  assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum,
+                                  StProportion, StPulses};
   assign done = wait_q && !op_busy_i;
   assign op_mul_o = !(state_q inside {StRate, StPulses});
 
@@ -114,14 +115,14 @@ module ppmc312_stage_builder
     if (state_q inside {StIdle, StBase, StScale}) h_word = WordZero;
     unique case (state_q)
       StBase: begin
-        x_word  = WordFast;
+        x_word  = WordHigh;
         to_word = WordBase;
       end
       StScale: begin
-        x_word  = WordSlow;
+        x_word  = WordSlowest;
         to_word = WordScale;
       end
-      StSpeed: x_word = WordSpread;
+      StSpeed: x_word = WordDiff;
       StHalf: begin
         h_word     = WordSpeed;
         op_steps_o = 6'd1;
@@ -137,33 +138,33 @@ module ppmc312_stage_builder
         to_word = side_q ? WordSumDec : WordSum;
         h_word  = hit_q[side_q] ? WordZero : to_word;
       end
-      StShare: begin
-        h_word = opens ? WordZero : side_q ? WordRestDec : WordRest;
+      StProportion: begin
+        h_word = opens ? WordZero : side_q ? WordRemainderDec : WordRemainder;
       end
       StPulses: begin
         x_word  = side_q ? WordSumDec : WordSum;
-        to_word = side_q ? WordRestDec : WordRest;
+        to_word = side_q ? WordRemainderDec : WordRemainder;
       end
       default: to_word = word_e'({2'b00, phase_q});
     endcase
     unique case (state_q)
-      StHalf:  op_lo_o = '0;
-      StCurve: op_lo_o = 24'(curve_i.fast);
-      StSum:   op_lo_o = 24'd1;
-      StShare: op_lo_o = side_q ? curve_i.dec : curve_i.acc;
+      StHalf: op_lo_o = '0;
+      StCurve: op_lo_o = 24'(curve_i.high_rate);
+      StSum: op_lo_o = 24'd1;
+      StProportion: op_lo_o = side_q ? curve_i.dec : curve_i.acc;
       default: op_lo_o = 24'(weight);
     endcase
     unique case (phase_q)
-      2'd0:    given = curve_i.fast;
-      2'd1:    given = slow_q;
-      default: given = spread_q;
+      2'd0:    copy_value = curve_i.high_rate;
+      2'd1:    copy_value = slowest_q;
+      default: copy_value = diff_q;
     endcase
     unique case (state_q)
-      StCopy:           result = 40'(given);
+      StCopy:           result = 40'(copy_value);
       StHalf, StPulses: result = hi_i;
       default:          result = {hi_i[15:0], lo_i};
     endcase
-    we = state_q == StCopy || (done && !(state_q inside {StCurve, StRate, StShare}));
+    we = state_q == StCopy || (done && !(state_q inside {StCurve, StRate, StProportion}));
   end
 
   ppmc_ram #(
@@ -189,7 +190,7 @@ module ppmc312_stage_builder
       pass_q <= 1'b0;
       side_q <= 1'b0;
       stage_q <= Last;
-      thin_o <= 1'b0;
+      too_few_pulses_o <= 1'b0;
     end else begin
       op_start_o <= works && phase_q == 2'd1;  // high at the start of phase 2
       if (op_start_o) wait_q <= 1'b1;
@@ -202,7 +203,7 @@ module ppmc312_stage_builder
           side_q  <= 1'b0;
           stage_q <= Last;
           if (start_i) begin
-            thin_o  <= 1'b0;
+            too_few_pulses_o <= 1'b0;
             state_q <= StCopy;
           end
         end
@@ -218,7 +219,7 @@ module ppmc312_stage_builder
           state_q <= StSpeed;
         end
         StSpeed:
-        if (done) state_q <= !pass_q ? StHalf : open_q[0] ? StShare : curve_i.split ? StWrite : StNext;
+        if (done) state_q <= !pass_q ? StHalf : open_q[0] ? StProportion : curve_i.split ? StWrite : StNext;
         StHalf: if (done) state_q <= StCurve;
         StCurve: if (done) state_q <= StRate;
         StRate: if (done) state_q <= StBegin;
@@ -231,12 +232,12 @@ module ppmc312_stage_builder
           side_q  <= !last_side;
           state_q <= last_side ? StNext : StSum;
         end
-        StShare: if (done) state_q <= StPulses;
+        StProportion: if (done) state_q <= StPulses;
         StPulses: if (done) state_q <= StWrite;
         StWrite: begin
-          if (open_q[side_q] && lo_i[23:1] == '0) thin_o <= 1'b1;
+          if (open_q[side_q] && lo_i[23:1] == '0) too_few_pulses_o <= 1'b1;
           side_q  <= !last_side;
-          state_q <= last_side ? StNext : open_q[1] ? StShare : StNext;
+          state_q <= last_side ? StNext : open_q[1] ? StProportion : StNext;
           if (!last_side && !open_q[1]) side_q <= 1'b0;
         end
         StNext: begin
@@ -255,8 +256,8 @@ module ppmc312_stage_builder
 
   // No reset: all of these registers are written before use. The rates are stable long before use.
   always_ff @(posedge clk_i) begin
-    slow_q   <= (curve_i.start > curve_i.stop) ? curve_i.start : curve_i.stop;
-    spread_q <= slow_q - curve_i.fast;
+    slowest_q <= (curve_i.start_rate > curve_i.stop_rate) ? curve_i.start_rate : curve_i.stop_rate;
+    diff_q <= slowest_q - curve_i.high_rate;
     if (state_q == StBegin) hit_q[side_q] <= hit;
     // open_q: the sides that have begun in the second pass.
     for (int unsigned n = 0; n < 2; n++) begin
@@ -265,10 +266,10 @@ module ppmc312_stage_builder
     end
   end
 
-  assign entry_o = '{
-          rate: state_q == StBegin && !side_q,
-          acc: state_q == StWrite && !side_q && open_q[0],
-          dec: state_q == StWrite && side_q,
+  assign table_write_o = '{
+          we_rate: state_q == StBegin && !side_q,
+          we_acc: state_q == StWrite && !side_q && open_q[0],
+          we_dec: state_q == StWrite && side_q,
           stage: stage_q,
           data: lo_i
       };
@@ -277,8 +278,8 @@ module ppmc312_stage_builder
   assign unused_base = &{1'b0, curve_i};
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p312_tbl_02_ends, !entry_o.rate || stage_q != '0 || rate == slow_q)
-  `PPMC_ASSERT(p312_tbl_02_top, !entry_o.rate || stage_q != Last || rate == curve_i.fast)
+  `PPMC_ASSERT(p312_tbl_02_ends, !table_write_o.we_rate || stage_q != '0 || rate == slowest_q)
+  `PPMC_ASSERT(p312_tbl_02_top, !table_write_o.we_rate || stage_q != Last || rate == curve_i.high_rate)
 `endif
 
 endmodule

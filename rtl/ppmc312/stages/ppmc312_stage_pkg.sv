@@ -10,30 +10,30 @@ package ppmc312_stage_pkg;
 
   // A constant rate and its look-up result in the table.
   typedef struct packed {
-    logic [15:0] rate;   // base clocks of an interval
-    logic        slows;  // a deceleration from this rate has stages
-    logic [6:0]  ge;     // last stage with at least this rate
-    logic [6:0]  ge1;    // ge + 1; without such a stage: the first used stage
-    logic [6:0]  gt1;    // last stage with a higher rate, plus 1
+    logic [15:0] rate;       // base clocks of an interval
+    logic        has_decel;  // a deceleration from this rate has stages
+    logic [6:0]  ge;         // last stage with at least this rate
+    logic [6:0]  ge1;        // ge + 1; without such a stage: the first used stage
+    logic [6:0]  gt1;        // last stage with a higher rate, plus 1
   } target_t;
 
   // Start of a deceleration along the table.
   typedef struct packed {
     logic [6:0]  stage;
-    logic        part;   // 1: uses only some pulses of this stage
-    logic [23:0] left;   // with part: number of pulses
-  } walk_t;
+    logic        is_partial;  // 1: uses only some pulses of this stage
+    logic [23:0] pulses;      // with part: number of pulses
+  } ramp_pos_t;
 
   // Ramp of an initialisation, or description of a free curve when its transfer begins.
   typedef struct packed {
-    logic        cosine;  // 1: sigmoid; only of instruction 00
-    logic        split;   // 1: separate acceleration and deceleration sides
-    logic [2:0]  base;    // base clock, see ppmc312_interval
-    logic [15:0] start;   // start-up rate
-    logic [15:0] stop;    // stop rate; if not split: equal to start
-    logic [15:0] fast;    // high-speed rate
-    logic [23:0] acc;     // pulses of the acceleration side
-    logic [23:0] dec;     // pulses of the deceleration side; if not split: equal to acc
+    logic        cosine;      // 1: sigmoid; only of instruction 00
+    logic        split;       // 1: separate acceleration and deceleration sides
+    logic [2:0]  base;        // base clock, see ppmc312_interval
+    logic [15:0] start_rate;  // start-up rate
+    logic [15:0] stop_rate;   // stop rate; if not split: equal to start
+    logic [15:0] high_rate;   // high-speed rate
+    logic [23:0] acc;         // pulses of the acceleration side
+    logic [23:0] dec;         // pulses of the deceleration side; if not split: equal to acc
   } curve_t;
 
   // The active table.
@@ -45,25 +45,25 @@ package ppmc312_stage_pkg;
     logic [6:0]  first_dec;  // first stage of the deceleration side
     logic [15:0] rate_acc;   // rate of stage first_acc
     logic [15:0] rate_dec;   // rate of stage first_dec
-    logic [15:0] fast;       // high-speed rate
+    logic [15:0] high_rate;  // high-speed rate
     logic [23:0] acc;        // pulses of the acceleration side
     logic [23:0] dec;        // pulses of the deceleration side
   } table_t;
 
   // Write port of the table.
   typedef struct packed {
-    logic        rate;   // strobes: columns to be written
-    logic        acc;
-    logic        dec;
-    logic [6:0]  stage;  // 0 .. 126
-    logic [23:0] data;   // a rate uses the low bits
-  } entry_t;
+    logic        we_rate;  // strobes: columns to be written
+    logic        we_acc;
+    logic        we_dec;
+    logic [6:0]  stage;    // 0 .. 126
+    logic [23:0] data;     // a rate uses the low bits
+  } table_write_t;
 
   // Address of a read port of the table. The data (stage_t) are valid two cycles later.
   typedef struct packed {
     logic       side;   // 0: pulses of the acceleration side, 1: of the deceleration side
     logic [6:0] stage;  // 0 .. 126; 126 is the fastest
-  } look_t;
+  } table_addr_t;
 
   typedef struct packed {
     logic [15:0] rate;    // base clocks of an interval
@@ -77,17 +77,17 @@ package ppmc312_stage_pkg;
     logic        endless;  // 1: the operation runs until it is stopped
     logic [15:0] rate;     // base clocks of an interval
     logic [31:0] count;    // pulses, at least 1
-  } plan_order_t;
+  } profile_req_t;
 
   // A planned operation along the table.
   typedef struct packed {
-    logic        endless;  // 1: the operation runs until it is stopped
-    logic        climb;    // begins with acceleration
-    logic [31:0] count;    // pulses
-    logic [23:0] dec;      // pulses of the deceleration
-    walk_t from;           // start of the deceleration
-    target_t     to;       // constant rate
-  } plan_t;
+    logic        endless;            // 1: the operation runs until it is stopped
+    logic        starts_with_accel;  // begins with acceleration
+    logic [31:0] count;              // pulses
+    logic [23:0] dec_pulses;         // pulses of the deceleration
+    ramp_pos_t   decel_start;        // start of the deceleration
+    target_t     target;             // constant rate
+  } profile_t;
 
   // verilator lint_on UNUSEDPARAM
 

@@ -15,56 +15,56 @@
 module ppmc312_stage_plan
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic        clk_i,         // clock
-    input  wire logic        rst_ni,        // reset, asynchronous
-    input  wire logic        start_i,       // strobe: start
-    input  wire logic        ramp_i,        // 1: look up and plan, 0: look up only
-    input  wire logic        endless_i,     // 1: the operation runs until it is stopped
-    input  wire logic [15:0] rate_i,        // base clocks; this and all inputs below stable while busy
-    input  wire logic [31:0] count_i,       // pulses, at least 1
-    input  wire logic [ 6:0] first_acc_i,   // first stage of the acceleration side
-    input  wire logic [ 6:0] first_dec_i,   // first stage of the deceleration side
-    output logic             busy_o,        // from the cycle after start_i until the results are valid
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic start_i,  // strobe: start
+    input wire logic ramp_i,  // 1: look up and plan, 0: look up only
+    input wire logic endless_i,  // 1: the operation runs until it is stopped
+    input wire logic [15:0] rate_i,  // base clocks; this and all inputs below stable while busy
+    input wire logic [31:0] count_i,  // pulses, at least 1
+    input wire logic [6:0] first_acc_i,  // first stage of the acceleration side
+    input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
+    output logic busy_o,  // from the cycle after start_i until the results are valid
     // table
-    output logic             both_o,        // 1: the other read port is needed as well
-    output logic      [ 6:0] addr_o,        // stage to be read
-    input  wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
-    input  wire logic [23:0] table_acc_i,   // acceleration pulses of this stage, two cycles later
-    input  wire logic [23:0] table_dec_i,   // deceleration pulses; with both_o
-    output target_t          found_o,       // look-up result of rate_i
+    output logic both_o,  // 1: the other read port is needed as well
+    output logic [6:0] addr_o,  // stage to be read
+    input wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
+    input wire logic [23:0] table_acc_i,  // acceleration pulses of this stage, two cycles later
+    input wire logic [23:0] table_dec_i,  // deceleration pulses; with both_o
+    output target_t target_o,  // look-up result of rate_i
     // plan
-    output logic             climb_o,       // the operation begins with acceleration
-    output logic      [ 7:0] kind_o,        // status byte: 00 trapezoidal, 10 triangular, 20, 40 right-angled
-    output logic      [23:0] dec_o,         // pulses of the deceleration
-    output walk_t            dec_from_o,    // start of the deceleration
+    output logic starts_with_accel_o,  // the operation begins with acceleration
+    output logic [7:0] kind_o,  // status byte: 00 trapezoidal, 10 triangular, 20, 40 right-angled
+    output logic [23:0] dec_pulses_o,  // pulses of the deceleration
+    output ramp_pos_t decel_start_o,  // start of the deceleration
     // arithmetic, shared with the builder
-    output logic             op_start_o,    // strobe: start the operation
-    output logic             op_mul_o,      // 1: multiply, 0: divide
-    output logic      [23:0] op_lo_o,       // multiplier
-    output logic      [24:0] operand_o,     // 0 at the start of a product; multiplicand, divisor
-    input  wire logic        op_busy_i,     // 1: the result is not valid yet
-    input  wire logic [23:0] lo_i           // low bits of the product, or quotient
+    output logic op_start_o,  // strobe: start the operation
+    output logic op_mul_o,  // 1: multiply, 0: divide
+    output logic [23:0] op_lo_o,  // multiplier
+    output logic [24:0] operand_o,  // 0 at the start of a product; multiplicand, divisor
+    input wire logic op_busy_i,  // 1: the result is not valid yet
+    input wire logic [23:0] lo_i  // low bits of the product, or quotient
 );
 
   localparam logic [6:0] Last = 7'd126;
 
   typedef enum logic [3:0] {
     StIdle,
-    StFind,      // look-up and sums
-    StOwn,       // adds pulses of stages that only one side has
-    StAcc,       // adds acceleration pulses of stages that both sides have
-    StDec,       // adds deceleration pulses of these stages: total
+    StFind,          // look-up and sums
+    StOneSide,       // adds pulses of stages that only one side has
+    StAcc,           // adds acceleration pulses of stages that both sides have
+    StDec,           // adds deceleration pulses of these stages: total
     StKind,
-    StDecOwn,    // adds all pulses of the deceleration side
+    StDecOneSide,    // adds all pulses of the deceleration side
     StDecAll,
-    StShort,     // checks whether the deceleration is too long
-    StRestAcc,   // adds the pulses of stages that both sides have
-    StRestDec,
+    StShort,         // checks whether the deceleration is too long
+    StBothAcc,       // adds the pulses of stages that both sides have
+    StBothDec,
     StMultiply,
     StDivide,
-    StSplit,     // adds the acceleration of a triangular profile
-    StSplitOwn,
-    StMeet       // searches the start of the deceleration
+    StSplit,         // adds the acceleration of a triangular profile
+    StSplitOneSide,
+    StSearch         // searches the start of the deceleration
   } state_e;
 
   state_e state_q;
@@ -72,13 +72,13 @@ module ppmc312_stage_plan
   // valid_q[1]: the table outputs stage `at`. in_acc_q, in_dec_q: the side contains stage `at` ([0]) or the
   // stage before it ([1]).
   logic [1:0] valid_q, in_acc_q, in_dec_q;
-  // In StMeet. over_none: no pulse remains; one cycle late: below_q: `ahead` is negative; begins_q: first
+  // In StSearch. over_none: no pulse remains; one cycle later: below_q: `ahead` is negative; begins_q: first
   // cycle; counts_q: the stage counts.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
-  logic [6:0] at, met_q, ge_q, ge1_q, gt1_q;
-  logic [23:0] own_q, acc_q, own_kept_q, acc_kept_q, dec_kept_q, x;
+  logic [6:0] at, at_s2_q, ge_q, ge1_q, gt1_q;
+  logic [23:0] one_side_q, acc_q, one_side_kept_q, acc_kept_q, dec_kept_q, x;
   logic [24:0] sum_q, over_q;
   logic [25:0] ahead;
 
@@ -96,7 +96,7 @@ module ppmc312_stage_plan
   always_ff @(posedge clk_i) begin
     at_q <= {at_q[0], addr_o};
     if (run_q) addr_o <= 7'(ppmc_pkg::inc(32'(addr_o)));
-    else addr_o <= (state_q == StMeet) ? first_dec_i : 7'h7f;
+    else addr_o <= (state_q == StSearch) ? first_dec_i : 7'h7f;
     if (!run_q) begin
       in_acc_q <= '0;
       in_dec_q <= '0;
@@ -115,7 +115,7 @@ module ppmc312_stage_plan
   assign hit = virt || ((in_acc_q[0] || in_dec_q[0]) && table_rate_i >= rate_i);
   assign higher = hit && (virt || table_rate_i != rate_i);
 
-  assign found_o = '{rate: rate_i, slows: slows_q, ge: ge_q, ge1: ge1_q, gt1: gt1_q};
+  assign target_o = '{rate: rate_i, has_decel: slows_q, ge: ge_q, ge1: ge1_q, gt1: gt1_q};
 
   always_ff @(posedge clk_i) begin
     if (state_q == StFind && step) begin
@@ -125,9 +125,9 @@ module ppmc312_stage_plan
       end
       if (higher) gt1_q <= at_q[0];
       if (in_dec_q == 2'b01) slows_q <= higher;
-      if (hit && in_acc_q[1]) climb_o <= 1'b1;
+      if (hit && in_acc_q[1]) starts_with_accel_o <= 1'b1;
     end
-    if (state_q == StIdle) climb_o <= start_i ? 1'b0 : climb_o;
+    if (state_q == StIdle) starts_with_accel_o <= start_i ? 1'b0 : starts_with_accel_o;
   end
 
   // ---- sums ---------------------------------------------------------------------------------------
@@ -135,14 +135,14 @@ module ppmc312_stage_plan
   always_ff @(posedge clk_i) begin
     hit_q <= state_q == StFind && step && hit;
     if (state_q == StIdle) begin
-      own_q <= '0;
+      one_side_q <= '0;
       acc_q <= '0;
     end else if (state_q == StFind && step) begin
-      if (in_acc_q[0] != in_dec_q[0]) own_q <= own_q + (acc_first ? table_acc_i : table_dec_i);
+      if (in_acc_q[0] != in_dec_q[0]) one_side_q <= one_side_q + (acc_first ? table_acc_i : table_dec_i);
       if (both) acc_q <= acc_q + table_acc_i;
     end
     if (hit_q) begin
-      own_kept_q <= own_q;
+      one_side_kept_q <= one_side_q;
       acc_kept_q <= acc_q;
       dec_kept_q <= sum_q[23:0];
     end
@@ -159,11 +159,11 @@ module ppmc312_stage_plan
     // The first pass adds the deceleration pulses of stages that both sides have.
     counts = step && ((state_q == StFind) ? both : !past);
     unique case (state_q)
-      StOwn:                      x = own_kept_q;
-      StDecOwn:                   x = acc_first ? '0 : own_kept_q;
-      StSplitOwn:                 x = acc_first ? own_kept_q : '0;
-      StAcc, StRestAcc:           x = acc_kept_q;
-      StDec, StDecAll, StRestDec: x = dec_kept_q;
+      StOneSide:                  x = one_side_kept_q;
+      StDecOneSide:               x = acc_first ? '0 : one_side_kept_q;
+      StSplitOneSide:             x = acc_first ? one_side_kept_q : '0;
+      StAcc, StBothAcc:           x = acc_kept_q;
+      StDec, StDecAll, StBothDec: x = dec_kept_q;
       StSplit:                    x = lo_i;
       default:                    x = counts ? table_dec_i : '0;
     endcase
@@ -171,29 +171,29 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_o: all deceleration pulses, or those that remain.
+  // dec_pulses_o: all deceleration pulses, or those that remain.
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 
   always_ff @(posedge clk_i) begin
     if (clear) sum_q <= '0;
     else if (!(state_q inside {StMultiply, StDivide})) sum_q <= sum_q + 25'(x);
-    if (state_q inside {StAcc, StMeet}) {below_q, over_q} <= ahead;
-    begins_q <= state_q == StMeet && next_q;
-    counts_q <= state_q == StMeet && counts;
-    met_q    <= at;
+    if (state_q inside {StAcc, StSearch}) {below_q, over_q} <= ahead;
+    begins_q <= state_q == StSearch && next_q;
+    counts_q <= state_q == StSearch && counts;
+    at_s2_q  <= at;
     // The deceleration begins at the last stage before which some of its pulses remain.
     if (counts_q && !over_none) begin
-      dec_from_o.stage <= met_q;
-      dec_from_o.left  <= over_q[23:0];
+      decel_start_o.stage  <= at_s2_q;
+      decel_start_o.pulses <= over_q[23:0];
     end
     if (state_q == StShort) begin
-      dec_from_o.stage <= ge_q;
-      dec_from_o.part  <= 1'b0;
+      decel_start_o.stage <= ge_q;
+      decel_start_o.is_partial <= 1'b0;
     end
-    if (state_q == StMeet) dec_from_o.part <= 1'b1;
-    if (dec_none) dec_o <= '0;
-    else if (dec_some) dec_o <= begins_q ? over_q[23:0] : sum_q[23:0];
+    if (state_q == StSearch) decel_start_o.is_partial <= 1'b1;
+    if (dec_none) dec_pulses_o <= '0;
+    else if (dec_some) dec_pulses_o <= begins_q ? over_q[23:0] : sum_q[23:0];
   end
 
   // ---- arithmetic ---------------------------------------------------------------------------------
@@ -235,40 +235,40 @@ module ppmc312_stage_plan
         end
         StFind:
         if (done_q) begin
-          state_q <= (!ramp_q || endless_i) ? StIdle : climb_o ? StOwn : StDecOwn;
-          if (ramp_q && !endless_i && !climb_o) kind_o <= 8'h20;
+          state_q <= (!ramp_q || endless_i) ? StIdle : starts_with_accel_o ? StOneSide : StDecOneSide;
+          if (ramp_q && !endless_i && !starts_with_accel_o) kind_o <= 8'h20;
         end
-        StOwn:      state_q <= StAcc;
+        StOneSide:    state_q <= StAcc;
         StAcc: begin
           inner_q <= none;  // the motion stays where only one side has stages
           state_q <= StDec;
         end
-        StDec:      state_q <= StKind;
+        StDec:        state_q <= StKind;
         StKind: begin
-          state_q <= full ? StDecOwn : StRestAcc;
+          state_q <= full ? StDecOneSide : StBothAcc;
           if (!full) kind_o <= 8'h10;
           if (!full && inner_q) begin
             kind_o  <= acc_first ? 8'h40 : 8'h20;
-            state_q <= acc_first ? StIdle : StMeet;
+            state_q <= acc_first ? StIdle : StSearch;
             next_q  <= !acc_first;
           end
         end
-        StDecOwn:   state_q <= StDecAll;
-        StDecAll:   state_q <= StShort;
+        StDecOneSide: state_q <= StDecAll;
+        StDecAll:     state_q <= StShort;
         StShort: begin
-          state_q <= full ? StIdle : StMeet;
+          state_q <= full ? StIdle : StSearch;
           next_q  <= !full;
         end
-        StRestAcc:  state_q <= StRestDec;
-        StRestDec:  state_q <= StMultiply;
-        StMultiply: if (op_done) state_q <= StDivide;
-        StDivide:   if (op_done) state_q <= StSplit;
-        StSplit:    state_q <= StSplitOwn;
-        StSplitOwn: begin
-          state_q <= StMeet;
+        StBothAcc:    state_q <= StBothDec;
+        StBothDec:    state_q <= StMultiply;
+        StMultiply:   if (op_done) state_q <= StDivide;
+        StDivide:     if (op_done) state_q <= StSplit;
+        StSplit:      state_q <= StSplitOneSide;
+        StSplitOneSide: begin
+          state_q <= StSearch;
           next_q  <= 1'b1;
         end
-        default:    if (done_q) state_q <= StIdle;
+        default:      if (done_q) state_q <= StIdle;
       endcase
     end
   end

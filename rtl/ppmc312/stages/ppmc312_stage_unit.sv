@@ -2,59 +2,59 @@
 // ppmc312_stage_unit: stage table with builder, planner, the arithmetic that they share, and the description
 //         of the active table.
 // Rules:  P312-TBL-01..06, P312-CMD-FC-3/10, P312-MOT-10..13.
-// Timing: after build_i or close_i, busy_o is high until the table can be used. After plan_i.start,
+// Timing: after build_i or close_i, busy_o is high until the table can be used. After profile_req_i.start,
 //         plan_busy_o is high until the plan is valid; the plan is valid until the next start. Read-back:
-//         read_o is valid two cycles after read_i, while nothing is busy.
+//         read_stage_o is valid two cycles after read_addr_i, while nothing is busy.
 `default_nettype none
 
 module ppmc312_stage_unit
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic              clk_i,        // clock
-    input  wire logic              rst_ni,       // reset, asynchronous
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
     // set-up
-    input  wire logic              drop_i,       // strobe: the table becomes invalid
-    input  wire logic              build_i,      // strobe: build from curve_i, stable while busy_o
-    input  wire curve_t            curve_i,      // the ramp
-    output logic                   busy_o,       // 1: the table cannot be used yet
-    output logic                   thin_o,       // a stage has at most 1 pulse: no table
+    input wire logic drop_i,  // strobe: the table becomes invalid
+    input wire logic build_i,  // strobe: build from curve_i, stable while busy_o
+    input wire curve_t curve_i,  // the ramp
+    output logic busy_o,  // 1: the table cannot be used yet
+    output logic too_few_pulses_o,  // a stage has at most 1 pulse: no table
     // free curve
-    input  wire logic              open_i,       // strobe: a transfer begins; latch sides, base clock
-    input  wire logic        [6:0] open_acc_i,   // first stage of the acceleration side
-    input  wire logic        [6:0] open_dec_i,   // first stage of the deceleration side
-    input  wire entry_t            entry_i,      // word of the free curve
-    input  wire logic              close_i,      // strobe: complete; curve_i has the pulses of the sides
+    input wire logic open_i,  // strobe: a transfer begins; latch sides, base clock
+    input wire logic [6:0] open_acc_i,  // first stage of the acceleration side
+    input wire logic [6:0] open_dec_i,  // first stage of the deceleration side
+    input wire table_write_t table_write_i,  // word of the free curve
+    input wire logic close_i,  // strobe: complete; curve_i has the pulses of the sides
     // active table
-    output table_t                 table_o,      // description of the table
-    output target_t                home_o,       // look-up result of table_o.rate_acc
-    input  wire look_t             read_i,       // read-back address
-    output stage_t                 read_o,       // stage at read_i, two cycles later; not while busy
+    output table_t table_o,  // description of the table
+    output target_t start_target_o,  // look-up result of table_o.rate_acc
+    input wire table_addr_t read_addr_i,  // read-back address
+    output stage_t read_stage_o,  // stage at read_addr_i, two cycles later; not while busy
     // planning
-    input  wire plan_order_t       plan_i,       // operation to be planned
-    output logic                   plan_busy_o,  // 1: the plan is not valid yet
-    output logic             [7:0] plan_kind_o,  // status byte: 00, 10, 20 or 40
-    output plan_t                  plan_o,       // plan, valid until the next start
+    input wire profile_req_t profile_req_i,  // operation to be planned
+    output logic plan_busy_o,  // 1: the plan is not valid yet
+    output logic [7:0] plan_kind_o,  // status byte: 00, 10, 20 or 40
+    output profile_t profile_o,  // plan, valid until the next start
     // read port of the motion
-    input  wire look_t             look_i,       // address
-    output stage_t                 stage_o       // stage at look_i, two cycles later
+    input wire table_addr_t table_addr_i,  // address
+    output stage_t stage_o  // stage at table_addr_i, two cycles later
 );
 
   typedef enum logic [1:0] {
     StIdle,
     StBuild,
-    StHome    // looks up R[first_acc]
+    StStartRate  // looks up R[first_acc]
   } state_e;
 
   state_e state_q;
-  logic begin_q, build_busy, plan_busy, plan_start, found;
+  logic begin_q, build_busy, plan_busy, plan_start, start_found;
   logic [15:0] find_rate;
-  entry_t built, entry;
+  table_write_t builder_write, table_write;
   logic [6:0] plan_addr;
   logic [1:0] build_begins, begins;
   target_t target;
-  logic takes, plan_climb, plan_both, ramp_q;
+  logic plan_owns_port, plan_accel, plan_both, ramp_q;
   logic [23:0] plan_dec;
-  walk_t plan_from;
+  ramp_pos_t plan_decel_start;
 
   // ---- arithmetic ---------------------------------------------------------------------------------
 
@@ -91,100 +91,101 @@ module ppmc312_stage_unit
   ppmc312_stage_builder u_builder (
       .clk_i,
       .rst_ni,
-      .start_i    (build_i),
+      .start_i      (build_i),
       .curve_i,
-      .busy_o     (build_busy),
-      .thin_o,
-      .entry_o    (built),
-      .begins_o   (build_begins),
-      .first_acc_i(table_o.first_acc),
-      .first_dec_i(table_o.first_dec),
-      .op_start_o (build_op),
-      .op_mul_o   (build_mul),
-      .op_steps_o (build_steps),
-      .op_lo_o    (build_lo),
-      .word_o     (word),
-      .op_busy_i  (op_busy),
-      .hi_i       (hi),
-      .lo_i       (lo)
+      .busy_o       (build_busy),
+      .too_few_pulses_o,
+      .table_write_o(builder_write),
+      .begins_o     (build_begins),
+      .first_acc_i  (table_o.first_acc),
+      .first_dec_i  (table_o.first_dec),
+      .op_start_o   (build_op),
+      .op_mul_o     (build_mul),
+      .op_steps_o   (build_steps),
+      .op_lo_o      (build_lo),
+      .word_o       (word),
+      .op_busy_i    (op_busy),
+      .hi_i         (hi),
+      .lo_i         (lo)
   );
 
-  assign entry = build_busy ? built : entry_i;
+  assign table_write = build_busy ? builder_write : table_write_i;
 
   // A plan is made at standstill, when the motion does not need its read port. The motion keeps the port
   // while 87 or 88 look up a rate (plan_both low), and after the plan (plan_busy low).
-  assign takes = plan_busy && plan_both;
+  assign plan_owns_port = plan_busy && plan_both;
 
   ppmc312_stage_table u_table (
       .clk_i,
-      .we_rate_i  (entry.rate),
-      .we_pulses_i(entry.acc || entry.dec),
-      .wside_i    (!entry.acc),
-      .waddr_i    (entry.stage),
-      .wdata_i    (entry.data),
-      .side_a_i   ((takes || look_i.side) && table_o.split),
-      .addr_a_i   (takes ? plan_addr : look_i.stage),
+      .we_rate_i  (table_write.we_rate),
+      .we_pulses_i(table_write.we_acc || table_write.we_dec),
+      .wside_i    (!table_write.we_acc),
+      .waddr_i    (table_write.stage),
+      .wdata_i    (table_write.data),
+      .side_a_i   ((plan_owns_port || table_addr_i.side) && table_o.split),
+      .addr_a_i   (plan_owns_port ? plan_addr : table_addr_i.stage),
       .rate_a_o   (stage_o.rate),
       .pulses_a_o (stage_o.pulses),
-      .side_b_i   (!plan_busy && read_i.side && table_o.split),
-      .addr_b_i   (plan_busy ? plan_addr : read_i.stage),
-      .rate_b_o   (read_o.rate),
-      .pulses_b_o (read_o.pulses)
+      .side_b_i   (!plan_busy && read_addr_i.side && table_o.split),
+      .addr_b_i   (plan_busy ? plan_addr : read_addr_i.stage),
+      .rate_b_o   (read_stage_o.rate),
+      .pulses_b_o (read_stage_o.pulses)
   );
 
   // ---- planner ------------------------------------------------------------------------------------
 
-  assign find_rate = (state_q == StHome) ? table_o.rate_acc : plan_i.rate;
-  assign plan_start = (plan_i.start && state_q == StIdle) || begin_q;
-  assign found = state_q == StHome && !begin_q && !plan_busy;
+  assign find_rate   = (state_q == StStartRate) ? table_o.rate_acc : profile_req_i.rate;
+  assign plan_start  = (profile_req_i.start && state_q == StIdle) || begin_q;
+  assign start_found = state_q == StStartRate && !begin_q && !plan_busy;
 
   ppmc312_stage_plan u_plan (
       .clk_i,
       .rst_ni,
-      .start_i     (plan_start),
-      .ramp_i      (plan_i.ramp && state_q == StIdle),
-      .endless_i   (plan_i.endless),
-      .rate_i      (find_rate),
-      .count_i     (plan_i.count),
-      .first_acc_i (table_o.first_acc),
-      .first_dec_i (table_o.first_dec),
-      .busy_o      (plan_busy),
-      .both_o      (plan_both),
-      .addr_o      (plan_addr),
-      .table_rate_i(read_o.rate),
-      .table_acc_i (read_o.pulses),
-      .table_dec_i (stage_o.pulses),
-      .found_o     (target),
-      .climb_o     (plan_climb),
-      .kind_o      (plan_kind_o),
-      .dec_o       (plan_dec),
-      .dec_from_o  (plan_from),
-      .op_start_o  (plan_op),
-      .op_mul_o    (plan_mul),
-      .op_lo_o     (plan_lo),
-      .operand_o   (plan_operand),
-      .op_busy_i   (op_busy),
-      .lo_i        (lo)
+      .start_i            (plan_start),
+      .ramp_i             (profile_req_i.ramp && state_q == StIdle),
+      .endless_i          (profile_req_i.endless),
+      .rate_i             (find_rate),
+      .count_i            (profile_req_i.count),
+      .first_acc_i        (table_o.first_acc),
+      .first_dec_i        (table_o.first_dec),
+      .busy_o             (plan_busy),
+      .both_o             (plan_both),
+      .addr_o             (plan_addr),
+      .table_rate_i       (read_stage_o.rate),
+      .table_acc_i        (read_stage_o.pulses),
+      .table_dec_i        (stage_o.pulses),
+      .target_o           (target),
+      .starts_with_accel_o(plan_accel),
+      .kind_o             (plan_kind_o),
+      .dec_pulses_o       (plan_dec),
+      .decel_start_o      (plan_decel_start),
+      .op_start_o         (plan_op),
+      .op_mul_o           (plan_mul),
+      .op_lo_o            (plan_lo),
+      .operand_o          (plan_operand),
+      .op_busy_i          (op_busy),
+      .lo_i               (lo)
   );
 
   assign plan_busy_o = plan_busy;
-  assign plan_o = '{
-          endless: plan_i.endless,
-          climb: ramp_q && plan_climb,
-          count: plan_i.count,
-          dec: plan_dec,
-          from : plan_from,
-          to: target
+  assign profile_o = '{
+          endless: profile_req_i.endless,
+          starts_with_accel: ramp_q && plan_accel,
+          count: profile_req_i.count,
+          dec_pulses: plan_dec,
+          decel_start : plan_decel_start,
+          target: target
       };
 
-  always_ff @(posedge clk_i) if (plan_i.start) ramp_q <= plan_i.ramp;
+  always_ff @(posedge clk_i) if (profile_req_i.start) ramp_q <= profile_req_i.ramp;
 
   // ---- active table -------------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle;
   // If several stages qualify, the last one is used, because a ramp is built upward.
   assign begins = build_busy ? build_begins :
-      {2{entry.rate}} & {entry.stage == table_o.first_dec, entry.stage == table_o.first_acc};
+      {2{table_write.we_rate}} &
+      {table_write.stage == table_o.first_dec, table_write.stage == table_o.first_acc};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -197,17 +198,17 @@ module ppmc312_stage_unit
         StIdle: begin
           if (build_i) state_q <= StBuild;
           else if (close_i) begin
-            state_q <= StHome;
+            state_q <= StStartRate;
             begin_q <= 1'b1;
           end
         end
         StBuild:
         if (!build_busy) begin
-          state_q <= thin_o ? StIdle : StHome;
-          begin_q <= !thin_o;
+          state_q <= too_few_pulses_o ? StIdle : StStartRate;
+          begin_q <= !too_few_pulses_o;
         end
-        StHome:
-        if (found) begin
+        StStartRate:
+        if (start_found) begin
           state_q       <= StIdle;
           table_o.valid <= 1'b1;
         end
@@ -218,12 +219,12 @@ module ppmc312_stage_unit
         table_o.first_acc <= open_acc_i;
         table_o.first_dec <= open_dec_i;
       end else begin
-        if (begins[0]) table_o.first_acc <= entry.stage;
-        if (begins[1]) table_o.first_dec <= entry.stage;
+        if (begins[0]) table_o.first_acc <= table_write.stage;
+        if (begins[1]) table_o.first_dec <= table_write.stage;
       end
-      if (begins[0]) table_o.rate_acc <= entry.data[15:0];
-      if (begins[1]) table_o.rate_dec <= entry.data[15:0];
-      if (entry.rate && entry.stage == 7'd126) table_o.fast <= entry.data[15:0];
+      if (begins[0]) table_o.rate_acc <= table_write.data[15:0];
+      if (begins[1]) table_o.rate_dec <= table_write.data[15:0];
+      if (table_write.we_rate && table_write.stage == 7'd126) table_o.high_rate <= table_write.data[15:0];
       if (open_i || build_i) begin
         table_o.split <= curve_i.split;
         table_o.base  <= curve_i.base;
@@ -235,8 +236,8 @@ module ppmc312_stage_unit
     end
   end
 
-  // No reset: home_o is used only while table_o.valid = 1.
-  always_ff @(posedge clk_i) if (found) home_o <= target;
+  // No reset: start_target_o is used only while table_o.valid = 1.
+  always_ff @(posedge clk_i) if (start_found) start_target_o <= target;
 
 endmodule
 
