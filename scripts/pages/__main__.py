@@ -14,7 +14,7 @@ from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, rela
 from openppmc import parts
 from scripts.measure.prove import page as proofs
 from scripts.measure.sizes import figures, size_page
-from scripts.pages.pictures import house, plots, waves
+from scripts.pages.pictures import architecture_figures, plots, waves
 from scripts.pages.pictures.manual import Manual
 from scripts.pages.wiring import pages as wiring
 
@@ -33,7 +33,7 @@ def wanted() -> dict[Path, bytes]:
             files[source.parents[1] / "img" / f"{source.stem}.svg"] = waves.render(source)
         except ValueError as error:
             raise ProjectError(str(error)) from None
-    for name, plot in house.PLOTS.items():
+    for name, plot in architecture_figures.PLOTS.items():
         files[image(name)] = plots.render(plot)
     for row in parts.having("manual"):
         manual: Manual = row.load("manual")

@@ -10,7 +10,7 @@ import pytest
 
 from cocotb_tests.harness.paths import ROOT
 from scripts.pages.pictures import waves
-from scripts.pages.pictures.fit import MOST, fitted, lanes, text_width, wrapped
+from scripts.pages.pictures.diagram_width import MOST, fitted, lanes, text_width, wrapped
 from scripts.pages.pictures.recorded import Row, labels, numbered, record, thinned, wave, write_cycle
 from scripts.pages.ppmc312 import tables
 from scripts.pages.ppmc312 import waves as waves_312
