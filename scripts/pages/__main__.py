@@ -14,6 +14,7 @@ from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, rela
 from openppmc import parts
 from scripts.measure.prove import page as proofs
 from scripts.measure.sizes import figures, size_page
+from scripts.pages.figures import pages
 from scripts.pages.pictures import architecture_figures, plots, waves
 from scripts.pages.pictures.manual import Manual
 from scripts.pages.wiring import pages as wiring
@@ -47,6 +48,8 @@ def wanted() -> dict[Path, bytes]:
         for marker, table in manual.tables.items():
             text = replace_between(text, marker, table())
         files[page] = text.encode()
+    for source in sorted(DOCS.glob("**/figures.yml")):
+        files |= pages(str(source.parent.relative_to(DOCS)))
     page = DOCS / "benchmarks.md"
     text = page.read_text(encoding="utf-8")
     measured = figures.read()

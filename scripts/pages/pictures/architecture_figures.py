@@ -10,8 +10,8 @@ from matplotlib.patches import Rectangle
 
 from cocotb_tests.harness.project import ROOT
 from openppmc import parts
-from scripts.pages.pictures.board_figure import board
 from scripts.pages.pictures.blocks import EDGE, FAINT, TEXT, Arrow, Box, draw
+from scripts.pages.pictures.board_figure import board
 from scripts.pages.pictures.plots import svg
 
 LAYERS = (
