@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
 from contextlib import AbstractContextManager
 from math import sqrt
 
@@ -51,9 +50,3 @@ def svg(figure: Figure) -> bytes:
 def style() -> AbstractContextManager[None]:
     """Return a context with the common style."""
     return matplotlib.rc_context(STYLE)
-
-
-def render(plot: Callable[[], bytes]) -> bytes:
-    """Return the SVG of one plot in the common style."""
-    with style():
-        return plot()
