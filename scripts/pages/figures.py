@@ -34,7 +34,7 @@ def pages(folder: str) -> dict[Path, bytes]:
     """Return path and content of the files that a figures.yml describes; raise ProjectError for a mistake."""
     files: dict[Path, bytes] = {}
     place = DOCS / folder
-    name = ""
+    name = "file"
     try:
         found = entries(folder)
         for name, entry in found.get("pictures", {}).items():
@@ -45,5 +45,6 @@ def pages(folder: str) -> dict[Path, bytes]:
                 text = replace_between(text, name, made(entry))
             files[place / "README.md"] = text.encode()
     except (yaml.YAMLError, AttributeError, ImportError, KeyError, TypeError, ValueError) as error:
-        raise ProjectError(f"{relative(place)}/figures.yml: {name}: {error}") from error
+        text = " ".join(str(error).split())
+        raise ProjectError(f"{relative(place)}/figures.yml: {name}: {text}") from error
     return files

@@ -237,6 +237,7 @@ def diagram(
     tick: int | None = None,
     foot: str = "",
     arrows: Sequence[str] = (),
+    hides: bool = False,
 ) -> dict[str, Any]:
     """Return a timing diagram that is recorded on a golden model; edges are counted from the base of `begin`.
 
@@ -250,12 +251,24 @@ def diagram(
         time: first line: "clk edge" or "us" for numbers, "clk" for the clock.
         tick: number of the first edge, if edges are numbered above the columns.
         foot: text below a diagram with time = clk.
+        hides: True if lines may change in a gap.
+
+    Raises:
+        ValueError: a line changes in a gap.
     """
     start: Start = made(begin)
     shown = columns_of(columns)
     schedule = [change for action in do for change in start.action(*action)]
-    at = [None if edge is None else start.base + edge for edge in shown]
-    samples = record(start.model, start.inputs, schedule, at, start.flags)
+    groups = rows if isinstance(rows, dict) else {"": rows}
+    # In place of a gap, the edge before the column after it, to find changes that the gap would hide.
+    at = [start.base + (shown[n + 1] - 1 if edge is None else edge) for n, edge in enumerate(shown)]
+    found = record(start.model, start.inputs, schedule, at, start.flags)
+    gaps = [] if hides else [n for n, edge in enumerate(shown) if edge is None]
+    for entry in (entry for part in groups.values() for entry in part if "wave" not in entry):
+        of = level(entry["level"])
+        if hidden := [shown[n + 1] for n in gaps if of(found[n - 1]) != of(found[n])]:
+            raise ValueError(f"{entry['level']} changes in the gap before edge {hidden[0]}")
+    samples = [None if edge is None else sample for edge, sample in zip(shown, found, strict=True)]
     if time == "clk":
         lines: list[Any] = [{"name": "clk", "wave": "p" + "." * (len(samples) - 1)}]
     elif time == "us":
@@ -264,10 +277,9 @@ def diagram(
     else:
         words, foot = numbered(shown)
         lines = [labels(time, words)]
-    if isinstance(rows, dict):
-        lines += [[name, *(lane(e, samples, name == "host") for e in part)] for name, part in rows.items()]
-    else:
-        lines += [lane(entry, samples) for entry in rows]
+    for name, part in groups.items():
+        drawn = [lane(entry, samples, name == "host") for entry in part]
+        lines += [[name, *drawn]] if name else drawn
     drawing = {"signal": lines, "head": {"text": title}, "edge": list(arrows)}
     if tick is not None:
         drawing["head"]["tick"] = tick

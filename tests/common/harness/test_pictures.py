@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import ProjectError
 from scripts.pages import figures
 from scripts.pages.pictures import waves
 from scripts.pages.pictures.diagram_width import MOST, fitted, lanes, text_width, wrapped
@@ -151,6 +152,29 @@ def test_diagrams_are_drawn_with_wide_labels():
 def test_columns_are_edges_ranges_and_gaps():
     """A text of columns has edges, ranges that include their ends, and gaps."""
     assert columns_of("-1..1 4 | 100") == [-1, 0, 1, 4, None, 100]
+
+
+def test_no_gap_hides_a_change():
+    """A diagram is refused if one of its lines changes in a gap."""
+    entry = figures.entries("stmc")["pictures"]["start"]
+    assert made(entry)["head"]["text"] == entry["title"]
+    with pytest.raises(ValueError, match="s changes in the gap before edge 84"):
+        made({**entry, "columns": "-3..2 | 84 85"})
+
+
+def test_a_mistake_in_an_entry_is_one_line(tmp_path, monkeypatch):
+    """A wrong kind, a wrong argument and bad YAML are reported with file and entry."""
+    monkeypatch.setattr(figures, "DOCS", tmp_path)
+    for text, message in (
+        ("pictures: {a: {kind: pictures.blocks.draws}}", "figures.yml: a: .*draws"),
+        ("pictures: {a: {kind: pictures.blocks.drawing, colour: 1}}", "figures.yml: a: .*colour"),
+        ("pictures: {a: {}}", "figures.yml: a: 'kind'"),
+        ("pictures: [", "figures.yml: file: while parsing"),
+    ):
+        (tmp_path / "figures.yml").write_text(text)
+        with pytest.raises(ProjectError, match=message) as caught:
+            figures.pages(".")
+        assert "\n" not in str(caught.value)
 
 
 def test_letters_stand_where_a_line_changes():
