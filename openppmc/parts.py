@@ -39,7 +39,6 @@ LAYER_OF = {
     "soak": "cocotb_tests",
     "gates": "cocotb_tests",
     "crosses": "cocotb_tests",
-    "manual": "scripts.pages",
     "demo": "scripts.demo",
     "bench": "scripts.measure.bench",
 }
@@ -65,7 +64,6 @@ class Row:
         presenter: its output on the command line.
         script_commands: its own commands in script files.
         docs: pages of its folder in docs/ in addition to README.md and traceability.md.
-        manual: drawings and calculations for these pages.
         selftest: actions of its board in `openppmc selftest`.
         carrier: True if there is a <part>_carrier, so there are a virtual board and bitstreams.
         line: True if the part is a station on a serial line with commands of its own.
@@ -96,7 +94,6 @@ class Row:
     machine: str = ""
     decode: str = ""
     docs: tuple[str, ...] = ()
-    manual: str = ""
     carrier: bool = False
     line: bool = False
     demo: str = ""
@@ -136,7 +133,6 @@ ROWS = (
         machine=":MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md"),
-        manual="manual:MANUAL",
         carrier=True,
         demo=":DEMO",
         soak="test_random:random_item",
@@ -159,7 +155,6 @@ ROWS = (
         machine=":MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
-        manual="manual:MANUAL",
         carrier=True,
         demo=":DEMO",
         soak="test_random:random_item",
@@ -188,7 +183,6 @@ ROWS = (
         machine=":MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md"),
-        manual="manual:MANUAL",
         carrier=True,
         demo=":DEMO",
         soak="test_random:random_item",
@@ -221,7 +215,6 @@ ROWS = (
         machine="machine:MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
-        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -257,7 +250,6 @@ ROWS = (
         presenter=":PRESENTER",
         machine=":MACHINE",
         docs=("carrier.md", "spi.md"),
-        manual="manual:MANUAL",
         carrier=True,
         demo="demo:main",
         bench=":main",
@@ -276,7 +268,6 @@ ROWS = (
         machine="line:MACHINE",
         decode="decode:DECODER",
         docs=("design.md", "rulings.md"),
-        manual="manual:MANUAL",
         carrier=True,
         line=True,
         demo=":DEMO",
@@ -286,7 +277,7 @@ ROWS = (
     ),
 )
 OWN = (
-    *("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "selftest"),
+    *("name", "of", "number", "rules", "docs", "carrier", "line", "selftest"),
     *("demo", "bench", "soak", "gates", "crosses", "decode"),
 )
 """Columns that a row does not use from the row in `of`."""

@@ -11,18 +11,11 @@ import sys
 from pathlib import Path
 
 from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between, run
-from openppmc import parts
 from scripts.measure.prove import page as proofs
 from scripts.measure.sizes import figures, size_page
-from scripts.pages.pictures import house, plots, waves
-from scripts.pages.pictures.manual import Manual
+from scripts.pages.figures import pages
+from scripts.pages.pictures import waves
 from scripts.pages.wiring import pages as wiring
-
-
-def image(name: str) -> Path:
-    """Return the path of the picture "<part>/<what>", or of "<what>" of pages about the whole project."""
-    part, _, what = name.rpartition("/")
-    return DOCS / part / "img" / f"{what}.svg"
 
 
 def wanted() -> dict[Path, bytes]:
@@ -33,20 +26,8 @@ def wanted() -> dict[Path, bytes]:
             files[source.parents[1] / "img" / f"{source.stem}.svg"] = waves.render(source)
         except ValueError as error:
             raise ProjectError(str(error)) from None
-    for name, plot in house.PLOTS.items():
-        files[image(name)] = plots.render(plot)
-    for row in parts.having("manual"):
-        manual: Manual = row.load("manual")
-        for what, diagram in manual.diagrams.items():
-            name = f"{row.folder}/{what}"
-            files[image(name)] = waves.draw(diagram(), name)
-        for what, plot in manual.plots.items():
-            files[image(f"{row.folder}/{what}")] = plots.render(plot)
-        page = DOCS / row.folder / "README.md"
-        text = page.read_text(encoding="utf-8")
-        for marker, table in manual.tables.items():
-            text = replace_between(text, marker, table())
-        files[page] = text.encode()
+    for source in sorted(DOCS.glob("**/figures.yml")):
+        files |= pages(str(source.parent.relative_to(DOCS)))
     page = DOCS / "benchmarks.md"
     text = page.read_text(encoding="utf-8")
     measured = figures.read()

@@ -12,7 +12,7 @@ import pytest
 from cocotb_tests.harness.paths import ROOT
 from openppmc.cli import main
 from openppmc.model.bank.window import GO, INFO, MASK, POSITION, STOP
-from scripts.pages.bank.tables import AXES
+from scripts.pages.bank import SESSION_AXES
 
 TEXT = (ROOT / "docs/bank/README.md").read_text(encoding="utf-8")
 PORT = "model:speed=max,part=bank"
@@ -63,5 +63,5 @@ def test_register_table(register: int, name: str) -> None:
 
 
 def test_sessions_are_of_the_bank_that_they_name() -> None:
-    assert f"Axis 5 of {AXES}, at 100 MHz" in TEXT
+    assert f"Axis 5 of {SESSION_AXES}, at 100 MHz" in TEXT
     assert TEXT.count("<!-- axis-session -->\n| a |") == TEXT.count("<!-- group-session -->\n| a |") == 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
@@ -136,3 +137,19 @@ def draw(boxes: Mapping[str, Box], arrows: Sequence[Arrow], inches: tuple[float,
     )
     axes.axis("off")
     return figure
+
+
+def drawing(
+    size: tuple[float, float],
+    boxes: Mapping[str, Sequence[Any]],
+    arrows: Mapping[str, Mapping[str, Any] | None],
+) -> plt.Figure:
+    """Return the drawing of an entry of figures.yml.
+
+    Args:
+        boxes: name -> values of Box in order.
+        arrows: "start -> end", or <-> for heads at both ends -> further values of Arrow.
+    """
+    ends = [(*words.split(), values) for words, values in arrows.items()]
+    found = [Arrow(start, end, both=head == "<->", **values or {}) for start, head, end, values in ends]
+    return draw({name: Box(*values) for name, values in boxes.items()}, found, size)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from contextlib import AbstractContextManager
 from math import sqrt
 
 import matplotlib
@@ -30,6 +30,7 @@ STYLE = {
     "savefig.facecolor": "white",
 }
 BLUE, RED, GREEN, GREY = "#1f5fa8", "#c23b22", "#2b8a3e", "#888888"
+COLOURS = {"blue": BLUE, "red": RED, "green": GREEN, "grey": GREY}
 
 
 def exact_period(of: Ramp, k: float) -> float:
@@ -46,7 +47,6 @@ def svg(figure: Figure) -> bytes:
     return buffer.getvalue()
 
 
-def render(plot: Callable[[], bytes]) -> bytes:
-    """Return the SVG of one plot in the common style."""
-    with matplotlib.rc_context(STYLE):
-        return plot()
+def style() -> AbstractContextManager[None]:
+    """Return a context with the common style."""
+    return matplotlib.rc_context(STYLE)

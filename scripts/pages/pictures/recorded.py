@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
+
+from scripts.pages.pictures.kinds import made
 
 Levels = Mapping[str, int]
 Schedule = Sequence[tuple[int, Levels]]  # (clk edge that samples them first, pin levels), in time order
 Samples = Sequence[Levels | None]  # one for each column; None: cycles that are not shown
 
+LEVEL = re.compile(r"(\w+)(?: while (\w+) = (\w+))?")
 LONG = 10_000
 LETTERS = "nmk"
 COLOURS = "345"  # codes of WaveDrom's filled boxes, used in turn
@@ -36,16 +40,6 @@ class Row:
     def of(self, levels: Levels) -> int | None:
         """Return the level in a sample."""
         return levels[self.level] if isinstance(self.level, str) else self.level(levels)
-
-
-def write_cycle(edge: int, reg: int, byte: int, strobe: int = 3) -> Schedule:
-    """Return the pins of a write whose strobe is sampled from `edge` on for `strobe` cycles."""
-    return [(edge, {"cs_n": 0, "wr_n": 0, "a0": reg, "d_i": byte}), (edge + strobe, {"cs_n": 1, "wr_n": 1})]
-
-
-def read_cycle(edge: int, reg: int, strobe: int = 5) -> Schedule:
-    """Return the pins of a read whose strobe is sampled from `edge` on for `strobe` cycles."""
-    return [(edge, {"cs_n": 0, "rd_n": 0, "a0": reg}), (edge + strobe, {"cs_n": 1, "rd_n": 1})]
 
 
 def mailbox_flags(chip: Any) -> Levels:
@@ -150,17 +144,6 @@ def _zeros(number: int) -> int:
     return len(text) - len(text.rstrip("0"))
 
 
-def table(lines: Sequence[dict[str, Any]], title: str, foot: str, arrows: Sequence[str]) -> dict[str, Any]:
-    """Return a drawing of edges with large distances."""
-    drawing = {"signal": list(lines), "config": {"hscale": 2}, "head": {"text": title}, "edge": list(arrows)}
-    return {**drawing, "foot": {"text": foot}} if foot else drawing
-
-
-def clock(samples: Samples) -> dict[str, Any]:
-    """Return the line of `clk` of a diagram without gaps."""
-    return {"name": "clk", "wave": "p" + "." * (len(samples) - 1)}
-
-
 def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
     """Return a line with a word in each column, a gap for None; a word may use the empty columns after it."""
     drawn, data = "", list[str]()
@@ -170,3 +153,136 @@ def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
             data.append(word)
         drawn += "|" if word is None else "2" if begins else "."
     return {"name": name, "wave": drawn, "data": data}
+
+
+@dataclass(frozen=True)
+class Start:
+    """A golden model at the beginning of a diagram.
+
+    Attributes:
+        base: edge from which columns and actions are counted.
+        inputs: levels of its input pins.
+        write, read, register: pins of the bus: write strobe, read strobe, register select.
+    """
+
+    model: Any
+    base: int
+    inputs: Levels
+    write: str = "wr_n"
+    read: str = "rd_n"
+    register: str = "a0"
+    clk_hz: int = 16_000_000
+    flags: Callable[[Any], Levels] = mailbox_flags
+
+    def action(self, edge: int, what: str, *values: Any) -> Schedule:
+        """Return the pin changes of an action of `do`, see `diagram`."""
+        at = self.base + edge
+        if what == "pins":
+            return [(at, values[0])]
+        strobe, length, data = self.read, 5, {}
+        if what == "write":
+            strobe, length, data = self.write, 3, {"d_i": values[1]}
+        length = values[2] if len(values) > 2 else length
+        levels = {"cs_n": 0, strobe: 0, self.register: values[0], **data}
+        return [(at, levels), (at + length, {"cs_n": 1, strobe: 1})]
+
+
+def level(text: str) -> Callable[[Levels], int | None]:
+    """Return the function for "pin", or for "pin while other = value" (None at other values)."""
+    found = LEVEL.fullmatch(text)
+    if found is None:
+        raise ValueError(f"{text}: write `pin` or `pin while other = value`")
+    pin, other, value = found.groups()
+    return lambda levels: levels[pin] if other is None or levels[other] == int(value, 0) else None
+
+
+def lettered(row: Row, samples: Samples, letters: str) -> Row:
+    """Return the row with letters for arrows at its changes. A full stop means no letter."""
+    levels = [None if found is None else row.of(found) for found in samples]
+    changes, last = [], next(found for found in levels if found is not None)
+    for column, found in enumerate(samples):
+        if found is not None and levels[column] != last:
+            changes.append(column)
+            last = levels[column]
+    nodes = {column: letter for column, letter in zip(changes, letters, strict=False) if letter != "."}
+    return replace(row, nodes=nodes)
+
+
+def lane(entry: Mapping[str, Any], samples: Samples, host: bool = False) -> dict[str, Any]:
+    """Return WaveDrom's line of an entry of `rows`; one with a `wave` is complete."""
+    if "wave" in entry:
+        return dict(entry)
+    text = entry["text"].format if "text" in entry else None
+    name = entry.get("name", entry["level"])
+    row = Row(name, level(entry["level"]), text, entry.get("host", host), entry.get("nodes", {}))
+    return wave(lettered(row, samples, entry["letters"]) if "letters" in entry else row, samples)
+
+
+def columns_of(text: str) -> list[int | None]:
+    """Return the columns of a text with edges, ranges of edges (first..last), and | for a gap."""
+    found: list[int | None] = []
+    for word in text.split():
+        first, _, last = word.partition("..")
+        found += [None] if word == "|" else range(int(first), int(last or first) + 1)
+    return found
+
+
+def diagram(
+    begin: dict[str, Any],
+    columns: str,
+    rows: Any,
+    title: str,
+    do: Sequence[Sequence[Any]] = (),
+    time: str = "clk edge",
+    tick: int | None = None,
+    foot: str = "",
+    arrows: Sequence[str] = (),
+    hides: bool = False,
+) -> dict[str, Any]:
+    """Return a timing diagram that is recorded on a golden model; edges are counted from the base of `begin`.
+
+    Args:
+        begin: `kind` that returns the Start, and its arguments.
+        columns: edges to show, for `columns_of`.
+        rows: entries with `level` (see `level`), `name`, `text` (format of a vector's value), `host` (see
+            Row), and `letters` at its changes or `nodes` (column -> letter); or name of a group -> entries.
+        do: actions: edge, then write with register, byte and cycles of the strobe; read with register and
+            cycles; or pins with levels.
+        time: first line: "clk edge" or "us" for numbers, "clk" for the clock.
+        tick: number of the first edge, if edges are numbered above the columns.
+        foot: text below a diagram with time = clk.
+        hides: True if lines may change in a gap.
+
+    Raises:
+        ValueError: a line changes in a gap.
+    """
+    start: Start = made(begin)
+    shown = columns_of(columns)
+    schedule = [change for action in do for change in start.action(*action)]
+    groups = rows if isinstance(rows, dict) else {"": rows}
+    # In place of a gap, the edge before the column after it, to find changes that the gap would hide.
+    at = [start.base + (shown[n + 1] - 1 if edge is None else edge) for n, edge in enumerate(shown)]
+    found = record(start.model, start.inputs, schedule, at, start.flags)
+    gaps = [] if hides else [n for n, edge in enumerate(shown) if edge is None]
+    for entry in (entry for part in groups.values() for entry in part if "wave" not in entry):
+        of = level(entry["level"])
+        if hidden := [shown[n + 1] for n in gaps if of(found[n - 1]) != of(found[n])]:
+            raise ValueError(f"{entry['level']} changes in the gap before edge {hidden[0]}")
+    samples = [None if edge is None else sample for edge, sample in zip(shown, found, strict=True)]
+    if time == "clk":
+        lines: list[Any] = [{"name": "clk", "wave": "p" + "." * (len(samples) - 1)}]
+    elif time == "us":
+        mhz = start.clk_hz / 1_000_000
+        lines = [labels(time, [e if e is None else "" if e < 0 else f"{e / mhz:.1f}" for e in shown])]
+    else:
+        words, foot = numbered(shown)
+        lines = [labels(time, words)]
+    for name, part in groups.items():
+        drawn = [lane(entry, samples, name == "host") for entry in part]
+        lines += [[name, *drawn]] if name else drawn
+    drawing = {"signal": lines, "head": {"text": title}, "edge": list(arrows)}
+    if tick is not None:
+        drawing["head"]["tick"] = tick
+    if time != "clk":
+        drawing["config"] = {"hscale": 2}
+    return {**drawing, "foot": {"text": foot}} if foot else drawing

@@ -1,17 +1,51 @@
-"""Tables of rates that parts with a rate register share."""
+"""Kinds of tables that parts share, and their formats."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from typing import Any
+
+Entry = Mapping[str, Any]
 
 
-def interval_us(rate: int, base_us: int, extra: bool) -> Fraction:
-    """Return the interval in µs at a rate of 0…255 of an internal base clock (P104-INT-01, P104-INT-02)."""
-    return (rate + 1) * base_us + (Fraction(15, 2) if extra else Fraction(0))
+def table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """Return a table in Markdown."""
+    head, *lines = [f"| {' | '.join(map(str, line))} |" for line in (heads, *rows)]
+    return "\n".join([head.replace("|  |", "| |"), "|---" * len(heads) + "|", *lines])
 
 
-def pps(interval: Fraction) -> str:
-    """Return the pulses per second at an interval in µs, as text."""
-    speed = Fraction(1_000_000) / interval
-    digits = 0 if speed >= 10_000 else 1
-    return f"{float(speed):,.{digits}f}".replace(",", " ").removesuffix(".0")
+def spaced(value: float, digits: int = 0) -> str:
+    """Return a number with spaces between thousands and without zeros at the end of its decimals."""
+    text = f"{value:,.{digits}f}".replace(",", " ")
+    return text.rstrip("0").rstrip(".") if digits else text
+
+
+def _cell(rate: int, us: Fraction, column: Entry) -> list[str]:
+    """Return the cells of a rate: its speed with marks for short intervals, and the moves it is legal for."""
+    speed = 1_000_000 / us
+    text = spaced(float(speed), column.get("digits", 0 if speed >= 10_000 else 1))
+    text = next((mark.format(text) for limit, mark in column.get("marks", {}).items() if us < limit), text)
+    if "limits" not in column:
+        return [text]
+    names = [name for name, smallest in column["limits"].items() if rate >= smallest]
+    return [text, "all" if len(names) == len(column["limits"]) else " ".join(names) or "none"]
+
+
+def speeds(heads: Sequence[str], rates: Sequence[int], columns: Sequence[Entry], offset: int = 1) -> str:
+    """Return a table of rates or divisors with the pulses per second at several clocks.
+
+    An interval is rate + `offset` periods of `us` µs, and `extra` µs.
+
+    Args:
+        columns: each with `us`, `extra`, `marks` (an interval in µs -> format of the speed at a shorter one),
+            `limits` (name of a kind of move -> smallest rate), `digits`.
+    """
+    rows = []
+    for rate in rates:
+        cells = []
+        for column in columns:
+            us = (rate + offset) * Fraction(column["us"]) + Fraction(column.get("extra", 0))
+            cells += _cell(rate, us, column)
+        rows.append([rate, f"{rate:02X}", *cells])
+    return table(heads, rows)

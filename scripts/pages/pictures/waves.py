@@ -12,9 +12,9 @@ from typing import Any
 import wavedrom
 from wavedrom.waveskin import WaveSkin
 
-from scripts.pages.pictures.breaks import SVG, step_aside
-from scripts.pages.pictures.fit import EDGE, MOST, fitted, names, step_of, text_width
-from scripts.pages.pictures.fit import width as lines
+from scripts.pages.pictures.diagram_breaks import SVG, step_aside
+from scripts.pages.pictures.diagram_width import EDGE, MOST, fitted, names, step_of, text_width
+from scripts.pages.pictures.diagram_width import width as lines
 
 XLINK = "http://www.w3.org/1999/xlink"
 FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"

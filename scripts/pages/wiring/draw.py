@@ -8,7 +8,7 @@ import schemdraw
 import schemdraw.elements as elm
 
 from scripts.fpga.boards.pads import Fitted, Pad
-from scripts.pages.wiring.circuits import Use, uses
+from scripts.pages.wiring.circuits import Use, text, uses
 
 ROW = 0.62
 GAP = 1.0
@@ -86,7 +86,7 @@ def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) ->
             _channel(sheet, use, pad, row, at)
         _pull(sheet, use, pad, at)
         if pad.port != "d_oe":
-            _text(sheet, FAR + 0.25, at, use.circuit.far(pad), SMALL)
+            _text(sheet, FAR + 0.25, at, text(use.circuit.far, pad), SMALL)
     return y - height - (0.95 if number >= 0 else 0.75)
 
 
@@ -100,7 +100,7 @@ def _last(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, height: float, 
         _pin(sheet, pad, at)
         _wire(sheet, WIRE, at, CHIP, at, LOW)
         _pull(sheet, use, pad, at)
-        _text(sheet, CHIP + 0.2, at, use.circuit.far(pad), SMALL)
+        _text(sheet, CHIP + 0.2, at, text(use.circuit.far, pad), SMALL)
     behind, level = BEHIND[use.circuit.chip]
     middle = y - height / 2
     if behind:
@@ -135,7 +135,7 @@ def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
 
 def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
     """Write the resistor at the FPGA's side as text on its wire, because there are many resistors."""
-    to = use.circuit.pull(pad)
+    to = text(use.circuit.pull, pad)
     if to:
         x = (WIRE + CHIP) / 2
         sheet.add(elm.Dot(radius=0.05).theta(0).at((x - 0.95, at)).color(LOW))
@@ -151,7 +151,7 @@ def _opto(sheet: Any, use: Use, y: float) -> float:
     for row, pad in enumerate(use.pads):
         at = y - 0.45 - row * ROW
         _pin(sheet, pad, at)
-        _text(sheet, FAR + 0.25, at, use.circuit.far(pad), SMALL)
+        _text(sheet, FAR + 0.25, at, text(use.circuit.far, pad), SMALL)
     top = y - 1.0
     opto = sheet.add(elm.Optocoupler().theta(0).reverse().at((OUT - 0.6, top)).anchor("anode"))
     anode, cathode = opto.absanchors["anode"], opto.absanchors["cathode"]

@@ -9,14 +9,13 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import ProjectError
+from scripts.pages import figures
 from scripts.pages.pictures import waves
-from scripts.pages.pictures.fit import MOST, fitted, lanes, text_width, wrapped
-from scripts.pages.pictures.recorded import Row, labels, numbered, record, thinned, wave, write_cycle
-from scripts.pages.ppmc312 import tables
-from scripts.pages.ppmc312 import waves as waves_312
-from scripts.pages.ppmc312.bench import marked
-from scripts.pages.stmc import waves as waves_stmc
-from scripts.pages.stmc.bench import Bench
+from scripts.pages.pictures.diagram_width import MOST, fitted, lanes, text_width, wrapped
+from scripts.pages.pictures.kinds import made
+from scripts.pages.pictures.recorded import Row, columns_of, labels, lettered, numbered, record, thinned, wave
+from scripts.pages.stmc import ready
 
 SINGLE_STEP = 0x42
 
@@ -134,11 +133,9 @@ def test_no_break_mark_strikes_through_a_text(path):
 
 def test_record_follows_the_model():
     """After a write that is sampled for 3 cycles, IBF and pins change on the edges of the manual."""
-    bench = Bench()
-    bench.init(0x0A, 20, 5, 8)
-    end = bench.t + 3
-    cycle = write_cycle(bench.t, 1, SINGLE_STEP)
-    seen = record(bench.chip, bench.chip.inputs, cycle, range(end - 1, end + 7))
+    start = ready()
+    cycle = start.action(0, "write", 1, SINGLE_STEP)
+    seen = record(start.model, start.inputs, cycle, range(start.base + 2, start.base + 10))
     assert [levels["wr_n"] for levels in seen] == [0, 1, 1, 1, 1, 1, 1, 1]
     assert [levels["ibf"] for levels in seen] == [0, 0, 0, 1, 1, 0, 0, 0]
     assert [levels["busy"] for levels in seen] == [0, 0, 0, 0, 0, 1, 1, 1]
@@ -147,21 +144,49 @@ def test_record_follows_the_model():
 
 def test_diagrams_are_drawn_with_wide_labels():
     """The background of a labelled arrow is as wide as its text."""
-    svg = waves.draw(waves_stmc.DIAGRAMS["end"](), "stmc_end").decode()
+    svg = figures.drawn(figures.entries("stmc")["pictures"]["end"], "end").decode()
     (width,) = re.findall(r'<rect[^>]*fill:#FFF;[^>]*width="([\d.]+)"[^>]*/><text[^>]*><tspan>34 ms', svg)
     assert float(width) > 5 * 6
+
+
+def test_columns_are_edges_ranges_and_gaps():
+    """A text of columns has edges, ranges that include their ends, and gaps."""
+    assert columns_of("-1..1 4 | 100") == [-1, 0, 1, 4, None, 100]
+
+
+def test_no_gap_hides_a_change():
+    """A diagram is refused if one of its lines changes in a gap."""
+    entry = figures.entries("stmc")["pictures"]["start"]
+    assert made(entry)["head"]["text"] == entry["title"]
+    with pytest.raises(ValueError, match="s changes in the gap before edge 84"):
+        made({**entry, "columns": "-3..2 | 84 85"})
+
+
+def test_a_mistake_in_an_entry_is_one_line(tmp_path, monkeypatch):
+    """A wrong kind, a wrong argument and bad YAML are reported with file and entry."""
+    monkeypatch.setattr(figures, "DOCS", tmp_path)
+    for text, message in (
+        ("pictures: {a: {kind: pictures.blocks.draws}}", "figures.yml: a: .*draws"),
+        ("pictures: {a: {kind: pictures.blocks.drawing, colour: 1}}", "figures.yml: a: .*colour"),
+        ("pictures: {a: {}}", "figures.yml: a: 'kind'"),
+        ("pictures: [", "figures.yml: file: while parsing"),
+    ):
+        (tmp_path / "figures.yml").write_text(text)
+        with pytest.raises(ProjectError, match=message) as caught:
+            figures.pages(".")
+        assert "\n" not in str(caught.value)
 
 
 def test_letters_mark_where_a_line_changes():
     """Letters are assigned to the changes of a line in turn; a dot skips a change."""
     samples = [{"a": 0}, {"a": 1}, {"a": 1}, None, {"a": 0}, {"a": 1}]
-    assert marked(Row("a", "a"), samples, "A.B").nodes == {1: "A", 5: "B"}
-    assert marked(Row("a", "a"), samples, "").nodes == {}
+    assert lettered(Row("a", "a"), samples, "A.B").nodes == {1: "A", 5: "B"}
+    assert lettered(Row("a", "a"), samples, "").nodes == {}
 
 
 def test_a_block_of_the_312_is_drawn_byte_by_byte():
     """The accesses of the version read are those of the manual, and the flags change with them."""
-    access, mwef, mref, irq = waves_312.DIAGRAMS["block"]()["signal"]
+    access, mwef, mref, irq = made(figures.entries("ppmc312")["pictures"]["block"])["signal"]
     there = [word.strip() for word in access["data"]]
     assert there[:5] == ["WCR 20", "WAR 1D", "DWR 40", "DWR 01", "DWR 03"]
     assert there[5:] == ["RAR 3C", "DRR 12", "DRR 40", "DRR 02", "DRR 03"]
@@ -171,7 +196,7 @@ def test_a_block_of_the_312_is_drawn_byte_by_byte():
 
 def test_worked_moves_of_the_312():
     """Shapes, pulses and times of the table of moves are those of the rules' worked examples."""
-    rows = tables.moves_table().splitlines()
+    rows = made(figures.entries("ppmc312")["tables"]["moves-table"]).splitlines()
     assert "| TF, 82, N = 30 | 00 | 12, 6, 12 | 400×3 200×4 100×16 200×4 400×3 | 5600 |" in rows
     assert "| TF, 82, N = 24 | 00 | 12, 0, 12 | 400×3 200×4 100×10 200×4 400×3 | 5000 |" in rows
     assert "| TG, N = 3 | 40 | 3, 0, 0 | 400×3 | 1200 |" in rows

@@ -1,4 +1,4 @@
-"""Pictures of docs/architecture.md: the folders of the tree, the path of a command. PLOTS: all of docs/."""
+"""Picture of docs/architecture.md: the folders of the tree."""
 
 from __future__ import annotations
 
@@ -6,13 +6,12 @@ import textwrap
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from cocotb_tests.harness.project import ROOT
 from openppmc import parts
-from scripts.pages.pictures.around import board
-from scripts.pages.pictures.blocks import EDGE, FAINT, TEXT, Arrow, Box, draw
-from scripts.pages.pictures.plots import svg
+from scripts.pages.pictures.blocks import EDGE, FAINT, TEXT
 
 LAYERS = (
     ("rtl", "SystemVerilog"),
@@ -54,7 +53,7 @@ def _lines(names: Sequence[str], width: int) -> str:
     return textwrap.fill(", ".join(names), width)
 
 
-def house() -> bytes:
+def folders() -> Figure:
     """Draw layers downwards and parts to the right; cells have folders, for the package also modules."""
     columns = [row.name for row in parts.folders()]
     widths = [1.95, 2.7, *(1.15 if name in ("ppmc104", "ppmc2104", "stmc") else 1.75 for name in columns)]
@@ -98,55 +97,4 @@ def house() -> bytes:
     axes.set_xlim(0, sum(widths))
     axes.set_ylim(total, 0)
     axes.axis("off")
-    return svg(figure)
-
-
-def command() -> bytes:
-    """Draw the path from host pins to motor pins in a part with one axis (`ppmc_single`)."""
-    boxes = {
-        "bus": Box(0.55, 0, "bus pins", "pin", 0.9, 0.4),
-        "port": Box(2.0, 0, "ppmc_host_port\nstrobes, mailbox", "host", 1.5),
-        "command": Box(4.1, 0, "ppmc_command\nchecks, collects", "host", 1.5),
-        "proc_time": Box(6.2, 0, "ppmc_proc_time\nprocessing times", "host", 1.6),
-        "setup": Box(8.3, 0, "ppmc_setup\ninitialised values", "motion", 1.5),
-        "meaning": Box(4.1, 1.05, "the part\nmeaning of a byte", "part", 1.5),
-        "table": Box(8.3, 1.05, "ppmc_ramp_table\nbuilder + RAM", "motion", 1.5),
-        "clocks": Box(0.55, 2.1, "clk", "pin", 0.5, 0.4),
-        "ticks": Box(2.0, 2.1, "ppmc_tick_gen\ncycles of the old crystal", "motion", 1.7),
-        "switches": Box(0.55, 3.1, "switches,\nclock", "pin", 0.9, 0.4),
-        "sync": Box(2.0, 3.1, "ppmc_sync\ntwo flip-flops", "plain", 1.7),
-        "axis": Box(
-            6.2,
-            2.6,
-            "ppmc_axis\nbase clock, rate counter,\nramp sequencer, pulse,\nstop monitor",
-            "motion",
-            1.8,
-            1.1,
-        ),
-        "motor": Box(8.7, 2.35, "ppmc_motor_port\nphases, chopper, hold", "motion", 1.75),
-        "finish": Box(8.7, 3.15, "ppmc_finish_status\ninterrupt, responses", "host", 1.75),
-        "pins": Box(10.45, 2.35, "s, pout_n,\ndir, hold", "pin", 0.9, 0.5),
-        "int": Box(10.45, 3.15, "int_n;\nto the mailbox", "pin", 0.95, 0.5),
-    }
-    arrows = (
-        Arrow("bus", "port", both=True),
-        Arrow("port", "command", "byte"),
-        Arrow("meaning", "command", both=True),
-        Arrow("command", "proc_time", "action"),
-        Arrow("proc_time", "setup", "init"),
-        Arrow("setup", "table", "rates"),
-        Arrow("proc_time", "axis", "start, stops"),
-        Arrow("table", "axis", "threshold of a rate", via=((8.3, 1.7), (6.8, 1.7))),
-        Arrow("clocks", "ticks"),
-        Arrow("ticks", "axis", via=((4.6, 2.1), (4.6, 2.4))),
-        Arrow("switches", "sync"),
-        Arrow("sync", "axis", via=((4.6, 3.1), (4.6, 2.8))),
-        Arrow("axis", "motor", "pulse"),
-        Arrow("axis", "finish", "end, cause"),
-        Arrow("motor", "pins"),
-        Arrow("finish", "int"),
-    )
-    return svg(draw(boxes, arrows, (10.4, 3.6)))
-
-
-PLOTS = {"house": house, "command": command, "board": board}
+    return figure

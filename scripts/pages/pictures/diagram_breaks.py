@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from scripts.pages.pictures.fit import boxes, lanes, text_width
+from scripts.pages.pictures.diagram_width import boxes, lanes, text_width
 
 SVG = "http://www.w3.org/2000/svg"
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")

@@ -1,1 +1,0 @@
-"""Pictures and tables of the manual of the PMC006B4."""
