@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from openppmc.check.records import level_at
-from openppmc.model.bank.chopper import Visits
+from openppmc.model.bank.chopper import VisitSchedule
 from openppmc.model.bank.window import CONFIG, DATA, GO, INFO, MAP, MASK, POSITION, STATUS, STOP
 from scripts.demo.bank.session import READ_FINISH, Access, Session
 from scripts.measure.sizes import designs, figures, size_page
@@ -190,7 +190,7 @@ AXES, CLK_HZ = 8, 20_000_000
 INIT = (0x0A, 99, 99, 4, 0)
 ONE, OTHER = 2, 5
 PINS = ("hold", "dir", "pout_n")
-VISITS = {axis: Visits(axis, AXES, 0) for axis in (ONE, OTHER)}
+VISITS = {axis: VisitSchedule(axis, AXES, 0) for axis in (ONE, OTHER)}
 
 
 def ready() -> Session:

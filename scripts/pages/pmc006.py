@@ -17,11 +17,11 @@ from openppmc.model.pmc006.bench.currents import (
     Case,
     Waves,
     cruising,
-    figures,
     holding,
-    left_at_zero,
+    residual_current,
     ripple,
     spectrum,
+    wave_metrics,
 )
 from scripts.pages.pictures.moves import Train, speeds
 from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED
@@ -237,7 +237,7 @@ def _left(both: tuple[Waves, Waves]) -> str:
     """Return the remaining current at a reference of 0, approached from above and from below."""
     if not any(0 in found.reference for found in both):
         return ""
-    above, below = zip(*(left_at_zero(found) for found in both), strict=True)
+    above, below = zip(*(residual_current(found) for found in both), strict=True)
     return f"{max(above):.2f}, {abs(min(below)):.2f}"
 
 
@@ -247,7 +247,7 @@ def currents_table() -> str:
     rows = []
     for case in (*SLOW, *RUNS):
         both = _cruise(case)
-        found = [figures(waves, case.periods) for waves in both]
+        found = [wave_metrics(waves, case.periods) for waves in both]
         motion = [case.mstep or 1, f"{found[0].amplitude:.2f}", case.full, f"{case.emf:.0f}"]
         worst = [_percent(max(one[place] for one in found)) for place in (1, 2, 3)]
         rows.append([*motion, *worst, _left(both)])
