@@ -40,8 +40,6 @@ from typing import TYPE_CHECKING
 
 from openppmc.lazy import lazy
 
-from .deprecated import with_old_names
-
 if TYPE_CHECKING:
     from .axis_driver import AxisDriver
     from .block_driver import Block, BlockDriver, rng, same
@@ -59,7 +57,7 @@ if TYPE_CHECKING:
     from .run_context import directed, random_test, start_bench
     from .runner import SimOptions, run_item
 else:
-    _load, __dir__ = lazy(
+    __getattr__, __dir__ = lazy(
         __name__,
         """
         .axis_driver AxisDriver
@@ -78,17 +76,13 @@ else:
         .run_context directed random_test start_bench
         .runner SimOptions run_item
         """,
-    )
-    __getattr__ = with_old_names(
-        __name__,
-        {
+        old={
             "Bench": "RtlBench",
             "Drive": "AxisDriver",
             "Side": "DutBench",
             "Unit": "BlockDriver",
             "inside": "probe",
         },
-        _load,
     )
 
 __all__ = [

@@ -1,5 +1,7 @@
-"""Old name of `env.py`; it is removed after the next release."""
+"""Old name of `env.py`; it will be removed in the next minor version."""
 
-from cocotb_tests.harness.deprecated import with_old_names
+from openppmc.lazy import renamed
 
-__getattr__ = with_old_names(__name__, {"Lab": "cocotb_tests.stmc.env:Env"})
+from .env import Env as Env
+
+__getattr__ = renamed(__name__, {"Lab": "Env"})

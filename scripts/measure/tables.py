@@ -26,7 +26,7 @@ MEMORIES = {
     "pmc006_reply_ram": "words",
     "pmc006_data_check": "rom",
     "pmc006_calc_rom": "rom",
-    "ppmc_bank_interval_rom": "words",
+    "ppmc_bank_interval_rom": "rom",
 }
 """Module -> its table."""
 CLEARED = {"ppmc_ram", "ppmc_bank_window", "ppmc_bank_engine"}

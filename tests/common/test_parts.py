@@ -204,7 +204,7 @@ def test_a_part_of_three_files_and_a_row(tmp_path):
         return done.stdout
 
     table = (*"-m pytest -q -p no:cacheprovider tests/common/test_parts.py -k".split(), "not three_files")
-    lint = ("-c", "from scripts.measure import lint; print([lint.listed(), lint.walled()])")
+    lint = ("-c", "from scripts.measure import lint; print([lint.file_list(), lint.group_dependencies()])")
     assert re.search(r"FAILED .*test_every_folder_has_a_row\[rtl\]", run(*table))
     assert "rtl/files.yml does not list rtl/tiny/tiny.sv" in run(*lint)
 

@@ -20,7 +20,7 @@ OLD = {
 @pytest.mark.parametrize("old", OLD)
 def test_old_names_of_the_harness(old: str) -> None:
     """An old name is the object that has the new name; the warning states the new name."""
-    with pytest.warns(DeprecationWarning, match=rf"^cocotb_tests\.harness\.{old} is now .*\.{OLD[old]};"):
+    with pytest.warns(DeprecationWarning, match=rf"^cocotb_tests\.harness\.{old} is now {OLD[old]};"):
         assert getattr(harness, old) is getattr(harness, OLD[old])
     assert old not in harness.__all__
 
@@ -29,7 +29,7 @@ def test_old_names_of_the_harness(old: str) -> None:
 def test_old_name_of_an_environment(part: str) -> None:
     """`Lab` of the old module `lab` is `Env`; other names of the module do not exist."""
     module = import_module(f"cocotb_tests.{part}.lab")
-    with pytest.warns(DeprecationWarning, match=rf"Lab is now cocotb_tests\.{part}\.env\.Env;"):
+    with pytest.warns(DeprecationWarning, match="Lab is now Env;"):
         assert module.Lab is import_module(f"cocotb_tests.{part}.env").Env
     with pytest.raises(AttributeError, match="no attribute 'Laboratory'"):
         module.Laboratory  # noqa: B018
