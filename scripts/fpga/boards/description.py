@@ -29,21 +29,21 @@ LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cy
 # Section -> (required keys, optional keys).
 KEYS = {
     "board": (
-        "title place chip family clock reset lamps uart pads headers parts",
+        "title place chip family clock reset leds uart pads headers parts",
         "revisions code devices vendor suffix loader port ties defaults statements",
     ),
     "device": ("title device route", "chip"),
     "vendor": ("tool target device", "family"),
     "clock": ("port pin mhz what", "module set"),
     "reset": ("port pin active what", "pull"),
-    "lamps": ("active pins", ""),
-    "lamp": ("port pin shows what", ""),
+    "leds": ("active pins", ""),
+    "led": ("port pin shows what", ""),
     "uart": ("title rxd txd", ""),
     "line": ("pin what", ""),
     "tie": ("pin level what reason", ""),
     "pads": ("standard", "drive exceptions"),
     "statements": ("reason lines", ""),
-    "part": ("mhz hosts pins", "of goal recipe pll set omit low note lamps"),
+    "part": ("mhz hosts pins", "of goal recipe pll set omit low note leds"),
 }
 
 
@@ -89,7 +89,7 @@ class Carried:
     omit: Mapping[str, str] | None = None
     low: Mapping[str, str] | None = None
     note: str = ""
-    lamps: bool = True
+    leds: bool = True
 
     @property
     def row(self) -> table.Row:
@@ -116,7 +116,7 @@ class Description:
     port: str
     clock: Mapping[str, Any]
     reset: Mapping[str, Any]
-    lamps: Mapping[str, Any]
+    leds: Mapping[str, Any]
     uart: Mapping[str, Any]
     ties: Mapping[str, Mapping[str, Any]]
     pads: Mapping[str, Any]
@@ -208,11 +208,11 @@ def load(path: Path) -> Description:
         raise ProjectError(f"{where}: expected either devices (built here) or vendor (by the vendor's tool)")
     if keys["family"] not in LANGUAGES:
         raise ProjectError(f"{where}: family {keys['family']}: expected {', '.join(LANGUAGES)}")
-    for section in ("clock", "reset", "lamps", "uart", "pads"):
+    for section in ("clock", "reset", "leds", "uart", "pads"):
         checked(f"{where}: {section}", section, keys[section])
-    for lamp in keys["lamps"]["pins"]:
-        if checked(f"{where}: lamps", "lamp", lamp)["shows"] not in SHOWS:
-            raise ProjectError(f"{where}: lamps: shows {lamp['shows']}: expected {', '.join(SHOWS)}")
+    for led in keys["leds"]["pins"]:
+        if checked(f"{where}: leds", "led", led)["shows"] not in SHOWS:
+            raise ProjectError(f"{where}: leds: shows {led['shows']}: expected {', '.join(SHOWS)}")
     for line in ("rxd", "txd"):
         checked(f"{where}: uart: {line}", "line", keys["uart"][line])
     for tie, found in keys.setdefault("ties", {}).items():

@@ -75,8 +75,8 @@ def own_pads(board: Description, on: Carried) -> list[Group]:
         (clock["port"], clock["pin"], clock["what"], "in", "none"),
         (reset["port"], reset["pin"], reset["what"], "in", reset.get("pull", "up")),
     ]
-    if on.lamps:
-        rows += [(lamp["port"], lamp["pin"], lamp["what"], "out", "none") for lamp in board.lamps["pins"]]
+    if on.leds:
+        rows += [(led["port"], led["pin"], led["what"], "out", "none") for led in board.leds["pins"]]
     rows += [(name, tie["pin"], tie["what"], "out", "none") for name, tie in board.ties.items()]
     groups = [Group("Board", tuple(_pad(board, *row) for row in rows))]
     if "uart" in on.hosts:

@@ -81,9 +81,9 @@ class Top:
     def board_outputs(self) -> list[str]:
         """Return the ports of LEDs and constant outputs."""
         lines = []
-        if self.on.lamps:
-            lines.append(f"    // LEDs, {self.board.lamps['active']} = on")
-            for name in dict.fromkeys(lamp["port"].split("[")[0] for lamp in self.board.lamps["pins"]):
+        if self.on.leds:
+            lines.append(f"    // LEDs, {self.board.leds['active']} = on")
+            for name in dict.fromkeys(led["port"].split("[")[0] for led in self.board.leds["pins"]):
                 lines.append(declaration("out", self.fitted.bits(name), ""))
         if self.board.ties:
             lines.append("    // constant")
@@ -184,11 +184,11 @@ class Top:
 
     def leds(self) -> list[str]:
         """Return the assignments of the LEDs."""
-        shown = {lamp["port"]: SHOWS.index(lamp["shows"]) for lamp in self.board.lamps["pins"]}
-        if not self.on.lamps:
+        shown = {led["port"]: SHOWS.index(led["shows"]) for led in self.board.leds["pins"]}
+        if not self.on.leds:
             self.unused.append("leds")
             return []
-        turned = "" if self.board.lamps["active"] else "~"
+        turned = "" if self.board.leds["active"] else "~"
         lines = []
         for name in dict.fromkeys(port.split("[")[0] for port in shown):
             order = [shown[bit] for bit in self.fitted.bits(name)]

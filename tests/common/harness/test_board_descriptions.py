@@ -26,10 +26,10 @@ loader: bread
 port: the only one
 clock: {port: clk_50m, pin: A1, mhz: 50, what: oscillator}
 reset: {port: btn, pin: A2, active: 1, pull: down, what: button}
-lamps:
+leds:
   active: 0
   pins:
-    - {port: lamp_n, pin: A3, shows: moving, what: red lamp}
+    - {port: led_n, pin: A3, shows: moving, what: red LED}
 uart: {title: UART, rxd: {pin: A4, what: from the PC}, txd: {pin: A5, what: to the PC}}
 ties: {usb_dp: {pin: A6, level: 0, what: USB, reason: No device is there.}}
 pads: {standard: LVCMOS33, drive: 4}
@@ -83,7 +83,7 @@ def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
     assert clocks(pin_text, ".lpf") == {"clk_50m": 50}
     assert {name: port.direction for name, port in declared.items()} == {
         **dict.fromkeys(("clk_50m", "btn", "uart_rxd", "l1_n", "auxi"), "input"),
-        **dict.fromkeys(("uart_txd", "s", "pout_n", "dir", "lamp_n", "usb_dp"), "output"),
+        **dict.fromkeys(("uart_txd", "s", "pout_n", "dir", "led_n", "usb_dp"), "output"),
     }
 
 
@@ -101,7 +101,7 @@ def test_what_has_no_pin(tmp_path: Path) -> None:
     ):
         assert words in joined
     assert "assign s = part_s[2:1];" in re.sub(r" +", " ", text)
-    assert "assign lamp_n = ~leds[1];" in re.sub(r" +", " ", text)
+    assert "assign led_n = ~leds[1];" in re.sub(r" +", " ", text)
     assert "// No device is there.\n  assign usb_dp = 1'b0;" in text
     assert ".lock_i(1'b1)" in joined and ".req_ni(!btn)" in joined
 
