@@ -11,7 +11,7 @@ from ...host import PpmcError, Progress, speeds
 from . import output, show
 from .board import BOARD
 from .boards import AxisNumber
-from .options import MOST_AXES, Json, Side, check_seconds, with_setup
+from .options import MOST_AXES, Direction, Json, check_seconds, with_setup
 from .presenter import Override, parse_override, plot_move, presenter_of
 from .session import opened, ready, setup_values, stop_all
 
@@ -116,7 +116,7 @@ def move(
 @with_setup
 def jog(
     typed: dict[str, Any],
-    direction: Annotated[Side, typer.Argument(help="direction of rotation")],
+    direction: Annotated[Direction, typer.Argument(help="direction of rotation")],
     axis: AxisNumber = 1,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
     ramped: Annotated[bool, typer.Option("--ramped", help="accelerate to the high speed")] = False,
@@ -148,7 +148,7 @@ def jog(
 def home(
     typed: dict[str, Any],
     axis: AxisNumber = 1,
-    direction: Annotated[Side, typer.Option(help="towards the origin switch")] = Side.CCW,
+    direction: Annotated[Direction, typer.Option(help="towards the origin switch")] = Direction.CCW,
     search: Annotated[float | None, typer.Option(metavar="PPS", help="search speed (start speed)")] = None,
     fast: Annotated[
         bool, typer.Option("--fast", help="first run to the slow-down limit at high speed")

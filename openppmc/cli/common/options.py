@@ -35,7 +35,7 @@ class Logic(str, Enum):
     NEGATIVE = "negative"
 
 
-class Side(str, Enum):
+class Direction(str, Enum):
     """Directions as users type them."""
 
     CW = "cw"
@@ -44,7 +44,7 @@ class Side(str, Enum):
     @property
     def code(self) -> int:
         """0 for CW, 1 for CCW."""
-        return int(self is Side.CCW)
+        return int(self is Direction.CCW)
 
 
 @dataclass(frozen=True)

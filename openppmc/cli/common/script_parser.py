@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Protocol
 
 from ... import parts
 from ...host.capabilities import AUX, Capabilities
-from .options import MOST_AXES, Logic, SetupValues, Side
+from .options import MOST_AXES, Direction, Logic, SetupValues
 
 
 @dataclass(frozen=True)
@@ -132,11 +132,11 @@ def first(words: list[str], what: str) -> str:
     return words.pop(0)
 
 
-def _side(words: list[str]) -> int:
+def _direction(words: list[str]) -> int:
     text = first(words, "direction (cw or ccw)")
     if text.lower() not in ("cw", "ccw"):
         raise ValueError(f"{text!r} is neither cw nor ccw")
-    return Side(text.lower()).code
+    return Direction(text.lower()).code
 
 
 def _pairs(words: Iterable[str]) -> dict[str, str]:
@@ -226,7 +226,7 @@ def _move_to(words: list[str]) -> Values:
 
 
 def _jog(words: list[str]) -> Values:
-    side = _side(words)
+    side = _direction(words)
     ramped = bool(words) and words[0] == "ramped" and bool(words.pop(0))
     speed = None if ramped else read_speed(words)
     if first(words, "for SECONDS") != "for":
@@ -237,7 +237,7 @@ def _jog(words: list[str]) -> Values:
 
 
 def _home(words: list[str]) -> Values:
-    side = _side(words) if words and words[0].lower() in ("cw", "ccw") else Side.CCW.code
+    side = _direction(words) if words and words[0].lower() in ("cw", "ccw") else Direction.CCW.code
     approach = words.pop(0) if words and words[0] in ("fast", "to-limit") else ""
     values = {"side": side, "approach": approach, "speed": read_speed(words)}
     check_no_more_words(words)
@@ -251,7 +251,7 @@ def _wait(words: list[str]) -> Values:
 
 
 def _step(words: list[str]) -> Values:
-    values = {"side": _side(words)}
+    values = {"side": _direction(words)}
     check_no_more_words(words)
     return values
 

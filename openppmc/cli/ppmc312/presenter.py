@@ -34,7 +34,7 @@ from ...host.ppmc312.profile import CAPABILITIES, Setup
 from ...model.ppmc312.codes import Code, Source
 from ...model.ppmc312.stages import Plan, constant, ramped
 from ..common import show
-from ..common.options import Side
+from ..common.options import Direction
 from ..common.presenter import Override, Presenter, Trajectory, parse_override
 from ..common.script_parser import PartCommand, Values
 
@@ -221,7 +221,7 @@ def read_event(words: list[str]) -> Values:
         _count(operands, 1)
         if operands[0].lower() not in ("cw", "ccw"):
             raise ValueError(f"{operands[0]!r} is neither cw nor ccw")
-        return {"event": event, "what": what, "value": Side(operands[0].lower()).code}
+        return {"event": event, "what": what, "value": Direction(operands[0].lower()).code}
     elif what in ("move", "outputs"):
         _count(operands, 1)
         return {"event": event, "what": what, "value": _whole(operands[0])}

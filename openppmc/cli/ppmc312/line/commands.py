@@ -10,7 +10,7 @@ from ....host import PpmcError, Station312
 from ...common import output, show
 from ...common.board import BOARD
 from ...common.line_session import ending_after
-from ...common.options import Json, Side, check_seconds, with_setup
+from ...common.options import Direction, Json, check_seconds, with_setup
 from ...common.session import setup_values, store_setup, stores_setup
 from ..presenter import PRESENTER
 from . import show as show_line
@@ -160,7 +160,7 @@ def _finish(session: Session, motions: list[Any], asked: int | None = None) -> N
 @with_setup
 def jog(
     typed: dict[str, Any],
-    direction: Annotated[Side, typer.Argument(help="direction of rotation")],
+    direction: Annotated[Direction, typer.Argument(help="direction of rotation")],
     axis: Axis,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
     ramped: Annotated[bool, typer.Option("--ramped", help="accelerate to the high speed")] = False,
@@ -185,7 +185,7 @@ def jog(
 def home(
     typed: dict[str, Any],
     axis: Axis,
-    direction: Annotated[Side, typer.Option(help="towards the origin switch")] = Side.CCW,
+    direction: Annotated[Direction, typer.Option(help="towards the origin switch")] = Direction.CCW,
     search: Annotated[float | None, typer.Option(metavar="PPS", help="search speed (start speed)")] = None,
     fast: Annotated[bool, typer.Option("--fast", help="first a zero return at high speed")] = False,
     to_limit: Annotated[bool, typer.Option("--to-limit", help="first run to the hard limit")] = False,
