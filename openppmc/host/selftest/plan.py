@@ -7,7 +7,7 @@ waits on the PC, and reads.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -112,6 +112,13 @@ def timed(identity: Identity) -> dict[str, Any]:
     """Return clock, crystal and TIMING of the golden model, as the board reports them."""
     timing = "DATASHEET" if identity.datasheet else "FAST"
     return {"CLK_HZ": identity.clk_hz, "XTAL_HZ": identity.xtal_hz, "TIMING": timing}
+
+
+def recorded(
+    inputs: Iterable[str], outputs: Iterable[str], widths: Mapping[str, int]
+) -> tuple[tuple[str, int], ...]:
+    """Return pins and widths in a record, lowest bit first: the inputs and outputs of a golden model."""
+    return tuple((pin, widths.get(pin, 1)) for pin in (*inputs, *outputs))
 
 
 class Plan(Protocol):

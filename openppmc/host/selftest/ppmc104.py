@@ -5,21 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ...model.ppmc104 import INPUTS, OUTPUTS, WIDTHS
 from ...model.single.codes import decode
 from ..script import Identity
 from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
-from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, timed
+from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 AUX_ON, AUX_OFF, AUX_OUTPUT = 0xC1, 0xC2, 0x86
 SLOW_CLOCK, LONG_INTERVALS = 0xFE, 0xFD
 """Straps with csel low, and with vsel low."""
-LAYOUT = (
-    *(("rst_n", 1), ("a0", 1), ("cs_n", 1), ("rd_n", 1), ("wr_n", 1), ("d_i", 8)),
-    *(("csel", 1), ("vsel", 1), ("clock", 1), ("l1_n", 1), ("l2_n", 1), ("l3_n", 1), ("l4_n", 1)),
-    *(("cnp_n", 1), ("alm_n", 1), ("auxi", 4)),
-    *(("d_o", 8), ("d_oe", 1), ("int_n", 1), ("auxo", 4), ("aux_n", 1)),
-    *(("s", 5), ("hold", 1), ("pout_n", 1), ("dir", 1)),
-)
+LAYOUT = recorded(INPUTS, OUTPUTS, WIDTHS)
 BUS = ByteBus(decode)
 
 

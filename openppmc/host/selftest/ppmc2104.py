@@ -5,21 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ...model.ppmc2104.codes import CMND, decode
+from ...model.ppmc2104.codes import CMND, INPUTS, OUTPUTS, WIDTHS, decode
 from ..script import Identity, Script
 from .bytes import AXIS_2, CCW, CONSTANT, CONTINUOUS, DATA, ORIGIN, RAMP, ByteBus
-from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire, timed
+from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 BOTH_HIGH, FIRST_LOW, SECOND_LOW = 0xC1, 0xD1, 0xE1
 """Codes of the auxiliary outputs."""
 RUN_LOW, SLOW_CLOCK = 0xF3, 0xFC
-LAYOUT = (
-    *(("rst_n", 1), ("cs_n", 1), ("a0", 1), ("busc", 1), ("ds_wrs_n", 1), ("rw_rds_n", 1), ("d_i", 8)),
-    *(("errint_n", 1), ("run", 2), ("extck", 2), ("csel", 2)),
-    *(("fl_n", 2), ("bl_n", 2), ("fhl_n", 2), ("bhl_n", 2), ("org_n", 2), ("alm_n", 2), ("auxi", 2)),
-    *(("d_o", 8), ("d_oe", 1), ("int_n", 1), ("pout_n", 2), ("dir", 2), ("hold", 2)),
-    *(("s1_n", 5), ("s2_n", 5), ("auxo", 2)),
-)
+LAYOUT = recorded(INPUTS, OUTPUTS, WIDTHS)
 BUILDING = sum(CMND)
 FIRST, SECOND = (
     ByteBus(decode, axis=axis, building=BUILDING, positive=0, chopped=0x10) for axis in (0, AXIS_2)

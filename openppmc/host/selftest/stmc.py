@@ -10,19 +10,16 @@ from dataclasses import replace
 from typing import Any
 
 from ...model.stmc.codes import READ_MAPS, decode
+from ...model.stmc.pins import INPUTS, OUTPUTS, WIDTHS
 from ..script import Identity, Script
 from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus, Rates
-from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, timed
+from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 INSIDE = 0xFE
 """Straps that stop the step clock of the board; its edges would fill the recorder."""
 OUTSIDE = 0xFF
 EXTERNAL = 0x1A
-LAYOUT = (
-    *(("rst_n", 1), ("ext_clk", 1), ("cs_n", 1), ("a0", 1), ("rd_n", 1), ("wr_n", 1), ("d_i", 8)),
-    *(("l1_n", 1), ("l2_n", 1), ("l3_n", 1), ("l4_n", 1), ("cnp_n", 1), ("mon", 1)),
-    *(("d_o", 8), ("d_oe", 1), ("int_n", 1), ("s", 5), ("hold", 1)),
-)
+LAYOUT = recorded(INPUTS, OUTPUTS, WIDTHS)
 # Divisors of the 12 500 Hz step clock.
 BUS = ByteBus(decode, Rates(start=12, high=4, ramp=(10, 0), slow=6))
 
