@@ -21,7 +21,7 @@ REGULAR, SETTING, CONSTANT = 35, 71_000, 38
 
 
 def detection(processing: int, first: int, second: int, period: int = 0) -> int:
-    """Return T_max of the data sheet (2.6), the longest time to detect a limit, in us.
+    """Return T_max of the polling formula in the data sheet: the longest time to detect a limit, in us.
 
     Args:
         processing: Ti in us.

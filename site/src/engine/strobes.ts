@@ -10,7 +10,7 @@ const LONGEST = 8_000;
 
 type Levels = Record<string, number>;
 
-/** Pin levels of each half of an access, and its times in cycles: BusStyle in cocotb_tests/harness/part.py. */
+/** Pin levels of each half of an access, its times in cycles: BusStyle in cocotb_tests/harness/part.py */
 export interface Style {
   address: string;
   writeOn: Levels;

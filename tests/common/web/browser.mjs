@@ -1,5 +1,5 @@
 // node browser.mjs SITE SHOTS PACKAGES TRIPPED [CHECK]: checks the playground in a real Chromium.
-// TRIPPED: a PPMC-104 that l1_n = 0 stops.
+// TRIPPED: module of a PPMC-104 whose simulation stops with an error when l1_n is low (trip.sv).
 // Prints one line of JSON per check: {name, error?, told?}.
 // Exit code 3 and one line if no browser is available.
 import fs from "node:fs";

@@ -188,7 +188,7 @@ def test_ac_75_polled_limit():
 
 @verifies("P2104-DS-23")
 def test_polling_examples_of_the_data_sheet():
-    """The formula of section 2.6 returns the four printed results."""
+    """`detection` returns the four results that the data sheet prints."""
     assert detection(SETTING, 0, 0) == 71_035
     assert detection(0, CONSTANT, 0, 100) == 73
     assert detection(0, CONSTANT, CONSTANT, 100) == 187

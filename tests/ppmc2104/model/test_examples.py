@@ -1,4 +1,4 @@
-"""Worked examples of section 5.7 on the golden model of the PPMC-2104."""
+"""Worked examples (P2104-EX) on the golden model of the PPMC-2104."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def test_examples_in_the_docstrings() -> None:
         assert not failed and attempted >= least, module
 
 
-# (number of the row in the table of transactions, block, WAR, bytes in bus order)
+# (number of the transaction in cocotb_tests/ppmc312/tb_transactions.py, block, WAR, bytes in bus order)
 TRANSACTIONS = [
     (1, blocks312.initial_setting(1, 1000, 200, 2000), 0x15, "D0 07 00 C8 00 E8 03 01 00 09 03"),
     (
@@ -165,7 +165,7 @@ NUMBERS = [
     *(0x10, 0x11, 0x15, 0x16, 0x17, 0x18, 0x19, 0x1A),
     *(0x20, 0x21, 0x23, 0x24, 0x25, 0x26, 0x27),
 ]
-"""Numbers of the parameter abnormality (section 10.2 of the rules)."""
+"""Error numbers of the parameter abnormality F0 (docs/ppmc312/README.md, Blocks)."""
 
 
 @pytest.mark.parametrize(("response", "kind", "text"), REFUSALS, ids=[r[0] for r in REFUSALS])
