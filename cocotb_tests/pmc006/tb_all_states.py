@@ -50,7 +50,7 @@ REPLIES: dict[str, int | None] = {
 }
 """Code -> reply to its data at standstill. H is an undefined code."""
 UNLIKE = {"R": 1, "T": -1, "y": 7, "w": 0, "H": 1}
-"""Data that differs from the reply."""
+"""Code -> data to send; the reply has another value."""
 AT = {"E": OUT, "G": OUT, "W": OUT, "z": LOOP}
 """PP that a code requires."""
 DISTURBS = "BEFINgstz"

@@ -173,7 +173,7 @@ NEW = {
 
 
 BOOTED = {"k": 4, "r": 1, "h": 2, 0x55: 2, "K": 1, "L": 0x145, "S": 0x246, "M": 300, "P": 1250, "n": 0x3E8}
-"""Read-outs after the new settings have replaced SAVED."""
+"""Code -> value that is read after a boot with the settings NEW instead of SAVED."""
 
 
 PLACES = 7

@@ -67,7 +67,7 @@ class ScenarioHost(MisuseHost):
             await host.pins(epin=0)
 
     async def send_block(self, text: str) -> None:
-        """Write a block as soon as it is accepted, and mostly read until its answer arrives."""
+        """Write a block as soon as the device accepts it; in most cases read until its answer arrives."""
         host, rng = self.host, self.rng
         for _ in range(40):
             if not await host.read(CSR) & MWEF:

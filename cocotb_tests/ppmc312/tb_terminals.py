@@ -221,7 +221,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.pause(16_000)
     assert host.condition == 0x08
-    # A level is low for less than 200 us: instruction 27 returns it, no other function detects it.
+    # Instruction 27 returns a low level of less than 200 us; no other function detects it.
     await host.pins(end_n=0, fl_n=0)
     assert await host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "BD E0")
     await host.pins(end_n=1, fl_n=1)
