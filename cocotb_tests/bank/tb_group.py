@@ -255,8 +255,8 @@ async def bank_grp_04_all_at_once(dut):
 
 @directed("BANK-GRP-03", "BANK-GRP-02", builds=(B32, B64, F100))
 async def bank_grp_03_third_go(dut):
-    """A third GO before g + R has no effect; at g + R or later it waits for the second GO, which acts
-    by then (BANK-GRP-03).
+    """A third GO before g + R has no effect; at g + R or later, while the second GO acts, it waits for the
+    end of the second GO (BANK-GRP-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(9)

@@ -10,7 +10,7 @@
 //         (NORMAL), outputs the new word (WRITETHROUGH) or the old one (READBEFOREWRITE).
 `default_nettype none
 
-// The parameters INITVAL_00 .. INITVAL_3F, and a concatenation of sixteen of them.
+// Macros for the parameters INITVAL_00 .. INITVAL_3F, and for a concatenation of sixteen of them.
 `define INITVAL(name) parameter logic [319:0] INITVAL_``name = '0
 `define INITVALS(digit) `INITVAL(digit``0), `INITVAL(digit``1), `INITVAL(digit``2), `INITVAL(digit``3), \
     `INITVAL(digit``4), `INITVAL(digit``5), `INITVAL(digit``6), `INITVAL(digit``7), `INITVAL(digit``8), \

@@ -171,7 +171,7 @@ async def p312_end_wait(dut: Any) -> None:
         await host.ask(stop)
         await host.pause(7000)
         assert host.condition == 0x08 and await host.quiet(200)
-        # These have no effect; overrides are registered.
+        # These instructions have no effect; overrides are registered.
         for block in (
             message(Code.CHANGE, "00 0064"),
             message(Code.RAMP_CHANGE, "00 00C8"),

@@ -276,7 +276,7 @@ async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
         await env.bench.clocks(3)
         env.check("STMC-BAD-16", "outputs", env.outputs(), {"int_n": 1, "s": 0, "hold": 1})
         env.set(rst_n=1)
-        await env.bench.clocks(4)  # bytes are accepted by then (ports, rst_n)
+        await env.bench.clocks(4)  # from here on bytes are accepted
         env.check("STMC-BAD-16", "statuses", await env.statuses("c 42 d 00"), [0xA0, 0xB0])
         env.check("STMC-BAD-16", "FIN", await env.finish(), 0x80)
         await env.init(*STANDARD)

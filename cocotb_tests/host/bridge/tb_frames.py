@@ -66,7 +66,7 @@ async def frames_every_bit(dut):
     UB-FRM-06).
     """
     bench = await Bench.start(dut)
-    # The frame contains no flag and no escape; no inverted bit makes one in the script.
+    # The frame contains no flag and no escape, and no inversion of one bit in the script makes one of them.
     line = encode(b"\x21\x12\x31\x13\x42")
     good = encode(b"\x00\x14\x01")
     for place in range(1, len(line) - 1):

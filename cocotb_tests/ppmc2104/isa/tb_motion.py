@@ -217,7 +217,7 @@ async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
         await host.init(
             rng.choice((0x02, 0x06, 0x13)) | axis_bit, rng.randrange(12, 40), rng.randrange(3, 9), 7
         )
-        if bench.config.datasheet:  # its window is too long for polling in a simulation
+        if bench.config.datasheet:  # the setting's window is too long to poll
             await bench.clocks(bench.config.us(71_000))
     await host.poll(CMND1 | CMND2, 0)
     for _ in range(actions):

@@ -33,7 +33,7 @@ const view = await launch();
 const base = `http://127.0.0.1:${server.address().port}/`;
 fs.mkdirSync(shots, { recursive: true });
 const RUN = ".pg-run";
-const PATIENCE = 120_000; // ms; busy machines are slow
+const PATIENCE = 120_000; // ms; a busy computer is slow
 const SLOWEST = 2; // million cycles per second of CPU time; a third of the speed measured when this was written
 const MOST = 3; // short sessions of each device except the first device; test_engine.py plays more
 const equal = (got, wanted, what) => {

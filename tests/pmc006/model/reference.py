@@ -87,7 +87,7 @@ class Reference:
         self.u = 0
 
     def look(self) -> None:
-        """Evaluate the state after an update, as advance() of the rules."""
+        """Evaluate the state after an update tick: the list in docs/pmc006/README.md, 6."""
         off = self.n is None and self.off(self.t)
         if self.phase in ("STOP", "END") and not off:
             self.phase, self.seen = "CRUISE", self.v

@@ -9,7 +9,7 @@ from cocotb_tests.ppmc2104.datasheet_timing import CONSTANT, SETTING, detection
 from openppmc.model import Latency
 from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
-# This core has no latencies of its own, so that the times are exactly those of the tables.
+# The latencies of this core are 0, so that the times are exactly those of the tables.
 PLAIN = Latency(ds_window=0)
 
 

@@ -46,7 +46,7 @@ from openppmc.model.stmc.carrier import Carrier
 
 XTAL = 16_000_000
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
-"""Gaps of 20 steps with divisors 20 and 5 and a ramp of 8 (example W1 of the rules)."""
+"""Gaps of 20 steps with divisors 20 and 5 and a ramp of 8 (worked move W1 of docs/stmc/README.md, 8.4)."""
 
 
 timing = "FAST"
