@@ -83,7 +83,7 @@ def expected_status(state: State) -> tuple[int, int]:
 
 
 def outcome(code: str, data: int, state: State, accepted: int) -> tuple[int, State]:
-    """Return reply data and next state according to the table in 4.2."""
+    """Return reply data and next state according to the rules P006-STA."""
     idle, blocked = not state.motion, state.free or bool(state.flags)
     if code == "s":
         return (accepted, State("move")) if idle and not blocked else (0, state)

@@ -96,7 +96,7 @@ async def p104_sta_06_errors_replace(dut):
 
 @directed("P104-ERR-01")
 async def p104_err_01_check_order(dut):
-    """Commands with several faults are checked in this order: undefined, stop at rest, BUSY, not
+    """Commands with several faults are checked in this order: undefined, stop at standstill, BUSY, not
     initialised, error 7 (P104-ERR-01).
     """
     env = await Env.start(dut, None)

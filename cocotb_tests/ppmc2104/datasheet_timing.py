@@ -67,7 +67,7 @@ async def last_byte(axis: Axis, code: int, *data: int) -> int:
 
 
 async def rest(env: Env) -> None:
-    """Wait until no window is open and both axes are at rest; then clear errors and interrupts."""
+    """Wait until no window is open and both axes are at standstill; then clear errors and interrupts."""
     await env.host.poll(IBF | 0x3C, 0)
     for axis in env.axes:
         await axis.finish()

@@ -1,4 +1,4 @@
-"""Positions, windows, interlock and input monitor of the PPMC-312 at its pins (chapters 3.4, 7)."""
+"""Positions, windows, interlock and input monitor of the PPMC-312 at its pins (P312-MON, P312-OUT-03)."""
 
 from __future__ import annotations
 

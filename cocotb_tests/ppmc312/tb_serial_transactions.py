@@ -142,7 +142,7 @@ async def p312_serial_read_outs(dut: Any) -> None:
 
 @directed("P312-CMD-FF", "P312-SER-19")
 async def p312_serial_reset_is_not_answered(dut: Any) -> None:
-    """An FF (row 41) is not answered."""
+    """Instruction FF (transaction 41) has no reply."""
     host = await SerialHost.start(dut)
     await host.raw("91 66 66 6F")
     assert await host.quiet(6_000)

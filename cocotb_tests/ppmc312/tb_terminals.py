@@ -1,4 +1,4 @@
-"""Terminals and timers of the PPMC-312 at its pins (chapters 3.4, 7)."""
+"""Terminals and timers of the PPMC-312 at its pins (P312-OUT, P312-INP)."""
 
 from __future__ import annotations
 

@@ -229,7 +229,7 @@ async def stmc_bad_13_short_strobes(dut: Any) -> None:
 
 @directed("STMC-BUS-12", "STMC-BUS-13", "STMC-DS-14", builds=(D16,))
 async def stmc_bus_13_datasheet(dut: Any) -> None:
-    """In DATASHEET, reads and errors at rest are as fast as in FAST (STMC-BUS-13, STMC-DS-14)."""
+    """In DATASHEET, reads and errors at standstill are as fast as in FAST (STMC-BUS-13, STMC-DS-14)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     for byte, after in ((0x81, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x83, OBF), (0x40, 0x80 | OBF)):
         await env.host.write(COMMAND, byte, gap=C_EVENT_LATEST)

@@ -132,8 +132,8 @@ async def stmc_sgl_02_single_steps_and_switches(dut: Any) -> None:
     "STMC-MOT-05", "STMC-MOT-04", "STMC-RUN-03", "STMC-IN-03", "STMC-IN-04", "STMC-DEC-03", "STMC-BAD-14"
 )
 async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
-    """With each switch active at the start, each motion in both directions acts as table 7.3 states
-    (STMC-MOT-05).
+    """With each switch active at the start, each motion in both directions starts or ends as
+    STMC-MOT-05 requires.
     """
     env = await Env.start(dut)
     for pin in (*SWITCHES, "all"):

@@ -1,4 +1,4 @@
-"""Motion engine of the PMC006B4 in steps of one microsecond, a reference for the golden model (P006 14.3).
+"""Motion engine of the PMC006B4 in steps of one microsecond, a reference for the golden model.
 
 It is written according to the rules P006-MOT, with rational arithmetic and one state for each register,
 and it is slow. It shares no code with the golden model.

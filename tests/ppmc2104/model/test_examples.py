@@ -212,7 +212,7 @@ def test_ex_13_pulse_width(rate, interval, low):
 
 
 def external(host: Host, script: str, period: int, axis: int = 1) -> None:
-    """Run extck with 50 % duty cycle until the axis is at rest."""
+    """Run extck with 50 % duty cycle until the axis is at standstill."""
     host.run(script)
     while host.model.busy(axis):
         host.pin("extck", 1, axis)

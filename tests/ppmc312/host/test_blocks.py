@@ -92,7 +92,7 @@ def test_transactions_of_the_rules(row: int, block: bytes, start: int, wanted: s
 
 
 def test_free_curve_of_the_rules() -> None:
-    """The blocks of a free curve equal rows 34 to 36.
+    """The blocks of a free curve equal transactions 34 to 36 of tb_transactions.py.
 
     With a separate deceleration, the number of its stages follows.
     """
