@@ -94,7 +94,7 @@ async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("STMC-BUS-11", builds=(F16, F8X20, F200))
 async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
-    """In the shortest legal accesses, at any phase to clk, no byte is lost (STMC-BUS-11)."""
+    """In the shortest legal accesses, at any phase to clk, no byte is missed (STMC-BUS-11)."""
     env = await Env.start(dut, None)
     bench = env.bench
     clk = bench.period

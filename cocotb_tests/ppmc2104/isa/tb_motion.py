@@ -62,7 +62,7 @@ class Controller:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_interrupt_handler(dut: Any) -> None:
-    """With an edge-triggered handler and four axes that end at various times, no end is lost (ISA-08)."""
+    """With an edge-triggered handler and four axes that end at various times, no end is missed (ISA-08)."""
     setting = await Setting.start(dut)
     bench, controller = setting.bench, Controller(setting)
     for axis in setting.axes:

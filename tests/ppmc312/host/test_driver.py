@@ -151,7 +151,7 @@ def test_an_instruction_is_one_message(part: Ppmc312) -> None:
 
 
 def test_reports_that_come_first_are_not_lost(part: Ppmc312) -> None:
-    """A stop report that the read window holds when the next instruction is sent is not lost."""
+    """A stop report that the read window holds when the next instruction is sent is not discarded."""
     part.start_constant(2, 10_000)
     part.link.pause(0.01)
     assert model(part).part.core.responses.any_waiting
