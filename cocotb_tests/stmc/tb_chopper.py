@@ -18,8 +18,8 @@ def xt(env: Env, name: str, default: int) -> int:
 
 
 def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> None:
-    """Check that every complete phase since an edge is CHOP_ON or CHOP_OFF within 4 crystal periods + 1
-    cycle, without drift.
+    """Check that every complete phase since an edge is CHOP_ON_XT or CHOP_OFF_XT within 4 crystal
+    periods + 1 cycle, without drift.
     """
     slack = env.cfg.cyc(4) + 1
     on_xt, off_xt = xt(env, "CHOP_ON_XT", 1_040), xt(env, "CHOP_OFF_XT", 1_740)

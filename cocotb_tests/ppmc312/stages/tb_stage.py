@@ -1,4 +1,4 @@
-"""Contracts of the stage tables: ppmc312_muldiv, ppmc312_cosine_rom, stage_unit (builder, table, plan)."""
+"""Contracts of ppmc312_muldiv, ppmc312_cosine_rom and ppmc312_stage_unit (builder, table, plan)."""
 
 from __future__ import annotations
 
