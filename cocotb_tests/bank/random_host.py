@@ -45,7 +45,7 @@ def in_motion(seed: int) -> bool:
 class BankHost(RandomHost):
     """Constrained-random host.
 
-    It reacts to what it reads; the golden model reports which axes are at rest.
+    It reacts to what it reads; the golden model reports which axes are at standstill.
     """
 
     def __init__(self, seed: int) -> None:
@@ -188,7 +188,7 @@ class BankHost(RandomHost):
         await self.move(self.axis())
 
     async def keep_moving(self) -> None:
-        """Start operations on axes at rest."""
+        """Start operations on axes at standstill."""
         rng, model = self.rng, self.model
         resting = [n for n in range(self.env.size) if not model.busy(n)]
         for n in rng.sample(resting, min(len(resting), 6)):

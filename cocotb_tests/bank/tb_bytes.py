@@ -75,7 +75,7 @@ async def bank_hsk_03_replaced(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32, F100))
 async def bank_hsk_03_last_one_counts(dut):
-    """When all axes get bytes faster than they accept them, only replaced bytes are lost (BANK-HSK-03)."""
+    """When all axes get bytes faster than they accept them, only replaced bytes are missed (BANK-HSK-03)."""
     env = await Env.start(dut)
     for axis in env.axes:
         for code in (0x83, 0x81, 0x80):

@@ -67,7 +67,7 @@ async def bank_grp_01_mask_of_a_start(dut):
 
 @directed("BANK-GRP-02", "BANK-HSK-02", builds=(B4, B8, B32))
 async def bank_grp_02_refused(dut):
-    """GO sets error 1 for a busy member, 2 for one without an initialisation, and 0 for one at rest or
+    """GO sets error 1 for a busy member, 2 for one without an initialisation, and 0 for one at standstill or
     waiting for parameters (BANK-GRP-02).
     """
     env = await Env.start(dut)
@@ -116,7 +116,7 @@ async def bank_grp_02_which_visit(dut):
         found = axis.visit(visit - early + 5)
         late = found <= visit
         if late:
-            # GO found the axis at rest and set error 0, unless a later byte cleared it.
+            # GO found the axis at standstill and set error 0, unless a later byte cleared it.
             env.check("BANK-GRP-02", "status", await axis.status() & BUSY, BUSY)
             await env.go()
         await axis.idle()
@@ -233,7 +233,7 @@ async def bank_grp_04_starts_around_stop(dut):
 
 @directed("BANK-GRP-04", "BANK-MOT-04", builds=(B8, B32))
 async def bank_grp_04_all_at_once(dut):
-    """STOP ends all running motions on edge g + 1 and does not change axes at rest (BANK-GRP-04)."""
+    """STOP ends all running motions on edge g + 1 and does not change axes at standstill (BANK-GRP-04)."""
     env = await Env.start(dut)
     axes = await env.all_ready()
     moving: list[Axis] = [axis for axis in axes if axis.n % 3]
@@ -255,8 +255,8 @@ async def bank_grp_04_all_at_once(dut):
 
 @directed("BANK-GRP-03", "BANK-GRP-02", builds=(B32, B64, F100))
 async def bank_grp_03_third_go(dut):
-    """A third GO before g + R has no effect; at g + R or later it waits for the second GO, which acts
-    by then (BANK-GRP-03).
+    """A third GO before g + R has no effect; at g + R or later, while the second GO acts, it waits for the
+    end of the second GO (BANK-GRP-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(9)

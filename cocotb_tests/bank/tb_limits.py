@@ -99,7 +99,7 @@ class Waves:
             await self.judge(axis, case, come, finish, total)
 
     async def over(self, edges: list[int]) -> None:
-        """Wait until all axes must be at rest."""
+        """Wait until all axes must be at standstill."""
         await self.env.bench.until(
             max(self.env.bench.now, edges[-1] + self.env.cfg.w + 2 * self.env.round + 10)
         )

@@ -170,7 +170,7 @@ async def bank_mot_03_byte_before_it_is_known(dut):
         axis.at(visit - early - SYNC, l1_n=0)
         await env.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
         await env.bench.clocks(3 * env.round)
-        # The visit that ends the motion accepts no byte; at the next visit the byte is a stop at rest.
+        # The visit that ends the motion accepts no byte; at the next visit the byte is a stop at standstill.
         env.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
         axis.set(l1_n=1)
         env.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
@@ -218,7 +218,7 @@ async def bank_mot_05_only_the_first_request(dut):
         await axis.idle()
         axis.set(l3_n=1)
         env.check("BANK-MOT-05", f"finish status, {n} pulses", await axis.finish(), finish)
-    # Both while pout_n is high and during its low time, which delays an end of the motion.
+    # Both levels fall while pout_n is high, or during its low time, which delays the end of the motion.
     for early, plus in product((7, 6, 5, 4, 3, 2), (100, 0)):
         await axis.go(0x46)
         await axis.pulse(6, plus)
@@ -226,8 +226,8 @@ async def bank_mot_05_only_the_first_request(dut):
         axis.at(visit - early - SYNC, l1_n=0, l3_n=0)
         await axis.idle()
         axis.set(l1_n=1, l3_n=1)
-        # Both are detected on edge V - early. Visit V samples the slow-down limit; it detects the end if
-        # early is at least 5.
+        # Both levels are detected on edge V - early. Visit V samples the slow-down limit; it detects the end
+        # if early is at least 5.
         await axis.result(f"BANK-MOT-03, V - {early}, {plus}", 6, 0x9E if early == 4 else 0x96)
 
 

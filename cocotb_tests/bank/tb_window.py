@@ -263,7 +263,7 @@ async def bank_win_08_interrupts(dut):
     numbers = {0, 1, env.size // 2, env.size - 1}
     axes = await env.all_ready(*sorted(numbers))
     for axis in axes:
-        await axis.move(0x52 if axis.n == 1 else 0x42)  # I = 1: the end causes no interrupt
+        await axis.move(0x52 if axis.n == 1 else 0x42)  # bit I = 1: the end causes no interrupt
     pending = sum(1 << n for n in numbers if n != 1)
     for axis in axes:
         env.check("BANK-WIN-08", "map", await env.map(), pending)

@@ -4,13 +4,13 @@
 // Rules:  two ports, 1 to 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of
 //         their addresses. The word address begins at AD5 (36 bits), AD4 (18 bits), AD3 (9 bits), AD2 (4),
 //         AD1 (2) or AD0 (1). With 36 bits AD0 to AD3 enable the bytes of a write, with 18 bits AD0 and AD1.
-//         With 36 bits port A only writes (DIB, DIA) and port B only reads: 36 bits to DOB and DOA, fewer
-//         to DOB.
+//         With 36 bits port A only writes (DIB, DIA) and port B only reads: a word of 36 bits appears on DOB
+//         and DOA, a narrower word on DOB only.
 // Timing: read data is valid after the rising edge of the clock. A port that writes keeps its output
 //         (NORMAL), outputs the new word (WRITETHROUGH) or the old one (READBEFOREWRITE).
 `default_nettype none
 
-// The parameters INITVAL_00 .. INITVAL_3F, and a concatenation of sixteen of them.
+// Macros for the parameters INITVAL_00 .. INITVAL_3F, and for a concatenation of sixteen of them.
 `define INITVAL(name) parameter logic [319:0] INITVAL_``name = '0
 `define INITVALS(digit) `INITVAL(digit``0), `INITVAL(digit``1), `INITVAL(digit``2), `INITVAL(digit``3), \
     `INITVAL(digit``4), `INITVAL(digit``5), `INITVAL(digit``6), `INITVAL(digit``7), `INITVAL(digit``8), \

@@ -95,7 +95,7 @@ async def move(
     """Make one move with one frame, compare edges and finish status with the golden model, and return
     its pulses.
 
-    The pulse counter must count them, CW up from `counted`, and the end must send an event.
+    The pulse counter must count the pulses, CW up from `counted`, and the end must send an event.
     """
     begin = bench.now
     sender = cocotb.start_soon(uart.ask(Script().call(op, *(count - 1).to_bytes(3, "little"))))

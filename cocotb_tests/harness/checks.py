@@ -15,7 +15,7 @@ EXACT = 16
 # If edges are at least this number of cycles apart, low times are exact, too (chapter 9.2 of the manuals).
 EXACT_LOW = 6
 # If the period is below this number of crystal cycles, a pulse of rate 0 ends with the high time of the clock
-# (P104-TIM-05 c).
+# (P104-TIM-05).
 BRISK = 128
 # Reason why a `sweep` is not also compared with the golden model.
 TOO_MANY = "each pulse is compared with the formula; 800,000 changes of a clock are too many for the model"

@@ -63,7 +63,7 @@ class UartBfm:
 
 
 Changes = list[tuple[int, int]]
-"""(edge that is the first to sample it, level), in order of time."""
+"""(first edge that samples the level, level), in order of time."""
 
 
 class LineTimes:

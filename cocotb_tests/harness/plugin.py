@@ -149,7 +149,7 @@ class _Recorder:
 def pytest_configure(config: pytest.Config) -> None:
     """Register the groups where tests are collected, and the recorder only in the controller.
 
-    xdist workers have `workerinput`.
+    A worker of xdist has the attribute `workerinput`; the controller does not.
     """
     collect_seldom()
     options = SimOptions(

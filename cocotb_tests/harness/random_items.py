@@ -151,7 +151,7 @@ Failure = tuple[int, str, str]
 
 @dataclass
 class Played:
-    """Result of some seeds; `compared` counts what was compared with the golden model, by name."""
+    """Result of some seeds; `compared` counts comparisons with the golden model by name."""
 
     failures: list[Failure] = field(default_factory=list)
     compared: Counter[str] = field(default_factory=Counter)

@@ -138,7 +138,7 @@ async def replay(dut: Any) -> None:
 
 @cocotb.test()
 async def shrink(dut: Any) -> None:
-    """Omitting transactions from a recording with a difference leaves a short list in a file."""
+    """Omit transactions from a recording with a difference; write the shortest list found to a file."""
     bench, first = await _begun()
     if first.mismatch is None:
         why = "its pins show no difference from another reset"

@@ -97,7 +97,7 @@ class CocotbBackend:
 
     def changes(self) -> Iterable[tuple[int, int, int]]:
         """See `SimBackend.changes`."""
-        # A change of this moment may not have woken its recorder yet.
+        # The recorder of a port may not have run yet after a change in this time step.
         for port in self._recorders:
             self._note(port)
         changed = []

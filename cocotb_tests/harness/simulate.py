@@ -238,9 +238,9 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
                 "COCOTB_LOG_LEVEL": "INFO",
                 "COCOTB_ANSI_OUTPUT": "0",
                 "COCOTB_REWRITE_ASSERTION_FILES": "*.py",
-                # For that, cocotb creates a pytest configuration, which would import every installed plugin.
+                # To rewrite assertions, cocotb creates a pytest configuration that would import every plugin.
                 "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
-                # Without it, an expected failure would look like a pass.
+                # Without this option, an expected failure would look like a pass.
                 "COCOTB_PREVIEW": "xfail_in_results",
                 **job.env,
             },

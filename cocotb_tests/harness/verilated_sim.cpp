@@ -2,7 +2,7 @@
 // Main program of all simulations under cocotb. In addition to the callbacks of VPI it has a clock and a recorder
 // of output levels that need no callbacks: a cycle costs only two evaluations of the design. `CppBackend` in
 // sim_backend.py calls it. Compiled once for all designs: `top.cpp` contains the calls of one design.
-// The makefile optimises for size.
+// The makefile of Verilator optimises for size; the pragma selects -O2 instead.
 #pragma GCC optimize("O2")
 
 #include <cstdint>
@@ -34,7 +34,7 @@ namespace {
 constexpr std::uint64_t NEVER = ~0ULL;
 std::uint64_t main_time = 0;
 
-// A port of the top module, or a word of one with more than 64 bits.
+// A port of the top module, or one 64-bit word of a port with more than 64 bits.
 struct Port {
     void* data;
     std::uint32_t bytes;
@@ -52,7 +52,7 @@ struct Port {
     }
     void store(std::uint64_t value) const { std::memcpy(data, &value, bytes); }
 };
-// Layouts that sim_backend.py reads and writes.
+// sim_backend.py reads and writes these structures as bytes.
 struct Row {
     std::uint64_t time, port, value;
 };

@@ -89,7 +89,7 @@ async def spi_random_frames(dut):
 
 @cocotb.test()
 async def spi_frames_close_together(dut):
-    """No flag is lost between frames with cs_n high for 2 cycles, truncated and rejected frames
+    """No flag is missed between frames with cs_n high for 2 cycles, truncated and rejected frames
     included.
     """
     rand = rng()

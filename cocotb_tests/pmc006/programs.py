@@ -52,7 +52,7 @@ P1 = (
     out(1, 1),
     END,
 )
-"""Program P1 of 12.8."""
+"""Program P1: the program of docs/pmc006/README.md, 13."""
 
 
 def words(program: Iterable[Op]) -> list[int]:

@@ -23,7 +23,7 @@ Course = tuple[tuple[str, int], ...]
 
 
 class CollisionHost(MotionHost):
-    """Random host that makes two things coincide."""
+    """Random host that makes two events coincide."""
 
     async def collision(self) -> None:
         """Make a short motion, then repeat it with a frame or pin edge near an edge of the first one."""
@@ -42,7 +42,7 @@ class CollisionHost(MotionHost):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.bench.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
-        period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # of the cycles in which microseconds begin
+        period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # cycles between edges that begin a us
         for _ in range(4):
             if await host.busy() or not found["mon_busy"]:
                 return

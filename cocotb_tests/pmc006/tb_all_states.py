@@ -45,12 +45,12 @@ REPLIES: dict[str, int | None] = {
     **{"P": 1250, "Q": 1, "R": 0x123, "T": 64, "U": 1, "V": 0, "W": PROGRAM[1].words[0], "X": 0, "Y": 0},
     **{"Z": 0, "a": 1, "b": 0, "d": 1, "e": 800, "f": 0, "g": 0, "h": 0, "i": 5, "k": 16, "l": 0, "m": 16},
     **{"n": 800, "o": 0, "p": 0, "t": 1, "w": 0xFF, "y": 0, "z": 1, "H": 0},
-    # These depend on the state; the golden model checks them.
+    # The replies to these codes depend on the state; the golden model checks them.
     **dict.fromkeys("OcjxLSuvqrs"),
 }
 """Code -> reply to its data at standstill. H is an undefined code."""
 UNLIKE = {"R": 1, "T": -1, "y": 7, "w": 0, "H": 1}
-"""Data that differs from the reply."""
+"""Code -> data to send; the reply has another value."""
 AT = {"E": OUT, "G": OUT, "W": OUT, "z": LOOP}
 """PP that a code requires."""
 DISTURBS = "BEFINgstz"

@@ -131,7 +131,8 @@ async def board006_converter(dut: Any) -> None:
     """On one bus with two strobes, the speed uses only the first, the stall detector only the second."""
     board = await start(dut)
     usb = board.usb
-    # VSET 1198 makes the speed analog. Half of it is the start-up rate, so the move has this rate throughout.
+    # VSET selects the analog speed with full scale 1198. With the sample 512 it is 1198 * 513 // 1024 = 600
+    # pps, the start speed, so the move has this speed throughout.
     for code, data in (("A", 0), ("W", 0x0108), ("W", 1198), ("A", 0), ("E", 0)):
         await usb.ask(code, data)
     same("VMAX", await usb.ask("q"), 1198)

@@ -109,7 +109,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
 
 @directed("P006-STA-15", "P006-CMD-30", "P006-CMD-52")
 async def p006_position_and_step(dut: Any) -> None:
-    """No step is lost if the position is set a few cycles before, at or after a step."""
+    """No step is missed if the position is set a few cycles before, at or after a step."""
     host = await constant_speed_host(dut, 2500)
     await run(host)
     await after_steps(host, 3)

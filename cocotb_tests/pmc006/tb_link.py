@@ -105,7 +105,7 @@ async def p006_breaks(dut: Any, bits: float) -> None:
     await host.send(J[:4])
     await host.low(bits)
     if bits < 9.5:
-        # If byte 0 is valid, the frame continues.
+        # The low level is shorter than a break: a valid byte 00, like J[4]. The rest of the frame follows.
         await host.send(J[5:])
         assert await host.receive_reply() == DECAY
     assert await host.ask("j") == DECAY

@@ -207,7 +207,8 @@ async def p006_counter_and_flag_between_single_tries(dut: Any) -> None:
     for place in (4, 5, 6, 7, 8):
         await host.ok(A=2 * place)
         assert await host.ask("E") == 1 and await host.ask("A", 200) == 2 * place
-    # FLAG is 1 now: an illegal option of CMP clears it, which only a JEQ in a program shows; z clears both.
+    # FLAG is 1 now. An illegal option of CMP clears FLAG; only a conditional jump in a program shows this.
+    # z clears counter and FLAG.
     await download(
         host, [Op(CMP, 8, 3), goto(12, JNE), out(1, 1), Op(CMP, 8, 0), goto(14, JNE), out(2, 1)], first=10
     )

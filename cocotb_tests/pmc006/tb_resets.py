@@ -69,7 +69,7 @@ async def p006_restore_without_a_device(dut: Any) -> None:
     await host.pins(fset_n=1)
     assert await values(host) == FACTORY and await host.status() == DECAY
     host = await constant_speed_host(dut)
-    # Now the level of the line is no acknowledge.
+    # With sda_i = 1, the line has no acknowledge.
     await host.pins(fset_n=0, sda_i=1)
     await host.wait_us(FSET_US + 100)
     assert await host.ask("V") == 2 and await host.ask("t") == 1

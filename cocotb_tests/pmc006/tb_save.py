@@ -94,7 +94,7 @@ async def p006_burn(dut: Any) -> None:
 @cocotb.parametrize(count=[1, 26, 27])
 @directed("P006-EEP-11", "P006-BAD-15", "P006-BAD-13")
 async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
-    """If the device fails, the job ends within 10 ms of calls; without the last write no mark is set."""
+    """If the device fails, the job ends after 10 ms of polling; without the last write no mark is set."""
     host = await booted(dut, image(SAVED, BLINK), 120)
     assert await host.ask("B") == 1
     while len(host.eeprom.writes) < count:
@@ -173,7 +173,7 @@ NEW = {
 
 
 BOOTED = {"k": 4, "r": 1, "h": 2, 0x55: 2, "K": 1, "L": 0x145, "S": 0x246, "M": 300, "P": 1250, "n": 0x3E8}
-"""Read-outs after the new settings have replaced SAVED."""
+"""Code -> value that is read after a boot with the settings NEW instead of SAVED."""
 
 
 PLACES = 7

@@ -83,7 +83,7 @@ def expected_status(state: State) -> tuple[int, int]:
 
 
 def outcome(code: str, data: int, state: State, accepted: int) -> tuple[int, State]:
-    """Return reply data and next state according to the table in 4.2."""
+    """Return reply data and next state according to the rules P006-STA."""
     idle, blocked = not state.motion, state.free or bool(state.flags)
     if code == "s":
         return (accepted, State("move")) if idle and not blocked else (0, state)
@@ -165,9 +165,9 @@ async def p006_speeds_against_the_maximum(dut: Any) -> None:
 
 @directed("P006-STA-04", "P006-MOT-52", "P006-STA-01")
 async def p006_analog_speed_does_not_refuse(dut: Any) -> None:
-    """The check of s uses the full-scale speed, even if the current one is 0.
+    """With analog speed, s is checked with the full-scale speed, even if the present speed is 0.
 
-    A full scale of 0 rejects every start.
+    With a full scale of 0, every start is rejected.
     """
     host = await Host.start(dut)
     await download(host, [Op(0x08, 1, 600), Op(0x08, 0, 0)])

@@ -13,7 +13,7 @@ from .tb_acceptance_moves import kind_of
 
 @directed("P104-BAD-01", "P104-CMD-03", "P104-HSK-07")
 async def p104_bad_01_undefined_codes(dut):
-    """Each undefined code returns error 0 and cancels an incomplete command, at rest and in motion
+    """Each undefined code returns error 0 and cancels an incomplete command, at standstill and in motion
     (P104-BAD-01).
     """
     env = await Env.start(dut, INIT_A)
@@ -62,7 +62,7 @@ async def p104_bad_11_operation_before_init(dut):
 
 @directed("P104-BAD-05", "P104-BAD-02", "P104-BAD-12")
 async def p104_bad_05_too_many_parameters(dut):
-    """Surplus bytes after a command return error 6 in motion or 3 at rest and have no other effect
+    """Surplus bytes after a command return error 6 in motion or 3 at standstill and have no other effect
     (P104-BAD-05).
     """
     env = await Env.start(dut, INIT_A)

@@ -300,7 +300,7 @@ async def p104_tim_03_first_edge(dut):
 
 @directed("P104-BCK-04", "P104-BAD-13")
 async def p104_bck_04_clock_stops_and_resumes(dut):
-    """If the external clock stops for 50 us in an interval, no edge is lost or added when it resumes
+    """If the external clock stops for 50 us in an interval, no edge is missed or added when it resumes
     (P104-BCK-04).
     """
     env = await Env.start(dut, EXTERNAL)

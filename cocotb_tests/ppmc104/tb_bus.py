@@ -89,7 +89,7 @@ async def p104_bus_02_overlapping_strobes(dut):
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
 async def p104_bus_03_shortest_strobes(dut):
-    """With the shortest legal strobes at any phase, no byte is lost or corrupted (P104-BUS-03)."""
+    """With the shortest legal strobes at any phase, no byte is missed or corrupted (P104-BUS-03)."""
     env = await Env.start(dut, None)
     bench = env.bench
     clk = bench.period

@@ -159,8 +159,8 @@ async def p104_ds_12_ends_with_the_fast_part(dut):
     await env.event(0x43, 60)
     await env.pulse(15, 40)
     await env.host.command(0xC1, poll=False)
-    # Rates while decelerating: 9,10,10,11,12,12,14,15,17,19; 17 is 144 q, 19 is 160 q: the last interval,
-    # I(59).
+    # Rates while decelerating: 9,10,10,11,12,12,14,15,17,19. I(58) has rate 17 and lasts 144 q; I(59), the
+    # last interval, has rate 19 and lasts 160 q.
     await env.pulse(58, 100)
     env.check("P104-DS-12", "IBF in I(58), 144 q", await env.host.status() & IBF, IBF)
     await env.pulse(59, 60)

@@ -148,7 +148,7 @@ async def p104_fdc_06_latency(dut):
         count = len(env.pulses)
         outcomes.append(count)
         env.check("P104-FDC-06", "8 pulses in time, 10 too late", count in (8, 10), True)
-        # The pin shows pulse events at most 2 cycles after they happen.
+        # The pin changes at most 2 cycles after a pulse event.
         if before >= 4 + 2:
             env.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
         await env.result("P104-FDC-06", count, 0x8B, 200 - count - 1)

@@ -329,7 +329,7 @@ async def p104_lim_09_stop_command_and_hard_limit(dut):
             await env.idle()
             env.bench.set(l1_n=1)
             kinds[code].append(await env.finish())
-            await env.host.write(1, 0x80)  # clears the error of a stop command at rest
+            await env.host.write(1, 0x80)  # clears the error of a stop command at standstill
     both = [place for place, finish in enumerate(kinds[0x40]) if finish == 0xD3]
     env.check("P104-LIM-09", "0x40 and L1 meet on one edge", len(both), 1)
     late = both[0]

@@ -228,7 +228,7 @@ async def p104_aux_04_excitation_off(dut):
 
 @directed("P104-HSK-05", "P104-BUS-03")
 async def p104_hsk_05_reads_one_sample_apart(dut):
-    """If only one edge samples the pause between two read strobes, none of three bytes is lost
+    """If only one edge samples the pause between two read strobes, none of three bytes is missed
     (P104-HSK-05).
     """
     env = await Env.start(dut)

@@ -96,7 +96,7 @@ async def p104_sta_06_errors_replace(dut):
 
 @directed("P104-ERR-01")
 async def p104_err_01_check_order(dut):
-    """Commands with several faults are checked in this order: undefined, stop at rest, BUSY, not
+    """Commands with several faults are checked in this order: undefined, stop at standstill, BUSY, not
     initialised, error 7 (P104-ERR-01).
     """
     env = await Env.start(dut, None)
@@ -294,7 +294,7 @@ async def p104_hsk_05_output_queue(dut):
                 got.append(await env.host.read(DATA, strobe=length, gap=gap))
                 soon = await env.host.read(1)
                 if gap >= 7:
-                    # The clearing edge follows after 2 cycles, the next byte 4 cycles later.
+                    # The read clears OBF on edge 2', and the next byte sets it again at most 4 cycles later.
                     env.check("P104-HSK-05", "OBF 8 clk after the read", soon & OBF, int(len(got) < 3))
             env.check("P104-HSK-05", f"bytes, gap {gap}, strobe {length}", got, [0xFD, 0xFF, 0xFF])
             env.check("P104-HSK-05", "OBF after the third byte", await env.host.status() & OBF, 0)

@@ -210,7 +210,7 @@ async def p104_end_02_reaction_time(dut):
 
 @directed("P104-END-04", "P104-LIM-09", "P104-BAD-15")
 async def p104_end_04_cause_bits(dut):
-    """With combinations of causes at the decision and before, exactly their bits are set (P104-END-04)."""
+    """If several causes apply at or before the end of a move, exactly their bits are set (P104-END-04)."""
     env = await Env.start(dut, INIT_B)
     for pins, bits in (
         ({"l1_n": 0, "alm_n": 0}, 0x30),

@@ -21,7 +21,7 @@ REGULAR, SETTING, CONSTANT = 35, 71_000, 38
 
 
 def detection(processing: int, first: int, second: int, period: int = 0) -> int:
-    """Return T_max of the data sheet (2.6), the longest time to detect a limit, in us.
+    """Return T_max of the polling formula in the data sheet: the longest time to detect a limit, in us.
 
     Args:
         processing: Ti in us.
@@ -67,7 +67,7 @@ async def last_byte(axis: Axis, code: int, *data: int) -> int:
 
 
 async def rest(env: Env) -> None:
-    """Wait until no window is open and both axes are at rest; then clear errors and interrupts."""
+    """Wait until no window is open and both axes are at standstill; then clear errors and interrupts."""
     await env.host.poll(IBF | 0x3C, 0)
     for axis in env.axes:
         await axis.finish()

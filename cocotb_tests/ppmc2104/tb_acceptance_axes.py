@@ -142,7 +142,7 @@ async def p2104_ac_52_pout_mode(dut: Any) -> None:
 
 @directed("AC-53", "P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-EX-11", "P2104-INI-01")
 async def p2104_ac_53_step_lists(dut: Any) -> None:
-    """Steps of each motor type follow the lists of section 6.1, CW and CCW (AC-53)."""
+    """The steps of each motor type follow its step list, CW and CCW (AC-53, P2104-PHS-05)."""
     env = await Env.start(dut)
     for axis in env.axes:
         for name, code in STEP_CODES.items():

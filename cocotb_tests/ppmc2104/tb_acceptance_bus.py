@@ -210,7 +210,7 @@ async def p2104_ac_83_deceleration_stop_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-84", "P2104-ERR-02", "P2104-FSM-05")
 async def p2104_ac_84_refused_stop_in_a_data_wait(dut: Any) -> None:
-    """During constant speed and a data wait, 41 sets error 8; 40 at rest then sets error 3, not 6
+    """During constant speed and a data wait, 41 sets error 8; 40 at standstill then sets error 3, not 6
     (AC-84).
     """
     env = await Env.start(dut)

@@ -103,7 +103,7 @@ async def p2104_ac_27_busy(dut: Any) -> None:
 
 @directed("AC-28", "P2104-STP-04")
 async def p2104_ac_28_stops_at_rest(dut: Any) -> None:
-    """Stops set error 6 on axis 1 at rest and error 4 on axis 2 without a setting (AC-28)."""
+    """Stops set error 6 on axis 1 at standstill and error 4 on axis 2 without a setting (AC-28)."""
     env = await Env.start(dut)
     await env.ready(1, INIT_B)
     env.check("AC-28", "errors", await env.run("c 40 e1 c 41 e1 c 60 e2"), [6, 6, 4])

@@ -172,7 +172,7 @@ async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
 
 @directed("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")
 async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
-    """If a read instruction is accepted around a data read, its answer is never lost (P2104-BUS-08)."""
+    """If a read instruction is accepted around a data read, its answer is never discarded (P2104-BUS-08)."""
     env = await Env.start(dut)
     seen = set()
     for busc, length, gap in product(STYLES, (1, 2, 4, 7), range(1, 14)):
@@ -192,7 +192,7 @@ async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-05", builds=(F8, F11, F16, F48, F100))
 async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
-    """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is lost (P2104-BUS-20)."""
+    """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is missed (P2104-BUS-20)."""
     env = await Env.start(dut)
     bus = SlowBus(env)
     period = env.bench.period / 1000

@@ -124,7 +124,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
 
 @directed("AC-70", "P2104-DS-31", "P2104-DS-33", "P2104-DS-36", builds=(D16,))
 async def p2104_ac_70_switching_counts(dut: Any) -> None:
-    """If axis 2 is at rest with S = 1, axis 1 has the rate limit of two axes (AC-70)."""
+    """If axis 2 is at standstill with S = 1, axis 1 has the rate limit of two axes (AC-70)."""
     env = await Env.start(dut)
     axis, other = await env.ready(1, INIT_B), env.x2
     await other.init(0x12, *INIT_B[1:])

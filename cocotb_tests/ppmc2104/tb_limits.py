@@ -298,7 +298,7 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
 
 @directed("P2104-LIM-10", "P2104-RD-04", "P2104-LIM-08", "P2104-INT-05")
 async def p2104_lim_10_nothing_at_rest(dut: Any) -> None:
-    """With both axes at rest, toggling inputs change no output and do not affect later moves
+    """With both axes at standstill, toggling inputs change no output and do not affect later moves
     (P2104-LIM-10).
     """
     env = await Env.start(dut)

@@ -1,4 +1,4 @@
-"""The four examples of limit detection of the data sheet (2.6), TIMING = "DATASHEET" (P2104-DS-20, -23)."""
+"""The four limit-detection examples of the data sheet with TIMING = "DATASHEET" (P2104-DS-20, -23)."""
 
 from __future__ import annotations
 

@@ -177,7 +177,7 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
         await axis.command(0x41)
         env.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
         await axis.result("P2104-FDC-04", 1, 0xC0 | code & 7, left)
-        # The pin requests it in START, also in RUN wait; it is released and active again.
+        # The pin requests the deceleration in RUN wait or in START; it is active three times.
         for waiting in (False, True):
             axis.set(run=0 if waiting else 1)
             await axis.go(code, n, poll=False)

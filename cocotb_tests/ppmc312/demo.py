@@ -38,7 +38,7 @@ class Interrupted(BlockHost):
         await self.bench.level_is("irq_n", 0, timeout or LONG)
         await self.bench.clocks(16)
         block = await super().response(timeout)
-        await self.bench.clocks(16)  # irq_n of this answer is deasserted by then
+        await self.bench.clocks(16)  # irq_n is deasserted for this answer within this time
         return block
 
 

@@ -1,4 +1,6 @@
-"""Count what random hosts make the golden model of the PPMC-312 do, so that a loss of coverage is noticed.
+"""Count the events that random hosts cause in the golden model of the PPMC-312.
+
+The counts reveal a loss of coverage.
 
 Keys of the counts are texts: "pulses", "answer 82", "event 83", "override 80", "answer F0 20", "event F8 01",
 "report E0 SLOW", "trigger POSITION 87", "walk SLOW", "change 88", "change in RAMP", "clk ABN".

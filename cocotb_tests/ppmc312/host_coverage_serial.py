@@ -1,4 +1,4 @@
-"""Count what random hosts on the line make the golden model of the PPMC-312 do.
+"""Count the events that random hosts on the line cause in the golden model of the PPMC-312.
 
 Keys of the counts are texts: "frame POLL", "reply A0", "reply B0 41", "overrun", "framing", "event", "FF".
 """

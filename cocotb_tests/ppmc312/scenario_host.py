@@ -67,7 +67,7 @@ class ScenarioHost(MisuseHost):
             await host.pins(epin=0)
 
     async def send_block(self, text: str) -> None:
-        """Write a block as soon as it is accepted, and mostly read until its answer arrives."""
+        """Write a block as soon as the device accepts it; in most cases read until its answer arrives."""
         host, rng = self.host, self.rng
         for _ in range(40):
             if not await host.read(CSR) & MWEF:
@@ -86,7 +86,7 @@ class ScenarioHost(MisuseHost):
         """Send a short free curve or a computed table on a fast base clock, so that operations are short."""
         host, rng = self.host, self.rng
         if rng.random() < 0.12 and not self.slow:
-            # RS 300, RH 100; most of them begin with stages of 2 pulses, the fewest that are legal.
+            # RS 300, RH 100; most of these tables begin with stages of 2 pulses, the legal minimum.
             self.rates = [100, 200, 300]
             pulses = rng.choice((508, 509, 560, 700, 1200))
             await self.send_block(f"03 09 00 0{rng.choice('08')} 012C 0064 {pulses:06X}")
@@ -226,7 +226,7 @@ class ScenarioHost(MisuseHost):
         count = full + rng.randint(16, 24)
         await self.send_block(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
         before = rng.randint(6, 12)
-        while (motion := self.model.motion).active and host.t < self.end:  # it may wait for a start
+        while (motion := self.model.motion).active and host.t < self.end:  # may still wait for t0
             if count - motion.sequence.done <= motion.sequence.plan.down + before:
                 break
             await self.attend(30)

@@ -1,6 +1,6 @@
 """Master of a serial line with one PPMC-312, which acts on the replies of the station.
 
-It has a UART model of its own: replies are decoded from the levels of txd, and every edge is checked.
+It has a separate UART model: replies are decoded from the levels of txd, and every edge is checked.
 """
 
 from __future__ import annotations

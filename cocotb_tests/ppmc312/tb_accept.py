@@ -1,4 +1,4 @@
-"""The accept table of the PPMC-312 at its pins: every instruction in every state (chapter 4, P312-STA-01)."""
+"""The accept table of the PPMC-312 at its pins: every instruction in every state (P312-STA-01)."""
 
 from __future__ import annotations
 

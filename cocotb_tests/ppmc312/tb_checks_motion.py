@@ -229,7 +229,7 @@ async def p312_current_reduction(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.response()
     await host.pause(1_584_000)
-    # The motion lasts longer than the time of the timer that its t0 has stopped.
+    # t0 of this motion stops the timer of cd_n shortly before it expires, so cd_n stays high.
     await host.ask(message(Code.CONSTANT, "00 0190 0000000A"))
     await host.response()
     await host.pause(1_000_000)

@@ -1,4 +1,4 @@
-"""DATASHEET times of the PPMC-312 (chapter 8)."""
+"""DATASHEET times of the PPMC-312 (P312-TIM)."""
 
 from __future__ import annotations
 

@@ -128,7 +128,8 @@ WALKS = [
         "100x4 300x2 250x4",
         0x40,
     ),
-    # Equal neighbouring rates: a constant rate uses the last of them, a stage uses its own.
+    # Equal neighbouring rates: at a constant rate, a stop or change begins in the last stage with this rate;
+    # in a stage, it begins in that stage.
     (EQUAL, message(Code.RAMP, "00 0000 00000028"), [], "400x4 200x7 100x18 200x7 400x4", 0x40),
     (EQUAL, message(Code.RAMP, "00 0190 00000006"), [(5, SLOW_STOP)], "400x5", 0x10),
     (EQUAL, message(Code.FOREVER_RAMP, "00 0000"), [(1, SLOW_STOP)], "400x1", 0x10),

@@ -1,4 +1,4 @@
-"""Positions, windows, interlock and input monitor of the PPMC-312 at its pins (chapters 3.4, 7)."""
+"""Positions, windows, interlock and input monitor of the PPMC-312 at its pins (P312-MON, P312-OUT-03)."""
 
 from __future__ import annotations
 
@@ -233,7 +233,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
     await host.pause(2000)
     await host.read(7), await host.read(7), await host.read(7), await host.read(7)
     assert await host.response() == message(Answer.INPUT_CHANGE, "00 80", source=SPONTANEOUS)
-    # A report that waits for the one in the read window is discarded; the one in the window is not.
+    # A report that waits is discarded; the report in the read window is not.
     await host.pins(auxi=0xFE)
     await host.wait()
     await host.pins(auxi=0x7F)
@@ -244,7 +244,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
         message(Code.MASK),
     ]
     assert await host.quiet(2000)
-    # The monitor sends a single report.
+    # With bit 0 of the flags = 0, the monitor sends only one report.
     await host.ask(message(Code.MASK, "00 01"))
     await host.pins(auxi=0x00)
     assert await host.response() == message(Answer.INPUT_CHANGE, "00 01", source=SPONTANEOUS)

@@ -1,4 +1,7 @@
-"""Example transactions of chapter 12 of the PPMC-312, byte for byte on its serial line."""
+"""Example transactions of the PPMC-312, byte for byte on its serial line.
+
+A transaction has the same number here as in tb_transactions.py, where it is on the parallel bus.
+"""
 
 from __future__ import annotations
 
@@ -81,7 +84,7 @@ ROWS = [
     Row(42, "81 7E", ACK),
     Row(42, "81 7E", "81 7E", (TS, "85 0190")),
 ]
-# Instructions that are sent between the row and its polls.
+# Number of a row -> instruction that is sent between the row and its polls.
 _THEN = {9: "86 0000", 17: "86 0000"}
 BY_NAME = {f"row{row.number}_{place}": row for place, row in enumerate(ROWS)}
 
@@ -116,7 +119,7 @@ async def p312_serial_row(dut: Any, name: str) -> None:
 
 @directed("P312-SER-45", "P312-SER-46")
 async def p312_serial_read_outs(dut: Any) -> None:
-    """The replies of row 39, and the alarm of row 42, equal those of chapter 12."""
+    """The reads of transaction 39 and the alarm of transaction 42 have the expected replies."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("84 01F4 00000002") == "90" and await host.settle() == ["A0 38"]
     await host.ask("83 0000 00000000")
@@ -139,7 +142,7 @@ async def p312_serial_read_outs(dut: Any) -> None:
 
 @directed("P312-CMD-FF", "P312-SER-19")
 async def p312_serial_reset_is_not_answered(dut: Any) -> None:
-    """An FF (row 41) is not answered."""
+    """Instruction FF (transaction 41) has no reply."""
     host = await SerialHost.start(dut)
     await host.raw("91 66 66 6F")
     assert await host.quiet(6_000)

@@ -1,4 +1,4 @@
-"""Terminals and timers of the PPMC-312 at its pins (chapters 3.4, 7)."""
+"""Terminals and timers of the PPMC-312 at its pins (P312-OUT, P312-INP)."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ async def p312_end_wait(dut: Any) -> None:
         await host.ask(stop)
         await host.pause(7000)
         assert host.condition == 0x08 and await host.quiet(200)
-        # These have no effect; overrides are registered.
+        # These instructions have no effect; overrides are registered.
         for block in (
             message(Code.CHANGE, "00 0064"),
             message(Code.RAMP_CHANGE, "00 00C8"),
@@ -221,7 +221,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.pause(16_000)
     assert host.condition == 0x08
-    # A level is low for less than 200 us: instruction 27 returns it, no other function detects it.
+    # Instruction 27 returns a low level of less than 200 us; no other function detects it.
     await host.pins(end_n=0, fl_n=0)
     assert await host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "BD E0")
     await host.pins(end_n=1, fl_n=1)

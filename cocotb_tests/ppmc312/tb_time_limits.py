@@ -20,7 +20,7 @@ POLL = 40
 
 @directed("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")
 async def p312_ports(dut: Any) -> None:
-    """The device has exactly the ports of table 1.3; the build of the RTL connects them by name."""
+    """The device has exactly the ports of its manual (chapter 2); the RTL build connects them by name."""
     inputs = (
         "mode d_i rs cs_n we_n oe_n rxd hsp mod adr evt0_n evt1_n auxi epin epdir index_n org_n alm_n end_n"
     )

@@ -1,4 +1,7 @@
-"""Example transactions of chapter 12 of the PPMC-312, byte for byte on its parallel bus."""
+"""Example transactions of the PPMC-312, byte for byte on its parallel bus.
+
+A transaction has the same number here as in tb_serial_transactions.py, where it is on the serial line.
+"""
 
 from __future__ import annotations
 

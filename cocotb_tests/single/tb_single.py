@@ -200,7 +200,7 @@ async def setup_frozen(dut, idle):
 @cocotb.test()
 @cocotb.parametrize(unread_flag=[0, 1])
 async def finish_answers(dut, unread_flag):
-    """For random motions and reads, status, answers and interrupt are those of the rules."""
+    """For random motions and reads, status, answers and interrupt equal those of a plain model."""
     rand = rng()
     u = BlockDriver(dut, f"finish{unread_flag}", BLOCKS, "answer_o int_no")
     await u.reset()
@@ -284,7 +284,7 @@ async def proc_time_datasheet(dut, name):
 
     steps = low + 3
     await u.clk(act_i=action("init"), params_i=steps << 16, initialised_i=0)
-    # One cycle later the command unit outputs the bytes a byte lower, followed by the present byte.
+    # One cycle later the command unit outputs the parameters shifted down by a byte, the present byte on top.
     await u.clk(act_i=0, params_i=0xA5 << 24 | steps << 8)
     await u.settle(params_i=0)
     same("phases", await u.run_until("phase_init_o", 1), cyc(44) - 1)

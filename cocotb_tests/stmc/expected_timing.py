@@ -38,7 +38,7 @@ ODD = Config(
     extra=(("HOLD_XT", 1_601), ("CHOP_ON_XT", 42), ("CHOP_OFF_XT", 99)),
 )
 
-# Types and modes by init bits 2..0, energised phases as s[5:1] in cw order.
+# Bits 2..0 of the initialisation code -> energised phases s[5:1] of the successive steps, clockwise.
 STEPS = {
     0b001: "00011 00110 00101",
     0b101: "00011 00010 00110 00100 00101 00001",

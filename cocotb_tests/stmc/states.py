@@ -1,4 +1,4 @@
-"""Puts the core into each state of the accept/reject table (chapter 4) and keeps it there.
+"""Puts the core into each state of the accept/reject table (docs/stmc/README.md, States) and keeps it there.
 
 A moving core stays in its state because `ext_clk` is stopped; the tests make its edges one by one.
 """

@@ -19,7 +19,7 @@ NANOSECONDS = "the ISA bus has cycles of nanoseconds, and the model only clk edg
 @rtl_only(NANOSECONDS)
 @directed("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")
 async def j105_ac_46_a_move(dut: Any) -> None:
-    """On the board, check 5 leads to the same steps; drv follows s, and irq is asserted (AC-46)."""
+    """On the board, AC-05 leads to the same steps; drv follows s, and irq is asserted (AC-46)."""
     env = await BoardEnv.start(dut)
     bench = env.bench
     await env.init(0x1A, *A)

@@ -94,7 +94,7 @@ async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("STMC-BUS-11", builds=(F16, F8X20, F200))
 async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
-    """In the shortest legal accesses, at any phase to clk, no byte is lost (STMC-BUS-11)."""
+    """In the shortest legal accesses, at any phase to clk, no byte is missed (STMC-BUS-11)."""
     env = await Env.start(dut, None)
     bench = env.bench
     clk = bench.period
@@ -229,7 +229,7 @@ async def stmc_bad_13_short_strobes(dut: Any) -> None:
 
 @directed("STMC-BUS-12", "STMC-BUS-13", "STMC-DS-14", builds=(D16,))
 async def stmc_bus_13_datasheet(dut: Any) -> None:
-    """In DATASHEET, reads and errors at rest are as fast as in FAST (STMC-BUS-13, STMC-DS-14)."""
+    """In DATASHEET, reads and errors at standstill are as fast as in FAST (STMC-BUS-13, STMC-DS-14)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     for byte, after in ((0x81, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x83, OBF), (0x40, 0x80 | OBF)):
         await env.host.write(COMMAND, byte, gap=C_EVENT_LATEST)

@@ -18,8 +18,8 @@ def xt(env: Env, name: str, default: int) -> int:
 
 
 def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> None:
-    """Check that every complete phase since an edge is CHOP_ON or CHOP_OFF within 4 crystal periods + 1
-    cycle, without drift.
+    """Check that every complete phase since an edge is CHOP_ON_XT or CHOP_OFF_XT within 4 crystal
+    periods + 1 cycle, without drift.
     """
     slack = env.cfg.cyc(4) + 1
     on_xt, off_xt = xt(env, "CHOP_ON_XT", 1_040), xt(env, "CHOP_OFF_XT", 1_740)
@@ -33,7 +33,8 @@ def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> N
     period = env.cfg.cyc(4 * -(-on_xt // 4) + 4 * -(-off_xt // 4))
     total = begins[-1] - begins[0]
     count = len(begins) - 1
-    # Rounding up to whole quanta makes a period up to 8 crystal periods longer.
+    # `period` has both times rounded up to whole quanta of 4 crystal periods. The period that is measured may
+    # be up to 8 cycles shorter.
     env.window(rule, f"{count} periods", total, (period - 8) * count - 1, period * count + 1)
 
 

@@ -132,8 +132,8 @@ async def stmc_sgl_02_single_steps_and_switches(dut: Any) -> None:
     "STMC-MOT-05", "STMC-MOT-04", "STMC-RUN-03", "STMC-IN-03", "STMC-IN-04", "STMC-DEC-03", "STMC-BAD-14"
 )
 async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
-    """With each switch active at the start, each motion in both directions acts as table 7.3 states
-    (STMC-MOT-05).
+    """With each switch active at the start, each motion in both directions starts or ends as
+    STMC-MOT-05 requires.
     """
     env = await Env.start(dut)
     for pin in (*SWITCHES, "all"):
@@ -276,7 +276,7 @@ async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
         await env.bench.clocks(3)
         env.check("STMC-BAD-16", "outputs", env.outputs(), {"int_n": 1, "s": 0, "hold": 1})
         env.set(rst_n=1)
-        await env.bench.clocks(4)  # bytes are accepted by then (ports, rst_n)
+        await env.bench.clocks(4)  # from here on bytes are accepted
         env.check("STMC-BAD-16", "statuses", await env.statuses("c 42 d 00"), [0xA0, 0xB0])
         env.check("STMC-BAD-16", "FIN", await env.finish(), 0x80)
         await env.init(*STANDARD)

@@ -25,7 +25,7 @@ ITEMS = cocotb_items(
     part=STMC,
 )
 
-# A row has a parameter, its legal values, and values just outside its range (table 1.4 of the rules).
+# A row has a parameter, its legal values, and values just outside its range (docs/stmc/README.md, 3).
 RANGES = {
     "CLK_HZ": (("8_000_000", "200_000_000"), ("7_999_999", "200_000_001")),
     "XTAL_HZ": (("1_000_000", "20_000_000"), ("999_999", "20_000_001")),

@@ -5,9 +5,9 @@ export interface Port {
   width: number;
   /** Idle level of an input, reset level of an output; low word first. */
   idle: number[];
-  /** Number of its lowest bit, as in names. */
+  /** Number of the port's lowest bit, as in the pin name s[1]. */
   lowest: number;
-  /** Number of its first word of 32 bits in the module. */
+  /** Number of the port's first 32-bit word in the module; inputs and outputs are numbered separately. */
   word: number;
 }
 
@@ -21,7 +21,7 @@ export interface Field {
 export interface Code {
   text: string;
   fields: Field[];
-  /** Table for the meaning of the answer; count: its number of bytes. */
+  /** Key in `answers`, or else the name of the value that is read; count: number of bytes of the answer. */
   answer: string;
   count: number;
 }
@@ -46,7 +46,7 @@ export interface MotorPins {
   /** Pins of the switches in the order CW, CCW, slow CW, slow CCW, origin, alarm. */
   switches: string[];
   step: string;
-  /** Level after the edge that is a step. */
+  /** Level of `step` after the edge that counts as a step. */
   edge: number;
   dir: string;
   /** Pins of the phases, S1 first. */
@@ -101,7 +101,7 @@ export interface Frame {
   running: boolean;
   /** The end of the text has been played; the part may still move. */
   over: boolean;
-  /** Whether the switches of the machine are active; places: its positions (host.ts). */
+  /** Whether the switches of the machine are active; places: positions as in MACHINE (side.ts). */
   machine: boolean;
   places: number[];
   why: string;

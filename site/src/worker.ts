@@ -1,4 +1,5 @@
-// Worker with the part and its host: runs them at the requested speed and sends frames to the page, 60 a second.
+// Worker with the part and its host: runs them at the requested speed. While they run, it sends the next
+// frame when the page has drawn the last frame.
 
 import type { Frame, FromWorker, PartData, ToWorker } from "./types";
 import { Core, ROW } from "./engine/core";
@@ -9,7 +10,7 @@ import { TextError } from "./engine/text";
 const SLICE = 14; // ms of work before messages of the page are handled
 const CHUNK_MS = 3; // ms of work between two reads of the time
 const MOST_CHUNK = 200_000; // cycles
-const MOST_ROWS = 16_384; // rows that wait for the page; with more rows, the part waits, too
+const MOST_ROWS = 16_384; // rows that may wait for the page; if there are more, the part waits, too
 
 let part: PartData;
 let core: Core;
@@ -26,7 +27,7 @@ let chunk = 2_000; // cycles that need about CHUNK_MS
 let shown = true; // the page has drawn the last frame
 let waiting: Uint8Array[] = []; // rows for the next frame
 let bytesWaiting = 0;
-let done = 0; // cycles and ms of work (spent), for the displayed speed
+let done = 0; // cycles executed in `spent` ms of work, for the displayed speed
 let spent = 0;
 
 const post = (message: FromWorker, transfer: Transferable[] = []): void =>

@@ -79,7 +79,7 @@ def test_a_name_is_looked_up_once() -> None:
 
 
 def test_type_checkers_refuse_a_wrong_name(tmp_path: Path) -> None:
-    """mypy knows the names of a lazy package, and reports an import of another one."""
+    """mypy resolves the names of a lazy package, and reports an import of another one."""
     pytest.importorskip("mypy", reason="mypy is not installed; run make setup")
     names = {package: next(iter(written_out(package))) for package in PACKAGES}
     program = tmp_path / "program.py"

@@ -34,8 +34,8 @@ async def frames_flags_and_escapes(dut):
     content = b"\x02\x12\x7e\x13\x7d\x14\x5d"
     content += crc16(content).to_bytes(2, "big")
     everything_escaped = b"\x7e" + b"".join(bytes([0x7D, byte ^ 0x20]) for byte in content) + b"\x7e"
-    # The byte 5D is escaped as 7D 7D. 5E and 7E are exchanged by the exclusive-or with 20, and 7D 7E ends
-    # a frame.
+    # The byte 5D is escaped as 7D 7D. The content must not have the byte 5E: it would be escaped as 7D 7E,
+    # which ends the frame.
     assert b"\x7d\x7d" in everything_escaped and b"\x7d\x7e" not in everything_escaped
     cases = (
         (b"\x11\x22\x7d" + line, 1),
@@ -66,7 +66,7 @@ async def frames_every_bit(dut):
     UB-FRM-06).
     """
     bench = await Bench.start(dut)
-    # The frame contains no flag and no escape; no inverted bit makes one in the script.
+    # The frame contains no flag and no escape, and no inversion of one bit in the script makes one of them.
     line = encode(b"\x21\x12\x31\x13\x42")
     good = encode(b"\x00\x14\x01")
     for place in range(1, len(line) - 1):

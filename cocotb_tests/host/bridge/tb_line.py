@@ -15,7 +15,7 @@ from .settings import ALL_RATES, FAST, SLOW, baud_of, rates_of
 # The string "123456789" has the check value 29B1 of this CRC. As a script it reads 51 + 53 + 55 + 57
 # bytes.
 LITERAL = bytes.fromhex("7E 31 32 33 34 35 36 37 38 39 29 B1 7E")
-NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer SEQ 0, RESULT 0 is the same
+NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer (SEQ 0, RESULT 0) has the same bytes
 
 
 @cocotb.test()

@@ -62,7 +62,7 @@ class Controller:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_interrupt_handler(dut: Any) -> None:
-    """With an edge-triggered handler and four axes that end at various times, no end is lost (ISA-08)."""
+    """With an edge-triggered handler and four axes that end at various times, no end is missed (ISA-08)."""
     setting = await Setting.start(dut)
     bench, controller = setting.bench, Controller(setting)
     for axis in setting.axes:
@@ -217,7 +217,7 @@ async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
         await host.init(
             rng.choice((0x02, 0x06, 0x13)) | axis_bit, rng.randrange(12, 40), rng.randrange(3, 9), 7
         )
-        if bench.config.datasheet:  # its window is too long for polling in a simulation
+        if bench.config.datasheet:  # the setting's window is too long to poll
             await bench.clocks(bench.config.us(71_000))
     await host.poll(CMND1 | CMND2, 0)
     for _ in range(actions):

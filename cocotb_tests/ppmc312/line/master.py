@@ -14,7 +14,10 @@ from .wave import Wave, length, wave
 
 T = TypeVar("T")
 T_EXEC, T_INIT = 4096, 65_536
-"""Cycles from the stop bit of a checksum to the reply (P312-PRT-04)."""
+"""Maximum number of cycles from the end of a checksum's stop bit to the reply (P312-PRT-04).
+
+T_INIT applies to instruction 00, T_EXEC to all others.
+"""
 KINDS = {0x80: "busy", 0x90: "ready", 0xA0: "data", 0xB0: "specific"}
 
 

@@ -143,7 +143,7 @@ async def _noisy(master: Master, rng: random.Random, frame: bytes) -> int:
 
 
 def pins_of(seed: int) -> dict[str, int]:
-    """Return the pins that decide which drivers the stations of a seed hear in addition to the master."""
+    """Return the pins that decide which drivers the stations of a seed receive in addition to the master."""
     rng = random.Random(f"pins {seed}")
     return {"hear_others": int(rng.random() < 0.8), "hear_self": int(rng.random() < 0.2)}
 

@@ -1,4 +1,4 @@
-"""Contracts of the stage tables: ppmc312_muldiv, ppmc312_cosine_rom, stage_unit (builder, table, plan)."""
+"""Contracts of ppmc312_muldiv, ppmc312_cosine_rom and ppmc312_stage_unit (builder, table, plan)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .stage_types import Target, brief, pack, walk_start
 
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 LONGEST_BUILD, LONGEST_PLAN = 127 * 300, 135 + 5 * 131 + 53
-# start, stop, high, acceleration, deceleration, sigmoid, separate: T1..T5 of the specification, the
+# start, stop, high, acceleration, deceleration, sigmoid, separate: T1..T5 of docs/ppmc312/README.md, the
 # boundaries of its error conditions, the fastest and the slowest rates, the most pulses.
 SETTINGS = [
     (1000, 0, 200, 2000, 0, 0, 0),

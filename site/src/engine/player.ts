@@ -7,13 +7,13 @@ import type { Host } from "./host";
 import { MACHINE, Side, type Doing, type Wait } from "./side";
 import { statements, TextError, type Statement } from "./text";
 
-const REST = 0.045; // s without a step of a motor until the part is at rest
+const REST = 0.045; // s; a part is at rest when its motors have not stepped for this time
 
 export class Player {
   readonly side: Side;
   private readonly host: Host;
   private todo: Statement[] = [];
-  /** Statements for a certain cycle, regardless of the present statement of the host. */
+  /** Statements that are executed in a given cycle, regardless of the present statement of the host. */
   private timed: Statement[] = [];
   private doing: Doing | undefined;
   private waits: Wait | undefined;
@@ -101,7 +101,7 @@ export class Player {
     return ran;
   }
 
-  /** Execute statements that need no time immediately. */
+  /** Execute immediately the statements of a text; they must need no time. */
   press(text: string): void {
     statements(text).forEach((one) => this.atOnce(one));
   }

@@ -4,7 +4,7 @@ import type { LogEntry, PartData, Port } from "../types";
 import type { Core } from "./core";
 import { TextError } from "./text";
 
-/** Wait this number of cycles; with `until` (core.ts) at most until that event. */
+/** Wait for `clk` cycles, or at most until an event whose bit is set in `until` (STEP, CHANGE in core.ts). */
 export interface Wait {
   clk: number;
   until: number;

@@ -26,7 +26,7 @@ export class Speed {
   private way = 0;
   private written = false;
   private open: Interval | undefined;
-  private before = 0; // cycles of the interval before; 0: standstill
+  private before = 0; // cycles of the previous interval; 0: standstill
 
   constructor(private readonly clkHz: number) {}
 
@@ -35,7 +35,7 @@ export class Speed {
     this.written = true;
   }
 
-  /** Record a step in cycle `clk`; way 1: CCW. */
+  /** Record a step in cycle `t`; way 1: CCW. */
   step(t: number, way: number): void {
     if (this.last >= 0) {
       const next: Interval = {
@@ -57,7 +57,7 @@ export class Speed {
     if (this.stairs.t.length > MOST) this.halve();
   }
 
-  /** Draw up to cycle `clk`. */
+  /** Return the speed up to cycle `end`. */
   upTo(end: number): Speeds {
     const found = { t: [...this.stairs.t], v: [...this.stairs.v] };
     if (this.open) {

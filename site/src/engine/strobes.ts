@@ -10,7 +10,7 @@ const LONGEST = 8_000;
 
 type Levels = Record<string, number>;
 
-/** Pin levels of each half of an access (cocotb_tests/harness/part.py, BusStyle), and its times in cycles. */
+/** Pin levels of each half of an access, its times in cycles: BusStyle in cocotb_tests/harness/part.py */
 export interface Style {
   address: string;
   writeOn: Levels;
@@ -37,7 +37,7 @@ export class Strobes {
     yield* this.side.clocks(this.style.lead);
   }
 
-  /** `done` is called when the strobe ends. */
+  /** Write a byte; `done` is called when the strobe ends. */
   *write(address: number, value: number, done: () => void): Doing {
     const { side, style } = this;
     yield* this.address(address);

@@ -75,7 +75,7 @@ function grid(
   line: string,
   soft: string,
 ): void {
-  const seconds = 90 / scale / clkHz; // approximate distance of two lines
+  const seconds = 90 / scale / clkHz; // approximate time between two grid lines
   const power = 10 ** Math.floor(Math.log10(seconds));
   const step = [1, 2, 5, 10].map((n) => n * power).find((one) => one >= seconds) ?? power;
   const unit = step >= 1 ? "s" : step >= 1e-3 ? "ms" : "µs";

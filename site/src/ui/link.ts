@@ -1,4 +1,5 @@
-// Link with a session: part, text and speed after the #. The version is 1; a page reports other versions.
+// Link with a session: part, text and speed after the #. The version is 1; the page rejects other
+// versions with a message.
 
 export interface Linked {
   part: string;

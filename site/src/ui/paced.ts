@@ -1,4 +1,5 @@
-// Delayed drawing: synchronous with the display, and only for a share of the page's time.
+// Limits the rate of a drawing function: it runs in an animation frame, and then pauses for SHARE times its
+// duration.
 
 const SHARE = 4; // pause after a drawing, as a multiple of its duration
 

@@ -1,4 +1,4 @@
-// Buttons for input pins: switches, alarms, straps. Low = closed.
+// Buttons for input pins: switches, alarms, straps. A closed switch is low.
 
 import { ask, frames, inputs, part, store } from "./state";
 import { level } from "./store";
@@ -6,7 +6,7 @@ import { level } from "./store";
 function high(pin: string): number {
   const row = store?.find(pin, true);
   if (!row) return 1;
-  const idle = part.value!.inputs.flatMap((port) => port.idle); // until the part reports its levels
+  const idle = part.value!.inputs.flatMap((port) => port.idle); // shown until the part reports its levels
   return level(row, inputs.value.length ? inputs.value : idle);
 }
 

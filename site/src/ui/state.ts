@@ -15,9 +15,9 @@ export const SPEEDS: readonly (readonly [number, string])[] = [
   [0, "as fast as possible"],
 ];
 const MOST_LOG = 2_000;
-const LOG_MS = 250; // between two updates of the log while the part runs
-const SHOWN_MS = 100; // after which a frame is drawn even if the page is in the background
-const KEPT_MS = 150; // between an input and its storage
+const LOG_MS = 250; // minimum time between two updates of the log while the part runs
+const SHOWN_MS = 100; // a frame is drawn after this time even if the page is in the background
+const KEPT_MS = 150; // delay between an input of the reader and its storage
 
 export const part = signal<PartData | undefined>(undefined);
 /** The part that was chosen last; `part` is undefined until its tables are loaded. */
@@ -41,7 +41,7 @@ export const outputs = signal<number[]>([]);
 export const log = signal<LogEntry[]>([]);
 export const trouble = signal("");
 export const clk = signal(0);
-export const frames = signal(0); // redraw
+export const frames = signal(0); // number of frames drawn; a change redraws the components
 export const journal = signal<string[]>([]);
 export const machineOn = signal(false);
 export const places = signal<number[]>([500, -300, -150, 0, 1850, 2000]);
@@ -49,9 +49,9 @@ export const seconds = computed(() => (part.value ? clk.value / part.value.clkHz
 
 export let store: Store | undefined;
 let worker: Worker | undefined;
-/** Number of the newest choice of a part. An older one that is still loading must not change anything. */
+/** Number of the newest choice of a part. An older choice that is still loading must not change anything. */
 let turn = 0;
-/** Whether the part can run. Earlier requests: `early` without its tables, `later` without its module. */
+/** Whether the module of the part is loaded. Requests wait in `early` for its tables, in `later` for it. */
 let loaded = false;
 let early: (() => void)[] = [];
 let later: ToWorker[] = [];
@@ -116,7 +116,7 @@ function onFrame(data: Frame, from: Worker): void {
     if (done) return;
     done = true;
     if (from === worker) draw();
-    // The browser paints first.
+    // With a timeout of 0, the browser paints before the worker gets this message.
     setTimeout(() => from.postMessage({ kind: "shown" } satisfies ToWorker), 0);
   };
   requestAnimationFrame(shown);
@@ -326,7 +326,7 @@ function keep(): void {
   }
 }
 
-/** Store the inputs of the reader soon. */
+/** Store the inputs of the reader after KEPT_MS. */
 export function remember(): void {
   if (!due) due = window.setTimeout(keep, KEPT_MS);
 }

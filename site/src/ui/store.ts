@@ -15,7 +15,7 @@ export class Track {
   times = new Float64Array(256);
   values = new Uint32Array(256);
   count = 0;
-  /** Whether its oldest changes have been discarded. */
+  /** Whether the oldest changes of the track have been discarded. */
   cut = false;
 
   add(t: number, value: number): void {
@@ -41,7 +41,7 @@ export class Track {
     this.values = values;
   }
 
-  /** Discard the older half. */
+  /** Discard the older half of the changes. */
   halve(): void {
     const half = this.count >> 1;
     this.times.copyWithin(0, half);
@@ -63,11 +63,11 @@ export class Track {
   }
 }
 
-/** Row of the waves: one bit, or all bits of a narrow port. */
+/** Row of the waves: one bit, or all bits of a bus. */
 export interface Row {
   name: string;
   track: Track;
-  /** Position of its bits in the words of a frame. */
+  /** Position of the row's bits in the words of a frame. */
   word: number;
   shift: number;
   mask: number;

@@ -6,7 +6,7 @@ import type { Row } from "./store";
 import { draw, HEIGHT, type View } from "./draw";
 import { paced } from "./paced";
 
-const TALLEST = 640; // as .pg-waves in style.css
+const TALLEST = 640; // px, equal to max-height of .pg-waves in style.css
 
 function nice(s: number): string {
   const size = Math.abs(s);

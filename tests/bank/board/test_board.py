@@ -14,7 +14,7 @@ from ...common.board.fixtures import SETUP, CommandLine, StartBoard
 
 @pytest.fixture
 def board(start_board: StartBoard, tmp_path: Path) -> SimBoard:
-    """Four axes at maximum speed; the last begins near its limit. The board logs to pulses.log."""
+    """Return a board with four axes at maximum speed, axis 4 near its limit, that writes pulses.log."""
     return start_board(f"part=bank,axes=4,speed=max,start4=37900,log={tmp_path / 'pulses.log'}")
 
 

@@ -74,7 +74,7 @@ class Host:
         self.t += self.model.round
 
     def position(self, axis: int) -> int:
-        """Return the position of four reads, signed."""
+        """Return the signed position of an axis, read byte by byte."""
         value = sum(self.read(axis, POSITION + place) << 8 * place for place in range(4))
         return value - (value >> 31 << 32)
 

@@ -210,7 +210,7 @@ def test_operation_that_starts_after_stop(after, stopped):
 
 
 def test_stop_at_rest_and_after_the_last_pulse():
-    """STOP at rest and after the last pulse has no effect (BANK-GRP-04, P104-END-05)."""
+    """STOP at standstill and after the last pulse has no effect (BANK-GRP-04, P104-END-05)."""
     host = Host()
     host.ready(1)
     host.write(0, STOP, 0)

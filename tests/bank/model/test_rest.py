@@ -1,4 +1,4 @@
-"""The bank's model at rest: initialisation, chopper, hold (BANK-INI, BANK-CHP, BANK-HLD)."""
+"""The bank's model at standstill: initialisation, chopper, hold (BANK-INI, BANK-CHP, BANK-HLD)."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ StartBoard = Callable[..., sim.SimBoard]
 Wait = Callable[..., None]
 
 PATIENCE = 30.0
-"""Wall-clock seconds after which a test times out; on a busy machine the board is slower than real time."""
+"""Wall-clock seconds after which a test times out; on a busy computer the board is slower than real time."""
 
 SETUP = {"start_pps": 2000, "high_pps": 20000, "ramp_pulses": 400}
 """A set-up that covers the plant's 40 000 pulses in about 2 s of board time."""

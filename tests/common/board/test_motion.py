@@ -82,7 +82,7 @@ def test_home_without_switch(start_board: StartBoard) -> None:
 
 
 def test_hard_limit_stops(start_board: StartBoard) -> None:
-    """At constant speed the hard limit ends the motion on its first pulse, and the way back is possible."""
+    """At constant speed the hard limit ends the motion on its first pulse, and the motor can move back."""
     board = start_board(start=37_000, cw=38_500)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)

@@ -23,7 +23,7 @@ from openppmc.host.selftest.run import TRIES, SelfTest
 from .fixtures import PATIENCE, CommandLine, StartBoard, Wait, one_line
 
 LONG = 20 * PATIENCE
-"""Maximum time of a whole self-test with its build on a busy machine, in seconds."""
+"""Maximum time of a whole self-test with its build on a busy computer, in seconds."""
 OTHERS = [row.name for row in parts.having("selftest") if row.name != "ppmc104"]
 FAULTS = {
     "pulse one clk longer": (

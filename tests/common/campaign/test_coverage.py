@@ -169,7 +169,9 @@ endmodule"""
 
 
 def test_functions_that_only_elaboration_calls() -> None:
-    """A function is called only by elaboration if all its calls are constant or inside such a function."""
+    """A function counts as called only by elaboration if each of its calls is constant or inside such a
+    function.
+    """
     text = """module m #(parameter int W = one(4), localparam int V = W + 1) (input logic [two(W):0] a_i);
   localparam int X = outer(3);
   for (genvar i = 0; i < three(V); i++) begin : g

@@ -34,7 +34,7 @@ def square(what: tuple[Path, int]) -> Result:
 
 
 def dies(what: tuple[Path, int]) -> Result:
-    """Do the same as `square`, but 5 kills its worker the first time, like a machine that loses power."""
+    """Do the same as `square`, but 5 kills its worker the first time, like a computer that loses power."""
     folder, number = what
     if number == 5 and not begun(folder, 5):
         note(folder, number)

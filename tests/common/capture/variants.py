@@ -100,10 +100,10 @@ def edited(
 
 
 def with_bus(seen: Seen, path: Path, declared: str, turned: bool = False, extra: str = "") -> Path:
-    """Write a VCD whose data bus is one vector, declared with this range.
+    """Write a VCD whose data bus is one vector; `declared` is the range in its declaration.
 
     Args:
-        turned: True if its first bit is d[0].
+        turned: True if the first bit of the vector is d[0].
     """
     wires = {name: wire for name, wire in seen.wires.items() if not name.startswith("d[")}
     text = write_vcd(replace(seen, wires=wires), path).read_text()

@@ -13,13 +13,13 @@ MODULE = "module m (input a, output b);\n  assign b = ~a;\nendmodule\n"
 
 
 def test_library():
-    """The folder of a board holds core, Verilog and pins, and no file contains a path of this machine."""
+    """The folder of a board holds core, Verilog and pins, and no file contains a path of this computer."""
     folder = BUILD / "test" / "plain_boards"
     made = plain_boards.write_library(["ulx3s-25f"], folder)
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
     assert names == ["board_ulx3s_ppmc104.v", made.name, "ulx3s/ppmc104/pins.lpf"]
     verilog = (folder / "board_ulx3s_ppmc104.v").read_text(encoding="utf-8")
-    # The PLL loop is set by attributes; without them it would be a different one.
+    # Attributes set the loop filter of the PLL; without them the PLL would use other values.
     assert '(* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8", ' in verilog
     assert 'MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)\n  EHXPLLL #(\n' in verilog
     assert "    inout  wire [7:0] d,\n" in verilog and str(ROOT) not in verilog

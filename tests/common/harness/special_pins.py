@@ -21,7 +21,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Special:
-    """Some pins of a board: their other function, and the source of that."""
+    """Some pins of a board: their other function, and its source."""
 
     pins: tuple[str, ...]
     kind: Kind

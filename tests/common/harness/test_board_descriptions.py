@@ -88,7 +88,7 @@ def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
 
 
 def test_what_has_no_pin(tmp_path: Path) -> None:
-    """Inputs without a pin read as 1, or as 0 if the description says so; outputs without a pin are open."""
+    """Inputs without a pin read as 1, or as 0 if the description sets 0; outputs without a pin are open."""
     ((_, text),) = top.file((one := fitted(tmp_path)).board, one).items()
     joined = re.sub(r" +", "", text)
     for words in (

@@ -1,6 +1,6 @@
 """examples/cocotb: its tests pass on cocotb's main program, and fail with a clear message if broken.
 
-`.ci/run` tests the way through its Makefile.
+`.ci/run` runs the same example through its Makefile.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Folders with names that break tools: builds work there, or are rejected in one line.
 
-`.ci/run` tests the whole way in such a folder: a clone, its environment, demo, test, bitstream, virtual
-board.
+`.ci/run` tests all steps in such a folder: clone, environment, demo, test, bitstream, virtual board.
 """
 
 from __future__ import annotations

@@ -155,7 +155,7 @@ def test_columns_are_edges_ranges_and_gaps():
 
 
 def test_no_gap_hides_a_change():
-    """A diagram is refused if one of its lines changes in a gap."""
+    """A diagram is rejected if one of its lines changes in a gap."""
     entry = figures.entries("stmc")["pictures"]["start"]
     assert made(entry)["head"]["text"] == entry["title"]
     with pytest.raises(ValueError, match="s changes in the gap before edge 84"):
@@ -195,7 +195,7 @@ def test_a_block_of_the_312_is_drawn_byte_by_byte():
 
 
 def test_worked_moves_of_the_312():
-    """Shapes, pulses and times of the table of moves are those of the rules' worked examples."""
+    """Shapes, pulses and times of the table of moves are those of the worked moves."""
     rows = made(figures.entries("ppmc312")["tables"]["moves-table"]).splitlines()
     assert "| TF, 82, N = 30 | 00 | 12, 6, 12 | 400×3 200×4 100×16 200×4 400×3 | 5600 |" in rows
     assert "| TF, 82, N = 24 | 00 | 12, 0, 12 | 400×3 200×4 100×10 200×4 400×3 | 5000 |" in rows

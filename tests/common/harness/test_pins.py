@@ -29,7 +29,7 @@ def test_levels_fit_the_ports(name: str) -> None:
 
 
 def test_every_part_with_a_folder_has_a_bench() -> None:
-    """The harness knows each device of the table of parts by its name."""
+    """The harness finds each device of the table of parts by its name."""
     assert {row.name for row in parts.folders()} <= set(PARTS)
     assert all(PARTS[name].name == name and name in parts.PARTS for name in PARTS)
     assert "isa_4axis" not in PARTS and "nonsense" not in PARTS

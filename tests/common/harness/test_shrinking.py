@@ -228,7 +228,7 @@ def line(t: int, byte: int) -> list[tuple[int, str, int]]:
 
 
 def test_transactions_are_described_as_text() -> None:
-    """Acts are shown as text: pin names, bit numbers, resets, bytes of a frame, groups of clock periods."""
+    """Transactions are text: pin names, bit numbers, resets, bytes of a frame, groups of clock periods."""
     assert rows("ppmc104", (40, "alm_n", 0), (50, "rst_n", 0), (62, "rst_n", 1)) == [
         "alm_n = 0 at 40", "reset for 12 clk at 50",
     ]  # fmt: skip

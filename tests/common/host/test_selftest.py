@@ -122,7 +122,7 @@ def test_a_reset_is_no_difference(part: str) -> None:
 
 
 def test_a_step_and_one_clk_too_late() -> None:
-    """A step as in the golden model agrees in all edges; an edge one cycle later is found."""
+    """A recorded step that equals the golden model has no difference; an edge one cycle late is reported."""
     samples = recorded("ppmc104", initialisation(), 120_000)
     count, wrong = compared("ppmc104", samples)
     assert count == 6 and not wrong  # edges of s, hold, pout_n, s, pout_n, int_n

@@ -1,4 +1,4 @@
-"""Ramp arithmetic against exact fractions, the threshold form, and the index sequences of section 5.4/5.5."""
+"""Ramp arithmetic against exact fractions, threshold form, index sequences (P104-RMP, P104-PRO, P104-FDC)."""
 
 from __future__ import annotations
 

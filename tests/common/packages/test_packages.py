@@ -31,7 +31,7 @@ BOARDS = [[f"rtl/{name}" for name in LISTED[group]["files"]] for group in CARRIE
 
 @pytest.mark.parametrize("path", {**core_files(), **list_files()}, ids=lambda path: path.name)
 def test_fresh(path):
-    """A generated file equals the output of `make packages`, and contains no path of a machine."""
+    """A generated file equals the output of `make packages`, and contains no path of a computer."""
     wanted = {**core_files(), **list_files()}[path]
     assert path.read_text(encoding="utf-8") == wanted, "run `make packages`"
     assert not re.search(r"(?<![\w$.*])/(?:home|work|tmp|usr)/", wanted)

@@ -110,7 +110,7 @@ def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
     ],
 )
 def test_skip_and_only_make_a_trial(monkeypatch, capsys, arguments, trial):
-    """SKIP or ONLY selects a trial, and the last line says so; otherwise it is a release."""
+    """SKIP or ONLY selects a trial, and the last line states this; otherwise it is a release."""
     asked = []
 
     def current_release(only, trial):

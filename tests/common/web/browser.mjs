@@ -1,5 +1,5 @@
 // node browser.mjs SITE SHOTS PACKAGES TRIPPED [CHECK]: checks the playground in a real Chromium.
-// TRIPPED: a PPMC-104 that l1_n = 0 stops.
+// TRIPPED: module of a PPMC-104 whose simulation stops with an error when l1_n is low (trip.sv).
 // Prints one line of JSON per check: {name, error?, told?}.
 // Exit code 3 and one line if no browser is available.
 import fs from "node:fs";
@@ -33,7 +33,7 @@ const view = await launch();
 const base = `http://127.0.0.1:${server.address().port}/`;
 fs.mkdirSync(shots, { recursive: true });
 const RUN = ".pg-run";
-const PATIENCE = 120_000; // ms; busy machines are slow
+const PATIENCE = 120_000; // ms; a busy computer is slow
 const SLOWEST = 2; // million cycles per second of CPU time; a third of the speed measured when this was written
 const MOST = 3; // short sessions of each device except the first device; test_engine.py plays more
 const equal = (got, wanted, what) => {

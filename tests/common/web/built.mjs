@@ -10,7 +10,7 @@ const [, , html, shots, packages, only = ""] = process.argv;
 const { launch } = await import(pathToFileURL(path.join(packages, "launch.mjs")));
 const axe = fs.readFileSync(createRequire(path.resolve(packages, "package.json")).resolve("axe-core/axe.min.js"), "utf8");
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
-let delays = {}; // ms by the end of an address
+let delays = {}; // end of a path -> delay of the response in ms
 const server = http
   .createServer(async (request, answer) => {
     const { pathname } = new URL(request.url, "http://here");

@@ -24,7 +24,7 @@ from tests.common.web.counters import add, left_out
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 LONG = 22_000_000
-"""In cycles; a longer session takes at least half a minute on an otherwise idle machine."""
+"""In cycles; a longer session takes at least half a minute on an otherwise idle computer."""
 HERE = ROOT / "tests/common/web"
 
 

@@ -80,7 +80,7 @@ def test_size(name):
 
 @every
 def test_no_path_of_this_machine(name):
-    """A module contains no path of this machine: another checkout produces the same bytes."""
+    """A module contains no path of this computer: another checkout produces the same bytes."""
     assert str(ROOT).encode() not in wasm.build(name).read_bytes()
 
 

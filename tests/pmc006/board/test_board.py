@@ -23,7 +23,7 @@ from ...common.board.foreground import foreground
 
 PART = ("--part", "pmc006")
 PATIENCE = 1.0
-"""Time limit in s, because RTL on a busy machine is much slower than real time."""
+"""Time limit in s, because RTL on a busy computer is much slower than real time."""
 SHUTTLE = """\
 ; to EXT1, off it, then to and fro between two places, without a host
         EXTEN    on

@@ -391,7 +391,7 @@ def test_a_save_that_fails_is_an_error() -> None:
 
 
 def test_the_example_program_of_the_rules() -> None:
-    """P1 (P006 12.8) makes three times 200 steps, then sets GPO1, as in P006-AC-39 and -40."""
+    """Program P1 makes three times 200 steps, then sets GPO1, as in P006-AC-39 and -40."""
     port, part = one()
     with part:
         words = [(3, 1), (8, 3200), (12, 0), (1, 200), (0x810, 0), (11, 0), (0x812, 3), (14, 3), (0x111, 1)]

@@ -51,7 +51,7 @@ P1_WORDS = (
     (0x00000111, 0x00000001),
     (0, 0),
 )
-"""The program and its words as printed in the rules (P006 12.8)."""
+"""Program P1 and its words."""
 
 P1_AGAIN = """\
         DIR      forward

@@ -1,4 +1,4 @@
-"""Motion engine of the PMC006B4 in steps of one microsecond, a reference for the golden model (P006 14.3).
+"""Motion engine of the PMC006B4 in steps of one microsecond, a reference for the golden model.
 
 It is written according to the rules P006-MOT, with rational arithmetic and one state for each register,
 and it is slow. It shares no code with the golden model.
@@ -87,7 +87,7 @@ class Reference:
         self.u = 0
 
     def look(self) -> None:
-        """Evaluate the state after an update, as advance() of the rules."""
+        """Evaluate the state after an update tick: the list in docs/pmc006/README.md, 6."""
         off = self.n is None and self.off(self.t)
         if self.phase in ("STOP", "END") and not off:
             self.phase, self.seen = "CRUISE", self.v

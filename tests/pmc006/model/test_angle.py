@@ -1,4 +1,4 @@
-"""Angle, sine table, references, currents of the PMC006B4 (P006 6.1..6.4, 14.1)."""
+"""Angle, sine table, references, currents of the PMC006B4 (P006-EXC)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chopper and reference bit streams of the PMC006B4 (P006 6.5, 6.6)."""
+"""Chopper and reference bit streams of the PMC006B4 (P006-CHP, P006-EXC-40)."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ def test_short_moves_know_no_maximum_speed(target: int) -> None:
 
 
 def check_move(made: Made, order: MotionStart) -> None:
-    """Check the properties of 5.5 for constant parameters."""
+    """Check the properties of a move (P006-MOT) for constant parameters."""
     n, steps = order.n, made.steps
     assert n is not None and len(steps) == n
     speeds = [speed for _, speed in made.updates]

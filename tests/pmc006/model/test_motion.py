@@ -1,4 +1,4 @@
-"""Motions of the PMC006B4 at clock edges: t = 0, steps, ends, stops, live registers (P006 4.3, 5.1..5.7)."""
+"""Motions of the PMC006B4 at clock edges: t = 0, steps, ends, stops, live registers (P006-MOT)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Worked moves of the PMC006B4 in us: the 47 moves of the table (P006 14.2), and W1..W14 (P006 5.8)."""
+"""Worked moves of the PMC006B4 in us: the 47 moves of MOVES, and W1..W14."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""DATASHEET times of the golden model, exact to the cycle, without latencies of a core (section 8)."""
+"""DATASHEET times of the golden model, exact to the cycle, without latencies of a core (P104-DS)."""
 
 from __future__ import annotations
 

@@ -227,7 +227,7 @@ def test_level_seen_on_the_start_edge_is_judged_one_clk_later():
 
 @pytest.mark.parametrize("rate, low", [(0, 16), (1, 32), (2, 48), (3, 80), (9, 80)])
 def test_low_time_of_the_fastest_rates(rate, low):
-    """The low time is half the interval only at 500 kHz with vsel = H (P104-TIM-05 a)."""
+    """The low time is half the interval only at 500 kHz with vsel = H (P104-TIM-05)."""
     for csel, vsel, expected in ((1, 1, low), (0, 1, 80), (1, 0, 80)):
         host = moving(INIT_A)
         host.pins(csel=csel, vsel=vsel)

@@ -17,7 +17,9 @@ def clock_run(host: Host, period: int, edges: int, phase: int = 0) -> None:
 
 
 def test_tim_05_external_pulse_width():
-    """Cases b and c: the low time ends at a base edge, or at the falling clock edge (P104-TIM-05)."""
+    """With the external clock, the low time ends at a clock edge if this occurs before W: for R >= 1 at a
+    rising edge, for R = 0 at the falling edge (P104-TIM-05).
+    """
     for rate, period, low in (
         (1, 64, 64),
         (3, 16, 32),

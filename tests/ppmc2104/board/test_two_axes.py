@@ -203,7 +203,7 @@ def test_host_dies_between_the_commands(board: SimBoard, until: Wait) -> None:
 
 
 def axes_at_rest(port: str) -> list[int]:
-    """Return the positions of both axes, which must be at rest."""
+    """Return the positions of both axes, which must be at standstill."""
     with Ppmc2104.open(port) as part:
         assert not any(part.status().busy)
         axes: tuple[Axis, ...] = part.axes

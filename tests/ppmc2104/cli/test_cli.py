@@ -238,7 +238,7 @@ def test_ctrl_c_in_a_real_process(tmp_path: Path) -> None:
     told = re.fullmatch(r"interrupted: stopped, axis 1: position (-?\d+), axis 2: position (-?\d+)\n", err)
     assert told is not None, err
     x, y = map(int, told.groups())
-    # Each axis gets its own command, so the distance between the stops depends on the load of this computer.
+    # Each axis has a separate stop command, so the time between them depends on the load of the computer.
     assert 0 <= x < 8000 and 0 <= y < 8000
 
 

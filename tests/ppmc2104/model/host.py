@@ -21,7 +21,7 @@ def clk(rates: list[int], base: int = 32) -> list[int]:
 
 class Host(ModelHost):
     """`ModelHost` of the PPMC-2104. Scripts may also contain e1, e2 (error code read), idle (both axes
-    at rest), ready (no CMND).
+    at standstill), ready (no CMND).
 
     `axis` (1 or 2) is the axis of pulses(), intervals(), lows() and fall().
     """

@@ -9,7 +9,7 @@ from cocotb_tests.ppmc2104.datasheet_timing import CONSTANT, SETTING, detection
 from openppmc.model import Latency
 from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
-# This core has no latencies of its own, so that the times are exactly those of the tables.
+# The latencies of this core are 0, so that the times are exactly those of the tables.
 PLAIN = Latency(ds_window=0)
 
 
@@ -188,7 +188,7 @@ def test_ac_75_polled_limit():
 
 @verifies("P2104-DS-23")
 def test_polling_examples_of_the_data_sheet():
-    """The formula of section 2.6 returns the four printed results."""
+    """`detection` returns the four results that the data sheet prints."""
     assert detection(SETTING, 0, 0) == 71_035
     assert detection(0, CONSTANT, 0, 100) == 73
     assert detection(0, CONSTANT, CONSTANT, 100) == 187

@@ -1,4 +1,4 @@
-"""Worked examples of section 5.7 on the golden model of the PPMC-2104."""
+"""Worked examples (P2104-EX) on the golden model of the PPMC-2104."""
 
 from __future__ import annotations
 
@@ -212,7 +212,7 @@ def test_ex_13_pulse_width(rate, interval, low):
 
 
 def external(host: Host, script: str, period: int, axis: int = 1) -> None:
-    """Run extck with 50 % duty cycle until the axis is at rest."""
+    """Run extck with 50 % duty cycle until the axis is at standstill."""
     host.run(script)
     while host.model.busy(axis):
         host.pin("extck", 1, axis)

@@ -41,7 +41,7 @@ def test_examples_in_the_docstrings() -> None:
         assert not failed and attempted >= least, module
 
 
-# (number of the row in the table of transactions, block, WAR, bytes in bus order)
+# (number of the transaction in cocotb_tests/ppmc312/tb_transactions.py, block, WAR, bytes in bus order)
 TRANSACTIONS = [
     (1, blocks312.initial_setting(1, 1000, 200, 2000), 0x15, "D0 07 00 C8 00 E8 03 01 00 09 03"),
     (
@@ -92,7 +92,7 @@ def test_transactions_of_the_rules(row: int, block: bytes, start: int, wanted: s
 
 
 def test_free_curve_of_the_rules() -> None:
-    """The blocks of a free curve equal rows 34 to 36.
+    """The blocks of a free curve equal transactions 34 to 36 of tb_transactions.py.
 
     With a separate deceleration, the number of its stages follows.
     """
@@ -165,7 +165,7 @@ NUMBERS = [
     *(0x10, 0x11, 0x15, 0x16, 0x17, 0x18, 0x19, 0x1A),
     *(0x20, 0x21, 0x23, 0x24, 0x25, 0x26, 0x27),
 ]
-"""Numbers of the parameter abnormality (section 10.2 of the rules)."""
+"""Error numbers of the parameter abnormality F0 (docs/ppmc312/README.md, Blocks)."""
 
 
 @pytest.mark.parametrize(("response", "kind", "text"), REFUSALS, ids=[r[0] for r in REFUSALS])
@@ -266,7 +266,7 @@ def test_base_clock_by_the_slowest_speed() -> None:
 
 
 def test_initial_settings() -> None:
-    """Initial settings have the bytes of the tables T1 to T5 of the rules."""
+    """Initial settings have the bytes of the tables T1 to T5 (docs/ppmc312/README.md, 8.1)."""
     examples: list[tuple[dict[str, object], str]] = [
         ({}, "09 00 01 03 E8 00 C8 00 07 D0"),
         ({"sigmoid": True}, "09 00 09 03 E8 00 C8 00 07 D0"),
@@ -340,7 +340,7 @@ def test_bad_setups_are_told_before_they_are_sent(arguments: dict[str, object], 
 
 
 def test_prediction_of_a_move() -> None:
-    """Predictions equal examples E13 and E17 of the rules; input that the part would reject is rejected."""
+    """Predictions equal worked moves E13 and E17 (P312-CHK-17); input that the part rejects is rejected."""
     one, two = "01 03e8 00c8 0007d0", "11 03e8 01f4 00c8 0007d0 0005dc"
     move = predict_move(bytes.fromhex(one), 5000, part="ppmc312")
     assert isinstance(move, TableMove) and (move.kind, len(move.clk)) == (0, 5000)
@@ -367,7 +367,7 @@ def test_prediction_of_a_move() -> None:
 
 
 def test_free_curve_with_a_deceleration_of_its_own() -> None:
-    """A curve with three stages up and two down has the blocks of table TG of the rules."""
+    """A curve with three stages up and two down has the blocks TG of cocotb_tests/ppmc312/blocks.py."""
     setup = plan_curve(MEGAHERTZ, [(2500, 3), (5000, 4, 4), (10_000, 5, 6)])
     assert [block.hex(" ") for block in setup.blocks] == [
         "02 04 01 11 03 02",

@@ -64,7 +64,7 @@ from openppmc.model.ppmc312.codes import Code, Source, State
 from openppmc.sim.common.machine import parse_machine
 
 TF = ((2500, 3), (5000, 4), (10_000, 5))
-"""Rates 400, 200, 100 with 3, 4, 5 pulses at 1 MHz (table TF of the rules)."""
+"""Rates 400, 200, 100 with 3, 4, 5 pulses at 1 MHz (table TF in docs/ppmc312/README.md, 8.2)."""
 
 
 @contextmanager
@@ -151,7 +151,7 @@ def test_an_instruction_is_one_message(part: Ppmc312) -> None:
 
 
 def test_reports_that_come_first_are_not_lost(part: Ppmc312) -> None:
-    """A stop report that the read window holds when the next instruction is sent is not lost."""
+    """A stop report that the read window holds when the next instruction is sent is not discarded."""
     part.start_constant(2, 10_000)
     part.link.pause(0.01)
     assert model(part).part.core.responses.any_waiting
@@ -242,7 +242,7 @@ def test_a_speed_outside_the_table(part: Ppmc312) -> None:
 
 
 def test_pulses_of_a_move(part: Ppmc312) -> None:
-    """Moves equal examples E1 and E3 of the rules, and a constant speed has constant intervals."""
+    """Moves equal worked moves E1 and E3 (P312-CHK-15), and a constant speed has constant intervals."""
     assert gaps(part, lambda: part.move(30)) == [400] * 3 + [200] * 4 + [100] * 16 + [200] * 4 + [400] * 2
     assert part.motion is not None and part.motion.shape == "trapezoid"
     assert gaps(part, lambda: part.move(-23)) == [400] * 3 + [200] * 4 + [100] * 9 + [200] * 4 + [400] * 2

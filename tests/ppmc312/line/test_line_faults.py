@@ -235,7 +235,7 @@ def test_a_damaged_position_that_looks_good_is_read_again() -> None:
 def test_a_motion_explains_two_positions() -> None:
     """Two different positions are valid during a motion, not at standstill.
 
-    Without a table of its own the master knows no speed, only that the motor moves.
+    If the master has not set a table, it does not know the speed, only that the motor moves.
     """
     further = "A1 30 30 30 30 30 30 32 35 39"
     port, axis = station(HERE, further, MOVES, MOVES)

@@ -17,7 +17,7 @@ TH = curve([100, 200, 400], [6, 4], [5, 4, 3])
 
 
 def runs(steps: list[Step]) -> str:
-    """Return pulses in the notation of the specification: `400x3 200x4`."""
+    """Return pulses in the notation rate x pulses: `400x3 200x4`."""
     groups = ((rate, len(list(group))) for rate, group in groupby(step.rate for step in steps))
     return " ".join(f"{rate}x{count}" for rate, count in groups)
 

@@ -1,4 +1,4 @@
-"""Worked examples E1..E32 of the PPMC-312 without time: plans, changes and stops by pulses (5.3..5.6)."""
+"""Worked examples E1..E32 of the PPMC-312 without time: plans, changes and stops by pulses."""
 
 from __future__ import annotations
 

@@ -86,7 +86,7 @@ def test_silence(characters: str, outcome: Outcome | None) -> None:
 
 @verifies("P312-SER-17", "P312-SER-44", "P312-BAD-06")
 def test_codes_without_a_meaning() -> None:
-    """All codes that chapter 3.6 does not list are unknown."""
+    """Each code that the serial mode does not define is unknown and skipped until silence (P312-SER-17)."""
     listed = {
         0x00,
         *range(0x02, 0x07),

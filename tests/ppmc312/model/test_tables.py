@@ -1,4 +1,4 @@
-"""Tables of the PPMC-312: reference tables, error boundaries, read-back, free curves (chapters 3.2, 5.1)."""
+"""Tables of the PPMC-312: reference tables, error boundaries, read-back, free curves (P312-TBL)."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def test_error_boundaries() -> None:
 )
 @verifies("P312-TBL-02", "P312-TBL-04", "P312-TBL-06")
 def test_any_table(start: int, stop: int, high: int, total: int, sigmoid: bool) -> None:
-    """Every setting results in an error number or in a table with the properties of 5.1.
+    """Every setting results in an error number or in a table with the properties of P312-TBL-02.
 
     The expected values follow from the formulas of the engine.
     """

@@ -46,7 +46,7 @@ from openppmc.model.stmc.carrier import Carrier
 
 XTAL = 16_000_000
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
-"""Gaps of 20 steps with divisors 20 and 5 and a ramp of 8 (example W1 of the rules)."""
+"""Gaps of 20 steps with divisors 20 and 5 and a ramp of 8 (worked move W1 of docs/stmc/README.md, 8.4)."""
 
 
 timing = "FAST"
@@ -110,7 +110,7 @@ def test_the_worked_examples_of_the_sheet() -> None:
 
 
 def test_bytes_of_an_initialisation() -> None:
-    """The bytes of an initialisation are 00sc plmm, then D1, D2, PA (section 3.1 of the rules)."""
+    """The bytes of an initialisation are 00sc plmm, then D1, D2, PA (docs/stmc/README.md, Initialisation)."""
     examples: list[tuple[dict[str, object], str]] = [
         ({"start_pps": 345, "high_pps": 825, "ramp_pulses": 400}, "1A 8D 3B 90 01"),
         ({"start_pps": 100, "high_pps": 2500, "ramp_pulses": 65_535}, "0A 7D 05 FF FF"),
