@@ -173,7 +173,7 @@ class Nak(IntEnum):
 _REPEAT_AFTER = frozenset(Nak) - {Nak.SEQ}
 
 
-class RetriesExhausted(Exception):  # noqa: N818 - says what happened, the link makes an error of it
+class RetriesExhausted(Exception):  # noqa: N818 - names the event; the link raises an error for it
     """No answer after all attempts.
 
     Args:

@@ -87,7 +87,7 @@ class Device(Checked):
                     try:
                         axis._request_stop()
                     except PpmcError:
-                        pass  # the first error is the one to report
+                        pass  # the caller receives the first error
         self.close()
 
 

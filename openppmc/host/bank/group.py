@@ -21,7 +21,7 @@ BUSY, ERR = 0x04, 0x80
 _GO_READS = 8
 """Number of read accesses before MASK changes.
 
-One takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
+One access takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
 """
 
 
@@ -161,4 +161,4 @@ class Group(Checked):
                     self._each((number,), Script().call(READ_FINISH).get(1))
             visit(link, write_mask(kind, ()))
         except PpmcError:
-            pass  # the first error is the one to report
+            pass  # the caller receives the first error
