@@ -21,10 +21,10 @@ class CoreTiming:
     The times of plans and tables depend on the table.
 
     Attributes:
-        arbitration: instructions: header write event, trigger, or end of the last instruction to the begin of
+        arbitration: instructions: header write event, trigger, or end of the last instruction to the start of
             processing. The block is fetched at one byte per cycle and checked.
-        check: begin of processing to the checks.
-        effect: begin of processing to the effect of a short instruction.
+        check: start of processing to the checks.
+        effect: start of processing to the effect of a short instruction.
         copy: additional time of an instruction that is registered.
         data: additional time of a data block of a free curve, without its bytes (one cycle each).
         limits: effect to the limit check of a start, which uses the levels of its edge.
