@@ -135,8 +135,8 @@ class CoreTiming:
     def starting(self, plan: Plan, single: bool = False, ramped: bool = False) -> int:
         """Return the cycles from the effect to t0.
 
-        The look-up also adds up the ramps. It needs another pass over the deceleration ramp if that does not
-        begin with a full stage. A triangular profile needs a multiplication and a division.
+        The look-up also adds up the ramps. It needs another pass over the deceleration ramp if this ramp does
+        not begin with a full stage. A triangular profile needs a multiplication and a division.
 
         Args:
             single: True for a single step, which needs no look-up.
