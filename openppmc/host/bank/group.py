@@ -69,7 +69,7 @@ class Group(Checked):
     Motions of these axes that are started inside the block wait at their first pulse.
 
     At the end of the block all of them start in the same cycle. If the block is left by an exception, the
-    waiting motions are stopped, and nothing moves. It is made with the numbers of the axes.
+    waiting motions are stopped, and nothing moves. A group is created with the numbers of its axes.
 
     Raises:
         AxisBusy: at the start of the block, an axis moves.

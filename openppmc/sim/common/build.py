@@ -268,7 +268,7 @@ def copy_runtime(source: Path, target: Path) -> None:
             # verilator.o (the main program of cocotb) and top.o are compiled for one design and not copied.
             for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
                 shutil.copy(path, target)
-                # They must be newer than the makefile, which is written later; else make compiles them again.
+                # The copies must be newer than the makefile that is written later; else make compiles again.
                 os.utime(target / path.name, (time.time(), time.time() + 3_600))
 
 
