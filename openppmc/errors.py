@@ -13,7 +13,10 @@ class PpmcError(Exception):
 
 
 class MissingExtraError(PpmcError):
-    """A library of an extra, such as `plot` or `ophyd`, is not installed. One line with its name."""
+    """A library of an extra, such as `plot` or `ophyd`, is not installed.
+
+    The message is one line with its name.
+    """
 
 
 def needs(extra: str, what: str, *modules: str) -> None:

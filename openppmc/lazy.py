@@ -24,7 +24,7 @@ def _warn(old: str, new: str) -> None:
 
 
 class Renamed:
-    """Old name of an attribute or method; it warns and returns the one with the new name.
+    """Old name of an attribute or method; it warns and returns the attribute with the new name.
 
     Attributes:
         name: new name.

@@ -138,7 +138,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
                 try:
                     self._axis.stop(wait=False)
                 except NothingToStop:
-                    pass  # it has just stopped
+                    pass  # the motor has just stopped
 
     # ------------------------------------------------------------------ internal
 

@@ -23,7 +23,7 @@ from typing import Any
 
 
 class UnknownPartError(ValueError):
-    """A name or number is not in the table, or a part has no entry in a column. One line."""
+    """A name or number is not in the table, or a part has no entry in a column. The message is one line."""
 
 
 LAYER_OF = {

@@ -131,9 +131,9 @@ class _Stream(io.TextIOWrapper):
             self._drop(error)
 
     def _drop(self, error: OSError) -> None:
-        """Send the rest to the null device.
+        """Send all further text to the null device.
 
-        Otherwise the interpreter writes it at its end and reports an error.
+        Otherwise the interpreter writes this text when it ends, and reports an error.
         """
         with suppress(OSError):
             nowhere = os.open(os.devnull, os.O_WRONLY)

@@ -24,7 +24,7 @@ REQUEST_LIMIT = 256
 ANSWER_LIMIT = 262
 """Longest content that a bridge sends, in bytes (UB-ANS-01, -02).
 
-It consists of SEQ, RESULT, POS, LAST, 256 data bytes and CRC.
+The content consists of SEQ, RESULT, POS, LAST, 256 data bytes and CRC.
 """
 
 
@@ -153,7 +153,7 @@ LAST_SEQ = 127
 WAKE_UP = b"\x00\x00\x7e"
 """Bytes sent at 115 200 baud to wake up a bridge (UB-LIN-06).
 
-They return it from any rate and any frame to the idle state.
+The bytes return the bridge from any rate and any frame to the idle state.
 """
 
 
@@ -173,7 +173,7 @@ class Nak(IntEnum):
 _REPEAT_AFTER = frozenset(Nak) - {Nak.SEQ}
 
 
-class RetriesExhausted(Exception):  # noqa: N818 - says what happened, the link makes an error of it
+class RetriesExhausted(Exception):  # noqa: N818 - names the event; the link raises an error for it
     """No answer after all attempts.
 
     Args:

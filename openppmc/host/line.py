@@ -1,6 +1,6 @@
 """Lines with several stations: master, motions, waiting, stopping, errors.
 
-They are independent of the frame format.
+The classes are independent of the frame format.
 """
 
 # ruff: noqa: N818

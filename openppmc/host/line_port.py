@@ -1,7 +1,7 @@
 """Ports of a line with several stations.
 
-They are a device or URL opened by pyserial, a modelled line (`model:`), and a line in a separate process
-(`sim:`).
+The ports are a device or URL opened by pyserial, a modelled line (`model:`), and a line in a separate
+process (`sim:`).
 """
 
 from __future__ import annotations

@@ -266,7 +266,7 @@ class Motion(Handle):
             self.result = self._axis._annotate(end)
 
 
-# Homing. It finds the same edge from the same side, regardless of the start position.
+# Homing finds the same edge from the same side, regardless of the start position.
 
 LONGEST_BACK_OFF = 200_000
 

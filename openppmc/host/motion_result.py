@@ -28,7 +28,7 @@ ALARM_INPUT = ("alarm input", "clear the drive's alarm")
 
 
 class MotionError(PpmcError):
-    """A motion ended in another way than requested; `result` holds position and cause."""
+    """A motion ended differently from its request; `result` holds position and cause."""
 
     end = Renamed("result")
 

@@ -22,7 +22,7 @@ from .port import Port
 from .registers import Status
 from .script import Script
 
-# The base class of open devices. It closes the port and stops its motions after an error.
+# The base class of open devices, which closes the port and stops the motions of the device after an error.
 
 DeviceT = TypeVar("DeviceT", bound="Device")
 
@@ -87,7 +87,7 @@ class Device(Checked):
                     try:
                         axis._request_stop()
                     except PpmcError:
-                        pass  # the first error is the one to report
+                        pass  # the caller receives the first error
         self.close()
 
 

@@ -20,7 +20,7 @@ _OTHER_STRAPS = 0xFC
 _START_XT = 1792
 """Crystal cycles from the last byte of an operation until BUSY rises, at most.
 
-They are 112 us (P104-DS-03).
+The cycles last 112 us (P104-DS-03).
 """
 
 

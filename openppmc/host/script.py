@@ -245,7 +245,7 @@ class Answer:
         return int.from_bytes(self.values[place], "little", signed=signed)
 
 
-class BadAnswer(ValueError):  # noqa: N818 - the noun says it
+class BadAnswer(ValueError):  # noqa: N818 - names the invalid object
     """Answer that does not fit the script: the other device violates the protocol."""
 
 

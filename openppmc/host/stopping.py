@@ -31,7 +31,7 @@ NO_MOTION = "nothing was moving"
 arrived: list[int] = []
 """Signals that the command line received before it opened a board.
 
-They are stored, because an exception of a handler can get lost.
+The signals are stored, because an exception of a signal handler can get lost.
 """
 
 

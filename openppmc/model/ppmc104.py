@@ -1,10 +1,11 @@
 """Golden model of the PPMC-104 at pin level, event driven and cycle-accurate.
 
-Rules by module: this one pins, reset and parameters (P104-PORT-01..03, P104-PAR-01). Bus: `single.hostport`
-(P104-BUS, -HSK). Commands: this one and `single.commands` (P104-CMD, -ERR, -INI, -RD, -AUX). Motion: this
-one, `motion.motion` and `single.commands` (P104-OPR, -BCK, -PRO, -FDC, -TIM, -END). Limits: `motion.codes`
-(P104-LIM). Phases and chopper: `motion.excitation` (P104-PHS, -SW). Ramp: `motion.ramp` (P104-RMP). `chip`,
-`clock` and `single.single` have pins and time. `clock.Latency` has the constants that the rules leave open.
+Rules by module: this module pins, reset and parameters (P104-PORT-01..03, P104-PAR-01). Bus:
+`single.hostport` (P104-BUS, -HSK). Commands: this module and `single.commands` (P104-CMD, -ERR, -INI, -RD,
+-AUX). Motion: this module, `motion.motion` and `single.commands` (P104-OPR, -BCK, -PRO, -FDC, -TIM, -END).
+Limits: `motion.codes` (P104-LIM). Phases and chopper: `motion.excitation` (P104-PHS, -SW). Ramp:
+`motion.ramp` (P104-RMP). `chip`, `clock` and `single.single` contain pins and time. `clock.Latency` contains
+the constants that the rules leave open.
 """
 
 from __future__ import annotations

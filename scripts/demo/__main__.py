@@ -1,4 +1,4 @@
-"""`make demo`: build a part's RTL, drive it like a host, compare it with the golden model, show it."""
+"""`make demo`: build a part's RTL, drive it like a host, compare it with the golden model, draw it."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ def items() -> Iterator[Item]:
 
 
 def compare(item: Item) -> Result:
-    """Run a test on both main programs; return the result with a line about it."""
+    """Run a test on both main programs; return the result with a message of one line."""
     try:
         return Result(True, {"message": f"{item.id}: the same, recordings: {check_mains(item)}"})
     except AssertionError as error:

@@ -87,7 +87,7 @@ def trial(name: str, python: str, constraints: list[str], tests: list[str]) -> N
     tools = [line for line in lines if TOOLS.fullmatch(line)]
     step(name, [*pip, "-c", str(limits), f"{wheel}{EXTRAS}", "bluesky", *tools])
     step(name, [own, "-m", "pip", "list", "--format", "freeze"])
-    # Test the installed package, not the one of the source tree.
+    # Test the installed package, not the package in the source tree.
     step(name, [str(folder / "env/bin/openppmc"), "--port", "model:speed=max", "status"], folder)
     step(name, [own, "-m", "pytest", "-n", "0", "-q", "-W", "ignore", *tests])
 

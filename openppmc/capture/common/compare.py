@@ -368,7 +368,7 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
 def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    The ratio is measured in the lengths of moves of both in ps, and is 1 if they do not define it.
+    The ratio is that of the lengths (in ps) of moves that both contain; 1 if these lengths do not define it.
 
     Args:
         slack: possible error of a length in ps.

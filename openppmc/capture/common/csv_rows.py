@@ -301,7 +301,7 @@ class Rows:
             exact |= {row: self._time(self._line + row, block.cell(row)) for row in dated.tolist()}
         plain, value, decimals = plain[valid], value[valid], decimals[valid]
         if len(decimals) and int(decimals.min()) == int(decimals.max()):
-            # The decimals are the same for all: the columns below have a single row.
+            # All times have the same number of decimals, so the columns below have a single row.
             decimals = decimals[:1]
         power = self._powers[decimals.clip(0, _DIGITS)]
         whole = not (self.whole and (value % power).any())

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Access(NamedTuple):
-    """Strobe on the bus from begin to end in ps.
+    """Strobe on the bus from `begin` to `end` in ps.
 
     Attributes:
         reg: level of the address pins.

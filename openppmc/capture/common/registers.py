@@ -64,7 +64,7 @@ def decoded_byte_lines(
 
     The function is for parts with commands and status in register 1 and data in register 0.
 
-    It does the work of `exchanges` with columns instead of single accesses.
+    The result is that of `exchanges`, computed from columns instead of single accesses.
     """
     np = numpy()
     accesses = accesses.without_polls(1)
@@ -119,7 +119,7 @@ def _hex(data: Sequence[int]) -> str:
 
 
 def cycle(access: Access, levels: dict[str, int], data: str = "d_i") -> list[tuple[int, dict[str, int]]]:
-    """Return a clean strobe for the golden model: levels at its begin, and those at its end."""
+    """Return a clean strobe for the golden model: the levels at its start and at its end."""
     begin = {**levels, data: access.byte} if access.write else levels
     idle = {pin: 1 for pin, level in levels.items() if pin.endswith("_n") and not level and pin != "rst_n"}
     return [(access.begin, begin), (access.end, idle)]

@@ -1,1 +1,1 @@
-"""Commands that all parts share, and what commands are made of."""
+"""Commands that all parts share, and the functions that commands use."""

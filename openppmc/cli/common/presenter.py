@@ -231,7 +231,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
             pulses: 1 or more.
         """
 
-    # ------------------------------------------------------------------ what not all parts have
+    # ------------------------------------------------------------------ functions of some parts only
 
     def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
         """Set the overrides of the next move and the permitted deviation of the encoder in pulses."""

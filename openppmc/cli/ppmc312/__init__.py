@@ -1,1 +1,1 @@
-"""What the command line shows, forecasts and reads for a PPMC-312."""
+"""Commands and presenter of the command line for a PPMC-312."""

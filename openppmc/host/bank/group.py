@@ -21,7 +21,7 @@ BUSY, ERR = 0x04, 0x80
 _GO_READS = 8
 """Number of read accesses before MASK changes.
 
-One takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
+One access takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
 """
 
 
@@ -69,7 +69,7 @@ class Group(Checked):
     Motions of these axes that are started inside the block wait at their first pulse.
 
     At the end of the block all of them start in the same cycle. If the block is left by an exception, the
-    waiting motions are stopped, and nothing moves. It is made with the numbers of the axes.
+    waiting motions are stopped, and nothing moves. A group is created with the numbers of its axes.
 
     Raises:
         AxisBusy: at the start of the block, an axis moves.
@@ -161,4 +161,4 @@ class Group(Checked):
                     self._each((number,), Script().call(READ_FINISH).get(1))
             visit(link, write_mask(kind, ()))
         except PpmcError:
-            pass  # the first error is the one to report
+            pass  # the caller receives the first error

@@ -80,7 +80,7 @@ class Axis(Settings):
         """Stop with a ramp; return the result, or `None` if wait is False.
 
         A free run receives a stop instruction. The part has no such instruction for moves. A move of 256
-        steps or more first gets a low maximum speed; it is aborted when it has decelerated to it.
+        steps or more first gets a low maximum speed, and is aborted when it has decelerated to this speed.
 
         Raises:
             NothingToStop: the motor is stopped.

@@ -29,7 +29,7 @@ BAUD, SLOWEST, FASTEST = 9600, 1200, 115_200
 DROPPED_AFTER = 200
 """Bit times of silence after which a controller has discarded an incomplete frame.
 
-The part needs 192; the rest is a reserve.
+The part needs 192 bit times; the other 8 are a reserve.
 """
 
 
@@ -181,9 +181,9 @@ class StationLink(Checked):
     def _synchronise(self, misses: list[MissingReply]) -> bool:
         """Restore the order of replies after a silence; return False if that fails.
 
-        A reply does not identify its instruction, so a late reply would be taken for the reply to the next
-        one. Set the word pointer, whose value is not used, until the reply returns the same value. Silences
-        are added to `misses`.
+        A reply does not identify its instruction, so a late reply would be mistaken for the reply to the next
+        instruction. Set the word pointer, whose value is not used, until the reply returns the same value.
+        Silences are added to `misses`.
         """
         if self.address not in self.line.unsynchronised:
             return True

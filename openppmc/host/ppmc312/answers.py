@@ -264,7 +264,7 @@ Report: TypeAlias = (
 )
 
 
-class BadResponse(ValueError):  # noqa: N818 - the noun says it
+class BadResponse(ValueError):  # noqa: N818 - names the invalid object
     """Response that the part never sends."""
 
 

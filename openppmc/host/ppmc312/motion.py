@@ -106,7 +106,7 @@ class Motion(Handle):
         if self.begin is not None:
             done = signed((report.position - self.begin) % COUNTS)
         if done is not None and self.requested:
-            ahead = (-done if self.direction else done) % COUNTS  # it may be more than half the counter range
+            ahead = (-done if self.direction else done) % COUNTS  # up to the whole counter range
             remaining = self.requested - ahead
             if remaining < 0 or (remaining and cause is Cause.COMPLETE):
                 self._not_confirmed(

@@ -1,11 +1,11 @@
 """Access to a PPMC-312 through its block registers on the bridge.
 
-An instruction takes one message to the bridge and one back.
+An instruction needs one message to the bridge and one from the bridge.
 
 The message contains these steps: wait until an instruction may be written, write it, wait for a response,
-read it. WAIT on RAR returns how much of a response is left. With a time limit of 0 it ends the script if no
-byte is left. Therefore no byte is read twice or lost, regardless of what arrives first, the response or a
-pending report.
+read it. WAIT on RAR returns the number of bytes of a response that are left. With a time limit of 0, WAIT
+ends the script if no byte is left. Therefore no byte is read twice or lost, regardless of the order in which
+the response and a pending report arrive.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class Window:
     def _append_read(script: Script, gives: int) -> Script:
         """Append the operations that read a response.
 
-        The first bytes are always there; each following byte is read only if it is left.
+        The first SHORTEST bytes are always present; each following byte is read only if one is left.
         """
         script.wait(ADDRESS, MASK, LEFT).read_many(READ, SHORTEST).timeout(0)
         for _ in range(gives - SHORTEST):
@@ -118,7 +118,7 @@ class Window:
         return script
 
     def _exchange(self, script: Script, patient: bool = True) -> Response | None:
-        """Execute such a script, then read the rest of a response that it has begun.
+        """Execute the script of an instruction, then read the other bytes of a response.
 
         Args:
             patient: True if a missing response is an error.

@@ -8,5 +8,5 @@
     run        plays sections, compares and collects results
     page       result as text and JSON
 
-The `selftest` module of a part (column of the table) defines what is recorded and played.
+The `selftest` module of a part (column of the table of parts) defines the recorded pins and the stimuli.
 """

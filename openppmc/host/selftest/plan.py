@@ -135,7 +135,7 @@ class Plan(Protocol):
     def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
         """Return parameters of the golden model for the levels of its outputs in reset.
 
-        Several candidates are returned if the levels do not decide; the one that matches is correct.
+        Several candidates are returned if the levels do not decide; the candidate that matches is correct.
         """
 
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:

@@ -61,7 +61,7 @@ SETTLE = 2
 """Cycles from the fall of rst_n until the outputs have their reset levels."""
 
 
-class NoReset(ValueError):  # noqa: N818 - says what is missing
+class NoReset(ValueError):  # noqa: N818 - names the missing object
     """The records contain no reset of the part, which a golden model must begin with."""
 
 

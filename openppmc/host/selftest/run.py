@@ -28,7 +28,7 @@ If the PC is busy for a long time, a chopper or a clock may fill the recorder.
 PrintLine = Callable[[str], None]
 
 
-class NoRecorder(PpmcError):  # noqa: N818 - says what is missing
+class NoRecorder(PpmcError):  # noqa: N818 - names the missing object
     """The bitstream has no recorder."""
 
 

@@ -25,7 +25,7 @@ Rule: BANK-INI-01.
 READY_LEAD = 3
 """Cycles from the end of a table build to the visit that completes the initialisation.
 
-Rule: BANK-INI-02. It is the first visit that may do so.
+Rule: BANK-INI-02. This visit is the first that may complete the initialisation.
 """
 GROUP_LEAD = 5
 """Cycles from a write event of MASK or GO to the first visit that sees it (BANK-GRP-01, -02)."""

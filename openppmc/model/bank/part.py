@@ -1,11 +1,11 @@
 """Golden model of the bank at pin level: N PPMC-104, served at visits.
 
-It is event driven and cycle-accurate.
+The model is event driven and cycle-accurate.
 
-`chip` and `clock` have pins and time. Rules by module: this one BANK-GEN-01, -02, -05; `window` BANK-WIN;
-`chopper` rounds with their delays and BANK-CHP; `axis`, one object per axis, BANK-GEN-04; `commands`
-BANK-HSK, BANK-GEN-03 and BANK-INI; `motion` BANK-MOT and BANK-HLD; `group` BANK-GRP. Everything else is that
-of the PPMC-104.
+`chip` and `clock` contain pins and time. Rules by module: this module BANK-GEN-01, -02, -05; `window`
+BANK-WIN; `chopper` rounds with their delays and BANK-CHP; `axis`, one object per axis, BANK-GEN-04;
+`commands` BANK-HSK, BANK-GEN-03 and BANK-INI; `motion` BANK-MOT and BANK-HLD; `group` BANK-GRP. All other
+behaviour is that of the PPMC-104.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Carrier model: golden part, pulse counters and plants, in virtual time.
 
-It is the `Bus` of the bridge.
+The carrier is the `Bus` of the bridge.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Serial EEPROM of the 24C32 class at pin level.
 
-It has 4096 bytes, pages of 32 bytes, a write time and acknowledge polling.
+The EEPROM has 4096 bytes, pages of 32 bytes, a write time and acknowledge polling.
 
 The device samples both lines at edges of `clk`; a line that it pulls changes at the same edge. Call
 `on_lines` at every edge whose levels differ from those of the previous edge, and at `due`; nothing happens

@@ -1,6 +1,6 @@
 """Motion of one axis: one operation from its start edge to its end.
 
-This module has the behaviour that the PPMC family shares.
+This module contains the behaviour that the PPMC family shares.
 
 Intervals: P104-BCK-01..03, P104-INT-01..03, P104-PRO-04..06 (P2104-BCK, -INTV, -PRO). Forced deceleration:
 P104-FDC-01..05. Pulse shape: P104-TIM-02..06. Ends: P104-END-01..08. Inputs: P104-LIM-01..09 (`codes` defines

@@ -143,8 +143,8 @@ class ExecutionContext(Protocol):
         """Execute instruction N while the speed mode is running or ending."""
 
 
-# Instructions of the PMC006B4 (docs/pmc006/README.md, 4). An instruction is an object that reads the
-# execution context and its data, and returns an `Effect`. Nothing changes before the executor
+# Instructions of the PMC006B4 (docs/pmc006/README.md, 4 Instructions). An instruction is an object that
+# reads the execution context and its data, and returns an `Effect`. Nothing changes before the executor
 # applies the effect.
 
 

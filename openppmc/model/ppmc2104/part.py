@@ -1,10 +1,10 @@
 """Golden model of the PPMC-2104 at pin level, event driven and cycle-accurate.
 
-Rules by module: this one P2104-PORT-01..03, P2104-PAR-01. Bus: `single.hostport` (P2104-BUS, -HSK).
+Rules by module: this module P2104-PORT-01..03, P2104-PAR-01. Bus: `single.hostport` (P2104-BUS, -HSK).
 `commands`: P2104-CMD, -INI, -RD, -AUX, -ERR, -FSM. `codes`: interrupt (P2104-INT). `axis`, one object per
 axis, with `motion.motion`: P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM, -DS. Phases and chopper:
-`motion.excitation` (P2104-PHS, -SW). Ramp: `motion.ramp` (P2104-RMP). `chip` and `clock` have pins and time.
-`clk_o` is not modelled.
+`motion.excitation` (P2104-PHS, -SW). Ramp: `motion.ramp` (P2104-RMP). `chip` and `clock` contain pins and
+time. `clk_o` is not modelled.
 """
 
 from __future__ import annotations

@@ -84,7 +84,7 @@ class Core:
 
     @property
     def state(self) -> State:
-        """Operation state (docs/ppmc312/README.md, chapter 7)."""
+        """Operation state (docs/ppmc312/README.md, 7 States)."""
         if self._abnormal:
             return State.ABN
         return self.operation.state or (State.NOR if self.table else State.INI)

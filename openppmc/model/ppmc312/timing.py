@@ -21,10 +21,10 @@ class CoreTiming:
     The times of plans and tables depend on the table.
 
     Attributes:
-        arbitration: instructions: header write event, trigger, or end of the last instruction to the begin of
+        arbitration: instructions: header write event, trigger, or end of the last instruction to the start of
             processing. The block is fetched at one byte per cycle and checked.
-        check: begin of processing to the checks.
-        effect: begin of processing to the effect of a short instruction.
+        check: start of processing to the checks.
+        effect: start of processing to the effect of a short instruction.
         copy: additional time of an instruction that is registered.
         data: additional time of a data block of a free curve, without its bytes (one cycle each).
         limits: effect to the limit check of a start, which uses the levels of its edge.
@@ -135,8 +135,8 @@ class CoreTiming:
     def starting(self, plan: Plan, single: bool = False, ramped: bool = False) -> int:
         """Return the cycles from the effect to t0.
 
-        The look-up also adds up the ramps. It needs another pass over the deceleration ramp if that does not
-        begin with a full stage. A triangular profile needs a multiplication and a division.
+        The look-up also adds up the ramps. It needs another pass over the deceleration ramp if this ramp does
+        not begin with a full stage. A triangular profile needs a multiplication and a division.
 
         Args:
             single: True for a single step, which needs no look-up.

@@ -1,6 +1,6 @@
 """Command processor of the parts with one axis.
 
-It converts bytes to commands and determines the error of a byte.
+The processor converts bytes to commands and determines the error of a byte.
 
 Errors and their order: P104-ERR-00..03, P104-STA-05/06, P104-FSM-01..03 (STMC-ST-01..03, STMC-CMD-01..03).
 Parameters: P104-HSK-07. The module of each part defines the effect of the commands.

@@ -1,7 +1,7 @@
 """Part with one axis at pin level; `ppmc104` and `stmc` share this code.
 
-It has the path of command bytes, the pin registers, the synchronised inputs of the axis, and the properties
-that tests and tools read.
+This module contains the path of command bytes, the pin registers, the synchronised inputs of the axis, and
+the properties that tests and tools read.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Golden model of the STMC core at pin level, event driven and cycle-accurate.
 
-Rules by module: this one parameters and reset values (docs/stmc/README.md, 3). Bus: `single.hostport`
-(STMC-BUS). Commands and motion: `commands` in this folder and in `single` (STMC-ST, -CMD, -INI, -RD),
-`motion.motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS). Phases and chopper: `motion.excitation`
-(STMC-EXC, -CHP). Ramp: `motion.ramp` (STMC-RMP). `chip`, `clock` and `single.single` have pins and time.
-`clock.Latency` has the constants that the rules leave open.
+Rules by module: this module parameters and reset values (docs/stmc/README.md, 3 Parameters). Bus:
+`single.hostport` (STMC-BUS). Commands and motion: `commands` in this folder and in `single` (STMC-ST, -CMD,
+-INI, -RD), `motion.motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS). Phases and chopper:
+`motion.excitation` (STMC-EXC, -CHP). Ramp: `motion.ramp` (STMC-RMP). `chip`, `clock` and `single.single`
+contain pins and time. `clock.Latency` contains the constants that the rules leave open.
 """
 
 from __future__ import annotations

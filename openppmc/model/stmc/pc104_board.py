@@ -1,8 +1,8 @@
 """Golden model of the J105 STMC board: bus, step clock and interrupt of the core.
 
-It has an ISA slave and a step clock of 48.675 kHz.
+The board has an ISA slave and a step clock of 48.675 kHz.
 
-Rules J105-01..07. This module has the logic between the core and the bus; the core is in `part`.
+Rules J105-01..07. This module contains the logic between the core and the bus; the core is in `part`.
 """
 
 from __future__ import annotations

@@ -259,8 +259,8 @@ def _defines(params: dict[str, int | str]) -> str:
 def copy_runtime(source: Path, target: Path) -> None:
     """Copy the objects of Verilator's run-time library into `target`, unless it has them.
 
-    To compile them takes longer than to compile a design. They are equal for all builds with the same
-    arguments of compiler and Verilator. Both folders have the same parent folder.
+    To compile these objects takes longer than to compile a design. The objects are equal for all builds with
+    the same arguments of compiler and Verilator. Both folders have the same parent folder.
     """
     with _locked(target.parent / "runtime.lock"):
         target.mkdir(parents=True, exist_ok=True)
@@ -268,7 +268,7 @@ def copy_runtime(source: Path, target: Path) -> None:
             # verilator.o (the main program of cocotb) and top.o are compiled for one design and not copied.
             for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
                 shutil.copy(path, target)
-                # They must be newer than the makefile, which is written later; else make compiles them again.
+                # The copies must be newer than the makefile that is written later; else make compiles again.
                 os.utime(target / path.name, (time.time(), time.time() + 3_600))
 
 

@@ -1,7 +1,7 @@
 """The descriptions of the boards, constraints/<board>/board.yml: permitted keys and their values.
 
-The keys are explained in docs/boards.md, section 11. An unknown or missing key is reported as an error of one
-line.
+The keys are explained in docs/boards.md, 11 Another board or part. An unknown or missing key is reported as
+an error of one line.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from openppmc import parts as table
 FOLDER = project.ROOT / "constraints"
 HOSTS = ("uart", "bus", "spi")
 SHOWS = ("link", "moving", "switch", "running")
-"""What an LED can indicate, in the order of the bits of leds_o of ppmc_board_leds."""
+"""States that an LED can indicate, in the order of the bits of leds_o of ppmc_board_leds."""
 
 LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cyclone5": "qsf"}
 """FPGA family -> suffix of its constraint files."""

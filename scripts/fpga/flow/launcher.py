@@ -1,8 +1,8 @@
 """Start PyPI's packages in place of `yosys`, `nextpnr-ice40`, `icepack` and the other tools of edalize.
 
 EDALIZE_LAUNCHER="PYTHON scripts/fpga/flow/launcher.py" fusesoc run … : edalize puts this text before each
-command. PYTHON is the one of .venv. The launcher is not needed if the tools are installed as programs. It
-imports only the standard library and pyosys.
+command. PYTHON is the interpreter of .venv. The launcher is not needed if the tools are installed as
+programs. It imports only the standard library and pyosys.
 
 edalize passes its commands to yosys as Tcl, which pyosys does not support; so Python's Tcl (tkinter) runs
 them.

@@ -14,7 +14,7 @@ LUT_CELLS = {
     **{"LUT1": 1, "LUT2": 1, "LUT3": 1, "ALU": 1, "RAM16SDP4": 4},
 }
 RAM_CELLS = {"SB_RAM40_4K", "DP16KD", "PDPW16KD", "SP", "SDPB", "DPB", "SPX9", "SDPX9B", "DPX9B"}
-FF_CELLS = ("SB_DFF", "TRELLIS_FF", "DFF")  # prefixes of their names
+FF_CELLS = ("SB_DFF", "TRELLIS_FF", "DFF")  # prefixes of the names of flip-flops
 OUTPUT_PORTS = {"O", "CO", "Z", "S0", "S1", "COUT", "Q"}
 
 
@@ -119,7 +119,7 @@ def flat_counts(path: Path, top: str, instances: set[str]) -> tuple[Count, dict[
             else:
                 votes = Counter(owners[sink] for sink in fed)
                 owners[name] = max(sorted(votes), key=lambda inst: votes[inst]) if votes else ""
-        if len(rest) == len(waiting):  # a loop through generated cells: the rest counts for the top
+        if len(rest) == len(waiting):  # a loop through generated cells; the top module owns them
             owners.update(dict.fromkeys(rest, ""))
             break
         waiting = rest

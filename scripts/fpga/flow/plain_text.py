@@ -150,7 +150,7 @@ def _inline(module: Module) -> None:
             if re.match(r"^ *(?:assign )?[^=]*\b" + name + r"\b[^=]*<?= ", target) and not re.match(
                 r"^ *(?:if|else|else if) ", target
             ):
-                continue  # it is on the left
+                continue  # the name is on the left
             whole = re.search(rf"(?: = |<= |\(){name}[;)]", target) or re.fullmatch(_ATOM, value)
             module.lines[user] = re.sub(rf"\b{name}\b", lambda _: value if whole else f"({value})", target)  # noqa: B023
             module.lines[number] = ""

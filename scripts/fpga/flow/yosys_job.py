@@ -51,12 +51,12 @@ RECIPES: dict[str, dict[str, tuple[str, str]]] = {
 # Converts processes to readable expressions and registers; nothing is mapped.
 PLAIN = "chformal -remove; proc; opt_expr; opt_muxtree; opt_reduce; opt_clean; opt_dff; bwmuxmap"
 PLAIN += "; opt_clean; memory_collect"
-# Chosen with `synth.py --sweep`: smallest without losing clock rate.
 # Registers get the name of the signal that they drive, before abc9 drops the signals of the hierarchy.
 RENAME = "rename -wire"
 # Other names only change the order in which abc9 and nextpnr visit the cells; this shows the random part of a
 # clock rate. The first entry is the unchanged recipe.
 PERTURB = ((), ("rename -scramble-name -seed 1",), ("rename -enumerate",))
+# Recipe with the smallest netlist that does not lose clock rate.
 BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
 
 

@@ -118,7 +118,7 @@ def built_result(name: str, folder: Path) -> Built:
     rates = _FMAX.findall(log.read_text(encoding="utf-8")) if log.is_file() else []
     if not found or not rates:
         raise ProjectError(f"{name}: no bitstream in {relative(folder)}")
-    # The last figure is the one after routing.
+    # The last figure is the clock rate after routing.
     reached, result, required_mhz = rates[-1]
     # nextpnr works in whole picoseconds.
     if result != "PASS" or abs(float(required_mhz) - on.clk_hz / 1e6) > 0.01:

@@ -112,7 +112,7 @@ def assemble(text: str, names: Names) -> Program:
 
 
 def always_leaves(word: Word) -> bool:
-    """Return True if the word after this one is never executed next."""
+    """Return True if the execution never continues with the next word."""
     return word.text == "halt" or (word.text.startswith("jump ") and " if " not in word.text)
 
 

@@ -82,7 +82,7 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
 
 
 def shrink_report(name: str, line: Line, words: array[int]) -> str:
-    """Return a difference as text, with the smallest number of last words that still differ."""
+    """Return a difference as text, for the shortest tail of the words that still differs."""
     found = difference(name, line, words)
     assert found is not None
     words = words[: found[0] + 1]

@@ -1,6 +1,6 @@
 """Other open designs with step outputs: their addresses, and the measured designs of a source folder.
 
-This project contains no part of these designs and does not describe how to build them. The user has their
+This project contains no part of these designs and does not describe how to build them. The user stores their
 sources in a separate folder, with a file peers.json that describes the designs to measure, a list of objects:
 
     {"title": "…", "what": "…", "url": "https://…", "top": "module", "sources": ["below/the/folder.v", …],

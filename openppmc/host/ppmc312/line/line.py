@@ -1,6 +1,6 @@
 """Line with PPMC-312 in serial mode.
 
-It transfers one frame and its reply, counts faults, repeats nothing.
+The line transfers one frame and its reply, counts faults, and repeats nothing.
 """
 
 # ruff: noqa: N818

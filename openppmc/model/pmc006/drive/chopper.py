@@ -2,8 +2,8 @@
 
 A fixed off time is followed by on or fast decay.
 
-It is driven by events: timers, changes of the comparator, of the reference and of the enable. An edge in this
-module is the one at which the half-bridge commands change.
+The model is driven by events: timers, changes of the comparator, of the reference and of the enable. An edge
+in this module is the edge at which the half-bridge commands change.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Times:
 
     @classmethod
     def of(cls, clk_hz: int, t_off_ns: int, t_blank_ns: int, force: int = 1) -> Times:
-        """Return off time, blanking time and fast-decay time (docs/pmc006/README.md, 9)."""
+        """Return off, blanking and fast-decay time (docs/pmc006/README.md, 9 Chopper and bridges)."""
         off, blank = (-(-ns * clk_hz // 1_000_000_000) for ns in (t_off_ns, t_blank_ns))
         return cls(off, blank, max(blank, off // 2), force)
 

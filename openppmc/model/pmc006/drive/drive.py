@@ -2,7 +2,7 @@
 
 Angle, references, idle current, bridges and bit streams of the references.
 
-It is event driven. An edge in this module is the one at which the register in question changes.
+The model is event driven. An edge in this module is the edge at which the register in question changes.
 """
 
 from __future__ import annotations

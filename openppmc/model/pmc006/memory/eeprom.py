@@ -132,7 +132,7 @@ class Bus:
         return received
 
     def _bit_now(self, level: int) -> BusSequence[int]:
-        """Send or receive a bit, from its first tick to the one that samples."""
+        """Send or receive a bit, from its first tick to the tick that samples it."""
         self._drive("scl", 0)
         self._drive("sda", level)
         yield
@@ -184,7 +184,7 @@ PROGRAM, SUM, MARK = 0x0020, 0x0340, 0x0342
 COPY = 0x0360
 """Address of the copy of the parameter page.
 
-It is written first, so that one of the two survives a power cut.
+The copy is written first, so that the page or the copy survives a power cut.
 """
 SIZE = SUM - PROGRAM
 COMPLETE = 0x5A
@@ -192,7 +192,7 @@ POLL_MS = 10
 
 
 class Engine:
-    """Engine for one job at a time; a FACT during another job waits for its end.
+    """Engine for one job at a time; a FACT during another job waits until that job ends.
 
     Args:
         device: address of the device.

@@ -2,7 +2,7 @@
 
 Rules: P006-MOT-04, -05, -50..-52.
 
-`engine` has the arithmetic. An edge in this module is the one at which the register in question changes;
+`engine` has the arithmetic. An edge in this module is the edge at which the register in question changes;
 registers of other blocks are read with their values before the edge. Work is done per update and per step.
 """
 

@@ -22,7 +22,7 @@ _LABEL = re.compile(rf"({_NAME})\s*:\s*(.*)$")
 _CONSTANT = re.compile(rf"({_NAME})\s*=\s*(.*)$")
 
 
-class AssemblyError(PpmcError, ValueError):  # noqa: N818 - what it is
+class AssemblyError(PpmcError, ValueError):  # noqa: N818 - part of the API
     """Line `line` of the text is wrong; the message states the valid forms."""
 
     def __init__(self, where: str, line: int, text: str) -> None:

@@ -19,7 +19,7 @@ PLACE = 0x20
 _BYTES, _COMPLETE = 4 * WORDS, 0x5A
 
 
-class BadImage(PpmcError, ValueError):  # noqa: N818 - what it is
+class BadImage(PpmcError, ValueError):  # noqa: N818 - names the invalid object
     """The bytes are no program."""
 
 

@@ -190,7 +190,7 @@ class Mailbox:
         return self._register(reg)
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """Process the begin or end of a DWR or DRR strobe (P312-PAR-12)."""
+        """Process the start or end of a DWR or DRR strobe (P312-PAR-12)."""
         accessing = reg == (WRITE if write else READ)
         timebase = self._context.timebase
         if self._accessing and not accessing:

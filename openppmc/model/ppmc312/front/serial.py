@@ -15,7 +15,7 @@ from . import responses
 
 # Frames of the PPMC-312's serial mode: control code, hex-ASCII data, checksum (P312-SER-02..17). This part
 # contains no time: `Parser.take` receives one character after the other, and `silence` is called after 20 ms
-# without one.
+# without a character.
 
 POLL, INSTRUCTION = 0x80, 0x90
 BUSY, READY, DATA, SPECIFIC = 0x80, 0x90, 0xA0, 0xB0

@@ -101,7 +101,7 @@ class Core(Protocol):
 
     @property
     def state(self) -> State:
-        """Operation state (docs/ppmc312/README.md, chapter 7)."""
+        """Operation state (docs/ppmc312/README.md, 7 States)."""
 
 
 class Log(NamedTuple):

@@ -49,7 +49,7 @@ class Core(Protocol):
 
     @property
     def state(self) -> State:
-        """Operation state (docs/ppmc312/README.md, chapter 7)."""
+        """Operation state (docs/ppmc312/README.md, 7 States)."""
 
     def reset(self, t: int, source: Source, /) -> None:
         """Execute the software reset, which sends a response."""

@@ -17,7 +17,7 @@ def _number(data: bytes) -> int:
 
 
 def initial(core: Core, data: bytes) -> Work:
-    """Return the work of instruction 00: flags and parameters; the length is one of the two valid ones."""
+    """Return the work of instruction 00: flags and parameters. `data` has one of the two valid lengths."""
     flags = data[0]
     separate, sigmoid = bool(flags & LE), bool(flags & FO)
     try:

@@ -230,7 +230,7 @@ class Unit:
     def _proc_time_edge(self, t: int, work: Work) -> int:
         """Return the edge that the original chip's time defines (P312-TIM-20).
 
-        The time counts from the begin of processing.
+        The time counts from the start of processing.
         """
         core = self._core
         if not core.context.datasheet or work.cycles is None:

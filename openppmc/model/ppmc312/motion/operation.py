@@ -1,6 +1,6 @@
 """Operation of the PPMC-312 from its acceptance to its stop report.
 
-It includes RUN, END, zero return and alarms.
+The operation includes RUN, END, zero return and alarms.
 
 Rules: P312-INP-11, -20, -30; P312-MOT-06, -35, -42, -43; P312-STA-01, -02.
 """
