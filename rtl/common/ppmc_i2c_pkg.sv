@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_i2c_pkg: commands of the I2C master.
-// Rules:  P006 section 13.1.
+// Rules:  docs/pmc006/README.md, 14 (EEPROM).
 `default_nettype none
 
 package ppmc_i2c_pkg;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc2104_pkg: codes, error numbers, limits and types specific to the PPMC-2104AFP.
-// Rules:  P2104-CMD-01..03, P2104-INI-01/02, P2104-AUX-04..06, P2104-OPR-03, section 3.7 (error numbers).
+// Rules:  P2104-CMD-01..03, P2104-INI-01/02, P2104-AUX-04..06, P2104-OPR-03; error numbers:
+//         docs/ppmc2104/README.md, 5.2.
 `default_nettype none
 
 package ppmc2104_pkg;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_code_pkg: common command set of the single-axis devices (PPMC-104BFP, J105 STMC): bits of the codes,
 //         error numbers, and actions of a byte.
-// Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01; STMC section 2.4 (error numbers), 3.0, 3.1.
+// Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01; docs/stmc/README.md, 5 (errors), 6.1 (codes), 6.2.
 `default_nettype none
 
 package ppmc_code_pkg;

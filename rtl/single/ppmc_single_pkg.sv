@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_single_pkg: types that connect ppmc_single with the device around it, and the device configuration.
 // Rules:  those of ppmc_single.
-// How:    ppmc_single outputs the current byte (rx_byte_t), and the device returns its meaning
-//         (decoded_byte_t). With this meaning the parameters are complete: ppmc_single outputs the command
-//         (command_req_t), and the device returns the result of its check (check_result_t). There are four
-//         bundles instead of two, so that no bundle depends on itself.
+// How:    ppmc_single outputs the current byte (rx_byte_t), and the device returns the meaning of this byte
+//         (decoded_byte_t). From both, ppmc_single forms the command with all its parameters and outputs it
+//         (command_req_t), and the device returns the result of the check of this command (check_result_t).
+//         There are four structs instead of two, so that no struct depends combinationally on itself.
 `default_nettype none
 
 package ppmc_single_pkg;
@@ -28,8 +28,8 @@ package ppmc_single_pkg;
     int unsigned hold_rest_cycles;  // cycles added to hold_quanta
     int unsigned chop_unit;         // quanta in a unit of the chopper times; 0: no units
     int unsigned chop_bits;         // used bits of the chopper base times
-    // 1: stop and end rules of the J105 STMC. There is no pulse output, so that the last pulse ends the
-    // motion. A stop at the start-up rate, and a slow-down limit in an origin search, end the motion
+    // 1: stop and end rules of the J105 STMC. There is no pulse output, so the last pulse ends the motion. A
+    // stop at the start-up rate, and a slow-down limit in an origin search, end the motion
     // immediately. Bit 7 of the finish status is always 1. Ramps have no separate processing times.
     bit          stmc_stop_rules;
   } part_cfg_t;

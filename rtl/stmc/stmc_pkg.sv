@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc_pkg: codes, limits and functions specific to the J105 STMC.
-// Rules:  STMC section 3.0, STMC-INI-02, STMC-MOT-03, STMC-MOV-04, STMC-BAD-05/07.
+// Rules:  docs/stmc/README.md, 6.1 (codes); STMC-INI-02, STMC-MOT-03, STMC-MOV-04, STMC-BAD-05/07.
 // Rates:  hosts of this device send a divisor; the core counts rate + 1 base clocks. Therefore a divisor is
 //         stored minus 1: 0 .. 254; a divisor of 0 is stored as 255.
 `default_nettype none
