@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_pulse_shaper_fv: proves that a pulse is low for exactly WidthCycles cycles, or shorter if it is cut,
-//         and
-// that the set-up time has the same length.
+// and that the set-up time has the same length.
 `include "ppmc_fv.svh"
 `default_nettype none
 
