@@ -103,7 +103,7 @@ typedef struct {
     int32_t position; /**< pulse counter of the part */
 } ppmc312_end_t;
 
-/** Reports: codes as in chapter 6 of the manual. */
+/** Codes of the reports, see docs/ppmc312/README.md, chapter 6. */
 #define PPMC312_REPORT_NONE 0x00u
 #define PPMC312_REPORT_STOPPED 0xE0u        /**< cause, position (4 bytes, on the line not present) */
 #define PPMC312_REPORT_INTERLOCK 0xE1u
@@ -119,7 +119,7 @@ typedef struct {
 /** Source of a report. */
 #define PPMC312_FROM_PART 0x23u
 #define PPMC312_FROM_EVENT 0x0Bu    /**< `code` is that of the executed instruction */
-#define PPMC312_FROM_OVERRIDE 0x1Bu /**< the same for the override buffer */
+#define PPMC312_FROM_OVERRIDE 0x1Bu /**< `code` is that of the instruction in the override buffer */
 
 #define PPMC312_DATA_MAX 29u   /**< data bytes of an answer */
 #define PPMC312_REPORTS_MAX 8u /**< reports that the driver stores */
@@ -138,7 +138,7 @@ typedef struct {
 #define PPMC312_STATE_ABN 0x10u /**< alarm */
 #define PPMC312_STATE_WRN 0x20u /**< waits for RUN */
 
-/** Status, chapter 4D of the instructions. */
+/** Status, see docs/ppmc312/instructions.md, 4D. */
 typedef struct {
     uint8_t operation, condition, buffers;
 } ppmc312_status_t;
