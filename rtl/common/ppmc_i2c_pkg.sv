@@ -5,7 +5,7 @@
 
 package ppmc_i2c_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   typedef enum logic [2:0] {

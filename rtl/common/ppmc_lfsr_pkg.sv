@@ -8,7 +8,7 @@
 
 package ppmc_lfsr_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // Primitive polynomials of degree 31 .. 2 without their highest power; x**0 is the lowest bit.

@@ -6,7 +6,7 @@
 
 package ppmc2104_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc_op_pkg::*;

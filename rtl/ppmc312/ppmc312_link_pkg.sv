@@ -8,7 +8,7 @@
 
 package ppmc312_link_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc312_pkg::*;

@@ -6,7 +6,7 @@
 
 package ppmc_code_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // Error numbers in status bits 6..4 (P104-ERR-00).

@@ -7,7 +7,7 @@
 
 package stmc_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc_code_pkg::*;

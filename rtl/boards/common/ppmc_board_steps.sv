@@ -43,7 +43,8 @@ module ppmc_board_steps (
       to   = a & b;
       from = a & ~b;
     end
-    // The step is one position up, or from the last phase to the first, regardless of the number of phases.
+    // 1 if the step goes to the next higher phase, or from the last phase to the first. The expression holds
+    // for any number of phases.
     return to == {from[4:1], 1'b0} || (to < from && to != {1'b0, from[5:2]});
   endfunction
 

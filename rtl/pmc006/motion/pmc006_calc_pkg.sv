@@ -7,7 +7,7 @@
 
 package pmc006_calc_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   typedef enum logic [3:0] {

@@ -5,7 +5,7 @@
 
 package ppmc312_stage_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // A constant rate and its look-up result in the table.
