@@ -68,12 +68,12 @@ typedef enum {
     PPMC312_RUN_CONSTANT = 0x86  /**< at `rate`, until a stop */
 } ppmc312_op_t;
 
-/** Time at which an instruction is executed. All except NOW use the override buffer: the answer is a report
- * then. */
+/** Time at which an instruction is executed. With all values except NOW, the instruction is stored in the
+ * override buffer, and its answer is a report. */
 typedef enum {
     PPMC312_NOW = 0,
     PPMC312_AT_POSITION = 4, /**< not for motions */
-    PPMC312_ON_EVENT0 = 5,   /**< falling edge of evt0_n; not for SEARCH, RETURN and STEP; motions: only on the bus */
+    PPMC312_ON_EVENT0 = 5,   /**< falling edge of evt0_n; not SEARCH, RETURN, STEP; motions only on the bus */
     PPMC312_ON_EVENT1 = 7
 } ppmc312_when_t;
 
