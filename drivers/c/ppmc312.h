@@ -110,8 +110,8 @@ typedef struct {
 #define PPMC312_REPORT_RUN 0xE2u            /**< a motion that waited for RUN has begun */
 #define PPMC312_REPORT_ENCODER 0xE3u        /**< 0 inside, 1 outside */
 #define PPMC312_REPORT_IN_POSITION 0xE4u    /**< 0 inside, 1 outside */
-#define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: it does not name the instruction */
-#define PPMC312_REPORT_INPUTS 0xE9u         /**< 1: earlier changes were overwritten; changed bits */
+#define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: the report does not name the instruction */
+#define PPMC312_REPORT_INPUTS 0xE9u         /**< 1 if earlier changes were overwritten; then the changed bits */
 #define PPMC312_REPORT_ALARM 0xF4u          /**< 0 pin, 1 .. 3 unread answers */
 #define PPMC312_REPORT_EVENT_FAILED 0xF8u
 #define PPMC312_REPORT_OVERRIDE_FAILED 0xF9u
