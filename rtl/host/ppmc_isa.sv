@@ -11,7 +11,7 @@
 module ppmc_isa #(
     parameter int unsigned Parts  = 1,     // device p: data at Base + 2p, status and command at Base + 2p + 1
     parameter bit          Source = 1'b0,  // 1: a source register follows, bit p = interrupt of device p;
-                                           // writing it makes a new edge of irq_o if an interrupt is active
+                                           // a write to it causes a new edge of irq_o if one is active
     parameter int unsigned Base   = 'h3B0  // multiple of the length of the window
 ) (
     input  wire logic                  clk_i,

@@ -29,7 +29,7 @@ module ppmc_axis
     parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately
     parameter bit SlowAlways = 1'b0,  // 1: slow-down limits are effective off the plateau in POUT mode, too
     parameter bit SlowOrigin = 1'b0,  // 1: a slow-down limit ends an origin search immediately
-    parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last one; 0: immediate end
+    parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last pulse; 0: immediate end
     parameter bit PulsePin = 1'b1  // 0: no pulse output; low_o stays 0, the last pulse ends the motion
 ) (
     input wire logic clk_i,
@@ -49,7 +49,7 @@ module ppmc_axis
     input wire logic halt_i,  // immediate stop command
     input wire logic decel_i,  // deceleration stop command
     input wire switches_t switches_i,  // synchronous levels
-    input wire logic slow_i,  // act on the slow-down limit; slow_seen_o, delayed or not
+    input wire logic slow_i,  // act on the slow-down limit: slow_seen_o, possibly delayed
     output logic slow_seen_o,  // an effective slow-down limit is active
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 is held back

@@ -3,13 +3,13 @@
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
 // Timing: all state changed by pulse_i is valid after its edge, except rate_o, the rate of the new interval.
 //         - Accelerating or at constant rate: rate_o changes at the same edge. The look-up of the next rate
-//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); lookup_busy_o then keeps a pulse
-//           back.
+//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); during this time lookup_busy_o
+//           delays a pulse.
 //         - First deceleration step: rate_o changes one cycle later (rising_o), to the rate of the interval
 //           before the last acceleration step.
 //         - Further deceleration steps: rate_o is valid when rising_o falls. The look-up runs in the new
 //           interval, also for 3 n + 1 cycles, and rate_o rises from the previous rate.
-// Assumes: pulses are at least 3 cycles apart; the first one is at least 4 cycles after load_i.
+// Assumes: pulses are at least 3 cycles apart; the first pulse is at least 4 cycles after load_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -60,7 +60,7 @@ module ppmc_ramp_seq #(
   logic [StepBits-1:0] ramp_level, ramp_level_nq;
   logic [RateBits-1:0] lookup_rate_q;  // rate under test
   logic [RateBits-1:0] prev_rate_q;  // rate of the interval before the last step up
-  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, one cycle late
+  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, one cycle later
   logic load_q;  // lookup_rate_q is the rate of the running interval
   logic decel_q;  // the deceleration has begun
   logic end_q;  // the look-up is at the end of the ramp; valid before each test

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_seq: selects what the next pulse of a motion along a stage table does: its rate, or the end
-//         of the motion.
+// ppmc312_stage_seq: selects the rate of the next pulse of a motion along a stage table, or the end of the
+//         motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
-// Timing: next_* are valid from 4 cycles after a pulse. slow_i acts at a boundary if it is high 2 cycles
-//         before it; change_i acts if it occurs 5 cycles before the boundary (constant rate) or 9 cycles
+// Timing: next_* are valid from 4 cycles after a pulse. slow_i acts at a boundary if slow_i is high 2 cycles
+//         before, change_i if it occurs 5 cycles before the boundary (constant rate) or 9 cycles before
 //         (ramp). When a stage becomes a constant rate, a search for t(rate) takes 129 cycles: a ramp begins
 //         at the earliest 136 cycles after that boundary, a deceleration to the end (only where rates do not
 //         fall) 132 cycles.
