@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual line: stations, each of them the RTL of its board, and a master at a pseudo-terminal. The line
-// has four wires: the stations receive only the master. The drivers of the stations are wired together and
+// has four wires: a station receives only the bytes of the master. The drivers of the stations are wired and
 // pull the line low; the master receives this line. Therefore each station can be simulated separately for a
 // slice of time in which the levels of the master are known.
 #pragma once
