@@ -486,7 +486,7 @@ static ppmc104_result_t talk(ppmc312_t *dev, const uint8_t *body, unsigned count
             have = true;
             result = PPMC104_BAD_REPLY;
         } else if (gives == 0u || clears) {
-            return result; /* it may have been executed */
+            return result; /* the instruction may have been executed */
         }
     }
     return result;
