@@ -4,7 +4,7 @@
 // Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the devices sample them (ppmc_strobe_bus).
 //         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low from the first
-//         rising edge of clk_i that samples the write to the first one that does not.
+//         rising edge of clk_i that samples the write to the first rising edge that does not.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -58,7 +58,7 @@ module ppmc_mailbox #(
   end
 
   localparam int unsigned MoreBits = 8 * (QueueBytes - 1);
-  logic [MoreBits-1:0] more_q;  // bytes after the current one
+  logic [MoreBits-1:0] more_q;  // bytes after the current byte
   logic [QueueBytes-2:0] more_valid_q;  // bytes of more_q that are present
   logic next;
 

@@ -52,7 +52,7 @@ module ppmc_axis
     input wire logic slow_i,  // act on the slow-down limit: slow_seen_o, possibly delayed
     output logic slow_seen_o,  // an effective slow-down limit is active
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
-    input wire logic go_i,  // 0: pulse 1 is held back
+    input wire logic go_i,  // 0: pulse 1 must wait
     input wire logic end_delay_i,  // 1 keeps the motion from ending
     // clocks
     input wire logic quantum_i,  // quantum tick, restarted by restart_o
@@ -216,7 +216,7 @@ module ppmc_axis
   //   this edge. An edge while low_o = 1 outputs no pulse; the next edge does. This can occur only after a
   //   pulse of rate 0 whose period is not short.
   // - Edge number floor((rate + 1) / 2) marks half of the interval (u_rate: half_o). It cuts low_o, unless
-  //   the pulse is a full one. At rate 0, the falling edge cuts low_o if the period before the pulse was
+  //   the pulse is a full pulse. At rate 0, the falling edge cuts low_o if the period before the pulse was
   //   short (u_shaper, P104-TIM-05).
   // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. Only from the
   // second deceleration step on, this rate may still rise for some cycles (rising). During these cycles

@@ -31,14 +31,14 @@ module ppmc_ramp_seq #(
     input wire logic [CountBits-1:0] count_i,  // pulses to output, minus 1
     input wire logic single_i,  // one pulse, regardless of count_i
     input wire logic [RateBits-1:0] rate_i,  // rate of the first interval: slow_i, or of constant speed
-    input wire logic ramp_i,  // use the ramp; stable from load_i to the next one
+    input wire logic ramp_i,  // use the ramp; stable from load_i to the next load_i
     input wire logic pulse_i,  // pulse event
     input wire logic forced_i,  // forced deceleration; stays set until the motion ends
     // state
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
     output logic lookup_busy_o,  // a look-up is running: no pulse may occur
     output logic rising_o,  // a look-up is running: rate_o may still rise
-    output logic last_o,  // a pulse now would be the last one
+    output logic last_o,  // a pulse now would be the last pulse
     output logic final_o,  // a pulse now would complete the count
     output logic top_o,  // running interval is on the plateau
     output logic at_start_rate_o,  // before any deceleration: running interval has the start-up rate
@@ -68,7 +68,7 @@ module ppmc_ramp_seq #(
   logic up, down, decel_starts, odd, high, lookup_step, below, reached, more;
   logic [StepBits:0] unused_sum;
 
-  // Ramp step at a pulse event: up, down or no step. left_o is the number of pulses that follow this one.
+  // Ramp step at a pulse event: up, down or no step. left_o is the number of pulses after this pulse.
   always_comb begin
     odd          = left_o[0] ^ ramp_level[0];  // with near_q: the deceleration needs all remaining pulses
     down         = ramp_i && (forced_i || dec_o || (near_q && odd));

@@ -86,7 +86,7 @@ package ppmc_code_pkg;
     logic        error;   // the last byte was faulty
     logic [2:0]  number;  // error number if error = 1, else number of remaining parameters
     logic [7:0]  code;    // code of the parameters
-    logic [31:0] params;  // parameters received so far, the last one in the high bits
+    logic [31:0] params;  // parameters received so far, the last in the high bits
   } parser_state_t;
 
   // Settings of the initialisation (ppmc_setup), without the ramp.

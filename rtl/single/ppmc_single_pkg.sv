@@ -39,7 +39,7 @@ package ppmc_single_pkg;
     logic [7:0] data;  // byte from the host
     logic [2:0] params_left;  // remaining parameters, including this byte
     logic [7:0] code_held;  // code whose parameters are being collected
-    logic [31:0] params;  // parameters received so far, the last one in the high bits
+    logic [31:0] params;  // parameters received so far, the last in the high bits
   } rx_byte_t;
 
   // Meaning of the current byte in this device.
@@ -51,7 +51,7 @@ package ppmc_single_pkg;
   // Command that the host requests with the current byte.
   typedef struct packed {
     logic [7:0]  code;    // code of an action, in FAST or at its C-event
-    logic [31:0] params;  // parameters of code, the last one in the high bits
+    logic [31:0] params;  // parameters of code, the last in the high bits
   } command_req_t;
 
   // Result of the check of command_req_t.

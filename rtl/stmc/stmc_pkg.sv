@@ -45,7 +45,7 @@ package stmc_pkg;
   endfunction
 
   // Returns 1 if a data byte is a divisor. operation: the data belong to operation number op, otherwise to an
-  // initialisation; left: outstanding data bytes, this one included.
+  // initialisation; left: outstanding data bytes, including this byte.
   function automatic logic is_divisor(logic operation, logic [2:0] op, logic [2:0] left);
     if (operation) return op inside {OP_CONT_CONSTANT, OP_ORIGIN} || (op == OP_CONSTANT && left == 3'd4);
     return left inside {3'd3, 3'd4};

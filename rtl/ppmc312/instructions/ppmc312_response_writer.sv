@@ -37,7 +37,7 @@ module ppmc312_response_writer
   logic [BLOCK_BITS:0] beyond_q;  // position in the echo; negative before the echo
   logic run_q;
   logic [BLOCK_BITS:0] len_q;  // length byte: bytes of the response minus two
-  logic [3:0] rest;  // bytes after the current one, without the echo
+  logic [3:0] rest;  // bytes after the current byte, without the echo
   logic [7:0] tail;
   logic in_tail;
 

@@ -55,7 +55,7 @@ module ppmc312_motion
     StIdle,
     StHold,   // start gate
     StPulses,
-    StLastPulse,  // no further pulses; the last one runs out
+    StLastPulse,  // no further pulse begins; the last pulse ends
     StWaitEnd     // waits for END
   } state_e;
 

@@ -80,7 +80,7 @@ module ppmc312_stage_seq
   logic [1:0] change_q;
   logic [6:0] stage_q, last_stage_at_q;
   logic [15:0] rate_q;
-  logic [23:0] more_q;  // pulses of this stage after the current one
+  logic [23:0] more_q;  // pulses of this stage after the current pulse
   logic [31:0] left_q;
   logic [23:0] dec_q;
   ramp_pos_t decel_start_q;

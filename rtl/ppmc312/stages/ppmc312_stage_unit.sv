@@ -182,7 +182,7 @@ module ppmc312_stage_unit
   // ---- active table -------------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle;
-  // If several stages qualify, the last one is used, because a ramp is built upward.
+  // If several stages qualify, the last stage is used, because a ramp is built upward.
   assign begins = build_busy ? build_begins :
       {2{table_write.we_rate}} &
       {table_write.stage == table_o.first_dec, table_write.stage == table_o.first_acc};
