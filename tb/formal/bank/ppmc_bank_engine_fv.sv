@@ -149,7 +149,7 @@ module ppmc_bank_engine_fv
 
   // ---- effects of a visit ----------------------------------------------------------------------------
 
-  logic next_visit;  // visit of the watched axis that follows another one
+  logic next_visit;  // visit of the watched axis that follows another visit
   assign next_visit = visited_q && ends && !resets;
 
   `FV_ASSERT(
