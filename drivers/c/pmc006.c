@@ -283,7 +283,7 @@ ppmc104_result_t pmc006_status(pmc006_t *dev, pmc006_status_t *status)
     status->forward = (two & 16) != 0;
     status->autostart = (two & 32) != 0;
     if (result == PPMC104_OK && status->ext_on != dev->ext) {
-        dev->known = dev->known && dev->ext == 0u; /* a reset, or a program has set EXT on */
+        dev->known = dev->known && dev->ext == 0u; /* on to off: a reset; off to on: by a program */
         dev->ext = status->ext_on;
     }
     return result;

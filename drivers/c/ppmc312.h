@@ -203,7 +203,7 @@ ppmc104_result_t ppmc312_change(ppmc312_t *dev, bool ramp, uint16_t rate, ppmc31
  */
 ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end);
 
-/** Fetch reports and return the oldest one; `code` is PPMC312_REPORT_NONE if there is none. */
+/** Fetch reports and return the oldest report; `code` is PPMC312_REPORT_NONE if there is no report. */
 ppmc104_result_t ppmc312_report(ppmc312_t *dev, ppmc312_report_t *report);
 
 /** Return the state of the part; allowed at any time. */
@@ -222,7 +222,7 @@ ppmc104_result_t ppmc312_set_position(ppmc312_t *dev, bool encoder, int32_t posi
 ppmc104_result_t ppmc312_event_motion(ppmc312_t *dev, unsigned buffer, const ppmc312_motion_t *motion);
 /** Register another instruction: its code and parameters as on the bus. @param count 0 .. 9, on the line 0 .. 7 */
 ppmc104_result_t ppmc312_event(ppmc312_t *dev, unsigned buffer, uint8_t code, const uint8_t *data, unsigned count);
-/** Delete the last entry. PPMC312_ERR_FULL if there is none. */
+/** Delete the last entry. PPMC312_ERR_FULL if there is no entry. */
 ppmc104_result_t ppmc312_event_delete(ppmc312_t *dev, unsigned buffer);
 /** @} */
 
