@@ -67,7 +67,7 @@ module ppmc_axis
     output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
 );
 
-  localparam int unsigned ShortPeriodXtal = 128;  // P104-TIM-05 (c)
+  localparam int unsigned ShortPeriodXtal = 128;  // P104-TIM-05, rate 0: 8 us at 16 MHz
   // P104-INT-03: 8.5 us at 16 MHz
   localparam int unsigned LongPeriodXtal = (ExtraQuanta != 0) ? 136 : ShortPeriodXtal;
   localparam int unsigned ExtraXtal = 4 * ExtraQuanta;

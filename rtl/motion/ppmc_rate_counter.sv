@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_rate_counter: counts the base clocks of an interval; base clock number rate + 1 ends it.
-// Rules:  P104-INT-01, P104-TIM-05 (b), P104-BCK-05 (base clocks are passed over while the rate is still
+// Rules:  P104-INT-01, P104-TIM-05 (half_o), P104-BCK-05 (base clocks are skipped while the rate is still
 //         looked up).
 // Timing: hit_o and half_o are combinational from tick_i. half_o is high from base clock number
 //         floor((rate_i + 1) / 2) on. If rising_i is high at this base clock, half_o rises late, but always:

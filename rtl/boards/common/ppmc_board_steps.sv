@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_steps: derives pulse and direction from the phase pins of a part without such outputs, for the
+// ppmc_board_steps: derives pulse and direction from the phase pins of a device without such outputs, for the
 // pulse counter.
 // Rules:  docs/stmc/README.md, 11.1: 3, 4 or 5 phases, full or half steps and both polarities are recognised
 //         without a setting. Patterns with all phases at one level (chopper, before the first initialisation)
@@ -10,7 +10,7 @@
 
 module ppmc_board_steps (
     input  wire logic       clk_i,
-    input  wire logic       rst_ni,   // reset of the part: the next pattern is the first pattern
+    input  wire logic       rst_ni,   // reset of the device: the next pattern is the first pattern
     input  wire logic [5:1] s_i,
     output logic            pout_no,
     output logic            dir_o     // 0 = CW
