@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_board_host: host interface of a board: the UART bridge with its counters, or the bus pins of the old
 // chip.
-// Rules:  Host = "UART": docs/uart_bridge.md. Host = "BUS": the bus pins are connected directly to the device,
-//         and all straps are 1.
+// Rules:  Host = "UART": docs/uart_bridge.md. Host = "BUS": the bus pins are connected directly to the
+//         device, and all straps are 1.
 // Timing: see ppmc_uart_host; with "BUS" combinational.
 `default_nettype none
 

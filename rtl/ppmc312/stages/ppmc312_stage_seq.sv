@@ -119,7 +119,7 @@ module ppmc312_stage_seq
     ));
     stage_done_q <= more_q == '0;
     last_stage_q <= stage_q == last_stage_at_q;
-    // adjacent_q: stage next to the running one, or next to the constant rate; for pulse 1, the running
+    // adjacent_q: stage next to the running stage, or next to the constant rate; for pulse 1, the running
     // stage.
     adjacent_q  <= ((mode_q.const_rate && ramp_down_q) ? target_q.gt1 : current_stage) +
         {{6{downward}}, downward || mode_q.const_rate || !first_q};
