@@ -46,8 +46,8 @@ module ppmc_bank_window
 
   localparam int unsigned Slots = 1 << RoundBits;
   // With few axes, only the positions use block RAM, because small FPGAs have few block RAMs. For the few
-  // bits of a status, the synthesis tool decides. Only attributes use these parameters, and simulation ignores
-  // attributes.
+  // bits of a status, the synthesis tool decides. Only attributes use these parameters, and simulation
+  // ignores attributes.
   // verilator lint_off UNUSEDPARAM
   localparam string ReadDataStyle = (Slots > 8) ? "block" : "logic";
   localparam string StatusStyle = (Slots > 8) ? "block" : "auto";
