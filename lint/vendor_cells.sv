@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ports and parameters of the vendors' cells that rtl/boards instantiates, for lint and for elaboration before
-// synthesis, where the family's own library takes their place. Only what the boards use, with the vendors' names.
+// Ports and parameters of the vendors' cells that rtl/boards instantiates, for lint and for elaboration. In
+// synthesis, the library of the FPGA family replaces these modules. Only the ports and parameters that the
+// boards use are declared, with the vendors' names.
 /* verilator lint_off DECLFILENAME */
 /* verilator lint_off UNUSEDSIGNAL */
 /* verilator lint_off UNUSEDPARAM */

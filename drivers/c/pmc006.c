@@ -18,7 +18,7 @@
 
 typedef struct {
     char code;
-    char reader;  /* instruction that reads it; its own code: a write out of range reads */
+    char reader;  /* instruction that reads the value; if equal to code, a write out of range reads */
     int32_t read; /* data of the reader instruction */
     int32_t low, high;
 } setting_t;
@@ -154,7 +154,7 @@ ppmc104_result_t pmc006_ask(pmc006_t *dev, char code, int32_t data, int32_t *rep
     return result;
 }
 
-/* The same for instructions that may be repeated. */
+/* Like pmc006_ask(), for instructions that may be repeated. */
 static ppmc104_result_t ask_again(pmc006_t *dev, char code, int32_t data, int32_t *reply)
 {
     ppmc104_result_t result = PPMC104_TIMEOUT;
@@ -283,7 +283,7 @@ ppmc104_result_t pmc006_status(pmc006_t *dev, pmc006_status_t *status)
     status->forward = (two & 16) != 0;
     status->autostart = (two & 32) != 0;
     if (result == PPMC104_OK && status->ext_on != dev->ext) {
-        dev->known = dev->known && dev->ext == 0u; /* it was reset, or a program switched it on */
+        dev->known = dev->known && dev->ext == 0u; /* on to off: a reset; off to on: by a program */
         dev->ext = status->ext_on;
     }
     return result;

@@ -105,14 +105,14 @@ ppmc104_result_t pmc006_save(pmc006_t *dev);
  * The functions return when the controller has accepted the motion. @{ */
 /** Move. @param steps forward positive, not 0, not -2^31 */
 ppmc104_result_t pmc006_move(pmc006_t *dev, int32_t steps);
-/** Move to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is reached already. */
+/** Move to a position. @return PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT at this position */
 ppmc104_result_t pmc006_move_to(pmc006_t *dev, int32_t position);
 /** Run at constant speed until a stop. @param speed 1 .. 16 000; PMC006_MAX_SPEED changes it later */
 ppmc104_result_t pmc006_run(pmc006_t *dev, bool forward, int32_t speed);
 /** Stop immediately. No error at standstill. */
 ppmc104_result_t pmc006_stop(pmc006_t *dev);
-/** Decelerate, then stop: only after pmc006_run(). PMC006_ERR_REFUSED in a move, because it has no such
- * instruction. */
+/** Decelerate, then stop: only after pmc006_run(). PMC006_ERR_REFUSED during a move, because the controller
+ * has no instruction for this. */
 ppmc104_result_t pmc006_stop_slowly(pmc006_t *dev);
 /**
  * Find a switch at EXT1 or EXT2, move off it by `back` steps and set the position to 0. Waits for the
@@ -143,11 +143,11 @@ ppmc104_result_t pmc006_clear_stops(pmc006_t *dev);
  */
 ppmc104_result_t pmc006_position(pmc006_t *dev, int32_t *position);
 ppmc104_result_t pmc006_set_position(pmc006_t *dev, int32_t position);
-/** GPO1 .. GPO5 in bits 0 .. 4. */
+/** Set the outputs GPO1 .. GPO5 to the levels in bits 0 .. 4. */
 ppmc104_result_t pmc006_outputs(pmc006_t *dev, uint8_t bits);
 
 /** @name Program
- * Words as in the manual: opcode and option, then the operand. @{ */
+ * Words as in docs/pmc006/README.md, chapter 13: opcode and option, then the operand. @{ */
 /** Load words into the program buffer and read them back. @param count 1 .. PMC006_WORDS_MAX */
 ppmc104_result_t pmc006_program(pmc006_t *dev, const uint32_t *words, unsigned count);
 /** Burn the buffer into the EEPROM and wait for the end of the write. */

@@ -164,7 +164,7 @@ typedef struct {
 #define PPMC104_IN_L3 0x02u
 #define PPMC104_IN_L4 0x01u
 
-/** Text for a result, e.g. for a log; never null. */
+/** Return the text for a result, e.g. for a log; never null. */
 const char *ppmc104_strerror(ppmc104_result_t result);
 
 /**
@@ -195,7 +195,7 @@ ppmc104_result_t ppmc104_init(ppmc104_t *dev, const ppmc104_config_t *config);
  * The functions return when the part has accepted the operation. `flags` is a sum of the flags above,
  * `pulses` is 1 .. 16 777 216. @{ */
 ppmc104_result_t ppmc104_step(ppmc104_t *dev, uint8_t flags);
-/** With acceleration and deceleration, at the rates of the initialisation. */
+/** Move with acceleration and deceleration, at the rates of the initialisation. */
 ppmc104_result_t ppmc104_move(ppmc104_t *dev, uint8_t flags, uint32_t pulses);
 ppmc104_result_t ppmc104_move_constant(ppmc104_t *dev, uint8_t flags, uint8_t rate, uint32_t pulses);
 /** Move at constant speed until a stop or the hard limit. */
@@ -246,8 +246,8 @@ ppmc104_result_t ppmc104_outputs(ppmc104_t *dev, uint8_t *levels);         /**< 
 ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< AUXI3..0 in bits 3..0 */
 /**
  * Return the pulses that the last operation did not make, 0 .. 16 777 216. The function does not read the
- * finish status, and the driver does not store it. Therefore the caller passes the one of this operation:
- * the number of the part alone does not distinguish 0 pulses from 1.
+ * finish status, and the driver does not store it. Therefore the caller passes the finish status of this
+ * operation: the number of the part alone does not distinguish 0 pulses from 1.
  * @return PPMC104_UNCONFIRMED if this is the finish status of a part that was reset
  */
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses);
@@ -258,9 +258,9 @@ uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number);
 /** Set the chopper times at standstill, 0 .. 255: about 3 us each plus 27 us (on) and 33 us (off). Not
  * during an operation. */
 ppmc104_result_t ppmc104_switching(ppmc104_t *dev, uint8_t on, uint8_t off);
-/** Bits 3..0: 1 drives AUXO3..0 low. Always allowed. */
+/** Set the auxiliary outputs: a 1 in bits 3..0 drives AUXO3..0 low. Always allowed. */
 ppmc104_result_t ppmc104_aux_outputs(ppmc104_t *dev, uint8_t bits);
-/** Pin AUX: true drives it low. Always allowed. */
+/** Set the pin AUX: true drives the pin low. Always allowed. */
 ppmc104_result_t ppmc104_aux(ppmc104_t *dev, bool on);
 /**
  * Switch all coils off; the initialisation becomes void. PPMC104_ERR_BUSY during an operation, because the
@@ -295,13 +295,13 @@ bool ppmc104_over(ppmc104_t *dev, unsigned long polls);
 ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8_t or_set);
 /** Decode a finish status, and store the end of the operation in `order`. */
 void ppmc104_decode_finish(uint8_t raw, ppmc104_order_t *order, ppmc104_finish_t *finish);
-/** Replace a finish status that was read before by the stored one. */
+/** Replace a finish status that was read before by the stored finish status. */
 void ppmc104_recall(ppmc104_order_t *order, ppmc104_finish_t *finish);
 /** Compare the finish status and the part's number of remaining pulses with the order. */
 ppmc104_result_t ppmc104_confirm(const ppmc104_order_t *order, const ppmc104_finish_t *finish, uint32_t number);
-/** ppmc104_wait() with another code of the remaining pulses. */
+/** As ppmc104_wait(), but with `remaining` as the code that reads the remaining pulses. */
 ppmc104_result_t ppmc104_wait_by(ppmc104_t *dev, ppmc104_finish_t *finish, uint8_t remaining);
-/** Two's complement of 32 bits. */
+/** Return the signed value of 32 bits in two's complement. */
 int32_t ppmc104_signed(uint32_t value);
 /** @} */
 

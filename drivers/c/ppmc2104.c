@@ -176,8 +176,8 @@ ppmc104_result_t ppmc2104_open(ppmc2104_t *dev)
     ppmc104_result_t result;
 
     dev->known[0] = dev->known[1] = false;
-    /* Error code reads are the only codes without a side effect on motions. The first one may end an unfinished
-     * instruction (error 3); it returns no byte then. */
+    /* Error code reads are the only codes without a side effect on motions. The first read may end an
+     * unfinished instruction (error 3); then this read returns no byte. */
     result = ppmc2104_command(dev, CODE_ERROR, NULL, 0u);
     if (result == PPMC104_TIMEOUT || result == PPMC104_NO_PART) {
         return result;

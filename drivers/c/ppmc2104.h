@@ -153,7 +153,7 @@ ppmc104_result_t ppmc2104_aux_inputs(ppmc2104_t *dev, uint8_t *levels); /**< AUX
 ppmc104_result_t ppmc2104_switching(ppmc2104_t *dev, unsigned axis, uint8_t on, uint8_t off);
 /** Set the time from the end of a motion to HOLD: 128 us * (units + 1). Not while the axis moves. */
 ppmc104_result_t ppmc2104_hold_delay(ppmc2104_t *dev, unsigned axis, uint8_t units);
-/** Bits 1, 0: 1 drives AUXO1, AUXO0 low. */
+/** Set the auxiliary outputs: a 1 in bit 1 drives AUXO1 low, a 1 in bit 0 drives AUXO0 low. */
 ppmc104_result_t ppmc2104_aux_outputs(ppmc2104_t *dev, uint8_t bits);
 /** Switch all coils of the axis off: the initial setting becomes void, the position unknown. Not while the
  * axis moves. */

@@ -64,7 +64,7 @@
 #define EVENT_BYTES 9u
 #define EVENT_BYTES_LINE 7u
 #define COLLECT_MAX 256u
-#define GAP_READS 4u /* after a block, the next one appears at least 8 cycles later */
+#define GAP_READS 4u /* after a block, the next block appears at least 8 cycles later */
 #define LOOK_POLLS 256u /* polls of CSR between two status reads in a wait */
 
 /* Causes of END codes 31 .. 39 on the line. */
@@ -486,7 +486,7 @@ static ppmc104_result_t talk(ppmc312_t *dev, const uint8_t *body, unsigned count
             have = true;
             result = PPMC104_BAD_REPLY;
         } else if (gives == 0u || clears) {
-            return result; /* it may have been executed */
+            return result; /* the instruction may have been executed */
         }
     }
     return result;

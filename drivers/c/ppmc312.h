@@ -68,12 +68,12 @@ typedef enum {
     PPMC312_RUN_CONSTANT = 0x86  /**< at `rate`, until a stop */
 } ppmc312_op_t;
 
-/** Time at which an instruction is executed. All except NOW use the override buffer: the answer is a report
- * then. */
+/** Time at which an instruction is executed. With all values except NOW, the instruction is stored in the
+ * override buffer, and its answer is a report. */
 typedef enum {
     PPMC312_NOW = 0,
     PPMC312_AT_POSITION = 4, /**< not for motions */
-    PPMC312_ON_EVENT0 = 5,   /**< falling edge of evt0_n; not for SEARCH, RETURN and STEP; motions: only on the bus */
+    PPMC312_ON_EVENT0 = 5,   /**< falling edge of evt0_n; not SEARCH, RETURN, STEP; motions only on the bus */
     PPMC312_ON_EVENT1 = 7
 } ppmc312_when_t;
 
@@ -103,15 +103,15 @@ typedef struct {
     int32_t position; /**< pulse counter of the part */
 } ppmc312_end_t;
 
-/** Reports: codes as in chapter 6 of the manual. */
+/** Codes of the reports, see docs/ppmc312/README.md, chapter 6. */
 #define PPMC312_REPORT_NONE 0x00u
 #define PPMC312_REPORT_STOPPED 0xE0u        /**< cause, position (4 bytes, on the line not present) */
 #define PPMC312_REPORT_INTERLOCK 0xE1u
 #define PPMC312_REPORT_RUN 0xE2u            /**< a motion that waited for RUN has begun */
 #define PPMC312_REPORT_ENCODER 0xE3u        /**< 0 inside, 1 outside */
 #define PPMC312_REPORT_IN_POSITION 0xE4u    /**< 0 inside, 1 outside */
-#define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: it does not name the instruction */
-#define PPMC312_REPORT_INPUTS 0xE9u         /**< 1: earlier changes were overwritten; changed bits */
+#define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: the report does not name the instruction */
+#define PPMC312_REPORT_INPUTS 0xE9u         /**< 1 if earlier changes were overwritten; then the changed bits */
 #define PPMC312_REPORT_ALARM 0xF4u          /**< 0 pin, 1 .. 3 unread answers */
 #define PPMC312_REPORT_EVENT_FAILED 0xF8u
 #define PPMC312_REPORT_OVERRIDE_FAILED 0xF9u
@@ -119,7 +119,7 @@ typedef struct {
 /** Source of a report. */
 #define PPMC312_FROM_PART 0x23u
 #define PPMC312_FROM_EVENT 0x0Bu    /**< `code` is that of the executed instruction */
-#define PPMC312_FROM_OVERRIDE 0x1Bu /**< the same for the override buffer */
+#define PPMC312_FROM_OVERRIDE 0x1Bu /**< `code` is that of the instruction in the override buffer */
 
 #define PPMC312_DATA_MAX 29u   /**< data bytes of an answer */
 #define PPMC312_REPORTS_MAX 8u /**< reports that the driver stores */
@@ -138,7 +138,7 @@ typedef struct {
 #define PPMC312_STATE_ABN 0x10u /**< alarm */
 #define PPMC312_STATE_WRN 0x20u /**< waits for RUN */
 
-/** Status, chapter 4D of the instructions. */
+/** Status, see docs/ppmc312/instructions.md, 4D. */
 typedef struct {
     uint8_t operation, condition, buffers;
 } ppmc312_status_t;
@@ -203,7 +203,7 @@ ppmc104_result_t ppmc312_change(ppmc312_t *dev, bool ramp, uint16_t rate, ppmc31
  */
 ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end);
 
-/** Fetch reports and return the oldest one; `code` is PPMC312_REPORT_NONE if there is none. */
+/** Fetch reports and return the oldest report; `code` is PPMC312_REPORT_NONE if there is no report. */
 ppmc104_result_t ppmc312_report(ppmc312_t *dev, ppmc312_report_t *report);
 
 /** Return the state of the part; allowed at any time. */
@@ -222,7 +222,7 @@ ppmc104_result_t ppmc312_set_position(ppmc312_t *dev, bool encoder, int32_t posi
 ppmc104_result_t ppmc312_event_motion(ppmc312_t *dev, unsigned buffer, const ppmc312_motion_t *motion);
 /** Register another instruction: its code and parameters as on the bus. @param count 0 .. 9, on the line 0 .. 7 */
 ppmc104_result_t ppmc312_event(ppmc312_t *dev, unsigned buffer, uint8_t code, const uint8_t *data, unsigned count);
-/** Delete the last entry. PPMC312_ERR_FULL if there is none. */
+/** Delete the last entry. PPMC312_ERR_FULL if there is no entry. */
 ppmc104_result_t ppmc312_event_delete(ppmc312_t *dev, unsigned buffer);
 /** @} */
 

@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/** Largest number of axes of a bank; others have 4, 8, 16 or 32. */
+/** Largest number of axes of a bank; smaller banks have 4, 8, 16 or 32. */
 #define PPMC_BANK_AXES_MAX 64u
 
 /** Address of a register of an axis: the `address` argument of the access functions. Memory mapped, times 4. */

@@ -17,7 +17,7 @@ typedef struct {
      * already. */
     bool (*receive)(void *ctx, uint8_t *byte, unsigned milliseconds);
     void *ctx; /**< passed to the functions */
-    bool echo; /**< the receiver receives the own frames (two wires): the driver skips them */
+    bool echo; /**< the receiver receives its own frames (two wires); the driver skips these frames */
 } ppmc_line_t;
 
 /** Of the drivers: discard bytes until the line was silent for `milliseconds`, or up to 64 bytes. */

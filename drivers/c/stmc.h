@@ -23,8 +23,8 @@ extern "C" {
 #define STMC_CLOCK_INTERNAL 12500u
 #define STMC_CLOCK_BOARD 48675u
 
-/** Lowest divisor that stmc_divisor() returns: the data sheet advises against lower ones. The part accepts
- * 1 .. 255. */
+/** Lowest divisor that stmc_divisor() returns: the data sheet advises against lower divisors. The part
+ * accepts 1 .. 255. */
 #define STMC_DIVISOR_MIN 5u
 
 /** Codes of the part's read commands: parameter READ_MAP, FAMILY by default. */
@@ -60,7 +60,7 @@ typedef struct {
 #define STMC_IN_L3 0x02u
 #define STMC_IN_L4 0x01u
 
-/** Text for a result, e.g. for a log; never null. */
+/** Return the text for a result, e.g. for a log; never null. */
 const char *stmc_strerror(ppmc104_result_t result);
 
 /**
@@ -90,7 +90,7 @@ ppmc104_result_t stmc_init(stmc_t *dev, const stmc_config_t *config);
  * The functions return when the part has accepted the motion. `flags`: PPMC104_CW or PPMC104_CCW,
  * PPMC104_NO_INT. `steps` is 1 .. 16 777 216, a divisor 1 .. 255. @{ */
 ppmc104_result_t stmc_step(stmc_t *dev, uint8_t flags);
-/** With acceleration and deceleration, at the speeds of the initialisation. */
+/** Move with acceleration and deceleration, at the speeds of the initialisation. */
 ppmc104_result_t stmc_move(stmc_t *dev, uint8_t flags, uint32_t steps);
 ppmc104_result_t stmc_move_constant(stmc_t *dev, uint8_t flags, uint8_t divisor, uint32_t steps);
 /** Move at constant speed until a stop or the stop limit. */

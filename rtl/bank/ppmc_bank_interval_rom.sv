@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_interval_rom: duration of an interval after its low time; a ROM with one word for each base
 //         clock, extra time and rate, so that no multiplier is needed.
-// Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (a), BANK-GEN-02.
+// Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (internal base clock), BANK-GEN-02.
 // Timing: after_low_o is valid two cycles after interval_i.
 `default_nettype none
 

@@ -6,7 +6,7 @@
 
 package ppmc_bank_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc_code_pkg::*;
@@ -63,7 +63,7 @@ package ppmc_bank_pkg;
   // Last command and its parameters, written with each accepted byte.
   typedef struct packed {
     logic [7:0]  code;
-    logic [23:0] params;  // the last one in the high bits
+    logic [23:0] params;  // the last in the high bits
   } last_cmd_t;
 
   // Settings of an initialisation, written when its last byte is accepted.
@@ -105,7 +105,7 @@ package ppmc_bank_pkg;
     logic        pout_only;      // POUT mode: the phases do not change
     logic        ccw;            // direction is CCW
     logic        silent;         // no interrupt at the end
-    logic [24:0] decel_margin;   // pulses after the next one - 1 - index of the running interval
+    logic [24:0] decel_margin;   // (pulses after the next pulse) - 1 - index of the running interval
     logic [14:0] ramp_level;     // index of the running interval + 1
   } motion_state_t;
 
@@ -176,7 +176,7 @@ package ppmc_bank_pkg;
     logic       finish;         // a motion ends
     logic       init_done;      // an initialisation is complete
     logic       init;           // an initialisation begins
-    logic       first_init;     // with init: first one since reset or Excitation OFF
+    logic       first_init;     // with init: the first since reset or Excitation OFF
     logic       exc_off;        // Excitation OFF
     logic       switching;      // the times of the chopper are set
     logic       read;           // a read command

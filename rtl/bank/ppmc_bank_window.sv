@@ -3,8 +3,8 @@
 //         each axis.
 // Rules:  BANK-WIN-01..08, BANK-HSK-01/03/04, BANK-GEN-04/05, BANK-GRP-01..04.
 // Timing: a write acts at the first edge after the end of its strobe has left the synchronisers. d_o is valid
-//         from the third edge after the start of a read strobe has left them. in_buf_o, read_progress_o and
-//         config_no are valid one cycle after axis_i.
+//         from the third edge after the start of a read strobe has left the synchronisers. in_buf_o,
+//         read_progress_o and config_no are valid one cycle after axis_i.
 // How:    the RAM words of the addressed axis are read in every cycle. If a visit writes these words in the
 //         cycle in which they are read, the words read before are kept. The registers of the bank
 //         (bank_reg_q, bank_reg_q2) are updated in every cycle.
@@ -45,9 +45,9 @@ module ppmc_bank_window
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
-  // With few axes, only the positions use block RAM, because small FPGAs have few of them. For the few bits
-  // of a status the synthesis tool decides. Only attributes use these parameters, and simulation ignores
-  // attributes.
+  // With few axes, only the positions use block RAM, because small FPGAs have few block RAMs. For the few
+  // bits of a status, the synthesis tool decides. Only attributes use these parameters, and simulation
+  // ignores attributes.
   // verilator lint_off UNUSEDPARAM
   localparam string ReadDataStyle = (Slots > 8) ? "block" : "logic";
   localparam string StatusStyle = (Slots > 8) ? "block" : "auto";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_i2c_master: master of an I2C bus with one master: sends START, STOP and bytes, receives bytes, and
 //         frees a bus whose data line is stuck.
-// Rules:  P006 section 13.1, P006-BAD-13 (clock held low).
+// Rules:  docs/pmc006/README.md, 14 (EEPROM); P006-BAD-13 (clock held low).
 // Timing: the lines change at tick_o, four ticks a bit: SDA changes, SCL rises, SDA is sampled, SCL falls.
 //         START and STOP take six ticks. done_o or fail_o is high one cycle after the last tick. If the next
 //         command is valid before the next tick, it follows without a gap. While a device holds SCL low, the

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_i2c_pkg: commands of the I2C master.
-// Rules:  P006 section 13.1.
+// Rules:  docs/pmc006/README.md, 14 (EEPROM).
 `default_nettype none
 
 package ppmc_i2c_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   typedef enum logic [2:0] {

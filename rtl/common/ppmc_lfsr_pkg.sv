@@ -8,7 +8,7 @@
 
 package ppmc_lfsr_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // Primitive polynomials of degree 31 .. 2 without their highest power; x**0 is the lowest bit.
@@ -61,7 +61,7 @@ package ppmc_lfsr_pkg;
   // squares the power and, if the bit is 1, adds a step. It has few statements, because tools evaluate
   // functions slowly.
   function automatic logic [30:0] after(int unsigned n, int unsigned bits);
-    // whole: polynomial; power: x to the bits of n so far; square: power squared
+    // whole: the polynomial; power: x**m, m: the bits of n used so far; square: power squared
     logic [31:0] whole, power, square;
     whole = (32'd1 << bits) | 32'(TAPS[bits]);
     power = 32'd1;

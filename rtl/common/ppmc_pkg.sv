@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pkg: functions that all cores share: conversion of times, widths of counters, small arithmetic.
+// ppmc_pkg: functions that all cores share: conversion of times, widths of counters, arithmetic of short
+//         numbers.
 // Rules:  P104-GEN-02, P104-GEN-03 (times are given in crystal cycles and converted into clock cycles only
 //         here).
 `default_nettype none
 
 package ppmc_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // Cycles that last as long as `xtal_cycles` crystal cycles, rounded up: CYC(n) of the specifications.
+  // Cycles that last as long as `xtal_cycles` crystal cycles, rounded up: CYC(n) of the rules.
   function automatic int unsigned cyc(int unsigned xtal_cycles, int unsigned clk_hz, int unsigned xtal_hz);
     longint unsigned product;
     product = 64'(xtal_cycles) * 64'(clk_hz);

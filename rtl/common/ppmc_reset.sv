@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_reset: reset of a core: asserted asynchronously, released synchronously.
 // Rules:  P104-PORT-03.
-// Timing: rst_no falls immediately with rst_ni. It rises at the second rising edge of clk_i with rst_ni high.
+// Timing: rst_no falls immediately with rst_ni. At the second rising edge of clk_i with rst_ni high, rst_no
+//         rises.
 `default_nettype none
 
 module ppmc_reset (

@@ -3,7 +3,7 @@
 //         drift.
 // Rules:  P2104-PORT-06.
 // Timing: toggle t occurs at rising edge number ceil(t * HalfXtal * ClkHz / XtalHz), where edge 1 is the
-//         first one after reset. Half a period lasts at least one cycle.
+//         first rising edge after reset. Half a period lasts at least one cycle.
 `default_nettype none
 
 module ppmc_square #(

@@ -37,7 +37,7 @@ module ppmc_uart_rx #(
   state_e state_q;
   logic line, unused_meta, has_one_q, middle;
   logic [Width-1:0] phase_q, phase_d;
-  logic [3:0] bits_left_q;  // remaining bits; the stop bit is the last
+  logic [3:0] bits_left_q;  // remaining data bits; 0: the next bit is the stop bit
 
   ppmc_sync u_sync (
       .clk_i,

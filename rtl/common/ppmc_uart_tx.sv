@@ -22,7 +22,7 @@ module ppmc_uart_tx #(
 
   logic [Width-1:0] phase_q, phase_d;
   logic [8:0] bits_q;  // remaining data bits and the stop bit
-  logic [3:0] bits_left_q;  // remaining bits without the current one
+  logic [3:0] bits_left_q;  // remaining bits without the current bit
   logic bit_end;
 
   assign {bit_end, phase_d} = {1'b0, phase_q} + {1'b0, step_i};

@@ -4,7 +4,7 @@
 // Rules:  UB ops IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
 // Timing: put_i stores a byte at the next edge. A block takes one cycle for each byte; COUNT is restarted if
 //         the counter has changed during this time. The full flags are valid two cycles after the last byte.
-// Assumes: each counter changes by one at a time, and at most once in 4 cycles. For COUNT to end, it
+// Assumes: each counter changes by one at a time, and at most once in 4 cycles. For COUNT to end, the counter
 //         changes at most once in 8 cycles.
 `default_nettype none
 
@@ -21,10 +21,10 @@ module ppmc_bridge_answer
     input  wire logic                 put_i,      // store one byte
     input  wire logic   [        7:0] data_i,     // byte to store, with put_i
     input  wire logic                 ident_i,    // strobe: begin a block of 16 bytes
-    input  wire block_e               block_i,    // block to store; stable while busy_o
+    input  wire block_e               block_i,    // block to store; stable while busy_o = 1
     input  wire logic   [       63:0] info_i,     // data of RECORDED, followed by zeros
     input  wire logic                 count_i,    // strobe: begin a block of COUNT
-    input  wire logic                 second_i,   // 1: COUNT of axis 2; stable while busy_o
+    input  wire logic                 second_i,   // 1: COUNT of axis 2; stable while busy_o = 1
     input  wire logic   [Axes*32-1:0] counter_i,  // pulse counters, axis 1 in the low bits
     output logic                      busy_o,     // a block is being stored
     output logic                      full_o,     // no space for one more byte

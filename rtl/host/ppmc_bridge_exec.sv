@@ -77,7 +77,7 @@ module ppmc_bridge_exec
   result_e result_q;
   logic [8:0] length;  // number of data bytes in the answer
   logic [7:0] pos_q;
-  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: operand 1, then op bytes left; left_q: script bytes left
+  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: operand 1, then bytes of the op left; left_q: of the script
   logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2, the results of the byte are valid
   logic script_end_q, too_short_q, is_zero_q, bad_arg_q, hit_q, compare_q, timeout;
   logic first_q, written_q, has_read_q;

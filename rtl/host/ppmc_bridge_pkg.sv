@@ -5,7 +5,7 @@
 
 package ppmc_bridge_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   localparam logic [7:0] FLAG = 8'h7E;

@@ -7,7 +7,7 @@
 
 package ppmc_build_pkg;
 
-  // A design uses only some of these constants.
+  // Designs without a UART bridge do not use the constant.
   // verilator lint_off UNUSEDPARAM
 
 `ifndef PPMC_BUILD

@@ -12,8 +12,8 @@ module ppmc_host_port #(
     input wire logic style_i,  // 0 = read and write strobe, 1 = data strobe and direction
     // pins
     input wire logic cs_ni,  // chip select
-    input wire logic rd_ni,  // read strobe, or data strobe
-    input wire logic wr_ni,  // write strobe, or direction
+    input wire logic rd_ni,  // read strobe, or direction
+    input wire logic wr_ni,  // write strobe, or data strobe
     input wire logic a0_i,  // 0 data, 1 status or command
     input wire logic [7:0] d_i,  // data written by the host
     output logic [7:0] d_o,  // data read by the host

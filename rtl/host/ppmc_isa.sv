@@ -4,14 +4,14 @@
 // Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the devices sample them (ppmc_strobe_bus).
 //         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low from the first
-//         rising edge of clk_i that samples the write to the first one that does not.
+//         rising edge of clk_i that samples the write to the first rising edge that does not.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_isa #(
     parameter int unsigned Parts  = 1,     // device p: data at Base + 2p, status and command at Base + 2p + 1
     parameter bit          Source = 1'b0,  // 1: a source register follows, bit p = interrupt of device p;
-                                           // writing it makes a new edge of irq_o if an interrupt is active
+                                           // a write to it causes a new edge of irq_o if one is active
     parameter int unsigned Base   = 'h3B0  // multiple of the length of the window
 ) (
     input  wire logic                  clk_i,

@@ -3,8 +3,8 @@
 // Rules:  P104-HSK-01/02 (input), P104-HSK-05/06/08 (output).
 // Timing: a byte written in a cycle with wr_i is valid on byte_o after that edge; ready_o follows one cycle
 //         later, so that the decoding may be registered. take_i may occur in the cycle of another wr_i: the
-//         old byte is accepted, the new one stays. After rd_done_i, obf_o is low for one cycle; then the next
-//         byte of the queue is valid.
+//         old byte is accepted, and the new byte stays. After rd_done_i, obf_o is low for one cycle; then the
+//         next byte of the queue is valid.
 `default_nettype none
 
 module ppmc_mailbox #(
@@ -58,7 +58,7 @@ module ppmc_mailbox #(
   end
 
   localparam int unsigned MoreBits = 8 * (QueueBytes - 1);
-  logic [MoreBits-1:0] more_q;  // bytes after the current one
+  logic [MoreBits-1:0] more_q;  // bytes after the current byte
   logic [QueueBytes-2:0] more_valid_q;  // bytes of more_q that are present
   logic next;
 

@@ -5,7 +5,7 @@
 
 package ppmc_recorder_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   localparam int unsigned MIN_TIME_BITS = 14;  // minimum number of time bits in a record

@@ -3,7 +3,7 @@
 // Rules:  docs/bank/spi.md; strobes by UB-BUS-01.
 // Timing: clk_i samples sck, mosi and cs_n. miso follows a falling edge of sck by 2 to 3 cycles. A write
 //         begins 2 to 3 cycles after the last bit of its byte, a read 2 to 3 cycles after the first bit of
-//         the byte that requests it. An access ends long before the next one can begin, at any rate of sck.
+//         the byte that requests it. An access ends long before the next access can begin, at any sck.
 // Assumes: the low time of sck is longer than 3 cycles plus the delay of the pads (clk >= 8 sck leaves 1
 //         cycle for them); the high time of sck is longer than 1 cycle.
 `include "ppmc_assert.svh"

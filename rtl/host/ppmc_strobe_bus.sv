@@ -16,8 +16,8 @@ module ppmc_strobe_bus (
     input  wire logic       style_i,       // bus style, constant
     // pins
     input  wire logic       cs_ni,         // chip select
-    input  wire logic       rd_ni,         // read strobe, or data strobe
-    input  wire logic       wr_ni,         // write strobe, or direction
+    input  wire logic       rd_ni,         // read strobe, or direction
+    input  wire logic       wr_ni,         // write strobe, or data strobe
     input  wire logic       a0_i,          // 1 = status or command, 0 = data
     input  wire logic [7:0] d_i,           // data written by the host
     output logic      [7:0] d_o,           // data read by the host

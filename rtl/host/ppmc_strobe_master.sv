@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_strobe_master: read and write accesses on the strobe bus of a device, for bridges on the same chip.
-// Rules:  UB-BUS-01; keeps P104-BUS-03/04, P2104 table 2.1, STMC-BUS-11/20, P312-PAR-10/11 at every CLK_HZ.
+// Rules:  UB-BUS-01; keeps P104-BUS-03/04, the times of docs/ppmc2104/README.md, 4.2, STMC-BUS-11/20 and
+//         P312-PAR-10/11 at every CLK_HZ.
 // Timing: a request is accepted in a cycle with req_i and ready_o high, together with we_i, addr_i and
 //         wdata_i. done_o is high for one cycle when the strobe has ended; rdata_o is valid from then until
 //         the end of the next read. One write every 8 cycles, one read every 10 cycles.

@@ -88,7 +88,7 @@ module ppmc_wishbone #(
     end
   end
 
-  // Gated, so that a master that aborts at the last moment gets no response.
+  // CYC and STB gate the response, so that a master that aborts at the last moment receives no response.
   logic answer;
   assign answer = cyc_i && stb_i && (no_strobe_q || (done && waiting_q));
   assign ack_o  = answer && !(no_strobe_q && error_q);

@@ -29,7 +29,7 @@ module ppmc_axis
     parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately
     parameter bit SlowAlways = 1'b0,  // 1: slow-down limits are effective off the plateau in POUT mode, too
     parameter bit SlowOrigin = 1'b0,  // 1: a slow-down limit ends an origin search immediately
-    parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last one; 0: immediate end
+    parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last pulse; 0: immediate end
     parameter bit PulsePin = 1'b1  // 0: no pulse output; low_o stays 0, the last pulse ends the motion
 ) (
     input wire logic clk_i,
@@ -49,10 +49,10 @@ module ppmc_axis
     input wire logic halt_i,  // immediate stop command
     input wire logic decel_i,  // deceleration stop command
     input wire switches_t switches_i,  // synchronous levels
-    input wire logic slow_i,  // act on the slow-down limit; slow_seen_o, delayed or not
+    input wire logic slow_i,  // act on the slow-down limit: slow_seen_o, possibly delayed
     output logic slow_seen_o,  // an effective slow-down limit is active
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
-    input wire logic go_i,  // 0: pulse 1 is held back
+    input wire logic go_i,  // 0: pulse 1 must wait
     input wire logic end_delay_i,  // 1 keeps the motion from ending
     // clocks
     input wire logic quantum_i,  // quantum tick, restarted by restart_o
@@ -67,7 +67,7 @@ module ppmc_axis
     output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
 );
 
-  localparam int unsigned ShortPeriodXtal = 128;  // P104-TIM-05 (c)
+  localparam int unsigned ShortPeriodXtal = 128;  // P104-TIM-05, rate 0: 8 us at 16 MHz
   // P104-INT-03: 8.5 us at 16 MHz
   localparam int unsigned LongPeriodXtal = (ExtraQuanta != 0) ? 136 : ShortPeriodXtal;
   localparam int unsigned ExtraXtal = 4 * ExtraQuanta;
@@ -216,7 +216,7 @@ module ppmc_axis
   //   this edge. An edge while low_o = 1 outputs no pulse; the next edge does. This can occur only after a
   //   pulse of rate 0 whose period is not short.
   // - Edge number floor((rate + 1) / 2) marks half of the interval (u_rate: half_o). It cuts low_o, unless
-  //   the pulse is a full one. At rate 0, the falling edge cuts low_o if the period before the pulse was
+  //   the pulse is a full pulse. At rate 0, the falling edge cuts low_o if the period before the pulse was
   //   short (u_shaper, P104-TIM-05).
   // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. Only from the
   // second deceleration step on, this rate may still rise for some cycles (rising). During these cycles

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_excitation: pattern of energised phases, for 3-, 4- and 5-phase motors in full and half step.
-// Rules:  P104-PHS-01..06 (tables of section 6.1), P104-PHS-03/05 (index 0 and phases off).
+// Rules:  P104-PHS-01..06 (tables: docs/ppmc104/README.md, 10.1; P104-PHS-03/05: index 0 and phases off).
 // Timing: pattern_o changes at the edge that ends the cycle of phase_init_i, off_i or step_i.
 // How:    see ppmc_motion_pkg.
 `include "ppmc_assert.svh"

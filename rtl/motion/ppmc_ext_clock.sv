@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_clock: edges of an external base clock and the length of its last period.
-// Rules:  P104-BCK-04, P104-INT-03 (period compared with the threshold), P104-TIM-05 (c).
+// Rules:  P104-BCK-04, P104-INT-03 (period compared with the threshold), P104-TIM-05 (rate 0).
 // Timing: for a rising pin edge first sampled at edge t, rise_o is high in the cycle before edge t + 2; for a
 //         falling edge likewise fall_o. In the cycle of rise_o, long_period_o and short_period_o refer to the
 //         period that this edge ends.

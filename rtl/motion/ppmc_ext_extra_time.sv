@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_extra_time: fixed extra time of an interval with an external base clock.
 // Rules:  P104-INT-03, P104-INT-04. The extra time has two parts. The first part runs from a pulse to the
-//         first base edge at or after it. The rest runs after the edge that ends the count. So an interval
-//         lasts (rate + 1) periods plus the extra time, and no frequency has to be measured.
-// Timing: fire_o is combinational: it is high in the cycle of hit_i, or when the rest of the extra time has
-//         passed.
+//         first base edge at or after the pulse. The second part runs after the edge that ends the count. So
+//         an interval lasts (rate + 1) periods plus the extra time, and no frequency has to be measured.
+// Timing: fire_o is combinational: it is high in the cycle of hit_i, or when the second part has passed.
 `default_nettype none
 
 module ppmc_ext_extra_time #(

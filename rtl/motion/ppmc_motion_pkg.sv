@@ -4,7 +4,7 @@
 
 package ppmc_motion_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // Number of motor phases, coded as in the initialisation byte of the PPMC family (P104-INI-01).

@@ -5,7 +5,7 @@
 
 package ppmc_op_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   localparam logic [2:0] OP_SINGLE = 3'b010;

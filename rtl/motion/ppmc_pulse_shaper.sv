@@ -21,7 +21,7 @@ module ppmc_pulse_shaper #(
     input  wire logic                full_i,   // with pulse_i: full pulse, which is not cut
     input  wire logic                halve_i,  // half intervals apply (fast internal base clock)
     input  wire logic [RateBits-1:0] rate_i,   // rate of the interval that follows
-    input  wire logic                cut_i,    // end the low time now, unless the pulse is a full one
+    input  wire logic                cut_i,    // end the low time now, unless the pulse is a full pulse
     output logic                     low_o,    // 1 = pulse active
     output logic                     past_o    // WidthCycles cycles have passed since arm_i or pulse_i
 );

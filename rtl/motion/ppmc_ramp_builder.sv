@@ -4,7 +4,7 @@
 // Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 cycles for every legal initialisation).
 // Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete. If
 //         fast_i = slow_i, the table holds only PA and busy_o is short. addr_o = slow_i from the end of a
-//         build until the next one.
+//         build until the next build.
 // Assumes: slow_i, fast_i and steps_i are stable from the cycle after start_i until busy_o falls.
 // How:    with s = 2r + 1, a = RL + 1, b = RH + 1, E = PA*b*b:
 //             thr(r) - 1 = floor((E*(2a)*(2a)/(s*s) - E) / ((a - b)*(a + b))).

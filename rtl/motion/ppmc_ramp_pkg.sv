@@ -4,7 +4,7 @@
 
 package ppmc_ramp_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   typedef enum logic [2:0] {

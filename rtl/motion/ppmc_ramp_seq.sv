@@ -3,13 +3,13 @@
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
 // Timing: all state changed by pulse_i is valid after its edge, except rate_o, the rate of the new interval.
 //         - Accelerating or at constant rate: rate_o changes at the same edge. The look-up of the next rate
-//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); lookup_busy_o then keeps a pulse
-//           back.
+//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); during this time lookup_busy_o
+//           delays a pulse.
 //         - First deceleration step: rate_o changes one cycle later (rising_o), to the rate of the interval
 //           before the last acceleration step.
 //         - Further deceleration steps: rate_o is valid when rising_o falls. The look-up runs in the new
 //           interval, also for 3 n + 1 cycles, and rate_o rises from the previous rate.
-// Assumes: pulses are at least 3 cycles apart; the first one is at least 4 cycles after load_i.
+// Assumes: pulses are at least 3 cycles apart; the first pulse is at least 4 cycles after load_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -31,14 +31,14 @@ module ppmc_ramp_seq #(
     input wire logic [CountBits-1:0] count_i,  // pulses to output, minus 1
     input wire logic single_i,  // one pulse, regardless of count_i
     input wire logic [RateBits-1:0] rate_i,  // rate of the first interval: slow_i, or of constant speed
-    input wire logic ramp_i,  // use the ramp; stable from load_i to the next one
+    input wire logic ramp_i,  // use the ramp; stable from load_i to the next load_i
     input wire logic pulse_i,  // pulse event
     input wire logic forced_i,  // forced deceleration; stays set until the motion ends
     // state
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
     output logic lookup_busy_o,  // a look-up is running: no pulse may occur
     output logic rising_o,  // a look-up is running: rate_o may still rise
-    output logic last_o,  // a pulse now would be the last one
+    output logic last_o,  // a pulse now would be the last pulse
     output logic final_o,  // a pulse now would complete the count
     output logic top_o,  // running interval is on the plateau
     output logic at_start_rate_o,  // before any deceleration: running interval has the start-up rate
@@ -60,7 +60,7 @@ module ppmc_ramp_seq #(
   logic [StepBits-1:0] ramp_level, ramp_level_nq;
   logic [RateBits-1:0] lookup_rate_q;  // rate under test
   logic [RateBits-1:0] prev_rate_q;  // rate of the interval before the last step up
-  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, one cycle late
+  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, one cycle later
   logic load_q;  // lookup_rate_q is the rate of the running interval
   logic decel_q;  // the deceleration has begun
   logic end_q;  // the look-up is at the end of the ramp; valid before each test
@@ -68,7 +68,7 @@ module ppmc_ramp_seq #(
   logic up, down, decel_starts, odd, high, lookup_step, below, reached, more;
   logic [StepBits:0] unused_sum;
 
-  // Ramp step at a pulse event: up, down or no step. left_o is the number of pulses that follow this one.
+  // Ramp step at a pulse event: up, down or no step. left_o is the number of pulses after this pulse.
   always_comb begin
     odd          = left_o[0] ^ ramp_level[0];  // with near_q: the deceleration needs all remaining pulses
     down         = ramp_i && (forced_i || dec_o || (near_q && odd));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_tables: ramp tables of two axes in two block RAMs, and one builder that fills both.
-// Rules:  P2104-RMP-01/02, P2104-HSK-05 (a build waits for at most one other).
+// Rules:  P2104-RMP-01/02, P2104-HSK-05 (a build waits for at most one other build).
 // Timing: see ppmc_ramp_builder. A build lasts two cycles longer than the builder is busy, counted from the
 //         edge of start_i or from the end of the build that it has to wait for. data_o is valid two cycles
 //         after addr_i.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_rate_counter: counts the base clocks of an interval; base clock number rate + 1 ends it.
-// Rules:  P104-INT-01, P104-TIM-05 (b), P104-BCK-05 (base clocks are passed over while the rate is still
+// Rules:  P104-INT-01, P104-TIM-05 (half_o), P104-BCK-05 (base clocks are skipped while the rate is still
 //         looked up).
-// Timing: hit_o and half_o are combinational from tick_i. half_o is high from its base clock on. If rising_i
-//         is high at this base clock, half_o rises 2 cycles after the last cycle of rising_i: late, but it is
-//         never missed.
+// Timing: hit_o and half_o are combinational from tick_i. half_o is high from base clock number
+//         floor((rate_i + 1) / 2) on. If rising_i is high at this base clock, half_o rises late, but always:
+//         2 cycles after the last cycle of rising_i.
 // Assumes: ticks are at least 3 cycles apart. A device whose hosts send divisors (J105 STMC) uses
 //         divisor - 1 as rate_i.
 // Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
@@ -22,7 +22,7 @@ module ppmc_rate_counter #(
     input  wire logic                wait_i,     // the interval must not end yet
     input  wire logic                rising_i,   // rate_i may still rise
     output logic                     hit_o,      // this base clock ends the interval
-    output logic                     half_o      // base clock floor((rate + 1) / 2) is this one or has passed
+    output logic                     half_o      // base clock floor((rate + 1) / 2) occurs now or has passed
 );
 
   logic [RateBits-1:0] count_q;  // base clocks since the pulse

@@ -27,7 +27,7 @@ module ppmc_stop_monitor
     input  wire logic      dec_i,            // natural deceleration has begun
     input  wire logic      halt_i,           // immediate stop command
     input  wire logic      decel_i,          // deceleration stop command
-    input  wire logic      slow_i,           // act on the slow-down limit; slow_seen_o, delayed or not
+    input  wire logic      slow_i,           // act on the slow-down limit: slow_seen_o, possibly delayed
     output logic           slow_seen_o,      // an effective slow-down limit is active; not valid with stop_o
     output logic           stop_o,           // end the motion now, no further pulse
     output logic           forced_o,         // forced deceleration is requested; not valid with stop_o

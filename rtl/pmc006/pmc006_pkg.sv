@@ -5,7 +5,7 @@
 
 package pmc006_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // ---- instruction codes: bit 7 = 0, code of a frame; bit 7 = 1, instruction only of the user program -----

@@ -5,7 +5,7 @@
 
 package ppmc104_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc_code_pkg::*;

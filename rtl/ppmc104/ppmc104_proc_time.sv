@@ -28,11 +28,11 @@ module ppmc104_proc_time
   // Crystal periods: microseconds times 16.
   localparam int unsigned FlagLimitXtal = 12 * 16;
   localparam int unsigned FlagLimitTopXtal = 17 * 16;
-  // Intervals in quanta: during a shorter one, only stop commands are accepted.
+  // Intervals in quanta: during a shorter interval, only stop commands are accepted.
   localparam int unsigned FastIntervalPoutQuanta = 100;
   localparam int unsigned FastIntervalPhaseQuanta = 148;
 
-  // Number of rates r for which (r + 1) * period + extra time is below this limit.
+  // Number of rates r for which (r + 1) * period + extra time is below the interval limit.
   function automatic int unsigned fast_interval_rates(bit pout_only, bit slow, bit extra);
     int unsigned limit, period;
     limit  = (pout_only ? FastIntervalPoutQuanta : FastIntervalPhaseQuanta) - (extra ? EXTRA_QUANTA : 0);

@@ -31,8 +31,8 @@ module ppmc2104_command
     output action_t act_o,  // actions of the accepted byte
     output error_report_t error_report_o,  // errors of the accepted byte
     output logic [7:0] code_o,  // code of the action
-    output logic [31:0] params_o,  // data bytes of code_o, the last one in the high bits
-    output logic [7:0] code_held_o,  // code_o after the C-event, valid until the next one
+    output logic [31:0] params_o,  // data bytes of code_o, the last in the high bits
+    output logic [7:0] code_held_o,  // code_o after the C-event, valid until the next C-event
     output logic [31:0] params_held_o  // data bytes of code_held_o
 );
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc2104_pkg: codes, error numbers, limits and types specific to the PPMC-2104AFP.
-// Rules:  P2104-CMD-01..03, P2104-INI-01/02, P2104-AUX-04..06, P2104-OPR-03, section 3.7 (error numbers).
+// Rules:  P2104-CMD-01..03, P2104-INI-01/02, P2104-AUX-04..06, P2104-OPR-03; error numbers:
+//         docs/ppmc2104/README.md, 5.2.
 `default_nettype none
 
 package ppmc2104_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc_op_pkg::*;

@@ -2,7 +2,7 @@
 // ppmc2104_proc_time: with Datasheet = 1, delays accepted instructions by the processing times of the old
 //         chip and schedules its polling of limits. Otherwise actions are immediate and limits are always
 //         sampled.
-// Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (c).
+// Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (DATASHEET).
 // Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for its end
 //         take effect at that edge; the next byte may be accepted one cycle later. Poll ticks occur every
 //         ceil(35 us) cycles, counted from the first rising edge without reset or the end of the last window.

@@ -20,7 +20,7 @@ module ppmc2104_report
     input  wire logic          [AXES:1] read_end_i,      // End status read is executed
     input  wire logic          [AXES:1] read_error_i,    // Error code read is executed
     output cmd_error_e         [AXES:1] error_o,         // error registers
-    output logic                        any_error_o,     // at least one error register is not empty
+    output logic                        any_error_o,     // at least one error register is not 0
     output logic                        int_no           // interrupt, low while there is a cause
 );
 

@@ -18,7 +18,7 @@ module ppmc312_core
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: the front end is the serial station
-    input wire logic boot_i,  // leaving a reset by an instruction: report it
+    input wire logic boot_i,  // 1: the core is leaving a reset by an instruction, which must be reported
     output logic reset_o,  // strobe: an instruction requests a reset
     // front end: blocks of the host, reports to it, in logical order
     input wire host_block_t host_block_i,  // block from the host

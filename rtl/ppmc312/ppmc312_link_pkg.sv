@@ -8,7 +8,7 @@
 
 package ppmc312_link_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc312_pkg::*;
@@ -32,8 +32,8 @@ package ppmc312_link_pkg;
 
   localparam int unsigned PARAMS = 13;  // parameters of the longest instruction
 
-  // An instruction block. Each parameter is at its place in the long form of the instruction; a missing one
-  // is 0. In an initial setting without separate sides, the deceleration side has the values of the
+  // An instruction block. Each parameter is at its place in the long form of the instruction; a missing
+  // parameter is 0. In an initial setting without separate sides, the deceleration side has the values of the
   // acceleration side.
   typedef struct packed {
     source_e                source;
@@ -41,7 +41,7 @@ package ppmc312_link_pkg;
     logic [7:0]             head;    // header
     logic [7:0]             len;     // length byte: bytes of code and parameters
     logic [7:0]             code;
-    logic [PARAMS-1:0][7:0] par;     // par[0] is the first one
+    logic [PARAMS-1:0][7:0] par;     // par[0] is the first parameter
   } block_t;
 
   // ---- pins of the motor side ---------------------------------------------------------------------
@@ -50,8 +50,8 @@ package ppmc312_link_pkg;
 
   // All inputs except EXTCK, synchronised.
   typedef struct packed {
-    motor_inputs_t unfiltered;  // not filtered
-    motor_inputs_t filtered;    // filtered
+    motor_inputs_t unfiltered;  // levels of the pins
+    motor_inputs_t filtered;    // levels after the time filters
     logic [1:0]    evt_n;       // [n]: event pin n, not filtered
     logic [1:0]    evt_fall;    // strobes: falling edge of event n, filtered
     logic          run;         // 1: starts are not held
@@ -86,7 +86,7 @@ package ppmc312_link_pkg;
     operation_t op;  // valid with start
     logic change;  // strobe: change the rate to profile.target
     profile_t profile;  // stable from start to t0; target until 2 cycles after change
-    logic single_pulse;  // 1: one pulse at the start-up rate, ignore target, dec_pulses; stable like profile
+    logic single_pulse;  // 1: one pulse at the start-up rate; target, dec_pulses ignored; stable like profile
     logic pos_halt;  // strobe: the position of an immediate stop is reached
     logic triggers_done;  // 1: all triggered instructions are processed
   } motion_req_t;
@@ -94,7 +94,7 @@ package ppmc312_link_pkg;
   // ---- settings for motions, made by instructions -------------------------------------------------
 
   typedef struct packed {
-    logic [15:0] limit_rate;     // HSL, base clocks; high-speed limits act at this rate and at faster ones
+    logic [15:0] limit_rate;     // HSL, base clocks; high-speed limits act at this rate and at faster rates
     logic        end_monitored;  // 1: END is monitored
     logic        run_ignored;    // 1: RUN is not monitored
   } motion_settings_t;
@@ -136,7 +136,7 @@ package ppmc312_link_pkg;
 
   typedef struct packed {
     logic [1:0] load;  // strobe: the report is being loaded
-    logic [1:0] read;  // strobe: the report has been read; together with load: it is read in the same cycle
+    logic [1:0] read;  // strobe: the report has been read; with load: loaded and read in one cycle
   } monitor_ack_t;
 
   // ---- instructions to reports: class 2 -----------------------------------------------------------
@@ -166,7 +166,7 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic full;       // a response can be read
     logic full_host;  // this response is for the host
-    logic pending;    // a second response waits after this one
+    logic pending;    // a second, newer response waits
   } response_queue_t;
 
   // Result of a block from the host, for the serial station.

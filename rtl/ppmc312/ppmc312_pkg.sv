@@ -7,14 +7,14 @@
 
 package ppmc312_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // ---- sizes --------------------------------------------------------------------------------------
 
   localparam int unsigned RATE_BITS = 16;
   localparam int unsigned BLOCK_BITS = 5;  // address within a block of 32 bytes
-  localparam int unsigned WIDTH_XTAL = 80;  // TW
+  localparam int unsigned WIDTH_XTAL = 80;  // pulse width TW, crystal periods
 
   // ---- instruction codes --------------------------------------------------------------------------
 

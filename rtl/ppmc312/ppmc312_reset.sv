@@ -23,7 +23,7 @@ module ppmc312_reset #(
     output logic rst_bus_no,  // reset of the bus strobes, active low; by the pin only
     output logic boot_o,  // the core is leaving a reset by an instruction
     output logic ready_o,  // 1: the reset has ended
-    output logic open_o,  // 1: the bus accepts instructions; 3 cycles after a reset by an instruction
+    output logic open_o,  // 1: the bus accepts instructions; 0 until 3 cycles after a reset by an instruction
     output logic serial_o,  // 1: serial, 0: parallel
     output logic [2:0] mod_o,  // latched line speed
     output logic [3:0] adr_o  // latched station number

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_code_pkg: common command set of the single-axis devices (PPMC-104BFP, J105 STMC): bits of the codes,
 //         error numbers, and actions of a byte.
-// Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01; STMC section 2.4 (error numbers), 3.0, 3.1.
+// Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01; docs/stmc/README.md, 5 (errors), 6.1 (codes), 6.2.
 `default_nettype none
 
 package ppmc_code_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // Error numbers in status bits 6..4 (P104-ERR-00).
@@ -86,7 +86,7 @@ package ppmc_code_pkg;
     logic        error;   // the last byte was faulty
     logic [2:0]  number;  // error number if error = 1, else number of remaining parameters
     logic [7:0]  code;    // code of the parameters
-    logic [31:0] params;  // parameters received so far, the last one in the high bits
+    logic [31:0] params;  // parameters received so far, the last in the high bits
   } parser_state_t;
 
   // Settings of the initialisation (ppmc_setup), without the ramp.

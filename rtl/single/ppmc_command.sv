@@ -35,7 +35,7 @@ module ppmc_command
     output logic [3:0] status_o,  // ERR, NUM
     output action_t act_o,  // actions of the accepted byte
     output logic [7:0] code_o,  // code of the action
-    output logic [31:0] params_o,  // parameter bytes of code_o, the last one in the high bits
+    output logic [31:0] params_o,  // parameter bytes of code_o, the last in the high bits
     output logic [7:0] code_held_o,  // code_o after the C-event, while no byte is accepted
     output logic [31:0] params_held_o  // parameters of code_held_o
 );

@@ -59,7 +59,7 @@ module ppmc_finish_status
   // The causes are valid until the next operation starts. While an operation runs, read commands are
   // rejected.
   always_comb begin
-    answer_o = remaining_i;  // only SEL_REMAINING uses the bytes after the first one
+    answer_o = remaining_i;  // only SEL_REMAINING uses the bytes after the first byte
     unique case (select_i)
       SEL_FINISH:  answer_o[7:0] = {unread_q || !UnreadFlag, cause_i, op_q};
       SEL_INPUTS:  answer_o[7:0] = inputs_i;

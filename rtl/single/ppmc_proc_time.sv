@@ -24,7 +24,7 @@ module ppmc_proc_time
     // command unit, at the C-event
     input  wire action_t                act_i,          // actions requested by the byte
     input  wire logic    [         7:0] code_i,         // code of act_i
-    input  wire logic    [        31:0] params_i,       // parameters of act_i; next cycle: one byte lower
+    input  wire logic    [        31:0] params_i,       // parameters of act_i; a cycle later a byte lower
     input  wire logic    [         7:0] code_held_i,    // code_i after the C-event
     input  wire logic    [        31:0] params_held_i,  // params_i after the C-event
     input  wire logic    [         2:0] base_i,         // base clock that is selected now
@@ -184,7 +184,7 @@ module ppmc_proc_time
 
     logic triangular;
 
-    // triangle: the number of pulses minus 1 (P104-DS-05: D) is below 2 * PA.
+    // triangular: the number of pulses minus 1 (P104-DS-05: D) is below 2 * PA.
     assign triangular = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );

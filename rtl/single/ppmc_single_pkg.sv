@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_single_pkg: types that connect ppmc_single with the device around it, and the device configuration.
 // Rules:  those of ppmc_single.
-// How:    ppmc_single outputs the current byte (rx_byte_t), and the device returns its meaning
-//         (decoded_byte_t). With this meaning the parameters are complete: ppmc_single outputs the command
-//         (command_req_t), and the device returns the result of its check (check_result_t). There are four
-//         bundles instead of two, so that no bundle depends on itself.
+// How:    ppmc_single outputs the current byte (rx_byte_t), and the device returns the meaning of this byte
+//         (decoded_byte_t). From both, ppmc_single forms the command with all its parameters and outputs it
+//         (command_req_t), and the device returns the result of the check of this command (check_result_t).
+//         There are four structs instead of two, so that no struct depends combinationally on itself.
 `default_nettype none
 
 package ppmc_single_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc_code_pkg::*;
@@ -28,8 +28,8 @@ package ppmc_single_pkg;
     int unsigned hold_rest_cycles;  // cycles added to hold_quanta
     int unsigned chop_unit;         // quanta in a unit of the chopper times; 0: no units
     int unsigned chop_bits;         // used bits of the chopper base times
-    // 1: stop and end rules of the J105 STMC. There is no pulse output, so that the last pulse ends the
-    // motion. A stop at the start-up rate, and a slow-down limit in an origin search, end the motion
+    // 1: stop and end rules of the J105 STMC. There is no pulse output, so the last pulse ends the motion. A
+    // stop at the start-up rate, and a slow-down limit in an origin search, end the motion
     // immediately. Bit 7 of the finish status is always 1. Ramps have no separate processing times.
     bit          stmc_stop_rules;
   } part_cfg_t;
@@ -39,7 +39,7 @@ package ppmc_single_pkg;
     logic [7:0] data;  // byte from the host
     logic [2:0] params_left;  // remaining parameters, including this byte
     logic [7:0] code_held;  // code whose parameters are being collected
-    logic [31:0] params;  // parameters received so far, the last one in the high bits
+    logic [31:0] params;  // parameters received so far, the last in the high bits
   } rx_byte_t;
 
   // Meaning of the current byte in this device.
@@ -51,7 +51,7 @@ package ppmc_single_pkg;
   // Command that the host requests with the current byte.
   typedef struct packed {
     logic [7:0]  code;    // code of an action, in FAST or at its C-event
-    logic [31:0] params;  // parameters of code, the last one in the high bits
+    logic [31:0] params;  // parameters of code, the last in the high bits
   } command_req_t;
 
   // Result of the check of command_req_t.

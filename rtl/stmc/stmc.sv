@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc: single-axis stepper controller without pulse output; replaces the controller of the J105 STMC.
-// Rules:  STMC section 1; its blocks implement all other STMC rules. Manual: docs/stmc/README.md.
+// Rules:  docs/stmc/README.md, 2.1 (pins) and 3 (parameters); the blocks of stmc implement the STMC rules.
 // Timing: a command takes effect 4 cycles after the rising edge that first samples the end of its write.
 //         Motor pins follow one cycle later.
 `default_nettype none

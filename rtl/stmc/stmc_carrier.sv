@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc_carrier: board with the controller of the J105 STMC, without clock generator and pads: stmc, its
 //         external step clock, and as host interface either the UART bridge or the bus pins of stmc.
-// Rules:  HOST = "UART": docs/uart_bridge.md, no straps, alarm = MON; HOST = "BUS": section 1.3 of the STMC
-//         rules; step clock: J105-06. Wiring: docs/boards.md.
+// Rules:  HOST = "UART": docs/uart_bridge.md, no straps, alarm = MON; HOST = "BUS": STMC-BUS-01..22; step
+//         clock: J105-06. Wiring: docs/boards.md.
 // Timing: that of stmc; with RECORD != 0 switches act 2 cycles later. Inputs need no external synchroniser.
 `default_nettype none
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc_pkg: codes, limits and functions specific to the J105 STMC.
-// Rules:  STMC section 3.0, STMC-INI-02, STMC-MOT-03, STMC-MOV-04, STMC-BAD-05/07.
+// Rules:  docs/stmc/README.md, 6.1 (codes); STMC-INI-02, STMC-MOT-03, STMC-MOV-04, STMC-BAD-05/07.
 // Rates:  hosts of this device send a divisor; the core counts rate + 1 base clocks. Therefore a divisor is
 //         stored minus 1: 0 .. 254; a divisor of 0 is stored as 255.
 `default_nettype none
 
 package stmc_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc_code_pkg::*;
@@ -45,7 +45,7 @@ package stmc_pkg;
   endfunction
 
   // Returns 1 if a data byte is a divisor. operation: the data belong to operation number op, otherwise to an
-  // initialisation; left: outstanding data bytes, this one included.
+  // initialisation; left: outstanding data bytes, including this byte.
   function automatic logic is_divisor(logic operation, logic [2:0] op, logic [2:0] left);
     if (operation) return op inside {OP_CONT_CONSTANT, OP_ORIGIN} || (op == OP_CONSTANT && left == 3'd4);
     return left inside {3'd3, 3'd4};

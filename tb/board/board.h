@@ -47,7 +47,7 @@ class Board {
 
     uint64_t now_ = 0;       // number of the next clock edge
     uint64_t wake_ = 0;      // next() of the UART
-    uint64_t busy_until_ = 0;  // no doze before this cycle
+    uint64_t busy_until_ = 0;  // the board does not wait for the host before this cycle
     bool txd_ = true;
     AxisBits motion_ = 0;  // motion_pins() at the last change
     Motors motors_;

@@ -75,9 +75,9 @@ class Dut {
     std::unique_ptr<VerilatedVcdC> trace_;
 #endif
 
-    // All flip-flops use the rising edge, so that a falling edge only has to store that the clock was low. Writing
-    // this variable directly saves the evaluation (a sixth of the run time). If a Verilator version uses
-    // another name for the variable, the falling edge is evaluated.
+    // All flip-flops use the rising edge, so a falling edge only has to store in a variable of Verilator that the
+    // clock was low. Writing this variable directly saves the evaluation (a sixth of the run time). If a version
+    // of Verilator uses another name for the variable, the falling edge is evaluated.
     template <class Root>
     auto rearm(Root& root, int) -> decltype(root.__Vtrigprevexpr___TOP__clk__0, void()) {
         root.__Vtrigprevexpr___TOP__clk__0 = 0;

@@ -13,7 +13,7 @@ struct PlantText {
     int64_t slow_cw = 38000;   // L3 active at and above
     int64_t slow_ccw = 600;    // L4 active at and below
     int64_t origin = 0;        // CNP active at and below this position,
-    int64_t origin_from = INT64_MIN;  // and at and above this one: a cam
+    int64_t origin_from = INT64_MIN;  // and at and above this position: a cam
     int64_t index = 0;         // the index is active once per this number of pulses, at kIndexAt; 0: never
     std::optional<int64_t> block;  // CW end stop of the shaft
     std::optional<int64_t> alarm_from, alarm_to;  // ALM active between these positions

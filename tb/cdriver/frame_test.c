@@ -183,8 +183,8 @@ static void faults(void)
     frame_damage(7, 0x80);
     show("F start", pmc006_set(&dev, PMC006_START_SPEED, 3000));
     show("F stop", pmc006_set(&dev, PMC006_STOP_SPEED, 3000));
-    /* The reply to a start is lost; the wait finds out the state of the motor. Replies before: status
-     * twice, q, j, O, d, c. */
+    /* The reply to a start is damaged, so pmc006_wait() determines the state of the motor. Seven replies
+     * precede this reply: status twice, q, j, O, d, c. */
     frame_damage(8 * 7 + 4, 0x01);
     show("F lost", pmc006_move(&dev, 60));
     ending("F lost");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Feeds the C drivers with broken replies: fuzz SEED COUNT. Built with sanitizers. A call that does not
- * return, a value from a damaged frame or an access out of bounds ends the program with an error. Prints
- * how often each result occurred. */
+/* Feeds the C drivers with broken replies. Usage: fuzz SEED COUNT. The program is built with sanitizers. A
+ * call that does not return, a value from a damaged frame or an access out of bounds ends it with an error.
+ * Otherwise it prints how often each result occurred. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,7 +53,8 @@ static void put(uint8_t byte)
     if (length < STREAM_MAX) stream[length++] = byte;
 }
 
-/* Cut, flip, insert or repeat bytes of the reply, depending on kind; 0: no change. */
+/* Damage the reply. kind: 1 flips a bit, 2 removes bytes at the end, 3 inserts a byte at the beginning, 4
+ * appends random bytes, 5 overwrites a byte, 6 removes the first byte; other values change nothing. */
 static void damage(unsigned kind)
 {
     if (length == 0u) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual line: stations, each of them the RTL of its board, and a master at a pseudo-terminal. The line
-// has four wires: the stations receive only the master. The drivers of the stations are wired together and
-// pull the line low; the master receives this line. Therefore each station can be simulated separately for a
-// slice of time in which the levels of the master are known.
+// has four wires: a station receives only the bytes of the master. The drivers of the stations are wired
+// together and pull a second pair of wires low, which the master receives. Therefore each station can be
+// simulated separately for a slice of time in which the levels of the master are known.
 #pragma once
 
 #include <cstdint>

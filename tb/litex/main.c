@@ -138,7 +138,7 @@ int main(void)
     put("\n");
     move("cw", PPMC104_CW, 300);
     move("ccw", PPMC104_CCW, 120);
-    put("switch\n"); /* the bench closes L1 after 50 more pulses */
+    put("switch\n"); /* the test bench closes L1 after 50 more pulses */
     move("limited", PPMC104_CW, 200);
 #ifdef BANK_BASE
     axes();

@@ -45,7 +45,7 @@ module eeprom_24c32 #(
   logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;  // 1: the data line is held low
   int unsigned writing  /* verilator public_flat_rw */ = 0;  // cycles left of a write
 
-  // Page writes since power-on: first address, number of bytes, bytes; 32 entries each.
+  // Page writes since power-on: first address, number of bytes, and bytes, 32 words of log_data each.
   int unsigned writes  /* verilator public_flat_rw */ = 0;
   logic [11:0] log_address[Log]  /* verilator public_flat_rw */;
   logic [5:0] log_count[Log]  /* verilator public_flat_rw */;

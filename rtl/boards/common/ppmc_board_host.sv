@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_board_host: host interface of a board: the UART bridge with its counters, or the bus pins of the old
 // chip.
-// Rules:  Host = "UART": docs/uart_bridge.md. Host = "BUS": the bus pins are connected directly to the part,
-//         and all straps are 1.
+// Rules:  Host = "UART": docs/uart_bridge.md. Host = "BUS": the bus pins are connected directly to the
+//         device, and all straps are 1.
 // Timing: see ppmc_uart_host; with "BUS" combinational.
 `default_nettype none
 
@@ -14,7 +14,7 @@ module ppmc_board_host #(
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,         // number in IDENT
     parameter int unsigned Axes      = 1,           // axis 1 in the low bits
-    parameter int unsigned AddrBits  = 1,           // address lines of the part, 1 .. 4
+    parameter int unsigned AddrBits  = 1,           // address lines of the device, 1 .. 4
     parameter bit          Counter   = 1'b1,        // 1: pulses are counted
     parameter int unsigned Watch     = 1,           // number of recorded levels
     parameter int unsigned Record    = 0            // 2**Record records; 0: no recorder
@@ -30,7 +30,7 @@ module ppmc_board_host #(
     input  wire logic                wr_ni,
     input  wire logic [AddrBits-1:0] a_i,
     input  wire logic [         7:0] d_i,
-    // bus of the part
+    // bus of the device
     output logic                     part_rst_no,
     output logic                     part_cs_no,
     output logic                     part_rd_no,
@@ -45,7 +45,7 @@ module ppmc_board_host #(
     input  wire logic [    Axes-1:0] hold_i,
     input  wire logic [    Axes-1:0] pout_ni,
     input  wire logic [    Axes-1:0] dir_i,
-    input  wire logic [   Watch-1:0] watch_i,      // all pins of the part, in the clock domain
+    input  wire logic [   Watch-1:0] watch_i,      // all pins of the device, in the clock domain
     output logic                     link_o        // 1: a script is running or an answer is pending
 );
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_inputs: input pins of the part. With a recorder the pins are synchronised here, so that recorder
-//         and part sample the same levels in the same cycle. Without a recorder they pass unchanged.
+// ppmc_board_inputs: input pins of the device. With a recorder, the pins are synchronised here, so that the
+//         recorder and the device sample the same levels in the same cycle. Without a recorder, the pins pass
+//         unchanged.
 // Rules:  UB-REC-05.
 // Timing: latency 2 cycles with Sync = 1, else combinational.
 `default_nettype none
@@ -12,7 +13,7 @@ module ppmc_board_inputs #(
     input  wire logic             clk_i,
     input  wire logic             rst_ni,  // asynchronous
     input  wire logic [Width-1:0] d_i,     // raw pins
-    output logic      [Width-1:0] q_o      // to the part
+    output logic      [Width-1:0] q_o      // to the device
 );
 
   if (Sync) begin : g_sync

@@ -3,8 +3,8 @@
 // Rules:  drives rst_n of P104-PORT-03. Without a PLL, lock_i is 1 and the initial register values provide
 //         the power-on reset.
 // Timing: rst_no falls with lock_i immediately, and at the third rising edge of clk_i that samples req_ni
-//         low. It rises when both have been high without interruption for HoldUs to 2 * HoldUs, so the button
-//         may bounce.
+//         low. rst_no rises when lock_i and req_ni have been high without interruption for HoldUs to
+//         2 * HoldUs, so the button may bounce.
 `default_nettype none
 
 module ppmc_board_reset #(

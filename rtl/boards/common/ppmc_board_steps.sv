@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_steps: derives pulse and direction from the phase pins of a part without such outputs, for the
+// ppmc_board_steps: derives pulse and direction from the phase pins of a device without such outputs, for the
 // pulse counter.
 // Rules:  docs/stmc/README.md, 11.1: 3, 4 or 5 phases, full or half steps and both polarities are recognised
 //         without a setting. Patterns with all phases at one level (chopper, before the first initialisation)
@@ -10,7 +10,7 @@
 
 module ppmc_board_steps (
     input  wire logic       clk_i,
-    input  wire logic       rst_ni,   // reset of the part: the next pattern is the first one
+    input  wire logic       rst_ni,   // reset of the device: the next pattern is the first pattern
     input  wire logic [5:1] s_i,
     output logic            pout_no,
     output logic            dir_o     // 0 = CW
@@ -43,7 +43,8 @@ module ppmc_board_steps (
       to   = a & b;
       from = a & ~b;
     end
-    // The step is one position up, or from the last phase to the first, regardless of the number of phases.
+    // 1 if the step goes to the next higher phase, or from the last phase to the first. The expression holds
+    // for any number of phases.
     return to == {from[4:1], 1'b0} || (to < from && to != {1'b0, from[5:2]});
   endfunction
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_stall: stall detector: the back EMF was below the limit for length_i consecutive samples at constant
-// speed.
+// pmc006_stall: detects a stall: length_i consecutive samples of the back EMF at constant speed are below
+// limit_i.
 // Rules:  P006-STA-03/14, P006-STL-01..06.
 // Timing: a sample is compared at the edge that ends the cycle of sample_i.valid and counted in the next
 //         cycle c. stall_o is set at the end of c. stop_o is combinational and already asserted in c, so that

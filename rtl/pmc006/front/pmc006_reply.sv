@@ -71,7 +71,7 @@ module pmc006_reply
 
   always_ff @(posedge clk_i) if (sample_i) reply_q <= wide | 32'(narrow);
 
-  // A reply uses reply_q or value_i; the other one is 0.
+  // A reply uses either reply_q or value_i; the other value is 0.
   assign reply_o = reply_q | 32'(value_i);
 
 endmodule

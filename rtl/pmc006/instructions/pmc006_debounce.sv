@@ -26,7 +26,7 @@ module pmc006_debounce #(
 
   logic armed_q, running_q, last_tick, done;
 
-  // All ticks except the last one.
+  // All ticks except the last.
   ppmc_delay #(
       .Ticks(LowTicks - 1)
   ) u_nearly (

@@ -20,8 +20,8 @@ module pmc006_exec
     input  wire logic          cancel_i,        // discard the program instruction in progress
     output logic               instr_ack_o,     // strobe: the program instruction begins
     output logic               claim_o,         // the executor drives the address of the buffer
-    output logic               word1_o,         // address: 1: word W1; 0: word W0
-    output logic               use_pp_o,        // address: 1: of the instruction at PP
+    output logic               word1_o,         // word that the address selects: 1: W1; 0: W0
+    output logic               use_pp_o,        // 1: the address is that of the instruction at PP
     input  wire logic   [31:0] word_i,          // word of the buffer, two cycles after the address
     // EEPROM
     input  wire logic          load_i,          // strobe: execute or check load_op_i (boot)

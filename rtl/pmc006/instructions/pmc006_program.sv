@@ -19,8 +19,8 @@ module pmc006_program
     input  wire logic            instr_ack_i,   // strobe: the requested instruction begins
     output logic                 instr_req_o,   // request: execute the instruction of the current line
     output logic                 cancel_o,      // discard the program instruction in progress
-    input  wire logic            word1_i,       // word_addr_o: 1: word W1; 0: word W0
-    input  wire logic            use_pp_i,      // word_addr_o: 1: of the instruction at PP
+    input  wire logic            word1_i,       // word that word_addr_o selects: 1: W1; 0: W0
+    input  wire logic            use_pp_i,      // 1: word_addr_o selects a word of the instruction at PP
     output logic           [7:0] word_addr_o,   // address of a word in the buffer
     output logic                 try_accept_o,  // strobe: E is accepted
     output logic                 put_o,         // strobe: write a word of the buffer
@@ -62,7 +62,7 @@ module pmc006_program
 
   // ---- sources --------------------------------------------------------------------------------------------
 
-  // During WAIT the stored option is used, because the executor may execute instructions of frames.
+  // During WAIT the stored option is used, because cmd_i may be an instruction of a frame.
   assign option = (state_q == StWait) ? option_q : cmd_i.option;
   assign bits = {stall_i, busy_i, flags_i, gpi_i};
 

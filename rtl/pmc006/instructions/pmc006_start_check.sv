@@ -3,8 +3,8 @@
 // cause.
 // Rules:  P006-STA-01..04/10/11/13/14/16/18/19, P006-CMD-55, P006-EXT-11.
 // Timing: start_o, run_o and halt_o are combinational, in the cycle before the edge on which BUSY changes. At
-//         most one of them is high in a cycle. speed_o is combinational and includes an N 1
-//         of the same cycle, which resumes a speed run that would end on the next edge.
+//         most one of them is high in a cycle. speed_o is combinational: during a speed run, it is 1 in
+//         the cycle of an "N 1", which therefore resumes a run that would end on the next edge.
 `include "ppmc_assert.svh"
 `default_nettype none
 

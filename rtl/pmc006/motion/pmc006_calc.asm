@@ -16,14 +16,14 @@
 ;   shift.N          {hi, lo} = {hi, lo} >> N; the same as mul.N K0
 ;   div X            lo = {hi, lo} / X, hi = remainder
 ;   add.dec, sub.dec, div.dec  the same with RWay of the deceleration coefficient nd
-;   root             VN = square root of lo; hi and VN must be 0 before
+;   root             Vn = square root of lo; hi and Vn must be 0 before
 ;   store M          word M = hi
 ;   out O            output O = hi; out Acc, out Dec: increment the coefficient na, nd
 ;   set …            phase=P, up=0|1, smooth=0|1: shape of the ramp; set over: the ramp has ended
 ;   jump L [if C]    continue at label L if condition C is true; without a condition, always
 ;   halt             end of the run
 ;
-; Abbreviations: V current speed, VN next speed, LT live target, VE = VSTOP, R steps left, na, nd the
+; Abbreviations: V current speed, Vn next speed, LT live target, VE = VSTOP, R steps left, na, nd the
 ; coefficients.
 
 ; ---- entry points of a start and of an update tick: the labels Entry… are written to the package
@@ -165,9 +165,9 @@ PlanPeak: ; too short even at 5: reduce the peak speed
         load MT
         mul.16 MX
         load.lo RMid            ; square of the peak speed
-        out Next                ; VN = 0 for the root
+        out Next                ; Vn = 0 for the root
         root
-        load RRoot              ; 4 * VN + 1
+        load RRoot              ; 4 * Vn + 1
         shift.2
         store MT                ; peak speed
         load MLt
@@ -307,9 +307,9 @@ Stopped:
 
 Walk:
         jump Climb if Ramp
-        jump Compensate if Ending ; VN is unchanged
+        jump Compensate if Ending ; Vn is unchanged
         load RV
-        out Next                ; VN = V
+        out Next                ; Vn = V
         jump Compensate
 Climb:
         load MDu
@@ -350,7 +350,7 @@ Apply:                          ; hi = change of speed since the start of the ra
 ApplyUp:
         add MT
 Applied:
-        out Next                ; VN
+        out Next                ; Vn
 
 ; ---- full-step speed, base code, Bn and Wn
 

@@ -4,7 +4,7 @@
 // Rules:  P006-MOT-10..23, P006-EXC-20..23; docs/pmc006/README.md, 6.1.
 // Timing: an instruction takes 2 cycles without operand, 3 with an operand, n + 2 with n steps. A run ends
 //         within 785 cycles of plan_i and within 590 cycles of advance_i. plan_i during a run aborts this
-//         run: a motion can be halted and the next one started while a run is in progress.
+//         run: a motion can be halted and the next motion started while a run is in progress.
 // Assumes: advance_i is low while busy_o is high (two update ticks are at least 800 cycles apart).
 `include "ppmc_assert.svh"
 `default_nettype none

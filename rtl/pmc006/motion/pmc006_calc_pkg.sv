@@ -7,7 +7,7 @@
 
 package pmc006_calc_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   typedef enum logic [3:0] {
@@ -18,7 +18,7 @@ package pmc006_calc_pkg;
     OpStore,  // word = hi
     OpMul,    // {hi, lo} = ((hi + operand * (lowest n bits of lo)) << (32 - n)) + (lo >> n)
     OpDiv,    // lo = {hi, lo} / operand, hi = remainder
-    OpRoot,   // VN = square root of lo; hi and VN must be 0 before
+    OpRoot,   // Vn = square root of lo; hi and Vn must be 0 before
     OpOut,    // an output = hi, or increment a coefficient
     OpSet,    // set phase and shape of the ramp, see instr_t
     OpJump
@@ -75,7 +75,7 @@ package pmc006_calc_pkg;
     K3x2p16 = 7'h17,  // 196608
     K2p31   = 7'h18,
     // tables, indexed by a coefficient in the lowest three bits
-    RRate   = 7'h20,  // 17 << na; for a ramp downwards 17 << nd
+    RRate   = 7'h20,  // 17 << na; for a falling ramp 17 << nd
     RWay    = 7'h28,  // 3400 << na; with OperandDec 3400 << nd
     // registers of the motion and sampled settings
     RV      = 7'h40,
@@ -92,7 +92,7 @@ package pmc006_calc_pkg;
     RLo     = 7'h4c,
     RMid    = 7'h4d,  // {hi, lo} >> 16
     RMargin = 7'h4e,  // margin(hi): (hi >> 12) + 4
-    RRoot   = 7'h4f   // 4 * VN + 1
+    RRoot   = 7'h4f   // 4 * Vn + 1
   } operand_e;
 
   typedef enum logic [3:0] {

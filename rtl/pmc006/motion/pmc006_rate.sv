@@ -34,9 +34,9 @@ module pmc006_rate (
     output logic      [ 6:0] lead_angle_o     // W
 );
 
-  // From the acceptance to t = 0 at least. The planner needs less, see pmc006_calc.
+  // Minimum time from the acceptance to t = 0, in cycles. The planner needs less, see pmc006_calc.
   localparam int unsigned PlanCycles = 800;
-  localparam logic [6:0] UpdateTicks = 7'd100;  // µs ticks of an update tick
+  localparam logic [6:0] UpdateTicks = 7'd100;  // µs ticks from one update tick to the next
   localparam logic [6:0] SampleUpdates = 7'd100;  // update ticks between two samples
 
   // The register stores the accumulator of the rules + 2^20 - 10^6, so that a carry is a step.

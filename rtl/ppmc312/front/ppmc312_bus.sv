@@ -87,7 +87,7 @@ module ppmc312_bus #(
     end
   end
 
-  // Wait request: a data access that begins less than T_WRQ after the previous one waits for the remaining
+  // Wait request: a data access that begins less than T_WRQ after the previous access waits for the remaining
   // time.
   logic [Width-1:0] age_q;  // cycles since the end of the last data access
   logic [Width-1:0] wait_q;  // remaining cycles of the wait

@@ -2,7 +2,7 @@
 // ppmc312_mailbox: parallel front end: CSR, write window (WCR, WAR, DWR), read window (RCR, RAR, DRR),
 //         interrupt.
 // Rules:  P312-PAR-01..08, P312-PRT-01/02, P312-BAD-01..03/07/08.
-// Timing: a block is offered one cycle after the write of its header; irq_no follows its terms by one cycle.
+// Timing: a block is offered one cycle after the write of its header; irq_no follows CSR by one cycle.
 //         A report can be read 6 cycles after rd_load_o, which is asserted at least 8 cycles after the last
 //         byte of the previous report.
 // Note:   between this module and the core, blocks and reports have the logical order (header first); on the

@@ -4,10 +4,10 @@
 // Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30.
 // Timing: an event is stored one cycle later. rd_size_o and the bytes are valid 2 cycles after rd_load_i.
 // Note:   the queue of class 2 has two entries: the host reads one while the next response is written to the
-//         other. A complete response (response_done_i) becomes readable as soon as the previous one has been
-//         read. In serial mode the station reads the response to the host from the entry that is written, and
-//         class 2 reports the result of triggered instructions; rd_load_i consumes a report, and a newer
-//         report replaces a pending one.
+//         other. A complete response (response_done_i) becomes readable as soon as the previous response has
+//         been read. In serial mode the station reads the response to the host from the entry that is
+//         written; class 2 reports the result of triggered instructions. rd_load_i then consumes a report,
+//         and a newer report replaces a pending report.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -5,7 +5,7 @@
 
 package ppmc312_serial_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // ---- an instruction code of the serial mode -----------------------------------------------------

@@ -32,7 +32,7 @@ module ppmc312_serial_reply
     input  wire host_result_t       host_result_i,   // result of the executed block
     // sender
     output logic                    send_o,          // 1: send reply_o; high until sent_i
-    output reply_t                  reply_o,         // reply, stable while send_o
+    output reply_t                  reply_o,         // reply, stable while send_o = 1
     input  wire logic               sent_i           // strobe: the reply has been sent
 );
 

@@ -25,7 +25,7 @@ module ppmc312_serial_tx
     input  wire logic   [Width-1:0] wrap_i,           // step_i minus the modulus
     input  wire logic               rx_char_i,        // strobe: a character has been received
     input  wire logic               send_i,           // send reply_i; high until sent_o
-    input  wire reply_t             reply_i,          // reply, stable while send_i
+    input  wire reply_t             reply_i,          // reply, stable while send_i = 1
     output logic        [      1:0] index_o,          // index of the data byte
     input  wire logic   [      7:0] response_byte_i,  // byte index_o of the response, two cycles later
     output logic                    sent_o,           // strobe: the reply has been sent

@@ -19,7 +19,7 @@ module ppmc312_exec
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: responses never wait to be read
-    input wire logic boot_i,  // leaving a reset by an instruction: report it
+    input wire logic boot_i,  // 1: the core is leaving a reset by an instruction, which must be reported
     output logic reset_o,  // strobe: reset the device
     // sources of instructions
     input wire host_block_t host_block_i,  // block from the host
@@ -39,12 +39,12 @@ module ppmc312_exec
     output block_t block_o,  // instruction in progress
     output logic execute_o,  // strobe: execute block_o
     output logic multi_o,  // strobe, registered: multiple occurrence
-    output setup_cmd_t setup_cmd_o,  // initial setting, free curve
+    output setup_cmd_t setup_cmd_o,  // commands to the set-up: initial setting, free curve
     input wire setup_status_t setup_status_i,  // state of the set-up
     output logic move_o,  // strobe: a start or a rate change
     input wire move_status_t move_status_i,  // result of move_o
     // responses
-    output response_t response_o,  // stable while it is written, until response_done_o
+    output response_t response_o,  // stable until response_done_o
     output response_cmd_t response_cmd_o,  // write commands
     input wire response_status_t response_status_i,  // state of the writing
     output logic hold_o,  // 1: a response follows soon

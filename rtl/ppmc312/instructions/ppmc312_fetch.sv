@@ -46,8 +46,8 @@ module ppmc312_fetch
   assign copy_addr_o = at_q[3:0];
   assign copy_data_o = data_i;
 
-  // Parameters go to their places in the long form. The position of 80 and 81 goes to the place of that of 87
-  // and 88.
+  // Parameters are written to their places in the long form. The position parameter of the instructions 80
+  // and 81 is written to the place that it has in 87 and 88.
   assign shifted = (block_o.code == I_INIT && block_o.len == 8'd9 && at_q >= 5'd6) ||
       (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);

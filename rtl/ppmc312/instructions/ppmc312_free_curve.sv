@@ -3,7 +3,7 @@
 //         table.
 // Rules:  P312-CMD-FC-1..10.
 // Timing: open_i latches split_i, acc_i and dec_i. done_o follows data_i by bytes_i + 4 cycles; the results
-//         of a block are valid until the next one.
+//         of a block are valid until the next block.
 // Note:   an invalid block may write into the table. This does no harm, because any error ends the transfer
 //         without a table.
 `default_nettype none
@@ -23,7 +23,7 @@ module ppmc312_free_curve
     // a data block
     input wire logic data_i,  // strobe: process a block
     input wire logic [4:0] bytes_i,  // bytes of the block, 1 .. 30
-    input wire logic last_i,  // the block is marked as the last one
+    input wire logic last_i,  // the block is marked as the last block
     output logic busy_o,  // from the cycle after data_i to that of done_o
     output logic done_o,  // strobe: the block is processed
     output logic [BLOCK_BITS-1:0] addr_o,  // byte of the block, two cycles before byte_i

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_instr_check: checks whether a block may be executed: size, header, code, status, length, values, in
 //         this order.
-// Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03; docs/ppmc312/README.md, Blocks (error
-//         numbers).
+// Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03; docs/ppmc312/README.md, 6.1 (error numbers).
 // Timing: check_o is valid three cycles after the block.
 `default_nettype none
 

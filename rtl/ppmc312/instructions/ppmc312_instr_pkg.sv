@@ -8,7 +8,7 @@
 
 package ppmc312_instr_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   import ppmc312_pkg::*;
@@ -125,7 +125,7 @@ package ppmc312_instr_pkg;
     logic                  transfer;  // a free-curve transfer is open
     logic                  done;      // strobe, after build or data
     logic                  failed;    // with done: the set-up has failed
-    logic [7:0]            error;     // with bad: error number of F0
+    logic [7:0]            error;     // with failed: error number of F0
     curve_progress_t       progress;  // with done
     logic [BLOCK_BITS-1:0] addr;      // byte of the block to be read, two cycles ahead
   } setup_status_t;

@@ -2,7 +2,7 @@
 // ppmc312_instr_queue: stores instructions that wait for a trigger: a command FIFO of eight entries and two
 //         event buffers of four.
 // Rules:  P312-OVR-01/02/05/10/12, P312-EVT-01/04, P312-BAD-13.
-// Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous one. halt_o follows the
+// Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous head. halt_o follows the
 //         count by one cycle. Bytes of an entry are valid two cycles after fetch_addr_i.
 // How:    entries are whole blocks in one RAM: 16 places for the FIFO, because triggered entries stay until
 //         they are processed, and 2 * 4 for the events. The FIFO has three pointers: written, armed,

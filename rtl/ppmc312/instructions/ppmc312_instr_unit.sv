@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_unit: processing of instructions: those of the host, stored ones that wait for a trigger,
-//         their effects and their responses.
+// ppmc312_instr_unit: processes the instructions of the host and the stored instructions that wait for a
+//         trigger: checks and executes them, and sends the responses.
 // Rules:  see its blocks. Timing: see ppmc312_exec.
 `default_nettype none
 
@@ -18,7 +18,7 @@ module ppmc312_instr_unit
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: the front end is the serial station
-    input wire logic boot_i,  // leaving a reset by an instruction: report it
+    input wire logic boot_i,  // 1: the core is leaving a reset by an instruction, which must be reported
     output logic reset_o,  // strobe: an instruction requests a reset
     // blocks from the host
     input wire host_block_t host_block_i,  // block from the host

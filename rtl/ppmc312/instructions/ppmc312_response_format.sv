@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_response_format: builds the response to an instruction from the result of its check or execution.
-// Rules:  docs/ppmc312/README.md, Blocks; docs/ppmc312/instructions.md; P312-OVR-04, P312-EVT-02,
+// Rules:  docs/ppmc312/README.md, 6.1; docs/ppmc312/instructions.md; P312-OVR-04, P312-EVT-02,
 //         P312-CMD-FC-1..4, P312-CMD-49.
 // Timing: combinational.
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_response_writer: writes a response byte by byte into the queue of class 2.
-// Rules:  docs/ppmc312/README.md, Blocks; P312-GEN-04 (logical order), P312-RSP-10.
+// Rules:  docs/ppmc312/README.md, 6.1; P312-GEN-04 (logical order), P312-RSP-10.
 // Timing: done_o follows start_i by 3 + bytes cycles. The echo reads the instruction from its source, two
 //         cycles after echo_addr_o.
 // Assumes: response_i is stable from start_i to done_o.
@@ -37,7 +37,7 @@ module ppmc312_response_writer
   logic [BLOCK_BITS:0] beyond_q;  // position in the echo; negative before the echo
   logic run_q;
   logic [BLOCK_BITS:0] len_q;  // length byte: bytes of the response minus two
-  logic [3:0] rest;  // bytes after the current one, without the echo
+  logic [3:0] rest;  // bytes after the current byte, without the echo
   logic [7:0] tail;
   logic in_tail;
 

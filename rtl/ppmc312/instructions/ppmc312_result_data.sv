@@ -22,7 +22,7 @@ module ppmc312_result_data
     input  wire queue_status_t        queue_status_i,  // stored instructions
     input  wire logic                 hold_i,          // 1: value_o does not change
     output result_data_t              result_data_o,   // data of block_i, one cycle later
-    output logic               [31:0] value_o          // TailPos: position, one cycle later
+    output logic               [31:0] value_o          // position for TailPos, one cycle after block_i
 );
 
   logic n;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_settings: settings for motions that instructions make: high-speed limit, END and RUN monitoring.
+// ppmc312_settings: settings for motions, made by instructions: high-speed limit, END and RUN monitoring.
 // Rules:  P312-CMD-05/06/45, P312-CMD-00, P312-GEN-12.
 // Timing: outputs follow execute_i and built_i by one cycle.
 `default_nettype none

@@ -2,7 +2,7 @@
 // ppmc312_setup: converts the blocks of an initial setting or a free curve to the active table.
 // Rules:  P312-CMD-00, P312-CMD-01, P312-CMD-FC-1..10, P312-INP-31.
 // Timing: status_o.done is high for one cycle when the work requested by cmd_i.build or cmd_i.data has
-//         ended. status_o.bad, error and progress are valid in this cycle.
+//         ended. status_o.failed, error and progress are valid in this cycle.
 `default_nettype none
 
 module ppmc312_setup

@@ -2,7 +2,8 @@
 // ppmc312_table_read: writes the data blocks of a table read: rates, acceleration and deceleration pulses,
 //         fastest stage first.
 // Rules:  P312-CMD-41.
-// Timing: next_i starts the next block, which takes 6 cycles per stage; done_o is asserted in its last cycle.
+// Timing: next_i starts the next block. A block of n stages takes 5 n + 1 cycles if it contains rates, and
+//         6 n + 1 if it contains pulses; done_o is asserted in its last cycle.
 `default_nettype none
 
 module ppmc312_table_read

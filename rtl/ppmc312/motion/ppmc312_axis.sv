@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_axis: motor side: settings, motion, positions, outputs.
 // Rules:  see its blocks.
-// Timing: execute_i is executed at the edge that ends its cycle, an immediate stop one cycle later.
+// Timing: block_i is executed at the edge that ends the cycle of execute_i, an immediate stop a cycle later.
 `default_nettype none
 
 module ppmc312_axis

@@ -55,7 +55,7 @@ module ppmc312_motion
     StIdle,
     StHold,   // start gate
     StPulses,
-    StLastPulse,  // no further pulses; the last one runs out
+    StLastPulse,  // no further pulse begins; the last pulse ends
     StWaitEnd     // waits for END
   } state_e;
 
@@ -66,7 +66,7 @@ module ppmc312_motion
   logic immediate, fire, ready, ends, output_end, decel_q, org_q, slow_q, at_origin, slow, gate;
   logic limit, high_limit, origin;
   logic too_fast, fast_q, complete_q;
-  // why_…_q: requests that led to the decision in next_*
+  // by_…_q: requests that led to the decision in next_…
   logic by_slow_q;
   logic [1:0] by_decel_q, by_origin_q;
   logic [5:0] start_delay_q;  // bit 5: the rate of pulse 1 is not valid yet

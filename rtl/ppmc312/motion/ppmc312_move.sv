@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_move: executes a checked motion or rate change: limits, look-up or plan, then the start or the
 //         change.
-// Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (8), P312-STA-04.
-// Timing: result_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o and change_o
-//         are asserted with it. Rate and number of pulses are held until t0, regardless of other instructions
-//         that are executed until then.
+// Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (check 8), P312-STA-04.
+// Timing: result_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o or change_o is
+//         asserted together with result_o.done. Rate and number of pulses are held until t0, regardless of
+//         other instructions that are executed before t0.
 `default_nettype none
 
 module ppmc312_move

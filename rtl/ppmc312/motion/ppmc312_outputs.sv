@@ -3,8 +3,8 @@
 //         clear, zero clamp, current reduction, generalized output. Also detects the end of the abnormal
 //         status.
 // Rules:  P312-CMD-20..26, P312-OUT-01..03, P312-INP-31/33, P312-MON-06.
-// Timing: pins follow by one cycle. Clear pulses last 24.576 ms; the current is reduced 100 ms after the last
-//         motion, or immediately while alm_ni is low.
+// Timing: pins follow the inputs by one cycle. Clear pulses last 24.576 ms; the current is reduced 100 ms
+//         after the last motion, or immediately while alm_ni is low.
 `default_nettype none
 
 module ppmc312_outputs #(

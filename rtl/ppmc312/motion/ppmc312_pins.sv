@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_pins: synchronises the input pins of the motor side; with Datasheet = 1 also filters them.
 // Rules:  P312-GEN-01, P312-INP-01, P312-TIM-14.
-// Timing: levels are valid 2 cycles after the pin; fell is high in the cycle in which the level has become
-//         low. With Datasheet = 1, a low level is accepted after 200 us (event pins: 25 ms); a high level is
-//         accepted immediately.
+// Timing: the levels in inputs_o follow the pins by 2 cycles; inputs_o.evt_fall is high in the cycle in which
+//         the level has become low. With Datasheet = 1, a low level is accepted after 200 us (event pins:
+//         25 ms); a high level is accepted immediately.
 `default_nettype none
 
 module ppmc312_pins

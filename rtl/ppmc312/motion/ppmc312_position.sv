@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_position: position and encoder position, interlock position, position monitors.
 // Rules:  P312-MOT-05, P312-MON-01..06, P312-OUT-03, P312-CMD-04/43/44.
-// Timing: pos_o and counted_o follow count_i by one cycle. The monitors use a position 3 cycles later;
-//         in-position is evaluated from 4 cycles after the end of pulse output on.
+// Timing: pos_o and counted_o follow count_i by one cycle. The monitors evaluate a position 3 cycles after it
+//         is valid on pos_o or enc_o; the in-position monitor evaluates from 4 cycles after the end of pulse
+//         output on.
 `default_nettype none
 
 module ppmc312_position

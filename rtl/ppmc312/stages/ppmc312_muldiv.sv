@@ -22,7 +22,8 @@ module ppmc312_muldiv #(
     input wire logic keep_i,  // 1: continue with the product instead of h and lo_i
     input wire logic [5:0] steps_i,  // number of steps, 1 .. LoBits
     input wire logic [LoBits-1:0] lo_i,  // multiplier; lower part of the dividend
-    // With start_i: h, the summand or the upper part of the dividend. Then: the operand, stable while busy_o.
+    // With start_i: h, the summand or the upper part of the dividend. Then the operand, stable while
+    // busy_o = 1.
     input wire logic [HiBits-1:0] operand_i,  // h, then the operand
     output logic busy_o,  // 1: the result is not valid yet
     output logic [HiBits-1:0] hi_o,  // product; remainder

@@ -4,11 +4,12 @@
 // Rules:  P312-TBL-01..06, P312-CMD-00 (0x05).
 // Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table and its
 //         description are complete, after at most 127 * 300 cycles.
-// Assumes: all inputs are stable while busy_o.
-// How:    stage i has the speed D_i = K*RH + (Rs-RH)*W_i. First pass: R[i] = C/D_i rounded, C = K*Rs*RH;
-//         first stages of the sides; sums of D_i. Second pass: pulses in proportion to D_i, with the
-//         remainder carried along. The multiplier makes all sums, as h + operand * lo; a small RAM holds its
-//         numbers.
+// Assumes: curve_i is stable while busy_o = 1.
+// How:    stage i has the speed D_i = K*RH + (Rs-RH)*W_i, where W_i is its weight, K the weight of the last
+//         stage, and Rs the larger of start_rate and stop_rate. First pass: R[i] = C/D_i rounded, with
+//         C = K*Rs*RH; first stages of the sides; sums of D_i. Second pass: pulses in proportion to D_i, with
+//         the remainder carried along. The multiplier computes all sums, as h + operand * lo; a small RAM
+//         stores its numbers.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -18,11 +19,11 @@ module ppmc312_stage_builder
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic start_i,  // strobe
-    input wire curve_t curve_i,  // ramp, stable while busy_o
+    input wire curve_t curve_i,  // ramp; stable while busy_o = 1
     output logic busy_o,  // from the cycle after start_i until all is written
     output logic too_few_pulses_o,  // a stage has at most 1 pulse; valid until the next start
     output table_write_t table_write_o,  // write port of the table
-    output logic [1:0] begins_o,  // strobes: first stage of a side, if no later strobe follows
+    output logic [1:0] begins_o,  // strobes: a side may begin here; the last strobe counts
     input wire logic [6:0] first_acc_i,  // stage of the last begins_o[0], 0 .. 126
     input wire logic [6:0] first_dec_i,  // stage of the last begins_o[1], 0 .. 126
     // arithmetic, shared with the planner

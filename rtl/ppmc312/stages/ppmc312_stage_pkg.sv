@@ -5,23 +5,23 @@
 
 package ppmc312_stage_pkg;
 
-  // A design uses only some of these constants.
+  // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
   // A constant rate and its look-up result in the table.
   typedef struct packed {
     logic [15:0] rate;       // base clocks of an interval
     logic        has_decel;  // a deceleration from this rate has stages
-    logic [6:0]  ge;         // last stage with at least this rate
+    logic [6:0]  ge;         // last stage whose rate value is at least `rate`
     logic [6:0]  ge1;        // ge + 1; without such a stage: the first used stage
-    logic [6:0]  gt1;        // last stage with a higher rate, plus 1
+    logic [6:0]  gt1;        // last stage whose rate value is above `rate`, plus 1
   } target_t;
 
   // Start of a deceleration along the table.
   typedef struct packed {
     logic [6:0]  stage;
     logic        is_partial;  // 1: uses only some pulses of this stage
-    logic [23:0] pulses;      // with part: number of pulses
+    logic [23:0] pulses;      // with is_partial: number of these pulses
   } ramp_pos_t;
 
   // Ramp of an initialisation, or description of a free curve when its transfer begins.
@@ -30,7 +30,7 @@ package ppmc312_stage_pkg;
     logic        split;       // 1: separate acceleration and deceleration sides
     logic [2:0]  base;        // base clock, see ppmc312_interval
     logic [15:0] start_rate;  // start-up rate
-    logic [15:0] stop_rate;   // stop rate; if not split: equal to start
+    logic [15:0] stop_rate;   // stop rate; if not split: equal to start_rate
     logic [15:0] high_rate;   // high-speed rate
     logic [23:0] acc;         // pulses of the acceleration side
     logic [23:0] dec;         // pulses of the deceleration side; if not split: equal to acc

@@ -2,13 +2,13 @@
 // ppmc312_stage_plan: looks up a rate in the stage table, and plans an operation with acceleration and
 //         deceleration.
 // Rules:  P312-MOT-10..13 (kinds, pulses of the sides), P312-GEN-06 (t(x)).
-// Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles; a plan with an
-//         end takes at most 7 cycles more, a triangular one 60. If the deceleration does not begin with a
+// Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles. A plan with an
+//         end takes at most 7 cycles more, a triangular plan 60. If the deceleration does not begin with a
 //         full stage, 5 cycles + the stages of the deceleration side are added. Results are valid until the
 //         next start.
-// How:    one pass reads the table upward and adds the pulses of the sides. At the last stage that is fast
-//         enough it keeps two sums: of the stages that both sides have, and of those that only one side has.
-// Note:   t(x) and t(x) + 1 are output. If no stage qualifies, t(x) is the stage before the first used one.
+// How:    one pass reads the table upward and adds the pulses of the sides. At the last stage that is not
+//         faster than rate_i it stores the sums of the stages that both sides have and of the others. t(x)
+//         and t(x) + 1 are output. If no stage qualifies, t(x) is the stage before the first used stage.
 //         Rates need not fall with the stages.
 `default_nettype none
 

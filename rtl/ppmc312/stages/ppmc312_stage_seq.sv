@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_seq: selects what the next pulse of a motion along a stage table does: its rate, or the end
-//         of the motion.
+// ppmc312_stage_seq: selects the rate of the next pulse of a motion along a stage table, or the end of the
+//         motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
-// Timing: next_* are valid from 4 cycles after a pulse. slow_i acts at a boundary if it is high 2 cycles
-//         before it; change_i acts if it occurs 5 cycles before the boundary (constant rate) or 9 cycles
+// Timing: next_* are valid from 4 cycles after a pulse. slow_i acts at a boundary if slow_i is high 2 cycles
+//         before, change_i if it occurs 5 cycles before the boundary (constant rate) or 9 cycles before
 //         (ramp). When a stage becomes a constant rate, a search for t(rate) takes 129 cycles: a ramp begins
 //         at the earliest 136 cycles after that boundary, a deceleration to the end (only where rates do not
 //         fall) 132 cycles.
@@ -80,7 +80,7 @@ module ppmc312_stage_seq
   logic [1:0] change_q;
   logic [6:0] stage_q, last_stage_at_q;
   logic [15:0] rate_q;
-  logic [23:0] more_q;  // pulses of this stage after the current one
+  logic [23:0] more_q;  // pulses of this stage after the current pulse
   logic [31:0] left_q;
   logic [23:0] dec_q;
   ramp_pos_t decel_start_q;
@@ -119,7 +119,7 @@ module ppmc312_stage_seq
     ));
     stage_done_q <= more_q == '0;
     last_stage_q <= stage_q == last_stage_at_q;
-    // adjacent_q: stage next to the running one, or next to the constant rate; for pulse 1, the running
+    // adjacent_q: stage next to the running stage, or next to the constant rate; for pulse 1, the running
     // stage.
     adjacent_q  <= ((mode_q.const_rate && ramp_down_q) ? target_q.gt1 : current_stage) +
         {{6{downward}}, downward || mode_q.const_rate || !first_q};

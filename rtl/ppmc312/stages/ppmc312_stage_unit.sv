@@ -4,7 +4,7 @@
 // Rules:  P312-TBL-01..06, P312-CMD-FC-3/10, P312-MOT-10..13.
 // Timing: after build_i or close_i, busy_o is high until the table can be used. After profile_req_i.start,
 //         plan_busy_o is high until the plan is valid; the plan is valid until the next start. Read-back:
-//         read_stage_o is valid two cycles after read_addr_i, while nothing is busy.
+//         read_stage_o is valid two cycles after read_addr_i, while busy_o and plan_busy_o are 0.
 `default_nettype none
 
 module ppmc312_stage_unit
@@ -14,7 +14,7 @@ module ppmc312_stage_unit
     input wire logic rst_ni,  // reset, asynchronous
     // set-up
     input wire logic drop_i,  // strobe: the table becomes invalid
-    input wire logic build_i,  // strobe: build from curve_i, stable while busy_o
+    input wire logic build_i,  // strobe: build from curve_i, which is stable while busy_o = 1
     input wire curve_t curve_i,  // the ramp
     output logic busy_o,  // 1: the table cannot be used yet
     output logic too_few_pulses_o,  // a stage has at most 1 pulse: no table
@@ -23,7 +23,7 @@ module ppmc312_stage_unit
     input wire logic [6:0] open_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] open_dec_i,  // first stage of the deceleration side
     input wire table_write_t table_write_i,  // word of the free curve
-    input wire logic close_i,  // strobe: complete; curve_i has the pulses of the sides
+    input wire logic close_i,  // strobe: the transfer is complete; curve_i has the pulses of the sides
     // active table
     output table_t table_o,  // description of the table
     output target_t start_target_o,  // look-up result of table_o.rate_acc
@@ -182,7 +182,7 @@ module ppmc312_stage_unit
   // ---- active table -------------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle;
-  // If several stages qualify, the last one is used, because a ramp is built upward.
+  // If several stages qualify, the last stage is used, because a ramp is built upward.
   assign begins = build_busy ? build_begins :
       {2{table_write.we_rate}} &
       {table_write.stage == table_o.first_dec, table_write.stage == table_o.first_acc};

@@ -149,7 +149,7 @@ module ppmc_bank_engine_fv
 
   // ---- effects of a visit ----------------------------------------------------------------------------
 
-  logic next_visit;  // visit of the watched axis that follows another one
+  logic next_visit;  // visit of the watched axis that follows another visit
   assign next_visit = visited_q && ends && !resets;
 
   `FV_ASSERT(
@@ -194,7 +194,7 @@ module ppmc_bank_engine_fv
       chop_units_word == chop_units_q);
   `FV_ASSERT(lemma_mem_host, lemma_mem_host_holds)
 
-  // For the induction: the stages of the watched axis, and what the outputs of its last visit imply.
+  // For the induction: the stages of the watched axis, and the state implied by the last outputs.
   localparam int unsigned BusyAt = $bits(parser_t) + $bits(init_state_t) + $bits(motion_state_t) - 1;
   `FV_ASSERT(
       lemma_visit3,

@@ -36,7 +36,7 @@ module ppmc_bank_plan_fv
   logic [31:0] params_o;
   decision_t decision_o;
   logic [17:0] add_cycles_o;
-  logic completes_init;  // the byte is the last one of an initialisation
+  logic completes_init;  // the byte is the last byte of an initialisation
 
   `FV_RESET
 

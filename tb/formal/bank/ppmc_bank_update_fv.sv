@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_update_fv: decision and update of a visit, for any state of its axis. Proves that a visit issues
 // at most one pin action, that the position changes by one per pulse, that an aborted or halted motion has no
-// pulse, and that an axis without a motion has neither a pulse nor the end of one.
+// pulse, and that an axis without a motion has neither a pulse nor the end of a pulse.
 `include "ppmc_fv.svh"
 `default_nettype none
 

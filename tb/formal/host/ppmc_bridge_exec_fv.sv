@@ -22,7 +22,7 @@ module ppmc_bridge_exec_fv
 
   localparam int unsigned Idle = 0, Decode = 2, Arg = 3, Arg2 = 4, Loop = 6, Poll = 7, Judge = 8, Write = 9,
       WriteEnd = 10;  // state_q
-  localparam int unsigned Longest = 40;  // limit of cycles in a state: RESET and IDENT
+  localparam int unsigned Longest = 40;  // bound of the cycles in a state; RESET and IDENT take longest
 
   logic [7:0] raddr_o, waddr_o, wdata_o, d_o;
   logic script_o, answer_o, we_o, rec_next_o, part_rst_no, cs_no, rd_no, wr_no;

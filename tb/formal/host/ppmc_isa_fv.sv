@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_isa_fv: proves that a bus access selects at most one part, that DMA and foreign addresses select no
-// part, and that the bus is driven only in reads of the card.
+// ppmc_isa_fv: proves that a bus access selects at most one device, that DMA and foreign addresses select no
+// device, and that the bus is driven only in reads of the card.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -28,7 +28,7 @@ module ppmc_isa_fv (
       .*
   );
 
-  // A part drives its data one cycle after the read strobe, as ppmc_strobe_bus does.
+  // A device drives its data one cycle after the read strobe, as ppmc_strobe_bus does.
   always_ff @(posedge clk_i) d_oe_i <= rst_ni ? ~cs_no & {2{!ior_ni && iow_ni}} : '0;
 
   assign ours = !aen_i && sa_i >= 10'h3B0 && sa_i <= 10'h3B4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_mailbox_fv: proves that a byte written by the host is accepted unchanged and once, and that answers
-// are read complete, in order, and no byte twice.
+// are read completely, in order, and no byte twice.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_fv: proves that a running recorder writes one record for each level change and one for each
-// pause that is as long as the range of the time, and no others. The recording ends when the memory is full,
+// ppmc_recorder_fv: proves that a running recorder writes one record for each level change, one whenever the
+// time reaches its maximum without a level change, and no others. The recording ends when the memory is full,
 // and no record is written past the end.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -32,7 +32,7 @@ module ppmc_recorder_fv (
 
   `FV_ASSUME(one_order, 2'(begin_i) + 2'(end_i) + 2'(rewind_i) <= 2'd1)
 
-  logic [1:0] now_q, before_q;  // levels in the last cycle and in the one before
+  logic [1:0] now_q, before_q;  // levels one and two cycles ago
   logic first_q;  // the first cycle of a recording
   logic [13:0] age_q;  // cycles since the last record
   logic wanted;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_spi_fv: proves for any sck within its limits that no access begins while another one is in progress,
+// ppmc_spi_fv: proves for any sck within its limits that no access begins while another is in progress,
 // that every read is complete in time, and that strobes occur only in the data of a frame.
 `include "ppmc_fv.svh"
 `default_nettype none

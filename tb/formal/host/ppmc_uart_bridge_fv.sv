@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_uart_bridge_fv: proves that the connected blocks keep the assumptions of each other's proofs, that a
-// script begins only with a new request, and that its buffer is not written while it runs.
+// script begins only with a new request, and that the request buffer is not written while a script runs.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -34,7 +34,7 @@ module ppmc_uart_bridge_fv (
   logic begun_q;  // a script has begun
   logic [2:0] since_ms_q;  // cycles since the last millisecond, at most 7
   logic [6:0] seq_q;  // SEQ of the request that began the last script
-  logic own_q;  // a script was given a number
+  logic own_q;  // the last script has a number: SEQ is not 0
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {begun_q, since_ms_q, seq_q, own_q} <= {1'b0, 3'd4, 8'd0};

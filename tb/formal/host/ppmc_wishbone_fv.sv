@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_wishbone_fv: proves the slave rules of Wishbone B4 classic cycles for any master that obeys the master
-// rules. Each access reaches the part once and gets its response in time.
+// rules. Each access reaches the device once and receives its response in time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -33,7 +33,7 @@ module ppmc_wishbone_fv (
 
   logic [4:0] wait_q;  // cycles since the request became valid
   logic [1:0] cycles_q;  // strobe accesses that ended during the request, at most 3
-  logic stood_q;  // the request was valid before the last access began
+  logic stood_q;  // one cycle ago, the request was valid and had no response
 
   always_ff @(posedge clk_i)
     if (!rst_ni || !stb_i || answer) {wait_q, cycles_q} <= '0;

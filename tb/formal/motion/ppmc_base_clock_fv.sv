@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_base_clock_fv: proves that base clocks are exactly one period of quanta apart, and that the first one
-// of an interval is later by the extra time.
+// ppmc_base_clock_fv: proves that base clocks are exactly one period of quanta apart, and that the first base
+// clock of an interval is later by the extra time.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -51,7 +51,7 @@ module ppmc_chopper_fv (
     end
 
   `FV_ASSUME(base_not_zero, on_base_i != '0 && off_base_i != '0)
-  // The part keeps the chopper stopped until it has been initialised.
+  // The device keeps the chopper stopped until the device has been initialised.
   `FV_ASSUME(begins_with_a_restart, began_q || restart_i || !run_i)
 
   `FV_ASSERT(p104_sw_01_each_phase, !began_q || on_o == (on_q || !run_i))

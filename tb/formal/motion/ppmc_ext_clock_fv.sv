@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_clock_fv: proves that each edge of the pin is reported once, and that its period is classified
-// correctly.
+// ppmc_ext_clock_fv: proves that each edge of the pin is reported once, and that the period of the pin is
+// classified correctly.
 `include "ppmc_fv.svh"
 `default_nettype none
 

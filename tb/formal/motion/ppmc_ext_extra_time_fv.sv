@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_extra_time_fv: proves to the cycle that two times add up to the extra time: the time before the
-//         first
-// base edge of an interval, and the time after the last one. If the first time alone is at least as long as
-// the extra time, the interval ends without more extra time.
+// first base edge of an interval, and the time after its last base edge. If the first time alone is at least
+// as long as the extra time, the interval ends without more extra time.
 `include "ppmc_fv.svh"
 `default_nettype none
 

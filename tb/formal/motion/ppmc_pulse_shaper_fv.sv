@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_pulse_shaper_fv: proves that a pulse is low for exactly WidthCycles cycles, or shorter if it is cut,
-//         and
-// that the set-up time has the same length.
+// and that the set-up time has the same length.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -39,7 +38,7 @@ module ppmc_pulse_shaper_fv (
   );
 
   logic [3:0] since_q;  // cycles since the pulse or the arming, at most 15
-  // pulse_q: the last event was a pulse; full_q: a full one; may_q: a cause may have ended it
+  // pulse_q: the last event was a pulse; full_q: a full pulse; may_q: cut_i or halve_i may have ended it
   logic pulse_q, full_q, may_q;
 
   always_ff @(posedge clk_i) begin

@@ -72,7 +72,7 @@ module ppmc_ramp_seq_fv (
   `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
   `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
   `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
-  // The guard withdraws forced_i only with the end of a motion, after which no pulse occurs.
+  // ppmc_stop_monitor deasserts forced_i only at the end of a motion, after which no pulse occurs.
   logic forced_q, taken_back_q;
   always_ff @(posedge clk_i)
     if (!rst_ni || load_i) {forced_q, taken_back_q} <= '0;

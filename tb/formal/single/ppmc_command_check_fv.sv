@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_command_check_fv: proves that a faulty byte causes no action, that a byte causes at most one action,
-//         and that
-// no operation starts during a motion or before the initialisation.
+// and that no operation starts during a motion or before the initialisation.
 `include "ppmc_fv.svh"
 `default_nettype none
 

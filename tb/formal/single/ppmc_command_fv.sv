@@ -34,7 +34,7 @@ module ppmc_command_fv
 
   ppmc_command dut (.*);
 
-  // The proof includes the mailbox that this block reads, and a motion that it starts.
+  // The proof includes the mailbox that this block reads, and a motion that this block starts.
   ppmc_mailbox u_mailbox (
       .rd_done_i(1'b0),
       .out_o    (out),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_proc_time_fv: with DATASHEET times, proves that each action takes effect once and in order, and that
-//         the
-// mailbox opens again. The ratio of the clocks shortens the times to 1/64.
+// the mailbox opens again. The ratio of the clocks shortens the times to 1/64.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -39,7 +39,7 @@ module ppmc_single_fv
       .*
   );
 
-  logic on;  // the part is out of reset
+  logic on;  // the device is out of reset
   action_t act;
   logic busy, building, init_open_q;
   logic [31:0] ramp_data;  // numbers of the ramp that is being built

@@ -31,7 +31,7 @@ module ppmc_bank_plan
     input wire parser_state_t parser_i,  // state before this byte
     output parser_state_t parser_o,  // state after this byte
     output logic take_o,  // the byte is accepted
-    output logic [7:0] code_o,  // code of the actions in plan_o
+    output logic [7:0] code_o,  // code of the actions in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
     input wire logic [TimeBits-1:0] go_delay_i,  // W minus the cycles since GO

@@ -10,7 +10,7 @@ module ppmc_bank_update
   import ppmc_op_pkg::*;
 #(
     parameter int unsigned HoldRounds = 106_250,  // rounds from the end of a motion to HOLD
-    parameter int unsigned HoldBits = 17  // bits of left_i
+    parameter int unsigned HoldBits = 17  // bits of hold_left_i
 ) (
     input wire decision_t decision_i,  // decisions of the visit
     input wire pin_status_t pin_status_i,  // pin block and switches

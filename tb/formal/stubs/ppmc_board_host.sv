@@ -11,7 +11,7 @@ module ppmc_board_host #(
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,         // number in IDENT
     parameter int unsigned Axes      = 1,           // axis 1 in the low bits
-    parameter int unsigned AddrBits  = 1,           // address lines of the part, 1 .. 4
+    parameter int unsigned AddrBits  = 1,           // address lines of the device, 1 .. 4
     parameter bit          Counter   = 1'b1,        // 1: pulses are counted
     parameter int unsigned Watch     = 1,           // number of recorded levels
     parameter int unsigned Record    = 0            // 2**Record records; 0: no recorder
@@ -27,7 +27,7 @@ module ppmc_board_host #(
     input  wire logic                wr_ni,
     input  wire logic [AddrBits-1:0] a_i,
     input  wire logic [         7:0] d_i,
-    // bus of the part
+    // bus of the device
     output logic                     part_rst_no,
     output logic                     part_cs_no,
     output logic                     part_rd_no,
@@ -42,7 +42,7 @@ module ppmc_board_host #(
     input  wire logic [    Axes-1:0] hold_i,
     input  wire logic [    Axes-1:0] pout_ni,
     input  wire logic [    Axes-1:0] dir_i,
-    input  wire logic [   Watch-1:0] watch_i,      // all pins of the part, in the clock domain
+    input  wire logic [   Watch-1:0] watch_i,      // all pins of the device, in the clock domain
     output logic                     link_o        // 1: a script is running or an answer is pending
 );
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder, stub for the proofs of the blocks that share one: busy for five cycles, one word in the
-// middle. ppmc_ramp_builder_fv proves that the real one ends.
+// ppmc_ramp_builder, stub for the proofs of the blocks that instantiate it: it is busy for five cycles and
+// writes one word in the third. ppmc_ramp_builder_fv proves that a build of the real builder ends.
 `default_nettype none
 
 module ppmc_ramp_builder #(

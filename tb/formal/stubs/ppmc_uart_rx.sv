@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_rx, stub for the proofs of the blocks that read from it: any characters, valid and faulty, at
-// least six cycles apart, for any waveform of the line. ppmc_uart_rx_fv proves that the real one has one
-// outcome per character.
+// ppmc_uart_rx, stub for the proofs of the blocks that read from it: outputs any characters, valid and
+// faulty, at least six cycles apart, regardless of the line. ppmc_uart_rx_fv proves that the real receiver
+// has one outcome per character.
 `default_nettype none
 
 module ppmc_uart_rx #(

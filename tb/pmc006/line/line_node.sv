@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_node: a PMC006B4 for the virtual line: the carrier of the boards with its EEPROM, pins of motor and
-// switches. Every line_node has the ports clk, rst_n, uart_rxd, line and busy.
+// line_node: a PMC006B4 on the virtual line: pmc006_carrier with an EEPROM, and with ports for the motor and
+// the switches. Every line_node has the ports clk, rst_n, uart_rxd, line and busy.
 // Timing: see pmc006_carrier. While busy is 0 and the line is idle, only the line and the inputs can cause a
 //         change.
 `default_nettype none

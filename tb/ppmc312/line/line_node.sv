@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_node: a PPMC-312 in serial mode for the virtual line: the carrier of the boards, straps, pins of the
+// line_node: a PPMC-312 in serial mode on the virtual line: ppmc312_carrier with ports for the straps and the
 // motor. Every line_node has the ports clk, rst_n, uart_rxd, line and busy.
 // Timing: see ppmc312_carrier. While busy is 0 and the line is idle, only the line can cause a change.
 `default_nettype none

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plant of a PPMC-312 on the virtual line: a motor with an encoder, switches, the straps of its number.
+// Plant of a PPMC-312 on the virtual line: a motor with an encoder, switches, and the straps of the station
+// number.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,7 @@ class Node {
         set_switches(top);
     }
 
-    // A control code selects the station; the characters after it belong to it.
+    // A control code selects a station; the characters after the control code belong to this station.
     bool named(uint8_t byte, bool before) const { return byte & 0x80 ? (byte & 15) == adr_ : before; }
 
     // A pause of 320 000 crystal cycles ends a frame; the reply follows a few cycles later.
