@@ -92,7 +92,7 @@ async def bank_grp_02_refused(dut):
         env.check("BANK-GRP-02", "a parameter that is not requested", await waiting.host.data(0), 0xB0)
     await held.idle()
     env.check("BANK-GRP-02", "pulse 1", held.pulses, [due(env, g)])
-    env.check("BANK-GRP-02", "the busy one goes on", await busy.status() & BUSY, BUSY)
+    env.check("BANK-GRP-02", "the busy axis continues", await busy.status() & BUSY, BUSY)
 
 
 @directed("BANK-GRP-02", builds=(B8, B32, F100))

@@ -80,7 +80,7 @@ async def bank_chp_01_settings(dut):
         follows = (132, 115) if level else (108, 100)
         nexts = [t for t, _ in axis.patterns(edge)]
         want = follows[1 if early >= 7 else 0] * quantum
-        env.check("BANK-GEN-04", f"phase, vsel {early} clk before", nexts[1] - nexts[0], want)
+        env.check("BANK-GEN-04", f"phase, vsel {early} cycles before", nexts[1] - nexts[0], want)
 
 
 @directed("BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100))
@@ -154,5 +154,5 @@ async def bank_hld_01_hold(dut):
     ordering = [chopped.visit(t - env.round + 1) for t, _ in chopped.patterns(due - 50)]
     env.check("BANK-HLD-01", "that visit orders an edge", due in ordering, True)
     got = chopped.edges("hold", ends[3])
-    env.check("BANK-HLD-01", "hold beside the chopper", got, [(due + env.round, 1)])
+    env.check("BANK-HLD-01", "hold together with the chopper", got, [(due + env.round, 1)])
     env.check("BANK-HLD-01", "no motion: hold stays", low.edges("hold", 0), [])

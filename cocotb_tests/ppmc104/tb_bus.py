@@ -197,9 +197,9 @@ async def p104_bus_07_no_invisible_byte(dut):
             status = await env.host.status()
             seen.append(status)
             if not status & IBF:
-                env.check("P104-BUS-07", f"status {gap} clk after {code:#x}", status in final, True)
+                env.check("P104-BUS-07", f"status {gap} cycles after {code:#x}", status in final, True)
             elif gap > 10:
-                env.check("P104-HSK-03", f"IBF {gap} clk after {code:#x}", status, "IBF = 0")
+                env.check("P104-HSK-03", f"IBF {gap} cycles after {code:#x}", status, "IBF = 0")
         env.check(
             "P104-BUS-07", f"IBF falls once after {code:#x}", seen, sorted(seen, key=lambda s: ~s & IBF)
         )

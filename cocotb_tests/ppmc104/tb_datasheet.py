@@ -75,7 +75,7 @@ async def p104_ds_13_no_time_for_the_rest(dut):
             await env.bench.until(edge0 + 12)
             got.append(await env.host.status())
     expected = [0x40, 0x30, 0x20, 0x10, 0xD0, 0x01, 0x01, 0x21, 0x11, 0x01, 0x81, 0xA1, 0x81, 0xB1]
-    env.check("P104-DS-13", "statuses 12 clk after each byte", got, expected)
+    env.check("P104-DS-13", "statuses 12 cycles after each byte", got, expected)
     edge0 = await env.host.write(1, 0x82)
     await env.bench.until(edge0 + 12)
     env.check("P104-DS-13", "0x82", await env.host.read(DATA), 0xFC)

@@ -150,7 +150,7 @@ async def p104_fdc_06_latency(dut):
         env.check("P104-FDC-06", "8 pulses in time, 10 too late", count in (8, 10), True)
         # The pin changes at most 2 cycles after a pulse event.
         if before >= 4 + 2:
-            env.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
+            env.check("P104-FDC-06", f"pulses, {before} cycles before", count, 8)
         await env.result("P104-FDC-06", count, 0x8B, 200 - count - 1)
     env.check("P104-FDC-06", "one switch-over", outcomes, sorted(outcomes))
     env.check("P104-FDC-06", "both outcomes were met", set(outcomes), {8, 10})
@@ -175,7 +175,7 @@ async def p104_fdc_06_latency_of_the_command(dut):
         # Edge 0 is `before` cycles early; the C-event follows it by 2 to 10 cycles, the pin follows the
         # event by 2.
         if before >= 10 + 4 + 2:
-            env.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
+            env.check("P104-FDC-06", f"pulses, {before} cycles before", count, 8)
         await env.result("P104-FDC-06", count, 0xC3, 200 - count - 1)
     env.check("P104-FDC-06", "one switch-over", outcomes, sorted(outcomes))
     env.check("P104-FDC-06", "both outcomes were met", set(outcomes), {8, 10})

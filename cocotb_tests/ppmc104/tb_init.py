@@ -166,7 +166,7 @@ async def p104_ini_08_chopping_and_completion(dut):
         await env.host.command(0xC1 if now_on else 0xC2, poll=False)
         completed = await env.bench.edge("aux_n", 1 - now_on)
         times = [clk for _, clk in env.stretches(since)]
-        env.check("P104-INI-08", "old chopping goes on in the build", set(times[:-1]) <= {1040, 1740}, True)
+        env.check("P104-INI-08", "old chopping continues in the build", set(times[:-1]) <= {1040, 1740}, True)
         env.window("P104-INI-08", "phases in the build", len(times), 2, 40)
         before.add(env.bench.level_at("s", completed - 12))
         await env.bench.clocks(3)

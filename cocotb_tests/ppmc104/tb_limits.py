@@ -243,7 +243,7 @@ async def p104_lim_09_priority_at_a_pulse(dut):
         # Pulse 4 is the last: when it was output, the move is complete.
         await env.result("P104-LIM-09", count, 0x84 if count == 4 else 0xA4, 0)
         if before >= 6:
-            env.check("P104-LIM-09", f"pulses, ALM {before} clk before", count, 3)
+            env.check("P104-LIM-09", f"pulses, ALM {before} cycles before", count, 3)
     env.check("P104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
     env.check("P104-LIM-09", "both results occurred", set(outcomes), {3, 4})
 
@@ -331,11 +331,11 @@ async def p104_lim_09_stop_command_and_hard_limit(dut):
             kinds[code].append(await env.finish())
             await env.host.write(1, 0x80)  # clears the error of a stop command at standstill
     both = [place for place, finish in enumerate(kinds[0x40]) if finish == 0xD3]
-    env.check("P104-LIM-09", "0x40 and L1 meet on one edge", len(both), 1)
+    env.check("P104-LIM-09", "0x40 and L1 coincide on one edge", len(both), 1)
     late = both[0]
     env.check("P104-LIM-09", "0x40", set(kinds[0x40][:late]) | set(kinds[0x40][late + 1 :]), {0x93, 0xC3})
     env.check("P104-LIM-09", "0x41 on that edge, or later", set(kinds[0x41][: late + 1]), {0x93})
-    env.check("P104-LIM-09", "0x41 a clk before", set(kinds[0x41][late + 1 :]), {0xD3})
+    env.check("P104-LIM-09", "0x41 a cycle before", set(kinds[0x41][late + 1 :]), {0xD3})
 
 
 @directed("P104-LIM-10", "P104-RD-05")

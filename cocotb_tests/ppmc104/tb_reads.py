@@ -116,7 +116,7 @@ async def p104_rd_04_read_finish_status(dut):
         edge0 = await env.host.write(1, 0x80)
         await env.bench.clocks(12)
         env.window("P104-RD-04", "0x80 to int_n", env.bench.rises("int_n")[-1] - edge0, 2, PINS_LATEST)
-        env.check("P104-RD-04", "byte: bit 7 as it was", await env.host.read_data(), 0x80 | finish)
+        env.check("P104-RD-04", "byte: bit 7 unchanged", await env.host.read_data(), 0x80 | finish)
         env.check("P104-RD-03", "second read", await env.finish(), finish)
         env.check("P104-RD-03", "third read", await env.finish(), finish)
     await env.move(0x42)

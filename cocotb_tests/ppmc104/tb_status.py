@@ -295,7 +295,7 @@ async def p104_hsk_05_output_queue(dut):
                 soon = await env.host.read(1)
                 if gap >= 7:
                     # The read clears OBF on edge 2', and the next byte sets it again at most 4 cycles later.
-                    env.check("P104-HSK-05", "OBF 8 clk after the read", soon & OBF, int(len(got) < 3))
+                    env.check("P104-HSK-05", "OBF 8 cycles after the read", soon & OBF, int(len(got) < 3))
             env.check("P104-HSK-05", f"bytes, gap {gap}, strobe {length}", got, [0xFD, 0xFF, 0xFF])
             env.check("P104-HSK-05", "OBF after the third byte", await env.host.status() & OBF, 0)
     await env.host.command(0x81)

@@ -336,7 +336,7 @@ async def p2104_ac_42_limit(dut: Any) -> None:
     await axis.pulse(5, 400)
     pin = axis.set(fl_n=0)
     await env.bench.until(pin + 8)
-    env.check("AC-42", "BUSY 8 clk after the pin", await env.host.status() & BUSY1, 0)
+    env.check("AC-42", "BUSY 8 cycles after the pin", await env.host.status() & BUSY1, 0)
     await axis.result("AC-42", 5, 0x95)
     env.check("AC-42", "83", await env.run("c 83 rrr"), [0xFA, 0xFF, 0xFF])
 

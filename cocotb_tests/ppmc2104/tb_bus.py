@@ -144,9 +144,9 @@ async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
             status = await env.host.status()
             seen.append(status & IBF)
             if gap > 8:
-                env.check("P2104-HSK-03", f"IBF {gap} clk after {code:#x}", status & IBF, 0)
+                env.check("P2104-HSK-03", f"IBF {gap} cycles after {code:#x}", status & IBF, 0)
             if not status & IBF:
-                env.check("P2104-BUS-07", f"status {gap} clk after {code:#x}", status, final)
+                env.check("P2104-BUS-07", f"status {gap} cycles after {code:#x}", status, final)
             await env.bench.clocks(20)
             # Return to rest: end a data wait or a motion; clear errors, interrupt and answer.
             for axis in env.axes:
@@ -167,7 +167,7 @@ async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
         env.check("P2104-HSK-06", "OBF with IBF = 0", await env.host.status() & (OBF | IBF), OBF)
         byte = await env.host.read(DATA, strobe=length, gap=gap)
         env.check("P2104-BUS-08", f"byte, {length} clk", byte, 0xCF)
-        env.check("P2104-BUS-08", f"OBF {gap} clk later", await env.host.read(STATUS, strobe=3) & OBF, 0)
+        env.check("P2104-BUS-08", f"OBF {gap} cycles later", await env.host.read(STATUS, strobe=3) & OBF, 0)
 
 
 @directed("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")

@@ -280,7 +280,7 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
             # Pulse 4 is the last: when it was output, the move is complete.
             await axis.result("P2104-LIM-09", count, 0x84 if count == 4 else 0x84 | bit(pin), 0)
             if before >= 4:
-                env.check("P2104-LIM-09", f"pulses, {pin} {before} clk before", count, 3)
+                env.check("P2104-LIM-09", f"pulses, {pin} {before} cycles before", count, 3)
         env.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
         env.check("P2104-LIM-09", "both results occurred", set(outcomes), {3, 4})
     # If the cause occurs at the end of START, the pulse at this transition is suppressed, too.

@@ -211,13 +211,13 @@ async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
         await axis.idle()
         count = len(axis.pulses)
         counts.append(count)
-        env.check("P2104-FDC-06", f"{before} clk before", count in (6, 8), True)
+        env.check("P2104-FDC-06", f"{before} cycles before", count in (6, 8), True)
         if before >= 4:
-            env.check("P2104-FDC-06", f"pulses, {before} clk before", count, 6)
+            env.check("P2104-FDC-06", f"pulses, {before} cycles before", count, 6)
         await axis.result("P2104-FDC-06", count, 0x8B, 999 - count)
     env.check("P2104-LIM-09", "one switch-over", counts, sorted(counts))
     env.check("P2104-LIM-09", "both results occurred", set(counts), {6, 8})
-    env.window("P2104-FDC-06", "interval of rate 41 in clk", due, 900, 1_400)
+    env.window("P2104-FDC-06", "interval of rate 41 in cycles", due, 900, 1_400)
 
 
 @directed("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
@@ -277,4 +277,4 @@ async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
         await axis.idle()
         # Pulse 1 has its full width: the clock was stopped before it, so no period is known yet
         # (P2104-TIM-05).
-        env.check("P2104-INTV-01", "intervals at 32 clk an edge", axis.intervals[1:], [32] * 198)
+        env.check("P2104-INTV-01", "intervals at 32 cycles an edge", axis.intervals[1:], [32] * 198)

@@ -162,7 +162,7 @@ async def p2104_int_03_release_window(dut: Any) -> None:
         env.window("P2104-INT-03", "H, new cause inside" if inside else "H", down - up, w, 2 * w + 40)
         if not inside:
             env.window("P2104-INT-05", "cause to L", down - cause, 2, 14)
-        env.check("P2104-INT-03", f"cause {delay} clk later", inside, delay < w - 4 or inside)
+        env.check("P2104-INT-03", f"cause {delay} cycles later", inside, delay < w - 4 or inside)
         await env.run("e1 e2")
         await env.bench.clocks(2 * w)
 

@@ -128,7 +128,7 @@ async def p2104_hsk_02_over_a_waiting_code(dut: Any) -> None:
         edge0 = await env.host.write(register, code)
         await env.bench.until(edge0 + 10)
         status = await env.host.status()
-        env.check("P2104-HSK-02", f"IBF 10 clk after {code:#x}", status & (IBF | first.cmnd), first.cmnd)
+        env.check("P2104-HSK-02", f"IBF 10 cycles after {code:#x}", status & (IBF | first.cmnd), first.cmnd)
         want = {0x40: (6, 0), 0x87: (1, 0), 0x55: (2, 0)}.get(code, (0, 0))
         env.check("P2104-HSK-02", f"errors after {code:#x}", await env.errors(), want)
         await first.ready()

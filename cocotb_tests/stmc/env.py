@@ -155,7 +155,7 @@ class Env(AxisDriver):
         self.check(rule, "number of steps", len(steps), len(ticks) + 1)
         if self.period:
             expected = [gap * self.period for gap in ticks]
-            self.check(rule, "gaps in clk", differences(steps), expected)
+            self.check(rule, "gaps in cycles", differences(steps), expected)
         else:
             got = [t - steps[0] for t in steps]
             self.check(rule, "clk from step 0", got, internal_offsets(self.cfg, list(ticks)))

@@ -110,7 +110,7 @@ async def stmc_ac_08_the_sheets_example(dut: Any) -> None:
     await env.bench.edge("int_n", 0, 2_000_000)
     steps, gaps = env.pulses, [gap // EXT for gap in env.intervals]
     env.check("AC-08", "steps", len(steps), 801)
-    env.check("AC-08", "sum of the gaps in clk", steps[-1] - steps[0], 1_066_144)
+    env.check("AC-08", "sum of the gaps in cycles", steps[-1] - steps[0], 1_066_144)
     env.check("AC-08", "first gaps", gaps[:4], [141, 140, 139, 139])
     env.check("AC-08", "last gaps", gaps[-4:], [139, 139, 140, 141])
 

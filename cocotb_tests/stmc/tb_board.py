@@ -242,7 +242,7 @@ async def j105_all_parameters(dut: Any) -> None:
     env = await BoardEnv.start(dut)
     bench = env.bench
     await env.init(0x2A, 9, 3, 3)
-    env.check("STMC-INP-01", "inputs by the sister parts' code", await env.inputs(), 0xCF)
+    env.check("STMC-INP-01", "inputs by the code of related devices", await env.inputs(), 0xCF)
     await env.move(0x42)
     end = await env.wait_end()
     delay = env.cfg.cyc(2_500)

@@ -129,7 +129,9 @@ async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
             edge0 = await host.write(reg, byte, gap=delay)
             status = await host.status()
             taken = not status & IBF
-            env.check("STMC-BUS-12", f"IBF {delay} clk after the rise", taken or delay < C_EVENT_LATEST, True)
+            env.check(
+                "STMC-BUS-12", f"IBF {delay} cycles after the rise", taken or delay < C_EVENT_LATEST, True
+            )
             if not taken:
                 status = await host.poll(IBF, 0)
             if byte != 0x40:

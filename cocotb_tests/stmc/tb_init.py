@@ -48,9 +48,9 @@ async def stmc_ini_02_small_and_flat(dut: Any) -> None:
         await env.outcome("STMC-INI-02", n, 0x83, 0, gaps(n, (d1, d2, pa)))
     await env.init(0x0A, 1, 1, 0)
     await env.move(0x43, 3)
-    env.check("STMC-INI-01", "gaps of divisor 1 in clk", env.intervals, [1280, 1280])
+    env.check("STMC-INI-01", "gaps of divisor 1 in cycles", env.intervals, [1280, 1280])
     await env.move(0x44, 3, 2)
-    env.check("STMC-INI-01", "gaps of divisor 2 in clk", env.intervals, [2560, 2560])
+    env.check("STMC-INI-01", "gaps of divisor 2 in cycles", env.intervals, [2560, 2560])
 
 
 @directed("STMC-INI-04", "STMC-INI-05", "STMC-INI-06", "STMC-EXC-03")

@@ -132,7 +132,7 @@ async def stmc_stp_01_emergency_stop(dut: Any) -> None:
             edge0 = await env.host.command(stop, poll=False)
             end = await env.wait_end()
             late = [t for t in env.pulses if t > edge0 + 12]
-            env.check("STMC-STP-01", f"steps later than 12 clk, {before} clk before", late, [])
+            env.check("STMC-STP-01", f"steps later than 12 cycles, {before} cycles before", late, [])
             made = len(env.pulses)
             env.window("STMC-STP-01", "steps", made, 9, 10)
             env.window("STMC-MOT-08", "stop to int_n", end - edge0, 0, 12 + END_LATEST)
@@ -160,7 +160,7 @@ async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
             await env.blip(pin, 2)
             end = await env.wait_end()
             made = len(env.pulses)
-            env.window("STMC-IN-02", f"{pin}, {before} clk before", made, 4, 4 if before >= 4 else 5)
+            env.window("STMC-IN-02", f"{pin}, {before} cycles before", made, 4, 4 if before >= 4 else 5)
             env.window("STMC-IN-02", "pin to int_n", end - stamp, 0, 8)
             await env.result("STMC-IN-02", made, 0x80 | bits | code & 7, MOST - made)
 
@@ -268,7 +268,7 @@ async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
             await env.idle()
             choices = [slowed(100, 4)] + ([slowed(100, 5)] if before < 4 else [])
             got = [gap // EXT for gap in differences(env.pulses)]
-            env.check("STMC-DEC-07", f"{how}, {before} clk before: {got}", got in choices, True)
+            env.check("STMC-DEC-07", f"{how}, {before} cycles before: {got}", got in choices, True)
             await env.finish()
 
 
