@@ -29,7 +29,7 @@ BROKEN_RTL = {
         "if (escaped_q) fault = NakAbort;",
         "if (1'b0) fault = NakAbort;",
     ),
-    "pmc006": ("rtl/pmc006/front/pmc006_frame.sv", "else if (error_i) at_q <= '0;", ""),
+    "pmc006": ("rtl/pmc006/front/pmc006_frame.sv", "else if (error_i) index_q <= '0;", ""),
     "ppmc312": (
         "rtl/ppmc312/front/ppmc312_serial_rx.sv",
         "if (error_i) state_q <= StSkip;",
