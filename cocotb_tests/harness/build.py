@@ -353,7 +353,7 @@ def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
 def ports(design: Design) -> dict[str, tuple[str, int, int]]:
     """Return the ports of the top module: name -> (direction, highest bit, lowest bit), from its source."""
     (source,) = [path for path in design.sources if path.stem == design.top]
-    head = source.read_text(encoding="utf-8").split(");", 1)[0]
+    head = source.read_text(encoding="utf-8").split("\n);", 1)[0]
     values = {name: int(text) for name, text in _DEFAULT.findall(head)} | dict(design.params)
 
     def highest(text: str) -> int:

@@ -74,7 +74,7 @@ def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
     recording.params["XTAL_HZ"] = 8_000_000
     (tmp_path / "recording.json").write_text(recording.to_json(), encoding="utf-8")
     text = shrink_report(tmp_path, part_design("ppmc104", F16)).splitlines()
-    assert re.match(r"shrunk from \d\d acts to [1-9] in \d+ trials(, \d lines)?:$", text[0]), text
+    assert re.match(r"shrunk from \d\d transactions to [1-9] in \d+ trials(, \d lines)?:$", text[0]), text
     assert text[1].startswith("  write C ") and " differs at edge " in text[-2]
     short = Recording.from_json((tmp_path / "short" / "recording.json").read_text(encoding="utf-8"))
     assert len(short.stimulus) < len(recording.stimulus) / 3 and short.accesses

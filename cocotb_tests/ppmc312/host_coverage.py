@@ -3,7 +3,7 @@
 The counts reveal a loss of coverage.
 
 Keys of the counts are texts: "pulses", "answer 82", "event 83", "override 80", "answer F0 20", "event F8 01",
-"report E0 SLOW", "trigger POSITION 87", "walk SLOW", "change 88", "change in RAMP", "clk ABN".
+"report E0 SLOW", "trigger POSITION 87", "decel SLOW", "change 88", "change in RAMP", "cycles ABN".
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from openppmc.model.ppmc312.front.responses import ENCODE, POSITION, Responses
 from openppmc.model.ppmc312.instructions.overrides import Fifo, Triggered
 from openppmc.model.ppmc312.motion.motion import MotionRequest
 from openppmc.model.ppmc312.motion.operation import Operation
-from openppmc.model.ppmc312.motion.sequence import Sequence
+from openppmc.model.ppmc312.motion.sequence import Sequence, _Mode
 from openppmc.model.ppmc312.part import Ppmc312
 
 SLICE = 500
@@ -38,12 +38,12 @@ LEAST: dict[str, int] = {
     "change 87": 20,
     "change 88": 40,
     "change in RAMP": 4,
-    "change in WALK": 1,
+    "change in DECEL": 1,
     "final": 9,
-    "walk SLOW": 30,
-    "walk LIMIT_SLOW": 1,
-    "walk RETURN": 3,
-    "turn back": 6,
+    "decel SLOW": 30,
+    "decel LIMIT_SLOW": 1,
+    "decel RETURN": 3,
+    "phase 2": 6,
     "trigger POSITION 80": 2,
     "trigger POSITION 81": 4,
     "trigger POSITION 87": 6,
@@ -104,7 +104,7 @@ def counting() -> Iterator[Counter[str]]:
     counts: Counter[str] = Counter()
     post, change = Responses.post, Responses.input_change
     release, begin, run = Fifo._release, Operation._begin, Ppmc312.run_until
-    boundary, turn, final = Sequence.boundary, Operation._start_phase_2, Sequence._begin_final
+    boundary, phase_2, final = Sequence.boundary, Operation._start_phase_2, Sequence._begin_final
 
     def counted_post(self: Responses, t: int, kind: int, blocks: list[bytes], source: Any = None) -> bool:
         done = post(self, t, kind, blocks, source)
@@ -137,10 +137,10 @@ def counting() -> Iterator[Counter[str]]:
         counts["87 dropped at the point"] += self.change_dropped
         counts["searched pulses"] += self.was_searched
         if self.decel_begins:
-            counts[f"walk {self._decel_cause.name}"] += 1
+            counts[f"decel {self._decel_cause.name}"] += 1
         if changed is not None and self._change is None and not (self.decel_begins or self.change_dropped):
             counts["change 87" if changed.ramp else "change 88"] += 1
-            if mode.name in ("WALK", "RAMP", "FINAL") or (mode.name == "PLAN" and self.done > 1):
+            if mode in (_Mode.DECEL, _Mode.RAMP, _Mode.FINAL) or (mode is _Mode.PLAN and self.done > 1):
                 counts[f"change in {mode.name}"] += 1
         if isinstance(step, Cause):
             return step
@@ -155,26 +155,26 @@ def counting() -> Iterator[Counter[str]]:
 
     def counted_final(self: Sequence) -> None:
         final(self)
-        counts["final walk" if self._stages else "final flat"] += 1
+        counts["final ramp" if self._stages else "final flat"] += 1
 
-    def counted_turn(self: Operation, t: int) -> None:
-        counts["turn back"] += 1
-        turn(self, t)
+    def counted_phase_2(self: Operation, t: int) -> None:
+        counts["phase 2"] += 1
+        phase_2(self, t)
 
     def counted_run(self: Ppmc312, t: int) -> None:
         while self.now < t:
             before = self.now
             run(self, min(t, before + SLICE))
-            counts[f"clk {self.state.name}"] += self.now - before
+            counts[f"cycles {self.state.name}"] += self.now - before
 
     with (
         patch.object(Responses, "post", counted_post),
         patch.object(Responses, "input_change", counted_input),
         patch.object(Fifo, "_release", counted_release),
         patch.object(Operation, "_begin", counted_begin),
-        patch.object(Operation, "_turn_back", counted_turn),
+        patch.object(Operation, "_start_phase_2", counted_phase_2),
         patch.object(Sequence, "boundary", counted_boundary),
-        patch.object(Sequence, "_final", counted_final),
+        patch.object(Sequence, "_begin_final", counted_final),
         patch.object(Ppmc312, "run_until", counted_run),
     ):
         yield counts

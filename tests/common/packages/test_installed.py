@@ -45,7 +45,7 @@ PURE = {
     "decode": "import openppmc.capture.common.files, openppmc.capture.common.compare",
     "every driver": "from openppmc.parts import PARTS, LAYER_OF\n"
     "for row in PARTS.values():\n"
-    "    for column in ('model', 'predict', 'driver', 'kind', 'selftest', 'decode'):\n"
+    "    for column in ('model', 'predict', 'driver', 'capabilities', 'selftest', 'decode'):\n"
     "        getattr(row, column) and row.load(column)",
     "a move on the model": "from openppmc.host import Ppmc104\n"
     "with Ppmc104.open('model:') as axis:\n"
