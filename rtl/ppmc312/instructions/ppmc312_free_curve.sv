@@ -32,7 +32,7 @@ module ppmc312_free_curve
     output logic [7:0] error_o,  // with bad_o: error number of F0
     // progress
     output logic complete_o,  // the curve is complete
-    output logic [1:0] list_o,  // next list, 0: rates, 1: acceleration, 2: deceleration
+    output logic [1:0] next_list_o,  // 0: rates, 1: acceleration, 2: deceleration
     output logic [6:0] left_o,  // remaining stages of this list
     output logic [23:0] acc_sum_o,  // acceleration pulses; valid with complete_o
     output logic [23:0] dec_sum_o,  // deceleration pulses; valid with complete_o
@@ -51,7 +51,7 @@ module ppmc312_free_curve
   logic [24:0] sum;
   logic rates;
 
-  assign rates = list_o == 2'd0;
+  assign rates = next_list_o == 2'd0;
   assign word = {high_q, byte_i};
   assign whole = valid_q[1] && byte_q == (rates ? 2'd1 : 2'd2);
   assign tiny = (rates ? 24'(word[15:0]) : word) <= 24'd1;
@@ -64,8 +64,8 @@ module ppmc312_free_curve
 
   assign table_write_o = '{
           we_rate: whole && rates && !complete_o,
-          we_acc: whole && list_o == 2'd1 && !complete_o,
-          we_dec: whole && (list_o == 2'd2 || (list_o == 2'd1 && !split_q)) && !complete_o,
+          we_acc: whole && next_list_o == 2'd1 && !complete_o,
+          we_dec: whole && (next_list_o == 2'd2 || (next_list_o == 2'd1 && !split_q)) && !complete_o,
           stage: stage_q,
           data: rates ? 24'(word[15:0]) : word
       };
@@ -100,14 +100,14 @@ module ppmc312_free_curve
   // No reset: open_i initialises a transfer, data_i a block.
   always_ff @(posedge clk_i) begin
     // Without a separate side, the deceleration has the pulses of the acceleration.
-    if (open_i || (list_done && list_o == 2'd1 && split_q)) dec_sum_o <= '0;
+    if (open_i || (list_done && next_list_o == 2'd1 && split_q)) dec_sum_o <= '0;
     else if (whole && !rates) dec_sum_o <= sum[23:0];
     if (open_i) begin
-      split_q    <= split_i;
-      acc_q      <= acc_i;
-      dec_q      <= split_i ? dec_i : acc_i;
-      list_o     <= 2'd0;
-      complete_o <= 1'b0;
+      split_q     <= split_i;
+      acc_q       <= acc_i;
+      dec_q       <= split_i ? dec_i : acc_i;
+      next_list_o <= 2'd0;
+      complete_o  <= 1'b0;
     end
     if (open_i || (!data_i && list_done)) stage_q <= Fastest;
     else if (!data_i && whole) stage_q <= 7'(ppmc_pkg::dec(32'(stage_q)));
@@ -133,10 +133,10 @@ module ppmc312_free_curve
         if (rates && tiny) rate_bad_q <= 1'b1;
         if (!rates && tiny) pulses_bad_q <= 1'b1;
         if (!rates && sum[24]) sum_bad_q <= 1'b1;
-        if (list_o == 2'd1) acc_sum_o <= sum[23:0];
+        if (next_list_o == 2'd1) acc_sum_o <= sum[23:0];
         if (list_done) begin
-          list_o     <= list_o + 1'b1;
-          complete_o <= list_o == (split_q ? 2'd2 : 2'd1);
+          next_list_o <= next_list_o + 1'b1;
+          complete_o  <= next_list_o == (split_q ? 2'd2 : 2'd1);
         end
       end
     end

@@ -115,10 +115,7 @@ package ppmc312_instr_pkg;
   // Progress of a free curve.
   typedef struct packed {
     logic        complete;     // the curve is complete
-    // C++ has a class of this name, so Verilator 5.006 warns.
-    // verilator lint_off SYMRSVDWORD
-    logic [1:0]  list;         // next list, 0: rates, 1: acceleration, 2: deceleration
-    // verilator lint_on SYMRSVDWORD
+    logic [1:0]  next_list;    // 0: rates, 1: acceleration, 2: deceleration
     logic [6:0]  stages_left;  // remaining stages of this list
     logic [23:0] acc_sum;      // acceleration pulses; valid with complete
     logic [23:0] dec_sum;      // deceleration pulses; valid with complete

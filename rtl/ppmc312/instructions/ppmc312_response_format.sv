@@ -76,7 +76,7 @@ module ppmc312_response_format
           response_o.tail    = TailSums;
         end else begin
           response_o.extra     = 4'd2;
-          response_o.data[1:0] = {1'b0, progress.stages_left, 6'd0, progress.list};
+          response_o.data[1:0] = {1'b0, progress.stages_left, 6'd0, progress.next_list};
         end
         if (setup_status_i.failed) begin
           response_o.code    = A_PARAM;
