@@ -2,7 +2,7 @@
 
 The size of a design is counted in the netlist that its recipe makes. The clock rate of a part is measured
 with every pin connected to a shift register that is not counted. The clock rate of a bitstream is not
-measured: `make bitstream` fails if it does not meet the clock of its board.
+measured: `make bitstream` fails if it is lower than the clock rate of the board.
 """
 
 from __future__ import annotations

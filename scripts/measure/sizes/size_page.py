@@ -89,7 +89,7 @@ def bitstreams(found: Figures) -> str:
     heads = ["bitstream", "FPGA", "LUT", "FF", "RAM", "runs at, MHz"]
     text = (
         "Bitstreams with the constraints of their boards, UART host; cells after synthesis. "
-        "`make bitstream` fails if a bitstream does not meet the clock of its board."
+        "`make bitstream` fails if a bitstream is too slow for the clock of its board."
     )
     return f"{text}\n\n{markdown_table(heads, rows, left=2)}"
 
