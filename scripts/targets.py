@@ -109,7 +109,7 @@ distclean | | Remove the environment, too.
 
 measure
 prove | dev | Prove properties of the RTL blocks (docs/proofs.md).
-    {py} -m scripts.measure.prove -n {J:2} [--break {BREAK}] [{T}]
+    {py} -m scripts.measure.prove -n {J:2} [--fresh {FRESH}] [--break {BREAK}] [{T}]
 prove NIGHT=1 | dev | Run all proofs, with intact and with broken RTL.
     {py} -m scripts.measure.prove --night -n {J:2} && {py} -m scripts.measure.prove --night --break -n {J:2}
 report | dev | Measure size and clock rate of changed designs.

@@ -1,8 +1,9 @@
 """Prove properties of the RTL blocks: `python -m scripts.measure.prove [NAME,...]`.
 
-Without a name, it runs all quick proofs; with `--night`, all proofs. `--break` breaks the RTL of each proof
-as its entry states and expects the proof to fail. The exit code is 1 if a result differs from the expected
-one.
+Without a name, it runs the quick proofs whose RTL or properties have changed since they held
+(docs/proved.json); with `--fresh`, all quick proofs; with `--night`, all proofs. `--break` breaks the RTL of
+each proof as its entry states and expects the proof to fail. The exit code is 1 if a result differs from the
+expected one.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from cocotb_tests.harness.project import console, run
 from scripts.measure.prove.check import LIMIT, Outcome, check
 from scripts.measure.prove.engine import abc
-from scripts.measure.prove.results import keep
+from scripts.measure.prove.results import changed, keep
 from scripts.measure.prove.table import chosen
 
 
@@ -37,7 +38,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.prove")
     parser.add_argument("names", nargs="*", metavar="NAME[,NAME]")
     parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="number of parallel proofs (2)")
-    parser.add_argument("--night", action="store_true", help="also run long proofs")
+    parser.add_argument("--night", action="store_true", help="run all proofs, also the long ones")
+    parser.add_argument("--fresh", action="store_true", help="also run proofs of unchanged RTL")
     parser.add_argument(
         "--break", dest="breaking", action="store_true", help="break the RTL; each proof must fail"
     )
@@ -46,25 +48,33 @@ def main() -> int:
     )
     args = parser.parse_args()
     todo = chosen([word for words in args.names for word in words.split(",")], args.night)
+    every = len(todo)
+    if not (args.names or args.night or args.fresh or args.breaking):
+        todo = changed(todo)
     abc()
     bad = 0
     shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
     # Threads are sufficient, because each waits for another program.
-    jobs = [(proof, args.limit, proof.broken() if args.breaking else None) for proof in todo]
     with (
         ThreadPoolExecutor(args.n) as pool,
         Progress(*shown, console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task("breaking" if args.breaking else "proving", total=len(todo))
-        for job in as_completed([pool.submit(check, *job) for job in jobs]):
+        jobs = {
+            pool.submit(check, proof, args.limit, proof.broken() if args.breaking else None): proof
+            for proof in todo
+        }
+        for job in as_completed(jobs):
             outcome = job.result()
             console.print(line(outcome, args.breaking), markup=False, soft_wrap=True)
             bad += not (outcome.refuted if args.breaking else outcome.good)
             progress.advance(task)
             if not args.breaking:
-                keep(outcome)
+                keep(outcome, jobs[job])
     what = "found" if args.breaking else "proved"
-    console.print(f"{len(todo) - bad} of {len(todo)} {what}")
+    console.print(
+        f"{len(todo) - bad} of {len(todo)} {what}, {every - len(todo)} unchanged since they were proved"
+    )
     return 1 if bad else 0
 
 

@@ -1,33 +1,70 @@
-"""Results of the last runs of the proofs: build/prove/results.json, for `make trace`."""
+"""Results of the proofs.
+
+build/prove/results.json has the last result of each proof, for `make trace`. docs/proved.json has the digest
+of RTL, properties and tools with which each proof last held; `make prove` skips a proof with this digest.
+"""
 
 from __future__ import annotations
 
+import hashlib
+import importlib.metadata
 import json
 import os
 from collections import defaultdict
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
-from cocotb_tests.harness.project import BUILD
+from cocotb_tests.harness.project import BUILD, DOCS, include_dirs
 from scripts.measure.prove.check import Outcome
-from scripts.measure.prove.table import Proof, proofs
+from scripts.measure.prove.table import FORMAL, Proof, proofs
+from scripts.measure.sizes.designs import code
 
 RESULTS = BUILD / "prove" / "results.json"
+PROVED = DOCS / "proved.json"
+
+
+def digest(proof: Proof) -> str:
+    """Return the digest of all that decides the result of a proof; comments do not change it."""
+    headers = [path for folder in (*include_dirs(), FORMAL) for path in sorted(folder.glob("*.svh"))]
+    what = (proof.bound, proof.induct, proof.cover, proof.only, importlib.metadata.version("pyosys"))
+    sha = hashlib.sha256(repr(what).encode())
+    for path in [*proof.sources(), *headers]:
+        sha.update(code(path).encode())
+    for name in ("model", "engine"):
+        sha.update(Path(__file__).with_name(f"{name}.py").read_bytes())
+    return sha.hexdigest()[:16]
+
+
+def changed(every: Sequence[Proof]) -> list[Proof]:
+    """Return the proofs that are not in docs/proved.json with their present digest."""
+    known = _read(PROVED)
+    return [proof for proof in every if known.get(proof.name) != digest(proof)]
 
 
 def kept() -> dict[str, bool]:
     """Return name of a proof that has run -> whether it holds."""
-    found: dict[str, bool] = {}
-    if RESULTS.is_file():
-        found = json.loads(RESULTS.read_text(encoding="utf-8"))
+    return _read(RESULTS)
+
+
+def keep(outcome: Outcome, proof: Proof) -> None:
+    """Store the result of a run."""
+    _write(RESULTS, kept() | {outcome.name: outcome.good})
+    names = {one.name for one in proofs()}
+    known = {name: old for name, old in _read(PROVED).items() if name in names and name != proof.name}
+    _write(PROVED, known | ({proof.name: digest(proof)} if outcome.good else {}))
+
+
+def _read(path: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     return found
 
 
-def keep(outcome: Outcome) -> None:
-    """Store the result of a run."""
-    found = kept() | {outcome.name: outcome.good}
-    RESULTS.parent.mkdir(parents=True, exist_ok=True)
-    fresh = RESULTS.with_suffix(f".{os.getpid()}")
-    fresh.write_text(json.dumps(dict(sorted(found.items())), indent=1), encoding="utf-8")
-    fresh.replace(RESULTS)
+def _write(path: Path, found: dict[str, Any]) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    fresh = path.with_suffix(f".{os.getpid()}")
+    fresh.write_text(json.dumps(dict(sorted(found.items())), indent=1) + "\n", encoding="utf-8")
+    fresh.replace(path)
 
 
 def failed() -> list[str]:

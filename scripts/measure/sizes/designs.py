@@ -109,7 +109,7 @@ class Design:
         if self.board:
             files.append(boards.CONSTRAINTS / self.board.constraints[HOST])
         for path in files:
-            seen.update(_code(path).encode())
+            seen.update(code(path).encode())
         return seen.hexdigest()[:16]
 
     def netlist(self, turn: int = 0) -> Path:
@@ -159,7 +159,7 @@ class Design:
         return file
 
 
-def _code(path: Path) -> str:
+def code(path: Path) -> str:
     """Return a source without comments and with single spaces; constraints have comments from # on."""
     comment = r"/\*.*?\*/|//[^\n]*" if path.suffix in (".sv", ".svh", ".v") else r"(#|//)[^\n]*"
     text = re.sub(comment, " ", path.read_text(encoding="utf-8", errors="replace"), flags=re.DOTALL)

@@ -8,18 +8,21 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import RTL, ProjectError
-from scripts.measure.prove import engine
+from scripts.measure.prove import engine, results
+from scripts.measure.prove.check import Outcome
 from scripts.measure.prove.page import ROOMS, text, unproved
 from scripts.measure.prove.results import by_rule
 from scripts.measure.prove.table import FORMAL, Proof, chosen, proofs
 
 EVERY = list(proofs())
+SOURCES = Proof.sources
 each = pytest.mark.parametrize("proof", EVERY, ids=lambda proof: proof.name)
 
 
@@ -141,3 +144,27 @@ def test_a_witness_gets_the_registers_back_that_the_search_has_thrown_away(tmp_p
     (tmp_path / "prove.aiw").write_text("000\n01\n11")
     engine.fill(tmp_path)
     assert (tmp_path / "prove.aiw").read_text() == "00000\n01\n11"
+
+
+def test_a_proof_is_skipped_only_if_nothing_has_changed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A proof that held is skipped until code, bound or result changes; a comment changes nothing."""
+    monkeypatch.setattr(results, "PROVED", tmp_path / "proved.json")
+    monkeypatch.setattr(results, "RESULTS", tmp_path / "results.json")
+    proof, other = EVERY[0], EVERY[1]
+    assert results.changed([proof, other]) == [proof, other]
+    results.keep(Outcome(proof.name, ""), proof)
+    assert results.changed([proof, other]) == [other]
+    assert results.changed([replace(proof, cover=proof.cover + 1)])
+
+    file, text = proof.sources()[0], proof.sources()[0].read_text(encoding="utf-8")
+    changed = tmp_path / file.name
+    monkeypatch.setattr(Proof, "sources", lambda self: [changed, *SOURCES(self)[1:]])
+    changed.write_text(text + "// a comment\n", encoding="utf-8")
+    assert results.changed([proof]) == []
+    changed.write_text(text + "module more;\nendmodule\n", encoding="utf-8")
+    assert results.changed([proof]) == [proof]
+    changed.write_text(text, encoding="utf-8")
+    results.keep(Outcome(proof.name, "property fails"), proof)
+    assert results.changed([proof]) == [proof]
