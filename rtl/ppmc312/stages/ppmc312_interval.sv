@@ -17,16 +17,16 @@ module ppmc312_interval #(
     parameter int unsigned RateBits  = 16,
     parameter int unsigned WidthXtal = 80           // pulse width and direction set-up, crystal periods
 ) (
-    input wire logic clk_i,  // clock
-    input wire logic rst_ni,  // reset, asynchronous
-    input wire logic [2:0] base_i,  // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6: rising, 7: falling edge
-    input wire logic extck_i,  // external clock pin, asynchronous
-    input wire logic arm_i,  // strobe: start of a motion
-    input wire logic first_i,  // 1: the next pulse is pulse 1
-    input wire logic fire_i,  // strobe: begin a pulse; only while ready_o = 1
-    input wire logic [RateBits-1:0] rate_i,  // with fire_i: ticks until the next pulse, at least 2
-    output logic ready_o,  // 1: a pulse may begin
-    output logic high_o  // 1: a pulse is active
+    input  wire logic                clk_i,    // clock
+    input  wire logic                rst_ni,   // reset, asynchronous
+    input  wire logic [         2:0] base_i,   // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6: rise, 7: fall
+    input  wire logic                extck_i,  // asynchronous; base_i = 6: rising, 7: falling edge is used
+    input  wire logic                arm_i,    // strobe: start of a motion
+    input  wire logic                first_i,  // 1: the next pulse is pulse 1
+    input  wire logic                fire_i,   // strobe: begin a pulse; only while ready_o = 1
+    input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next pulse, at least 2
+    output logic                     ready_o,  // 1: a pulse may begin
+    output logic                     high_o    // 1: a pulse is active
 );
 
   localparam logic [2:0] ExtRise = 3'd6;
@@ -37,8 +37,7 @@ module ppmc312_interval #(
   logic [2:0] age_q;  // cycles since the pulse, 0 .. 4
   logic [PreBits-1:0] pre_q, pre_load;
   logic rest_q;  // 1: pre_q is 0; a separate register, because of its fan-out
-  logic [RateBits-1:0] left_q, half_q;  // left_q: remaining base clocks; half_q: value of left_q in the
-                                        // middle of the interval
+  logic [RateBits-1:0] left_q, half_q;  // remaining base clocks; left_q in the middle of the interval
 
   assign external = base_i >= ExtRise;
   assign restart  = fire_i && first_i;
