@@ -8,13 +8,13 @@
 `default_nettype none
 
 module ppmc_bank_carrier #(
-    parameter int unsigned CLK_HZ     = 100_000_000,  // BANK-GEN-02
-    parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
-    parameter bit          PHASE_IDLE = 1'b1,         // level of s before the first initialisation
-    parameter              HOST       = "UART",       // or "SPI"
-    parameter int unsigned BAUD       = 115_200,      // line rate of the bridge after reset
-    parameter int unsigned RECORD     = 0             // 2**RECORD records of pins, 4 .. 16; 0: no recorder
+    parameter int unsigned CLK_HZ = 100_000_000,  // BANK-GEN-02
+    parameter int unsigned XTAL_HZ = 16_000_000,
+    parameter int unsigned AXES = 32,  // 4, 8, 16, 32 or 64
+    parameter bit PHASE_IDLE = 1'b1,  // level of s before the first initialisation
+    parameter HOST = "UART",  // or "SPI"
+    parameter int unsigned BAUD = 115_200,  // line rate of the bridge after reset
+    parameter int unsigned RECORD = 0  // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic              clk,
     input  wire logic              rst_n,

@@ -13,7 +13,7 @@ module ppmc104_carrier #(
     parameter bit          PHASE_IDLE = 1'b1,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,

@@ -14,7 +14,7 @@ module ppmc2104_carrier #(
     parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 with a winding on; 0: as on the old chip
     parameter              HOST     = "UART",      // or "BUS"
     parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD   = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,

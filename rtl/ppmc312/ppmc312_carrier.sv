@@ -18,7 +18,7 @@ module ppmc312_carrier #(
     parameter int unsigned SND_WAIT = 0,  // rs485_de rises SND_WAIT + 0.5 bits after a stop bit
     parameter HOST = "UART",  // or "BUS", "SERIAL"
     parameter int unsigned BAUD = 115_200,  // baud rate of the bridge after reset
-    parameter int unsigned RECORD = 0  // 2**RECORD records of the pins, RECORD = 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD = 0  // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,

@@ -28,8 +28,7 @@ module ppmc312_core
     output logic blk_done_o,  // strobe: the block is processed and its response is stored
     output logic rd_any_o,  // a report is pending
     input wire logic rd_load_i,  // strobe: load the next report
-    output logic [BLOCK_BITS:0] rd_size_o,  // bytes of the loaded report, 3 .. 32; valid 2 cycles after
-                                            // rd_load_i
+    output logic [BLOCK_BITS:0] rd_size_o,  // bytes, 3 .. 32; valid 2 cycles after rd_load_i
     input wire logic [BLOCK_BITS-1:0] rd_addr_i,  // byte of the report, 0 = header
     output logic [7:0] rd_data_o,  // byte at rd_addr_i, two cycles later
     input wire logic rd_done_i,  // strobe: the report has been read

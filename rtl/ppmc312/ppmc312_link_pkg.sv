@@ -86,8 +86,7 @@ package ppmc312_link_pkg;
     operation_t op;  // valid with start
     logic change;  // strobe: change the rate to profile.target
     profile_t profile;  // stable from start to t0; target: until 2 cycles after change
-    logic single_pulse;  // 1: one pulse at the start-up rate, ignores target and dec_pulses; stable as
-                         // profile
+    logic single_pulse;  // 1: one pulse at the start-up rate; stable as profile
     logic pos_halt;  // strobe: the position of an immediate stop is reached
     logic triggers_done;  // 1: all triggered instructions have been processed
   } motion_req_t;

@@ -15,7 +15,7 @@ module stmc_carrier #(
     parameter int unsigned EXT_HZ     = 48_675,      // external step clock in Hz
     parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,

@@ -12,7 +12,7 @@ module board_icebreaker_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter int unsigned BAUD       = 115_200,     // line rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset

@@ -8,10 +8,10 @@
 
 module board_ulx3s_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
-    parameter TIMING = "FAST",
-    parameter HOST = "UART",  // or "BUS", "SERIAL"
-    parameter int unsigned BAUD = 115_200,  // baud rate of the bridge after reset
-    parameter int unsigned RECORD = 0  // 2**RECORD records of the pins, RECORD = 4 .. 16; 0: no recorder
+    parameter              TIMING  = "FAST",
+    parameter              HOST    = "UART",      // or "BUS", "SERIAL"
+    parameter int unsigned BAUD    = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD  = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset

@@ -30,8 +30,8 @@ module ppmc312_instr_check
   logic [4:0] fits;  // length that matches the size
   logic [7:0] flags, inner, value_error, size_error;
   logic [15:0] rate, range, start_rate, stop_rate, high_rate, bound;
-  logic [16:0] above_q;  // turn_q: current comparison; above_turn_q: comparison to which above_q belongs
-  logic [1:0] turn_q, above_turn_q;
+  logic [16:0] above_q;  // a rate minus its bound
+  logic [1:0] turn_q, above_turn_q;  // current comparison; comparison to which above_q belongs
   logic above, near, slow_bad_q, fast_bad_q, given_q, acc_slowest_q;
   logic [1:0] order_q, near_q;
   logic [31:0] count;

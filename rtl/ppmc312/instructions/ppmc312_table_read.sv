@@ -14,7 +14,7 @@ module ppmc312_table_read
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic open_i,  // strobe: begin; ppmc312_response_writer writes the first response
+    input wire logic open_i,  // strobe: a table read begins; ppmc312_response_writer writes its first block
     output logic more_o,  // more blocks follow
     input wire logic next_i,  // strobe: write the next block
     output logic busy_o,  // a block is being written

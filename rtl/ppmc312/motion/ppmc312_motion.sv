@@ -117,7 +117,7 @@ module ppmc312_motion
     request.als = enter || abn_q;
     request.stl = limit;
     request.org = op_q.origin && origin;
-    request.stp = halt_i || (motion_req_i.pos_halt && !complete_q);  // not after the last pulse
+    request.stp = halt_i || (motion_req_i.pos_halt && !complete_q);  // ignored after the last pulse
     immediate   = state_q == StPulses && request != '0;
   end
 
@@ -265,7 +265,7 @@ module ppmc312_motion
       .single_i(motion_req_i.single_pulse),
       .change_i(motion_req_i.change && state_q == StPulses),
       .change_ramp_i,
-      .slow_i((too_fast || decel_q || at_origin) && state_q == StPulses),  // delay: at most 4 cycles
+      .slow_i((too_fast || decel_q || at_origin) && state_q == StPulses),  // at most 4 cycles after the pin
       .next_end_o(next_end),
       .next_low_o(next_low),
       .next_count_o(next_count),

@@ -36,7 +36,7 @@ module ppmc312_position
     // interlock
     output logic lock_o,  // 1: interlock control is active
     output logic unlock_o,  // strobe: report E1
-    // monitors, [0]: in-position, [1]: encode; a strobe or level each
+    // monitors, [0]: in-position, [1]: encode
     output logic [1:0] window_on_o,  // monitor is enabled
     output logic [1:0] outside_o,  // monitor is enabled, and the position is outside
     output logic [1:0] pending_o,  // a report is pending

@@ -194,7 +194,7 @@ module ppmc312_stage_builder
       stage_q <= Last;
       too_few_pulses_o <= 1'b0;
     end else begin
-      op_start_o <= works && phase_q == 2'd1;  // high in phase 2, first cycle
+      op_start_o <= works && phase_q == 2'd1;  // high in the first cycle of phase 2
       if (op_start_o) wait_q <= 1'b1;
       else if (done) wait_q <= 1'b0;
       if (op_start_o || done || !(works || state_q == StCopy)) phase_q <= '0;

@@ -241,7 +241,7 @@ module ppmc312_stage_plan
         end
         StOneSide:    state_q <= StAcc;
         StAcc: begin
-          inner_q <= none;  // the motion only uses stages that one side has
+          inner_q <= none;  // the motion uses only stages that one side has
           state_q <= StDec;
         end
         StDec:        state_q <= StKind;

@@ -24,8 +24,7 @@ module ppmc312_stage_unit
     input wire logic [6:0] open_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] open_dec_i,  // first stage of the deceleration side
     input wire table_write_t table_write_i,  // word of the free curve
-    input wire logic close_i,  // strobe: the transfer is complete; latch the pulses of the sides from
-                               // curve_i
+    input wire logic close_i,  // strobe: the transfer is complete; latch curve_i.acc, .dec
     // active table
     output table_t table_o,  // description of the table
     output target_t start_target_o,  // look-up result of rate table_o.rate_acc
