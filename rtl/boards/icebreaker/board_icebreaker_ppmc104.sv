@@ -19,7 +19,7 @@ module board_icebreaker_ppmc104 #(
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", the straps can also set csel and vsel to 0
     input  wire logic       clock,
     // switches, active low
     input  wire logic       l1_n,

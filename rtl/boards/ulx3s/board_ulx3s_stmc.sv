@@ -21,7 +21,7 @@ module board_ulx3s_stmc #(
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; with HOST = "UART", d_oe = 0, because reads then remain inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       rd_n,
