@@ -20,36 +20,36 @@ module ppmc_proc_time
     parameter int unsigned StepsMax = 11_220,  // largest PA
     parameter bit RampTimes = 1'b1  // 1: extra time for a stop in a ramp and for a triangular profile
 ) (
-    input wire logic clk_i,
-    input wire logic rst_ni,
+    input  wire logic                   clk_i,
+    input  wire logic                   rst_ni,
     // command unit, at the C-event
-    input wire action_t act_i,  // actions requested by the byte
-    input wire logic [7:0] code_i,  // code of act_i
-    input wire logic [31:0] params_i,  // parameters of act_i; a cycle later shifted by a byte
-    input wire logic [7:0] code_held_i,  // code_i of the last C-event
-    input wire logic [31:0] params_held_i,  // parameters of code_held_i
-    input wire logic [2:0] base_i,  // base clock that is currently selected
-    output logic open_o,  // 1: a byte may be accepted
+    input  wire action_t                act_i,          // actions requested by the byte
+    input  wire logic    [         7:0] code_i,         // code of act_i
+    input  wire logic    [        31:0] params_i,       // parameters of act_i; a byte lower one cycle later
+    input  wire logic    [         7:0] code_held_i,    // code_i of the last C-event
+    input  wire logic    [        31:0] params_held_i,  // parameters of code_held_i
+    input  wire logic    [         2:0] base_i,         // base clock that is currently selected
+    output logic                        open_o,         // 1: a byte may be accepted
     // actions when they take effect
-    output action_t act_o,  // actions, effective at the next edge
-    output logic [7:0] code_o,  // code of act_o
-    output logic [31:0] params_o,  // parameters of act_o
-    output logic [2:0] base_o,  // base clock of the operation that starts
+    output action_t                     act_o,          // actions, effective at the next edge
+    output logic         [         7:0] code_o,         // code of act_o
+    output logic         [        31:0] params_o,       // parameters of act_o
+    output logic         [         2:0] base_o,         // base clock of the operation that starts
     // initialisation
-    input wire logic initialised_i,  // 1: an initialisation has been completed
-    input wire logic building_i,  // 1: the ramp table is being built
-    input wire logic [StepBits-1:0] steps_i,  // current PA
-    output logic phase_init_o,  // strobe: first initialisation: set the phases to index 0
-    output logic ready_o,  // strobe: the initialisation is complete
+    input  wire logic                   initialised_i,  // 1: an initialisation has been completed
+    input  wire logic                   building_i,     // 1: the ramp table is being built
+    input  wire logic    [StepBits-1:0] steps_i,        // current PA
+    output logic                        phase_init_o,   // strobe: set the phases to index 0; first time only
+    output logic                        ready_o,        // strobe: the initialisation is complete
     // motion
-    input wire logic ramp_i,  // 1: the running operation has a ramp
-    input wire logic single_i,  // 1: the running operation is a single step
-    input wire logic stop_i,  // strobe: immediate end at the next edge
-    input wire logic pulse_i,  // strobe: pulse event at the next edge
-    input wire logic last_i,  // with pulse_i: it is the last pulse
-    input wire logic final_i,  // with pulse_i: the count is complete
-    output logic go_o,  // 1: pulse 1 may occur
-    output logic end_delay_o  // 1: the motion must not end yet
+    input  wire logic                   ramp_i,         // 1: the running operation has a ramp
+    input  wire logic                   single_i,       // 1: the running operation is a single step
+    input  wire logic                   stop_i,         // strobe: immediate end at the next edge
+    input  wire logic                   pulse_i,        // strobe: pulse event at the next edge
+    input  wire logic                   last_i,         // with pulse_i: it is the last pulse
+    input  wire logic                   final_i,        // with pulse_i: the count is complete
+    output logic                        go_o,           // 1: pulse 1 may occur
+    output logic                        end_delay_o     // 1: the motion must not end yet
 );
 
   // Times in crystal cycles: microseconds times 16.
