@@ -61,7 +61,7 @@ typedef struct {
     uint32_t begin;
 } pmc006_t;
 
-/** Status 1 and 2. */
+/** Status of the controller (instructions j and O). */
 typedef struct {
     bool busy;          /**< a motion is being planned or is running */
     bool ext1, ext2;    /**< EXT1, EXT2 stopped the motor: starts are rejected until pmc006_clear_stops() */

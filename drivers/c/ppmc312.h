@@ -224,8 +224,8 @@ ppmc104_result_t ppmc312_set_position(ppmc312_t *dev, bool encoder, int32_t posi
 /** @name Event buffers 0 and 1
  * An edge of the pin executes the next entry, in the order in which they were stored. @{ */
 ppmc104_result_t ppmc312_event_motion(ppmc312_t *dev, unsigned buffer, const ppmc312_motion_t *motion);
-/** Store another instruction: its code and parameters as on the bus. @param count 0 .. 9, on the line 0 ..
- * 7 */
+/** Store another instruction: its code and parameters as on the bus.
+ * @param count 0 .. 9, on the line 0 .. 7 */
 ppmc104_result_t ppmc312_event(ppmc312_t *dev, unsigned buffer, uint8_t code, const uint8_t *data, unsigned count);
 /** Delete the last entry. If there is no entry, the result is PPMC312_ERR_FULL. */
 ppmc104_result_t ppmc312_event_delete(ppmc312_t *dev, unsigned buffer);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_plan: makes the decisions of a visit: acceptance of the byte, effect of byte and switches on
-//         the motion, edge to be ordered from the pin block, and cycles until the next edge.
+// ppmc_bank_plan: decides in each visit whether the byte is accepted, how byte and switches affect the
+//         motion, which edge the pin block must output, and how many cycles remain until the next edge.
 // Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
 //         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
 // Timing: combinational.

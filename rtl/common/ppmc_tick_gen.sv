@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_tick_gen: outputs a tick every `TickXtal` crystal cycles. A phase accumulator makes the average
-//         exact.
+// ppmc_tick_gen: outputs a tick every `TickXtal` crystal cycles. A phase accumulator avoids drift.
 // Rules:  P104-BCK-03 (quantum ticks), P104-GEN-04.
 // Timing: after a restart that takes effect at edge e, tick n is high in the cycle before edge e + ceil(n *
 //         TickXtal * ClkHz / XtalHz). Registers that are enabled by the tick change at exactly this edge.

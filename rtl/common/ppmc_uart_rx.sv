@@ -22,7 +22,7 @@ module ppmc_uart_rx #(
     output logic      [      7:0] byte_o,   // received character; valid with valid_o
     output logic                  valid_o,  // strobe: a character with a high stop bit was received
     output logic                  error_o,  // strobe: a character with a low stop bit was received
-    output logic                  break_o   // with error_o: 1: all data bits were low, too
+    output logic                  break_o   // with error_o; 1: all data bits were also low
 );
 
   typedef enum logic [1:0] {

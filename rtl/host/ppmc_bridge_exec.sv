@@ -2,8 +2,8 @@
 // ppmc_bridge_exec: executes the script in the request buffer, accesses the bus of the device, and stores
 //         the data in the answer. A script consists of operations (ops).
 // Rules:  table of the ops in docs/uart_bridge.md; UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
-// Timing: start_i begins a script of length_i bytes, and resend_i sends the last answer again; both are
-//         only allowed in StIdle. answer_o is high until answered_i. A request byte is read two cycles
+// Timing: start_i begins a script of length_i bytes, and resend_i sends the last answer again. Both are
+//         allowed only in StIdle. answer_o is high until answered_i. A request byte is read two cycles
 //         after its address.
 `include "ppmc_assert.svh"
 `default_nettype none

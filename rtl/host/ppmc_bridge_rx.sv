@@ -24,7 +24,7 @@ module ppmc_bridge_rx
     output logic      [7:0] wdata_o,     // write data
     // received frame
     output logic            good_o,      // strobe: a valid frame
-    output logic            request_o,   // with good_o: 1: a request to be executed or answered again
+    output logic            request_o,   // with good_o; 1: a request to be executed or answered again
     output logic      [6:0] seq_o,       // sequence number of the frame
     output logic      [7:0] length_o,    // length of the script in bytes, with request_o
     // while a script runs or its answer is sent

@@ -14,7 +14,7 @@ module ppmc_mailbox #(
     input  wire logic                    rst_ni,
     // host port
     input  wire logic                    wr_i,       // strobe: the host has written
-    input  wire logic                    wr_a0_i,    // with wr_i: 1: command, 0: data
+    input  wire logic                    wr_a0_i,    // with wr_i; 1: command, 0: data
     input  wire logic [             7:0] wr_data_i,  // written byte; valid with wr_i
     input  wire logic                    rd_done_i,  // strobe: the host has read out_o
     output logic      [             7:0] out_o,      // output buffer

@@ -25,7 +25,7 @@ module ppmc_strobe_bus (
     output logic            d_oe_o,        // 1: drive d_o, because the host reads
     // write side
     output logic            wr_o,          // strobe: a write is complete
-    output logic            wr_a0_o,       // with wr_o: 1: command, 0: data
+    output logic            wr_a0_o,       // with wr_o; 1: command, 0: data
     output logic      [7:0] wr_data_o,     // written byte; valid with wr_o
     output logic            wr_busy_o,     // 1: a write is in progress; the status must indicate IBF = 1
     // read side

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_strobe_master: executes read and write accesses on the strobe bus of a device, for bridges on the
 //         same chip.
-// Rules:  UB-BUS-01. At every CLK_HZ, it complies with P104-BUS-03/04, the times of docs/ppmc2104/README.md, 4.2,
-//         STMC-BUS-11/20 and P312-PAR-10/11.
+// Rules:  UB-BUS-01. At every CLK_HZ, it complies with P104-BUS-03/04, the times of
+//         docs/ppmc2104/README.md, 4.2, STMC-BUS-11/20 and P312-PAR-10/11.
 // Timing: a request (req_i with we_i, addr_i and wdata_i) is accepted in a cycle in which ready_o is high.
 //         done_o is high for one cycle when the strobe has ended. rdata_o is valid from then until the end
 //         of the next read. A write takes 8 cycles, a read 10 cycles.

@@ -2,9 +2,9 @@
 // ppmc_wishbone: Wishbone B4 slave (classic cycles, 32 bits) for the strobe bus of a device.
 // Rules:  register map and responses: docs/integration.md; strobes: UB-BUS-01.
 // Timing: a device register responds 6 cycles (write) or 8 cycles (read) after the first cycle of CYC and
-//         STB, and one cycle later if another access directly precedes. The bridge register and masked
-//         accesses respond 1 cycle after that first cycle. A master may abort an access: then there is no
-//         response, but a strobe that has begun is completed.
+//         STB. If another access directly precedes it, the response is one cycle later. The bridge register
+//         and masked accesses respond 1 cycle after that first cycle. A master may abort an access: then
+//         there is no response, but a strobe that has begun is completed.
 `default_nettype none
 `include "ppmc_assert.svh"
 

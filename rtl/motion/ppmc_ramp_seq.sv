@@ -42,7 +42,7 @@ module ppmc_ramp_seq #(
     output logic last_o,  // 1: the next pulse is the last pulse
     output logic final_o,  // 1: the next pulse completes the count
     output logic top_o,  // 1: the running interval is on the plateau
-    output logic at_start_rate_o,  // before any deceleration: 1: the running interval has the start-up rate
+    output logic at_start_rate_o,  // before any deceleration; 1: the running interval has the start-up rate
     output logic dec_o,  // 1: the natural deceleration has begun
     output logic [CountBits-1:0] left_o  // remaining pulses minus 1; at least 0
 );
@@ -90,7 +90,7 @@ module ppmc_ramp_seq #(
       dec_o  <= 1'b0;
     end else begin
       near_q <= !high && !ppmc_pkg::less(32'(ramp_level), 32'(left_o[StepBits-1:0]));
-      full_q <= reached;  // without a look-up and before the deceleration: 1: ramp_level = PA
+      full_q <= reached;  // without a look-up and before the deceleration; 1: ramp_level = PA
       zero_q <= !high && left_o[StepBits-1:0] == '0;
       low_q  <= ramp_level[StepBits-1:1] == '0;
       if (load_i) begin

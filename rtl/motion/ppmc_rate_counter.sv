@@ -2,8 +2,8 @@
 // ppmc_rate_counter: counts the base clocks of an interval. Base clock number rate + 1 ends the interval.
 // Rules:  P104-INT-01, P104-TIM-05 (half_o), P104-BCK-05 (during a rate look-up, base clocks are skipped).
 // Timing: hit_o and half_o are combinational from tick_i. half_o is high from base clock number
-//         floor((rate_i + 1) / 2) on. If rising_i is high at this base clock, half_o rises 2 cycles after
-//         the last cycle of rising_i instead.
+//         floor((rate_i + 1) / 2) on. Exception: if rising_i is high at this base clock, half_o rises 2
+//         cycles after the last cycle of rising_i.
 // Assumes: ticks are at least 3 cycles apart. A device whose hosts send divisors (J105 STMC) sets rate_i to
 //         the divisor minus 1.
 // Note:   the count runs upwards, because the rate may still rise while an interval runs (see

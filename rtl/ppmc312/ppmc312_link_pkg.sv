@@ -117,7 +117,7 @@ package ppmc312_link_pkg;
 
   typedef struct packed {
     logic       valid;  // strobe
-    logic [1:0] code;   // 0: pin; multiple occurrence: 1: class 2, 2: class 3 or 4, 3: class 5
+    logic [1:0] code;   // 0: pin; multiple occurrence in 1: class 2, 2: class 3 or 4, 3: class 5
   } alarm_event_t;
 
   typedef struct packed {
@@ -131,7 +131,7 @@ package ppmc312_link_pkg;
   // Monitors, classes 7 and 8: [0] in-position, [1] encode.
   typedef struct packed {
     logic [1:0] pending;  // a report is pending
-    logic [1:0] outside;  // contents of the report: 1: outside, 0: inside
+    logic [1:0] outside;  // contents of the report; 1: outside, 0: inside
   } monitor_req_t;
 
   typedef struct packed {

@@ -160,7 +160,7 @@ static void gap(ppmc104_t *dev)
     ending(dev, "G wait");
 }
 
-/* A part that a table simulates: finish status, then three bytes of remaining pulses. */
+/* A simulated part that returns a finish status and three bytes of remaining pulses. */
 static struct {
     uint8_t finish, left;
     unsigned bytes;

@@ -28,7 +28,7 @@ module pmc006_exec
     input  wire logic          load_i,          // strobe: execute or check load_op_i; only during the boot
     input  wire logic   [ 7:0] load_op_i,       // instruction that loads the parameter
     input  wire logic   [15:0] load_data_i,     // data of the parameter
-    input  wire logic          store_i,         // with load_i: 1: execute, 0: only check the data
+    input  wire logic          store_i,         // with load_i; 1: execute, 0: only check the data
     // instruction in progress
     output exec_cmd_t          cmd_o,           // instruction
     output reg_access_t        access_o,        // register of cmd_o

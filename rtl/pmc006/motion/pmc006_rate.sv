@@ -26,8 +26,8 @@ module pmc006_rate (
     output logic             update_o,        // strobe: update tick, every 100 µs
     output logic             sample_o,        // strobe: in every 100th update tick
     output logic             advance_o,       // strobe: begin the computation for the next update tick
-    output logic             step_o,          // combinational: 1: a step is made at the next edge
-    output logic             motion_end_o,    // combinational: the motion ends (halted or complete)
+    output logic             step_o,          // combinational; 1: a step is made at the next edge
+    output logic             motion_end_o,    // combinational; 1: the motion ends (halted or complete)
     output logic      [13:0] v_o,             // V
     output logic      [30:0] left_o,          // R
     output logic      [10:0] current_comp_o,  // B

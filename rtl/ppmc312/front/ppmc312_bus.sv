@@ -2,11 +2,10 @@
 // ppmc312_bus: converts the strobes of the 8-bit parallel bus to register writes and reads, and drives the
 //         wait request.
 // Rules:  P312-PAR-09..12, P312-GEN-01.
-// Timing: write: when the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge
-//         2.
-// Timing: read: when a read is first sampled at edge 0, the bus is driven from edge 3 until 2 edges after
-//         the end of the read. rd_done_o is high in the cycle before edge 2 after that end. d_o does not
-//         change during a strobe.
+// Timing: when the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge 2. When
+//         a read is first sampled at edge 0, the bus is driven from edge 3 until 2 edges after the end of
+//         the read. rd_done_o is high in the cycle before edge 2 after that end. d_o does not change during
+//         a strobe.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -22,7 +22,7 @@ module ppmc312_response_writer
     input wire logic [31:0] value_i,  // TailPos: position
     input wire logic [5:0][7:0] sums_i,  // TailSums: pulses of both sides of the table
     input wire logic [2:0] codes_i,  // TailCodes: number of codes
-    output logic peek_o,  // TailCodes: 1: a code is requested
+    output logic peek_o,  // TailCodes; 1: a code is requested
     output logic [1:0] peek_at_o,  // TailCodes: entry of this code
     input wire logic [7:0] code_i,  // code of entry peek_at_o, two cycles later
     // bytes of the instruction

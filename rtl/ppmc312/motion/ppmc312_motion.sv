@@ -25,7 +25,7 @@ module ppmc312_motion
     input  wire stage_t           stage_i,         // stage at table_addr_o, two cycles later
     // instructions
     input  wire motion_req_t      motion_req_i,    // starts and rate changes
-    input  wire logic             change_ramp_i,   // with motion_req_i.change: 1: change along the table
+    input  wire logic             change_ramp_i,   // with motion_req_i.change; 1: change along the table
     input  wire logic             halt_i,          // strobe: immediate stop
     input  wire logic             decel_i,         // strobe: decelerate to the end
     input  wire motion_settings_t settings_i,      // high-speed limit, monitoring

@@ -29,7 +29,7 @@ module ppmc312_move
     output logic change_o,  // strobe: change the rate to profile_o.target
     output operation_t op_o,  // valid with start_o
     output profile_t profile_o,  // stable until t0
-    output logic single_pulse_o,  // with start_o: 1: use the start-up rate instead of profile_o.target
+    output logic single_pulse_o,  // with start_o; 1: use the start-up rate instead of profile_o.target
     // planner
     output profile_req_t profile_req_o,  // command to the planner
     input wire logic plan_busy_i,  // the planner is busy

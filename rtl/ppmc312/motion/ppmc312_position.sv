@@ -40,7 +40,7 @@ module ppmc312_position
     output logic [1:0] window_on_o,  // monitor is enabled
     output logic [1:0] outside_o,  // monitor is enabled, and the position is outside
     output logic [1:0] pending_o,  // a report is pending
-    output logic [1:0] value_o,  // contents of the report: 1: outside, 0: inside
+    output logic [1:0] value_o,  // contents of the report; 1: outside, 0: inside
     input wire logic [1:0] load_i,  // strobes: the report is being loaded
     input wire logic [1:0] read_i,  // strobes: the report has been read
     output logic coupled_inside_o,  // 1: coupled_o = 1, and the position is inside

@@ -11,14 +11,14 @@ module ppmc312_window_monitor (
     input  wire logic clk_i,       // clock
     input  wire logic rst_ni,      // reset, asynchronous
     input  wire logic set_i,       // strobe: latch enable_i and repeat_i; restart
-    input  wire logic enable_i,    // with set_i: 1: enable, 0: disable the monitor
-    input  wire logic repeat_i,    // with set_i: 1: continue, 0: end after one report
+    input  wire logic enable_i,    // with set_i; 1: enable, 0: disable the monitor
+    input  wire logic repeat_i,    // with set_i; 1: continue, 0: end after one report
     input  wire logic evaluate_i,  // 1: update the state from inside_i
     input  wire logic inside_i,    // 1: the position is within the range
     output logic      enabled_o,   // 1: the monitor is active
     output logic      outside_o,   // 1: active, and the position is outside
     output logic      pending_o,   // 1: a report is pending
-    output logic      value_o,     // contents of the report: 1: outside, 0: inside
+    output logic      value_o,     // contents of the report; 1: outside, 0: inside
     input  wire logic load_i,      // strobe: the report is being loaded
     input  wire logic read_i       // strobe: the report has been read; may coincide with load_i
 );

@@ -29,7 +29,7 @@ module ppmc312_stage_seq
     // operation
     input wire logic load_i,  // strobe: start profile_i
     input wire profile_t profile_i,  // with load_i; target for a change: 2 cycles after change_i
-    input wire logic single_i,  // with load_i: 1: one pulse, regardless of dec_pulses
+    input wire logic single_i,  // with load_i; 1: one pulse, regardless of dec_pulses
     // requests
     input wire logic change_i,  // strobe: change the rate; replaces a pending change
     input wire logic change_ramp_i,  // 1: change along the table; sampled 2 cycles after change_i
@@ -244,8 +244,8 @@ module ppmc312_stage_seq
 
   // ---- search -------------------------------------------------------------------------------------
 
-  // Look-up for a constant rate that was the rate of a stage. All stages are read upward, in cycles in
-  // which no decision needs the table. A pending change waits until this search has ended.
+  // This search serves a constant rate that was the rate of a stage. It reads all stages upward, in cycles
+  // in which no decision needs the table. A pending change waits until this search has ended.
   assign stage_ge = stage_i.rate >= rate_q;
   assign in_use = in_use_q || addr_q[1] == first_acc_i || addr_q[1] == first_dec_i;
 
