@@ -28,7 +28,7 @@ module ppmc_bank_plan
     input wire compare_t compare_i,  // comparisons of this visit
     input wire logic builder_free_i,  // 1: the builder of ramp tables is free
     // command unit
-    input wire logic extra_time_i,  // 1: extra time (vsel = L in CONFIG)
+    input wire logic extra_time_i,  // 1: extra time (vsel low in CONFIG)
     input wire in_buf_t in_buf_i,  // byte from the host
     input wire logic in_buf_new_i,  // 1: in_buf_i has not been accepted yet
     input wire decoded_t decoded_i,  // in_buf_i.data decoded as a code
@@ -191,7 +191,7 @@ module ppmc_bank_plan
   endfunction
 
   // Fixed time of a chopper phase, minus Round. on = 1: ON phase; programmed = 1: the host has set the
-  // units; extra = 1: vsel = L.
+  // units; extra = 1: vsel is low.
   function automatic cycles_t chop_time(logic on, logic programmed, logic extra);
     unique case ({
       on, programmed, extra

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_tables: ramp tables of two axes in two block RAMs, with one builder that fills both.
 // Rules:  P2104-RMP-01/02, P2104-HSK-05 (a build waits for at most one other build).
-// Timing: see ppmc_ramp_builder. A build takes two cycles longer than the builder is busy, counted from the
-//         edge of start_i, or from the end of the other build if it has to wait for it. data_o is valid two
+// Timing: see ppmc_ramp_builder. A build begins at the edge of start_i or, if another build is running, at
+//         the end of that build. It takes two cycles longer than the builder is busy. data_o is valid two
 //         cycles after addr_i.
 `include "ppmc_assert.svh"
 `default_nettype none

@@ -25,7 +25,7 @@ module ppmc_bank_interval_rom_fv
       .*
   );
 
-  // A base clock has 8 quanta (fast) or 32 quanta (slow). With extra_time = 1 (vsel = L), an interval has
+  // A base clock has 8 quanta (fast) or 32 quanta (slow). With extra_time = 1 (vsel low), an interval has
   // 30 more quanta. The low time has 20 quanta. With the fast base clock, extra_time = 0 and a rate of 0 to
   // 2, it is half of the interval.
   interval_t interval_q, interval_q2;

@@ -23,7 +23,7 @@ module ppmc_bank_plan
     input wire compare_t compare_i,  // comparisons of this visit
     input wire logic builder_free_i,  // 1: the builder of ramp tables is free
     // command unit
-    input wire logic extra_time_i,  // 1: extra time (vsel = L in CONFIG)
+    input wire logic extra_time_i,  // 1: extra time (vsel low in CONFIG)
     input wire in_buf_t in_buf_i,  // byte from the host
     input wire logic in_buf_new_i,  // 1: in_buf_i has not been accepted yet
     input wire decoded_t decoded_i,  // in_buf_i.data decoded as a code
