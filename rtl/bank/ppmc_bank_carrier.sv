@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_carrier: all logic of a board with a bank except clock generator and pads: the bank and its
-//         host interface. This is either the UART bridge, which accesses the registers of one selected
-//         axis, or an SPI slave, which accesses the complete window.
+// ppmc_bank_carrier: all logic of a board with a bank except clock generator and pads. Contains the bank
+//         and its host interface. This is either the UART bridge, which accesses the registers of one
+//         selected axis, or an SPI slave, which accesses the complete window.
 // Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
 //         (from 0) uses bit a of each port; in s, it uses bits 5 a to 5 a + 4 (S1 to S5).
 // Timing: as ppmc_bank. The inputs need no external synchroniser.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_update: executes the decisions of a visit: computes the next state of the axis, the command to
+// ppmc_bank_update: executes the decisions of a visit. Computes the next state of the axis, the command to
 //         the pin block, and the response to the host.
 // Rules:  P104-PRO-01..04, P104-OPR-01..05, P104-END-01..07, P104-RD-02..07, P104-INI-05..08, P104-AUX-03/04,
 //         P104-PHS-01..06, P104-SW-02..05; BANK-WIN-07, BANK-MOT-01..04.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_window: host interface of a bank: strobes and registers, and for each axis one input buffer and
-//         one output queue.
+// ppmc_bank_window: host interface of a bank. Contains strobe logic and registers, and for each axis one
+//         input buffer and one output queue.
 // Rules:  BANK-WIN-01..08, BANK-HSK-01/03/04, BANK-GEN-04/05, BANK-GRP-01..04.
 // Timing: a write acts at the first edge after the end of its strobe has passed the synchronisers. d_o is
 //         valid from the third edge after the start of a read strobe has passed the synchronisers.

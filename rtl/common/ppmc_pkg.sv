@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pkg: functions that all cores share: conversion of times, widths of counters, arithmetic of short
-//         numbers.
+// ppmc_pkg: functions that all cores share. They convert times, calculate widths of counters, and process
+//         short numbers.
 // Rules:  P104-GEN-02, P104-GEN-03 (times are specified in crystal cycles; only this package converts them
 //         to clock cycles).
 `default_nettype none

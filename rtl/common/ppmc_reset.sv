@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_reset: reset generator of a core: asserts the reset asynchronously and releases it synchronously.
+// ppmc_reset: reset generator of a core. Asserts the reset asynchronously and releases it synchronously.
 // Rules:  P104-PORT-03.
 // Timing: rst_no falls immediately when rst_ni falls. It rises at the second rising edge of clk_i at which
 //         rst_ni is high.

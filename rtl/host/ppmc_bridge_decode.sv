@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_decode: decodes the code of an operation (op): what the op needs first (op_need_e), and
-//         whether the op may begin.
+// ppmc_bridge_decode: decodes the code of an operation (op). Outputs what the op needs first (op_need_e),
+//         and whether the op may begin.
 // Rules:  table of the ops in docs/uart_bridge.md; UB-ANS-02, UB-ANS-05.
 // Timing: combinational.
 `default_nettype none

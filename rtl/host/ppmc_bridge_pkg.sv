@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_pkg: constants and types of the UART bridge: codes of operations (ops), results, NAK codes,
-//         line rates, CRC.
+// ppmc_bridge_pkg: constants and types of the UART bridge, such as codes of operations (ops), results, NAK
+//         codes, line rates and CRC.
 // Rules:  docs/uart_bridge.md.
 `default_nettype none
 

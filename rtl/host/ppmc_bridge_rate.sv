@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rate: selects the line rate: changes the rate after an answer, and returns to the initial
+// ppmc_bridge_rate: selects the line rate. Changes the rate after an answer, and returns to the initial
 //         rate.
 // Rules:  UB-LIN-02, UB-LIN-03, UB-LIN-06, UB-LIN-07.
 // Timing: step_o follows the code by one cycle. If no valid frame is received at a new rate, the initial

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rx: extracts requests from the received bytes: handles flags, escapes, CRC, length and
+// ppmc_bridge_rx: extracts requests from the received bytes. Handles flags, escapes, CRC, length and
 //         silence.
 // Rules:  UB-FRM-01 .. 08, UB-SEQ-03.
 // Timing: outputs respond two cycles after valid_i or error_i.

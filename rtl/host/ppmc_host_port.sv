@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_host_port: host interface of a core: bus front end and mailbox.
+// ppmc_host_port: host interface of a core. Contains the bus front end and the mailbox.
 // Rules:  P104-BUS-01..07, P104-STA-01..03, P104-HSK-01..08.
 // Timing: see ppmc_strobe_bus and ppmc_mailbox.
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_isa: 8-bit ISA or PC/104 slave for devices with two registers each: address decoder, bus driver,
-//         common interrupt.
+// ppmc_isa: 8-bit ISA or PC/104 slave for devices with two registers each. Contains the address decoder,
+//         the bus driver and the common interrupt.
 // Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the devices sample them (ppmc_strobe_bus).
 //         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low, from the first

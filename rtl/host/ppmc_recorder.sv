@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder: logic analyser: records every change of the watched levels, and the time since the
+// ppmc_recorder: logic analyser that records every change of the watched levels, and the time since the
 //         previous record.
 // Rules:  docs/uart_bridge.md, UB-REC.
 // Timing: a record is {levels, time}, lowest bit first. The levels are sampled by flip-flops. The time is

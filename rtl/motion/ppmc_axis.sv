@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axis: executes one motion from start to end: time and low time of each pulse, cause of the end.
+// ppmc_axis: executes one motion from start to end. Determines the time and low time of each pulse, and the
+//         cause of the end.
 // Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
 //         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21; STMC-MOT-05..08,
 //         STMC-CLK-01..05.
@@ -214,9 +215,9 @@ module ppmc_axis
   // pin.
   // With the external clock, pulses and cuts of low_o occur in the cycle of an effective edge, and act at
   // the end of this cycle:
-  // - Edge number rate + 1 after a pulse outputs the next pulse (u_rate: hit_o), or the extra time follows
-  //   this edge. If low_o = 1 at an edge, the pulse is output at the next edge instead. This can occur only
-  //   after a pulse of rate 0 whose period is not short.
+  // - Edge number rate + 1 after a pulse outputs the next pulse (u_rate: hit_o). If extra time remains, the
+  //   pulse is output after this time. If low_o = 1 at an edge, the pulse is output at the next edge
+  //   instead. This can occur only after a pulse of rate 0 whose period is not short.
   // - Edge number floor((rate + 1) / 2) marks the middle of the interval (u_rate: half_o). It cuts low_o,
   //   unless the pulse is a full pulse. At rate 0, the falling edge cuts low_o if the period before the
   //   pulse was short (u_shaper, P104-TIM-05).

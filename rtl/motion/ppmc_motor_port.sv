@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_motor_port: motor pins of one axis: phases with polarity and chopping, POUT, DIR and HOLD.
+// ppmc_motor_port: drives the motor pins of one axis: phases with polarity and chopping, POUT, DIR and
+//         HOLD.
 // Rules:  P104-TIM-04 (pulse and phases change on the same edge), P104-PHS-01..07, P104-SW-01..07,
 //         P104-PORT-02, P104-END-08.
 // Timing: every pin is a register and follows the axis by one cycle. Therefore all pins of an event change

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_counter: counts the motor position from the pulse output: CW up, CCW down.
+// ppmc_pulse_counter: counts the motor position from the pulse output. CW pulses count up, CCW pulses count
+//         down.
 // Rules:  operations COUNT and ZERO of the bridge (docs/uart_bridge.md).
 // Timing: count_o changes one cycle after pout_ni falls. clear_i has priority over a pulse at the same
 //         edge.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_carrier: all logic of a board with a PMC006B4 except the clock generator and the pads: the core,
-//         reset, LEDs, the serial line (USB and RS-485, wired-AND) and the bus of an A/D converter.
+// pmc006_carrier: all logic of a board with a PMC006B4 except clock generator and pads. Contains the core,
+//         the reset, the LEDs, the serial line (USB and RS-485, wired-AND) and the bus of an A/D converter.
 // Rules:  P006-PORT-01..04; pins: docs/pmc006/README.md, 2; LEDs, wiring: docs/boards.md.
 // Timing: see pmc006 and ppmc_board_reset. The inputs need no external synchroniser.
 // Assumes: conv is stable from the rising edge of adc_stb or bemf_stb until 4 cycles after it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_proc_time: with Datasheet = 1, implements the processing times that only the PPMC-104 has: it
+// ppmc104_proc_time: with Datasheet = 1, implements the processing times that only the PPMC-104 has. It
 //         delays slow-down limits, and allows only stop commands during a fast motion. ppmc_proc_time
 //         implements the other processing times.
 // Rules:  P104-DS-10/12, P104-LIM-01 (the limits are monitored without gaps).

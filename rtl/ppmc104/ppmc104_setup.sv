@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_setup: registers that the host sets outside an initialisation: switching parameters and auxiliary
-//         outputs.
+// ppmc104_setup: stores the switching parameters and auxiliary outputs, which the host sets outside an
+//         initialisation.
 // Rules:  P104-AUX-01..06, P104-SW-04.
 // Timing: all outputs change at the edge that ends the cycle of their action. auxo_o and aux_no drive pins
 //         directly.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_core: PPMC-312 without host front ends and pin synchronisers: instructions, motor side, monitor
-//         of the generalized input, reports.
+// ppmc312_core: PPMC-312 without host front ends and pin synchronisers. Contains the instruction unit, the
+//         motor side, the monitor of the generalized input, and the reports.
 // Rules:  see the instantiated blocks.
 // Timing: outputs are registered.
 `default_nettype none

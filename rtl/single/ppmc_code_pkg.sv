@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_code_pkg: command set that the single-axis devices (PPMC-104BFP, J105 STMC) share: bits of the
-//         codes, error numbers, actions of a byte.
+// ppmc_code_pkg: command set that the single-axis devices (PPMC-104BFP, J105 STMC) share. Contains the bits
+//         of the codes, the error numbers and the actions of a byte.
 // Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01; docs/stmc/README.md, 5 (errors), 6.1 (codes), 6.2.
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command: for the single-axis devices: accepts the bytes of the host, checks them, collects
-//         parameters, and outputs the actions.
+// ppmc_command: accepts the bytes of the host in the single-axis devices. Checks them, collects parameters,
+//         and outputs the actions.
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
 // Timing: take_o marks the C-event. act_o and the state of this block take effect at the edge that ends the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish_status: for a single-axis device: finish status and interrupt of a motion, and data of the
-//         read commands.
+// ppmc_finish_status: contains the finish status and the interrupt of a motion in a single-axis device, and
+//         the data of the read commands.
 // Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07; STMC-FIN-01/04/05, STMC-MOT-09/10, STMC-INP-01,
 //         STMC-OUT-01, STMC-REM-01.
 // Timing: finish status and int_no change at the edge that ends the cycle of done_i. answer_o is

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_proc_time: delays the effect of an accepted byte in a single-axis device. FAST: no delay; DATASHEET:
-//         the processing times of the old chip.
+// ppmc_proc_time: delays the effect of an accepted byte in a single-axis device. With FAST, there is no
+//         delay. With DATASHEET, the delays are the processing times of the old chip.
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
 // Timing: a DATASHEET time starts at the C-event (2 cycles after the write event), or at the pulse or
 //         decision to which it belongs. The event that it delays occurs one cycle after the nominal time.

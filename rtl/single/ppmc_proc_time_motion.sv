@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_proc_time_motion: long processing times of the old chip (DATASHEET): initialisation, time before
-//         pulse 1, end of a motion. Only one of them is active at a time, so they share one counter.
+// ppmc_proc_time_motion: implements the long processing times of the old chip (DATASHEET) for
+//         initialisation, the time before pulse 1, and the end of a motion. Only one of them is active at a
+//         time, so they share one counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: a time starts at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i
 //         with last_i. The event that it delays occurs one cycle after the nominal time.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_steps: for the pulse counter: derives pulse and direction from the phase pins of a device that
+// ppmc_board_steps: derives pulse and direction for the pulse counter from the phase pins of a device that
 //         has no pulse output.
 // Rules:  docs/stmc/README.md, 11.1: the block recognises 3, 4 or 5 phases, full or half steps, and both
 //         polarities without a setting. It ignores patterns with all phases at one level (chopper, before

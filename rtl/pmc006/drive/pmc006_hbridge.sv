@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_hbridge: H-bridge of one motor phase: bit stream of the reference, chopper with fixed off time,
-//         slow and fast decay.
+// pmc006_hbridge: controls the H-bridge of one motor phase. Contains the bit stream of the current
+//         reference, and a chopper with fixed off time and slow or fast decay.
 // Rules:  P006-EXC-40, P006-CHP-01..06.
 // Timing: en_o follows on_i by one cycle. If on_i is 0 or sign_i changes, both high sides are switched off
 //         at the next rising edge, and the off time restarts. A comparator level that is sampled at edge t

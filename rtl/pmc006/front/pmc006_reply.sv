@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_reply: selects the data of a reply: the values that are active after the instruction.
+// pmc006_reply: selects the data of a reply. The data are the values that are active after the instruction.
 // Rules:  P006-CMD-01..57, P006-FRM-09; reply data: docs/pmc006/README.md, 4; status words: 5, 12.
 // Timing: reply_o follows sample_i by one cycle. sample_i is one cycle after the instruction takes effect.
 `default_nettype none

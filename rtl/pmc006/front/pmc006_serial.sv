@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_serial: serial line to the host: receives frames, and sends one reply to each valid frame.
+// pmc006_serial: serial interface to the host. Receives frames, and sends one reply to each valid frame.
 // Rules:  P006-UART-01..05, P006-FRM-03/04/07/10, P006-BAD-05/06.
 // Timing: e is the edge at which the last stop bit of a frame is sampled. frame_o.go is high in the cycle
 //         after e. de_o rises ceil(1 bit) after e. Bit edge n occurs ceil((2 + n) bits) after e. de_o falls

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_buffer: RAM with a copy of the first kilobyte of the EEPROM: parameters (bytes 0 .. 31) and user
-//         program (200 words from byte 32 on).
+// pmc006_buffer: RAM with a copy of the first kilobyte of the EEPROM. It contains the parameters (bytes 0
+//         .. 31) and the user program (200 words from byte 32 on).
 // Rules:  P006-PRG-01/02; memory map: docs/pmc006/README.md, 14.
 // Timing: word_o follows the address by two cycles. The address is word_addr_i if claim_i = 1, byte_addr_i
 //         / 4 otherwise. byte_o and pair_o are selected from word_o by bits 1:0 of byte_addr_i, without a

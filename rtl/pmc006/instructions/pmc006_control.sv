@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_control: logic between the serial line and the motion: executor, registers, user program, EEPROM,
-// stop conditions.
+// pmc006_control: logic between the serial line and the motion. Contains executor, registers, user program,
+//         EEPROM interface and stop conditions.
 // Rules:  P006-CMD, P006-STA, P006-EXT, P006-STL, P006-IO, P006-PRG, P006-EEP: see the instantiated blocks.
 // Timing: motion_start_o and halt_o are combinational. They are asserted in the cycle before the edge at
 //         which BUSY changes.

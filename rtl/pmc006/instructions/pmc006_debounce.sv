@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_debounce: debounce filter of one input: asserts hit_o when the input has been low for LowTicks, and
-// re-arms when it has been high for HighTicks (0: immediately).
+// pmc006_debounce: debounce filter of one input. Asserts hit_o when the input has been low for LowTicks,
+//         and re-arms when it has been high for HighTicks (0: immediately).
 // Rules:  P006-PRG-30, P006-EEP-20.
 // Timing: hit_o and rearm_o are combinational strobes. They are high in the cycle of the µs tick that
 //         completes the number of consecutive ticks. With HighTicks = 0, rearm_o is high in the first cycle

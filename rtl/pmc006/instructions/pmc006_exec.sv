@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_exec: executes one instruction at a time: from a frame, from the user program, or (during the
-//         boot) from the EEPROM.
+// pmc006_exec: executes one instruction at a time. The instruction comes from a frame, from the user
+//         program, or (during the boot) from the EEPROM.
 // Rules:  P006-FRM-03, P006-CMD-52/53, P006-PRG-15/16, P006-STA-15.
 // Timing: an instruction takes effect at the edge that ends the cycle of exec_o. For a frame, this edge is
 //         4 cycles after the last sample of the frame if no instruction is in progress, and reply_sample_o

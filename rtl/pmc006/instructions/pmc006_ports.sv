@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_ports: general outputs: register and pins.
+// pmc006_ports: contains the register of the general outputs, and drives their pins.
 // Rules:  P006-CMD-46, P006-IO-02/03, P006-STL-03; instruction OUT: docs/pmc006/README.md, 13.
 // Timing: gpo_reg_o changes at the edge that ends the cycle of write_i. gpo_o follows gpo_reg_o by one
 //         cycle.

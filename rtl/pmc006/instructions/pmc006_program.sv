@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_program: executes the user program: current line, counter, compare flag, WAIT, RESET and PAUSE
-//         keys.
+// pmc006_program: executes the user program. Contains the current line, the counter, the compare flag,
+//         WAIT, and the RESET and PAUSE keys.
 // Rules:  P006-PRG-02/10..17/20/30..33, P006-CMD-01..05/18/47, P006-BAD-11/16..19/23.
 // Timing: instructions start at least 48 cycles apart. WAIT ends at the edge that ends the cycle in which
 //         the source has the requested level.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_pkg: instruction set of the motion planner pmc006_calc: operations, operands, conditions.
+// pmc006_calc_pkg: operations, operands and conditions of the instruction set of the motion planner
+//         pmc006_calc.
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, which the program in pmc006_calc.asm implements.
 // How:    an instruction is {operation, aux, operand} or {jump, condition, target}. {hi, lo} is the 64-bit
 //         accumulator; the adder has 32 bits, and load, add and sub use only hi.

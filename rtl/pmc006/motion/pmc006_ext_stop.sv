@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_ext_stop: emergency switches: detects the enabled edges of EXT1 and EXT2 and stores the EXT flags.
+// pmc006_ext_stop: detects the enabled edges of the emergency switches EXT1 and EXT2, and stores the EXT
+//         flags.
 // Rules:  P006-EXT-01..11, P006-STA-14/17, P006-BAD-21/26.
 // Timing: event_o is high in the cycle in which the synchronised level differs from the level in the
 //         previous cycle. flags_o follows event_o by one cycle. If an edge and clear_i occur in the same

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_motion: executes a motion from its acceptance to its end: latches the settings, plans the ramps,
+// pmc006_motion: executes a motion from its acceptance to its end. Latches the settings, plans the ramps,
 //         generates the steps, follows changes of the target speed, and computes the current compensation.
 // Rules:  P006-STA-10, P006-CMD-54, P006-MOT-01..05, P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42,
 //         P006-MOT-50..52, P006-EXC-21..24.

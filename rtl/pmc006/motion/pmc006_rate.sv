@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_rate: step generator of a motion: update ticks, current speed, rate accumulator, counter of the
-//         remaining steps.
+// pmc006_rate: generates the steps of a motion. Contains the update ticks, the current speed, the rate
+//         accumulator and the counter of the remaining steps.
 // Rules:  P006-MOT-01..05.
 // Timing: E is the edge that ends the cycle of a µs tick. At E, the tick counter, V, B and W change, or the
 //         motion ends. A scheduled step is made at E + 2; step_o is high in the cycle before E + 2, and

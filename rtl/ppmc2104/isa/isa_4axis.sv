@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// isa_4axis: four axes on an 8-bit ISA or PC/104 bus: two PPMC-2104 at one base address with one interrupt.
+// isa_4axis: four axes on an 8-bit ISA or PC/104 bus. Contains two PPMC-2104 at one base address with one
+//         interrupt.
 // Rules:  ISA-01..11; all P2104 rules apply to each device. Manual: docs/ppmc2104/isa.md.
 // Timing: the bus and motor pins have the timing of ppmc2104. irq follows int_n by one cycle.
 // Note:   device A has axes 1 and 2. Device B has axes 3 and 4; its host addresses them as axes 1 and 2.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial: serial front end: a station on a line with one host. It receives frames, passes blocks to
+// ppmc312_serial: serial front end, a station on a line with one host. It receives frames, passes blocks to
 //         the core and sends replies.
 // Rules:  P312-SER-01..22, P312-PRT-01..03, P312-BAD-16/17.
 // Timing: a character is received in the middle of its stop bit. See also ppmc312_serial_reply and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_pkg: types of the serial station: instruction codes, polled reports, replies.
+// ppmc312_serial_pkg: types of the serial station for instruction codes, polled reports and replies.
 // Rules:  P312-SER-20, P312-SER-30 (END codes), P312-SER-40..44.
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_rx: parses the frames of the host: control code, hexadecimal data, checksum. Detects
-//         silence.
+// ppmc312_serial_rx: parses the frames of the host, which consist of control code, hexadecimal data and
+//         checksum. Also detects silence.
 // Rules:  P312-SER-02, P312-SER-10..17, P312-BAD-16.
 // Timing: poll_o, run_o, fault_o, unknown_code_o and overrun_o are asserted in the cycle of the character
 //         that decides, or in the cycle in which 20 ms of silence are complete.

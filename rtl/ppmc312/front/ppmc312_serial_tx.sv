@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_tx: sends a reply when the line is free: raises snd_o, sends control code, hexadecimal
-//         data and checksum.
+// ppmc312_serial_tx: sends a reply when the line is free. Raises snd_o, then sends control code,
+//         hexadecimal data and checksum.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
 // Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after
 //         rx_char_i. rx_char_i marks the middle of a stop bit, so the line was idle for SndWait + 0.5 bit
@@ -78,8 +78,8 @@ module ppmc312_serial_tx
 
   assign sent_o = snd_o && bit_end && left_q == '0 && last_q;
 
-  // The phase starts one step ahead, to compensate the registers of the pins. The same phase times the gap:
-  // it has at most 9 bits, so it ends before the next stop bit can be received.
+  // The phase starts one step ahead, to compensate for the registers of the pins. It also times the gap.
+  // The gap has at most 9 bits, so it ends before the next stop bit can be received.
   always_ff @(posedge clk_i) begin
     if (!snd_o && gap_q == '0) {bit_end, phase_q} <= {1'b0, wrap_i};
     else {bit_end, phase_q} <= {1'b0, phase_q} + {1'b0, bit_end ? wrap_i : step_i};

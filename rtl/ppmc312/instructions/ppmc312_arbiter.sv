@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_arbiter: selects the source of the next instruction: a trigger or the host.
+// ppmc312_arbiter: selects whether the next instruction is from a trigger or from the host.
 // Rules:  P312-OVR-10, P312-RSP-20.
 // Timing: combinational.
 // How:    triggered instructions have priority. However, after a triggered instruction, a pending

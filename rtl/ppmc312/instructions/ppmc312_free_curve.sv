@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_free_curve: receives a free-curve transfer: writes blocks of rates and pulse numbers into the stage
-//         table.
+// ppmc312_free_curve: receives a free-curve transfer. Writes blocks of rates and pulse numbers into the
+//         stage table.
 // Rules:  P312-CMD-FC-1..10.
 // Timing: open_i latches split_i, acc_i and dec_i. done_o follows data_i by bytes_i + 4 cycles. The results
 //         of a block are valid until the next block.

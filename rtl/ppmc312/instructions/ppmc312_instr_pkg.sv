@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_pkg: types of the signals between the blocks that process instructions: check, response,
-//         instruction queue, set-up, moves.
+// ppmc312_instr_pkg: types of the signals between the blocks that process instructions. These blocks are
+//         check, response, instruction queue, set-up and moves.
 // Rules:  docs/ppmc312/README.md, Instruction blocks, Answers and reports; P312-OVR-01/10, P312-EVT-01/04,
 //         P312-CMD-FC-1..10.
 // Note:   a strobe is high for one cycle.

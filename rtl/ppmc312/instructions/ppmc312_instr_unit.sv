@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_unit: processes instructions of the host, and stored instructions when they are triggered:
-//         checks them, executes them and sends the responses.
+// ppmc312_instr_unit: processes instructions of the host, and stored instructions when they are triggered.
+//         Checks them, executes them and sends the responses.
 // Rules:  see the instantiated blocks.
 // Timing: see ppmc312_exec.
 `default_nettype none

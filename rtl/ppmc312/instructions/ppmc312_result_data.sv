@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_result_data: selects the data that an executed instruction returns: the bytes after the code in
-//         its response.
+// ppmc312_result_data: selects the data that an executed instruction returns. These are the bytes after the
+//         code in its response.
 // Rules:  docs/ppmc312/instructions.md, P312-CMD-25/27/40..4D.
 // Timing: outputs are registered. All bytes are sampled in the same cycle, so a position of four bytes is a
 //         snapshot.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_axis: motor side of the PPMC-312: settings, motion, positions, outputs.
+// ppmc312_axis: motor side of the PPMC-312. Contains settings, motion, positions and outputs.
 // Rules:  see the instantiated blocks.
 // Timing: block_i takes effect at the edge that ends the cycle of execute_i; an immediate stop takes effect
 //         one cycle later.

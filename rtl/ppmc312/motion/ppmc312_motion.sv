@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_motion: controls an operation from its acceptance to the report of its end: start gate, pulses,
-//         both phases of a zero return, cause of the end, status of the device.
+// ppmc312_motion: controls an operation from its acceptance to the report of its end. Contains the start
+//         gate, the pulses, both phases of a zero return, the cause of the end and the status of the
+//         device.
 // Rules:  P312-MOT-01/06/30/34/35, P312-MOT-40..43, P312-STA-01..04, P312-INP-10/12/20/30/32, P312-OVR-12.
 // Timing: t0 is the edge that ends the cycle of motion_req_i.start, or of the end of the start gate. A pin
 //         or a stop acts in the cycle in which it is sampled: no pulse begins in this cycle. pout_o and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_window_monitor: one of the two position monitors (in-position, encode): reports whether the
+// ppmc312_window_monitor: one of the two position monitors (in-position, encode). Reports whether the
 //         position is inside or outside the range.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
 // Timing: pending_o follows inside_i by two cycles.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_interval: times the pulses of a motion: the beginning of the next pulse, and the width of a
-//         pulse. The rate is the number of base clocks of an interval.
+// ppmc312_interval: times the beginning and the width of each pulse of a motion. The rate is the number of
+//         base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
 // Timing: ready_o is combinational. For pulse 1, it is asserted CYC(WidthXtal) cycles after arm_i. Each
 //         later pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1. With the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_table: stores a ramp of up to 127 stages in block RAM: the rate of each stage, and its
-//         pulses for both sides.
+// ppmc312_stage_table: stores a ramp of up to 127 stages in block RAM. For each stage, it contains the
+//         rate, and the pulses for both sides.
 // Rules:  P312-TBL-01, P312-CMD-FC-10.
 // Timing: read latency 2 cycles.
 // How:    each of the two read ports has a separate copy of the RAM. The motion uses port a, and planner
