@@ -11,15 +11,15 @@
 #define REPLY_MS 200u
 #define BYTE_MS 50u
 #define ATTEMPTS 4u
-#define MARKS 199u /* the word pointer is 0 .. 199 */
+#define MARKS 199u /* the word pointer has the values 0 .. 199 */
 #define FACTORY_SPEED 1000
 #define STEP_ACK 3
 #define EEPROM_BUSY 1
 
 typedef struct {
     char code;
-    char reader;  /* instruction that reads the value; if equal to code, a write out of range reads */
-    int32_t read; /* data of the reader instruction */
+    char reader;  /* instruction that reads the value; if equal to code, a write out of range also reads */
+    int32_t read; /* data for the instruction `reader` */
     int32_t low, high;
 } setting_t;
 
@@ -30,7 +30,7 @@ static const setting_t SETTINGS[] = {
     {'d', 0, 0, 0, 1},           {'e', 'n', 0, 400, 4000},   {'f', 0, 0, 0, 3},        {'g', 0, 0, 0, 1},
     {'i', 0, 0, INT32_MIN, INT32_MAX}, {'m', 'k', 0, 0, 128}, {'o', 'h', 0, 0, 5},     {'u', 'r', 0, 0, 5},
     {'v', 'q', 0, 1, 16000},
-    /* read only */
+    /* read-only values */
     {'R', 'R', 0, 1, 0},         {'X', 'X', 0, 1, 0},        {'x', 'x', 0, 1, 0},
 };
 
@@ -80,7 +80,7 @@ static uint8_t sum_of(const uint8_t *frame)
     return (uint8_t)(sum & 0xFFu);
 }
 
-/* Send one frame and receive its reply from `from`. */
+/* Send one frame, and receive the reply of the controller with address `from`. */
 static ppmc104_result_t exchange(const pmc006_t *dev, char code, uint32_t data, uint8_t from, uint32_t *reply)
 {
     const ppmc_line_t *line = dev->line;
@@ -119,9 +119,9 @@ static ppmc104_result_t exchange(const pmc006_t *dev, char code, uint32_t data, 
     return PPMC104_OK;
 }
 
-/* Replies do not contain the code of their instruction: after a silence or a damaged reply, a late reply
- * would answer the next request. Therefore the word pointer is written until exactly its value is
- * returned. */
+/* Replies do not contain the code of their instruction. After a silence or a damaged reply, a late reply
+ * could therefore be taken for the reply to the next request. The word pointer is written with new values
+ * until exactly the written value is returned. */
 static ppmc104_result_t in_step(pmc006_t *dev)
 {
     unsigned n;
@@ -171,7 +171,7 @@ ppmc104_result_t pmc006_open(pmc006_t *dev)
     pmc006_status_t status;
 
     dev->known = dev->moving = false;
-    dev->doubtful = true; /* an earlier program may have left a reply in transit */
+    dev->doubtful = true; /* an earlier program may have caused a reply that is still in transit */
     return pmc006_status(dev, &status);
 }
 
@@ -283,7 +283,7 @@ ppmc104_result_t pmc006_status(pmc006_t *dev, pmc006_status_t *status)
     status->forward = (two & 16) != 0;
     status->autostart = (two & 32) != 0;
     if (result == PPMC104_OK && status->ext_on != dev->ext) {
-        dev->known = dev->known && dev->ext == 0u; /* on to off: a reset; off to on: by a program */
+        dev->known = dev->known && dev->ext == 0u; /* on to off: a reset; off to on: a program */
         dev->ext = status->ext_on;
     }
     return result;
@@ -311,7 +311,7 @@ static ppmc104_result_t count_of(pmc006_t *dev, uint32_t *count)
     return result;
 }
 
-/* Compare the values that a reset would have changed. */
+/* Compare the values that a reset changes with the stored values. */
 static ppmc104_result_t look_for_reset(pmc006_t *dev)
 {
     pmc006_status_t status;
@@ -350,7 +350,7 @@ ppmc104_result_t pmc006_set_position(pmc006_t *dev, int32_t position)
     ppmc104_result_t result;
 
     if (dev->moving) {
-        return PMC006_ERR_BUSY; /* the end could not be confirmed */
+        return PMC006_ERR_BUSY; /* the end of a motion could not be confirmed */
     }
     result = look_for_reset(dev);
     if (result == PPMC104_OK) {
@@ -396,8 +396,8 @@ static ppmc104_result_t prepare(pmc006_t *dev, bool forward)
     return result == PPMC104_OK ? count_of(dev, &dev->begin) : result;
 }
 
-/* A start is not repeated: a lost reply does not indicate whether the motor moves; pmc006_wait() finds
- * out. */
+/* A start is not repeated, because a lost reply does not indicate whether the motor moves. pmc006_wait()
+ * determines this. */
 static ppmc104_result_t begin(pmc006_t *dev, char code, int32_t data, bool endless, int32_t steps)
 {
     int32_t reply = 0;
@@ -537,7 +537,7 @@ ppmc104_result_t pmc006_wait(pmc006_t *dev, pmc006_end_t *end)
     return PPMC104_OK;
 }
 
-/* Make a motion and wait for its end; PMC006_ERR_NO_SWITCH unless all steps were made. */
+/* Make a motion and wait for its end. The result is PMC006_ERR_NO_SWITCH unless all steps were made. */
 static ppmc104_result_t travel(pmc006_t *dev, int32_t steps)
 {
     pmc006_end_t end = {false, false, false, false, false, 0, 0};
@@ -563,7 +563,7 @@ ppmc104_result_t pmc006_home(pmc006_t *dev, unsigned ext, bool forward, int32_t 
     result = pmc006_clear_stops(dev);
     if (result == PPMC104_OK) result = pmc006_get(dev, PMC006_PORTS, &ports);
     if (result == PPMC104_OK) result = pmc006_get(dev, PMC006_EXT_EDGE, &edge);
-    /* The stop acts on an edge: if the switch is active already, the motor moves off it first. */
+    /* The stop acts on an edge. If the switch is already active, the motor first moves away from it. */
     if (result == PPMC104_OK && ((ports >> 10 & bit) != 0) == ((edge & bit) != 0)) {
         result = travel(dev, away);
     }
@@ -599,7 +599,7 @@ ppmc104_result_t pmc006_program(pmc006_t *dev, const uint32_t *words, unsigned c
     for (n = 0; n < count && result == PPMC104_OK; ++n) {
         result = pmc006_ask(dev, 'G', 0, &reply);
         if (result == PPMC104_OK && (uint32_t)reply != words[n]) {
-            return PMC006_ERR_REFUSED; /* a program is running, or the buffer is being burnt */
+            return PMC006_ERR_REFUSED; /* a program is running, or the buffer is being saved */
         }
     }
     return result;

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* Command codes; operations are sums of one of OP_... and the flags of the header. */
+/* Command codes. The code of an operation is the sum of one of OP_... and flags from the header. */
 #define CODE_INIT_S 0x20u
 #define CODE_INIT_C 0x10u
 #define CODE_INIT_L 0x08u
@@ -21,7 +21,7 @@
 #define CODE_INPUTS 0x81u
 #define CODE_OUTPUTS 0x82u
 #define CODE_REMAINING 0x83u
-#define CODE_UNKNOWN 0x87u /* unknown to this part and related devices: rejected, without any other effect */
+#define CODE_UNKNOWN 0x87u /* unknown to all parts: rejected, without any other effect */
 #define CODE_SWITCHING 0x84u
 #define CODE_AUX_INPUTS 0x85u
 #define CODE_AUX_OUTPUTS 0x86u
@@ -30,7 +30,7 @@
 #define CODE_AUX_OFF 0xC2u
 
 #define FINISH_CAUSES 0x78u
-#define STATUS_ZERO 0x08u /* reads 0 on every part */
+#define STATUS_ZERO 0x08u /* reads as 0 on every part */
 #define RAMP_MIN 4u
 #define RAMP_MAX 11220u
 #define PULSES_MAX 0x1000000ul
@@ -122,7 +122,7 @@ ppmc104_result_t ppmc104_rate_from_pps(const ppmc104_speed_t *speed, uint32_t pp
         whole = speed->xtal_hz - extra;
         part = 4u * base_quanta(speed) * pps;
     }
-    /* The interval is rounded, so the error of the speed is at most that of half a rate step. */
+    /* Rounding the interval keeps the error of the speed at or below that of half a rate step. */
     count = (whole + part / 2u) / part;
     if (count < 1u || count > 256u) {
         return PPMC104_BAD_ARGUMENT;
@@ -145,7 +145,7 @@ uint32_t ppmc104_rate_to_mpps(const ppmc104_speed_t *speed, uint8_t rate)
         whole = speed->xtal_hz;
         part = 4u * (count * base_quanta(speed) + (speed->extra ? EXTRA_QUANTA : 0u));
     }
-    /* In two steps, so that 32 bits are sufficient. */
+    /* Two steps, so that 32 bits are sufficient. */
     return whole / part * 1000u + whole % part * 1000u / part;
 }
 
@@ -194,10 +194,10 @@ ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8
     }
 }
 
-/* Return the status after a motion whose last byte was accepted has begun. With DATASHEET timing, BUSY
- * rises 27 .. 112 us after that byte, and bytes wait for it (P104-DS-03, STMC-BUS-13). Therefore a byte
- * without effect is sent if BUSY is 0. It may stay in the buffer when BUSY rises: the old chip accepts
- * only stops during a fast motion (P104-DS-12). */
+/* Return the status when the motion whose last byte was accepted has begun. With DATASHEET timing, BUSY
+ * rises 27 .. 112 us after that byte, and the part accepts further bytes only then (P104-DS-03,
+ * STMC-BUS-13). Therefore, if BUSY is 0, a byte without effect is sent. It may stay in the buffer when
+ * BUSY rises, because the old chip accepts only stops during a fast motion (P104-DS-12). */
 static ppmc104_result_t settle(ppmc104_t *dev, uint8_t *status)
 {
     ppmc104_result_t result = ppmc104_poll(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
@@ -215,7 +215,7 @@ bool ppmc104_busy(ppmc104_t *dev)
     uint8_t status = ppmc104_status(dev);
 
     if (dev->starting && settle(dev, &status) != PPMC104_OK) {
-        return true; /* not known to be at standstill */
+        return true; /* the motor may be moving */
     }
     return (status & PPMC104_STATUS_BUSY) != 0u;
 }
@@ -231,8 +231,9 @@ ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8
     return result;
 }
 
-/* Send one byte: wait for an empty buffer, write, check the response of the part. During a motion, a
- * stop does not wait for an empty buffer: a byte that is still in the buffer is from a call that timed out. */
+/* Send one byte: wait for an empty buffer, write the byte, and check the response of the part. During a
+ * motion, a stop does not wait for an empty buffer: a byte in the buffer is then from a call that has
+ * timed out. */
 static ppmc104_result_t put(ppmc104_t *dev, unsigned reg, uint8_t value)
 {
     const bool stop = reg == PPMC104_REG_STATUS && (value == CODE_STOP || value == CODE_STOP_SLOWLY);
@@ -311,7 +312,7 @@ ppmc104_result_t ppmc104_probe(ppmc104_t *dev)
 {
     uint8_t levels = 0;
     ppmc104_result_t result = ppmc104_ask_byte(dev, CODE_INPUTS, &levels);
-    /* Bits 5 and 4 read 0 on every part. */
+    /* Bits 5 and 4 read as 0 on every part. */
     return result == PPMC104_OK && (levels & 0x30u) != 0u ? PPMC104_NO_PART : result;
 }
 
@@ -335,7 +336,7 @@ ppmc104_result_t ppmc104_init(ppmc104_t *dev, const ppmc104_config_t *config)
 
 /* ---- operations ---- */
 
-/* `skip`: number of parameters that the operation does not have, counted from the rate byte. */
+/* `skip`: number of omitted parameters, counted from the rate byte on. */
 static ppmc104_result_t operate(ppmc104_t *dev, unsigned op, uint8_t flags, uint8_t allowed, uint8_t rate,
                                 uint32_t pulses, unsigned skip, unsigned count)
 {
@@ -346,7 +347,7 @@ static ppmc104_result_t operate(ppmc104_t *dev, unsigned op, uint8_t flags, uint
         return PPMC104_BAD_ARGUMENT;
     }
     data[0] = rate;
-    --pulses; /* the part counts from 0 */
+    --pulses; /* the part expects the number of pulses minus 1 */
     data[1] = (uint8_t)(pulses & 0xFFu);
     data[2] = (uint8_t)(pulses >> 8 & 0xFFu);
     data[3] = (uint8_t)(pulses >> 16 & 0xFFu);

@@ -3,11 +3,10 @@
  * @file ppmc104.h
  * Driver for the PPMC-104 stepper controller: C99, no dependencies, no heap, no floating point, no
  * globals.
- * The driver accesses the part through two functions that the user supplies, one for a read access and
- * one for a write access. All waits are bounded. One ppmc104_t serves one part; calls for the same part
- * must not overlap (lock them, or keep them in one thread).
- * Speeds are rate bytes, as in the commands of the part; ppmc104_rate_from_pps() and
- * ppmc104_rate_to_mpps() convert them. Distances are pulses.
+ * The driver accesses the part through two functions that the user supplies: one for a read access and one
+ * for a write access. All waits are bounded. One ppmc104_t serves one part. Calls for the same part must not
+ * overlap: use a lock, or keep them in one thread. Speeds are rate bytes, as in the commands of the part;
+ * ppmc104_rate_from_pps() and ppmc104_rate_to_mpps() convert them. Distances are pulses.
  */
 #ifndef PPMC104_H
 #define PPMC104_H
@@ -19,96 +18,97 @@
 extern "C" {
 #endif
 
-/** Registers: the `reg` argument of the access functions. Memory mapped, register n is at byte address 4 n. */
+/** Registers: argument `reg` of the access functions. In a memory map, register n is at byte address 4 n. */
 #define PPMC104_REG_DATA 0u
 #define PPMC104_REG_STATUS 1u /**< read: status, write: command */
 
 /** Bits of the status register. */
-#define PPMC104_STATUS_OBF 0x01u  /**< a byte can be fetched */
+#define PPMC104_STATUS_OBF 0x01u  /**< a byte can be read */
 #define PPMC104_STATUS_IBF 0x02u  /**< wait before the next write */
 #define PPMC104_STATUS_BUSY 0x04u /**< an operation is running */
-#define PPMC104_STATUS_ERR 0x80u  /**< the last byte was rejected; bits 6..4: reason */
+#define PPMC104_STATUS_ERR 0x80u  /**< the last byte was rejected; bits 6..4: error number */
 
-/** Result of every function that accesses the part. 1 .. 8 are the part's error numbers 0 .. 7, plus one. */
+/** Result of each function that accesses the part. 1 .. 8 are the error numbers 0 .. 7 of the part, plus
+ * one. */
 typedef enum {
     PPMC104_OK = 0,
-    PPMC104_ERR_UNKNOWN = 1,        /**< number 0: unknown command, or a stop without a motion */
-    PPMC104_ERR_BUSY = 2,           /**< number 1: not allowed while an operation is running */
-    PPMC104_ERR_UNINITIALISED = 3,  /**< number 2: an operation before a valid initialisation */
-    PPMC104_ERR_DATA = 4,           /**< number 3: a data byte that was not requested, at standstill */
+    PPMC104_ERR_UNKNOWN = 1,        /**< number 0: unknown command, or stop without a motion */
+    PPMC104_ERR_BUSY = 2,           /**< number 1: not allowed during an operation */
+    PPMC104_ERR_UNINITIALISED = 3,  /**< number 2: operation before a valid initialisation */
+    PPMC104_ERR_DATA = 4,           /**< number 3: data byte that was not requested, at standstill */
     PPMC104_ERR_RAMP_LONG = 5,      /**< number 4: ramp longer than 11 220 pulses */
     PPMC104_ERR_RAMP = 6,           /**< number 5: high speed below start speed, or ramp below 4 pulses */
-    PPMC104_ERR_DATA_BUSY = 7,      /**< number 6: a data byte that was not requested, in an operation */
+    PPMC104_ERR_DATA_BUSY = 7,      /**< number 6: data byte that was not requested, during an operation */
     PPMC104_ERR_DECELERATING = 8,   /**< number 7: already decelerating */
     PPMC104_TIMEOUT = 16,           /**< the part was not ready within the limit */
-    PPMC104_NO_PART = 17,           /**< as TIMEOUT, and the bytes read cannot come from a part */
-    PPMC104_BAD_ARGUMENT = 18,      /**< out of range; nothing was sent */
+    PPMC104_NO_PART = 17,           /**< as TIMEOUT, but the bytes that were read cannot be from a part */
+    PPMC104_BAD_ARGUMENT = 18,      /**< argument out of range; nothing was sent */
     PPMC104_UNCONFIRMED = 19,       /**< the part does not confirm the end of the motion: it was reset, or the counts
                                      *   disagree; its position is unknown */
     PPMC104_POSITION_UNKNOWN = 20,  /**< no position was set since the last reset or unconfirmed end */
-    PPMC104_BAD_REPLY = 21,         /**< a reply is damaged or cannot belong to the request */
+    PPMC104_BAD_REPLY = 21,         /**< the reply is damaged, or cannot belong to the request */
     PPMC104_REPORTS_LOST = 22,      /**< more reports than the driver can store */
-    /* PPMC-2104: its error numbers 1 .. 13, plus 32. */
+    /* PPMC-2104: error numbers 1 .. 13 of the part, plus 32. */
     PPMC2104_ERR_UNKNOWN = 33,       /**< no such instruction */
-    PPMC2104_ERR_DATA = 34,          /**< a data byte that no instruction requested */
-    PPMC2104_ERR_CUT = 35,           /**< an unfinished instruction was discarded */
-    PPMC2104_ERR_UNINITIALISED = 36, /**< no initial setting */
+    PPMC2104_ERR_DATA = 34,          /**< data byte that no instruction requested */
+    PPMC2104_ERR_CUT = 35,           /**< an incomplete instruction was discarded */
+    PPMC2104_ERR_UNINITIALISED = 36, /**< there is no initial setting */
     PPMC2104_ERR_BUSY = 37,          /**< not allowed while the axis moves */
-    PPMC2104_ERR_STANDSTILL = 38,    /**< no motion to stop */
-    PPMC2104_ERR_START = 39,         /**< limit, alarm or origin active: no motion */
-    PPMC2104_ERR_NO_RAMP = 40,       /**< no deceleration possible: the motion continues */
-    PPMC2104_ERR_RAMP = 41,          /**< rates or ramp too short */
+    PPMC2104_ERR_STANDSTILL = 38,    /**< there is no motion to stop */
+    PPMC2104_ERR_START = 39,         /**< a limit, the alarm or the origin is active: no motion */
+    PPMC2104_ERR_NO_RAMP = 40,       /**< deceleration is not possible: the motion continues */
+    PPMC2104_ERR_RAMP = 41,          /**< rates too close together, or ramp too short */
     PPMC2104_ERR_RAMP_LONG = 42,     /**< ramp longer than 11 220 pulses */
     PPMC2104_ERR_SWITCHING = 43,     /**< chopper time below 64 */
-    PPMC2104_ERR_FAST = 44,          /**< faster than one axis may run (DATASHEET) */
-    PPMC2104_ERR_FAST_BOTH = 45,     /**< faster than both axes may run (DATASHEET) */
-    /* PPMC-312: rejections; ppmc312_t::detail contains the part's numbers. */
+    PPMC2104_ERR_FAST = 44,          /**< too fast for one axis (DATASHEET) */
+    PPMC2104_ERR_FAST_BOTH = 45,     /**< too fast while both axes run (DATASHEET) */
+    /* PPMC-312: rejections. ppmc312_t::detail contains the numbers of the part. */
     PPMC312_ERR_PARAMETER = 64, /**< F0: a value is out of range */
     PPMC312_ERR_STATE = 65,     /**< F1: not allowed in this state */
     PPMC312_ERR_LIMIT = 66,     /**< F2: the limit in the direction of the motion is active */
-    PPMC312_ERR_ALARM = 67,     /**< F4: alarm; the part needs ppmc312_driver(dev, PPMC312_ALARM_CLEAR) */
+    PPMC312_ERR_ALARM = 67,     /**< F4: alarm; call ppmc312_driver(dev, PPMC312_ALARM_CLEAR) */
     PPMC312_ERR_UNKNOWN = 68,   /**< F5: no such instruction */
     PPMC312_ERR_SIZE = 69,      /**< F6: wrong size */
     PPMC312_ERR_FULL = 70,      /**< F7: buffer full, or the other buffer uses the event pin */
     PPMC312_ERR_BUS_ONLY = 71,  /**< the serial line does not have this instruction; nothing was sent */
-    /* PMC006B4 */
-    PMC006_ERR_REFUSED = 96,  /**< the controller kept its old value, or did not start */
+    /* PMC006B4. */
+    PMC006_ERR_REFUSED = 96,  /**< the controller kept its old value, or did not start the motion */
     PMC006_ERR_BUSY = 97,     /**< not allowed while a motion is running */
     PMC006_ERR_EEPROM = 98,   /**< the EEPROM is busy, or the save has failed */
-    PMC006_ERR_NO_SWITCH = 99 /**< the motion ended without the switch */
+    PMC006_ERR_NO_SWITCH = 99 /**< the motion ended before the switch was active */
 } ppmc104_result_t;
 
-/** Last operation: written by the driver only. */
+/** Last operation. Only the driver writes it. */
 typedef struct {
-    uint8_t operation; /**< 2 .. 7 as in ppmc104_finish_t, 0: the driver has not started one */
+    uint8_t operation; /**< 2 .. 7 as in ppmc104_finish_t; 0: the driver has started no operation */
     uint8_t flags;     /**< flags of this operation */
-    uint8_t ended;     /**< finish status of this operation, if it was read */
+    uint8_t ended;     /**< finish status of this operation, once it was read */
     bool counted;      /**< the end is confirmed and included in the position */
-    uint32_t pulses;   /**< requested; operations without a count: 16 777 216 */
+    uint32_t pulses;   /**< requested pulses; 16 777 216 for operations without a count */
 } ppmc104_order_t;
 
-/** Polls of the status register in a wait, unless ppmc104_t::limit is changed after ppmc104_setup(). */
+/** Default of ppmc104_t::limit: polls of the status register in a wait. ppmc104_setup() sets it. */
 #define PPMC104_DEFAULT_LIMIT 1000000ul
 
-/** One part. Fill it with ppmc104_setup(); `limit` and `give_up` may be changed at any time after it. */
+/** One part. Fill it with ppmc104_setup(). Then `limit` and `give_up` may be changed at any time. */
 typedef struct {
-    uint8_t (*read)(void *ctx, unsigned reg);                 /**< one read access of register 0 or 1 */
-    void (*write)(void *ctx, unsigned reg, uint8_t value);    /**< one write access */
-    void *ctx;                                                /**< passed to the functions */
-    /** Polls before a wait ends with a time-out, at least 1. Choose a large value: after an initialisation
-     * the part may not respond for 40 000 cycles (FAST) or 163 ms (DATASHEET). Not used if `give_up` is
-     * set. */
+    uint8_t (*read)(void *ctx, unsigned reg);                 /**< make one read access of register 0 or 1 */
+    void (*write)(void *ctx, unsigned reg, uint8_t value);    /**< make one write access of register 0 or 1 */
+    void *ctx;                                                /**< argument of the two functions */
+    /** Polls until a wait times out, at least 1. Choose a large value: after an initialisation, the part
+     * may not respond for 40 000 cycles (FAST) or 163 ms (DATASHEET). Ignored if `give_up` is set. */
     unsigned long limit;
-    /** If not null: called after each unsuccessful poll with the number of polls so far in this wait (from
-     * 1); true ends the wait with a time-out. It may read a clock, feed a watchdog or sleep. */
+    /** If not null, this function is called after each unsuccessful poll, with the number of polls in this
+     * wait (from 1). If it returns true, the wait times out. It may read a clock, trigger a watchdog, or
+     * sleep. */
     bool (*give_up)(void *ctx, unsigned long polls);
-    bool starting; /**< of the driver: an operation was accepted, BUSY = 1 not read yet */
-    uint8_t status_reg; /**< of the driver: number of the status register */
-    uint8_t zero;  /**< of the driver: bits of the status register that read 0 on every part */
-    ppmc104_order_t order; /**< of the driver: operation that ppmc104_wait() expects */
+    bool starting; /**< private: an operation was accepted, but BUSY = 1 was not read yet */
+    uint8_t status_reg; /**< private: number of the status register */
+    uint8_t zero;  /**< private: bits of the status register that read as 0 on every part */
+    ppmc104_order_t order; /**< private: operation that ppmc104_wait() expects */
 } ppmc104_t;
 
-/** Base clock of the speeds. */
+/** Base clock of a speed. */
 typedef enum {
     PPMC104_BASE_500K, /**< internal, pin CSEL high: crystal / 32 */
     PPMC104_BASE_125K, /**< internal, pin CSEL low: crystal / 128 */
@@ -119,41 +119,41 @@ typedef enum {
 typedef struct {
     uint32_t xtal_hz;    /**< parameter XTAL_HZ, 1 000 000 .. 16 000 000 */
     ppmc104_base_t base; /**< base clock */
-    uint32_t pin_hz;     /**< with PPMC104_BASE_PIN: frequency in Hz, 1 .. xtal_hz / 16; else not used */
+    uint32_t pin_hz;     /**< with PPMC104_BASE_PIN: frequency in Hz, 1 .. xtal_hz / 16; otherwise ignored */
     bool extra;          /**< pin VSEL low: 7.5 us more per interval; not with PPMC104_BASE_PIN */
 } ppmc104_speed_t;
 
-/** Initialisation. motor, half_step and active_high take effect only after reset or
+/** Initialisation. motor, half_step and active_high take effect only after a reset or
  * ppmc104_excitation_off(). */
 typedef struct {
-    uint8_t motor;       /**< phases: 3, 4 or 5 */
+    uint8_t motor;       /**< number of phases: 3, 4 or 5 */
     bool half_step;      /**< half steps instead of full steps */
-    bool active_high;    /**< a high level switches a coil on */
-    bool chop;           /**< phases chopped at standstill */
+    bool active_high;    /**< a high level energises a coil */
+    bool chop;           /**< chop the phases at standstill */
     bool external_clock; /**< base clock from pin CLOCK */
-    uint8_t rate_start;  /**< RL, rate of the first and last pulses, high_rate .. 255 */
+    uint8_t rate_start;  /**< RL, rate of the first and last pulses, rate_high .. 255 */
     uint8_t rate_high;   /**< RH, rate on the plateau, 0 .. rate_start */
-    uint16_t ramp;       /**< PA, pulses from start to high speed, 4 .. 11 220 */
+    uint16_t ramp;       /**< PA, pulses from start speed to high speed, 4 .. 11 220 */
 } ppmc104_config_t;
 
 /** Flags of the operations. */
 #define PPMC104_CW 0x00u
-#define PPMC104_CCW 0x08u        /**< direction CCW; else CW */
+#define PPMC104_CCW 0x08u        /**< direction CCW, otherwise CW */
 #define PPMC104_NO_INT 0x10u     /**< no interrupt at the end */
-#define PPMC104_POUT_ONLY 0x80u  /**< phases do not change; ppmc104_move() and ppmc104_run() only */
+#define PPMC104_POUT_ONLY 0x80u  /**< the phases do not change; only ppmc104_move() and ppmc104_run() */
 
 /**
  * Decoded finish status. If `ended` is true and all causes are false, the operation is complete, or the
- * origin was found. A part that was reset reports `operation` 0: the end of the motion is unknown then.
+ * origin was found. After a reset, the part returns `operation` = 0; then the end of the motion is unknown.
  */
 typedef struct {
-    bool ended;        /**< an operation has ended since the last read of this status */
+    bool ended;        /**< an operation has ended since this status was last read */
     bool stopped;      /**< cause: stop command */
     bool alarm;        /**< cause: alarm input */
     bool limit;        /**< cause: L1 or L2 */
     bool slow_limit;   /**< cause: L3 or L4 */
     uint8_t operation; /**< 2 step, 3 move, 4 constant, 5 jog, 6 run, 7 home */
-    uint8_t raw;       /**< undecoded byte */
+    uint8_t raw;       /**< finish status, not decoded */
 } ppmc104_finish_t;
 
 /** Pins of ppmc104_inputs(), 0 = active. */
@@ -164,20 +164,20 @@ typedef struct {
 #define PPMC104_IN_L3 0x02u
 #define PPMC104_IN_L4 0x01u
 
-/** Return the text for a result, e.g. for a log; never null. */
+/** Return the text of a result, e.g. for a log; never null. */
 const char *ppmc104_strerror(ppmc104_result_t result);
 
 /**
  * Return the nearest rate byte for a speed.
  * @param pps  pulses per second, 1 .. 500 000
- * @param rate the byte, if the result is PPMC104_OK
- * @return PPMC104_BAD_ARGUMENT if `speed` is not legal, or if no rate byte is possible for this speed
+ * @param rate rate byte; valid if the result is PPMC104_OK
+ * @return PPMC104_BAD_ARGUMENT if `speed` is invalid, or if no rate byte is possible for this speed
  */
 ppmc104_result_t ppmc104_rate_from_pps(const ppmc104_speed_t *speed, uint32_t pps, uint8_t *rate);
 
 /**
  * Return the speed of a rate byte in thousandths of a pulse per second, rounded down.
- * @return 0 if `speed` is not legal
+ * @return 0 if `speed` is invalid
  */
 uint32_t ppmc104_rate_to_mpps(const ppmc104_speed_t *speed, uint8_t rate);
 
@@ -185,49 +185,50 @@ uint32_t ppmc104_rate_to_mpps(const ppmc104_speed_t *speed, uint8_t rate);
 void ppmc104_setup(ppmc104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
                    void (*write)(void *ctx, unsigned reg, uint8_t value), void *ctx);
 
-/** Check that a part responds. Only reads the input signals. Not during an operation. */
+/** Check that a part responds. The function only reads the input signals. Not during an operation. */
 ppmc104_result_t ppmc104_probe(ppmc104_t *dev);
 
-/** Initialise. Never moves the motor. Values out of range: PPMC104_BAD_ARGUMENT. */
+/** Initialise. Never moves the motor. If a value is out of range, the result is PPMC104_BAD_ARGUMENT. */
 ppmc104_result_t ppmc104_init(ppmc104_t *dev, const ppmc104_config_t *config);
 
 /** @name Operations
- * The functions return when the part has accepted the operation. `flags` is a sum of the flags above,
+ * The functions return when the part has accepted the operation. `flags` is the sum of the flags above.
  * `pulses` is 1 .. 16 777 216. @{ */
 ppmc104_result_t ppmc104_step(ppmc104_t *dev, uint8_t flags);
 /** Move with acceleration and deceleration, at the rates of the initialisation. */
 ppmc104_result_t ppmc104_move(ppmc104_t *dev, uint8_t flags, uint32_t pulses);
 ppmc104_result_t ppmc104_move_constant(ppmc104_t *dev, uint8_t flags, uint8_t rate, uint32_t pulses);
-/** Move at constant speed until a stop or the hard limit. */
+/** Move at constant speed until a stop or the limit switch. */
 ppmc104_result_t ppmc104_jog(ppmc104_t *dev, uint8_t flags, uint8_t rate);
 /** Accelerate, then run until a stop or the slow-down limit. */
 ppmc104_result_t ppmc104_run(ppmc104_t *dev, uint8_t flags);
-/** Move at constant speed until the origin input is active; no pulse if it is active already. */
+/** Move at constant speed until the origin input is active. If it is already active, output no pulse. */
 ppmc104_result_t ppmc104_home(ppmc104_t *dev, uint8_t flags, uint8_t rate);
 /** @} */
 
-/** Stop without a further pulse. PPMC104_ERR_UNKNOWN without a motion. In a motion, a stop replaces a
- * waiting byte. */
+/** Stop without a further pulse. Without a motion, the result is PPMC104_ERR_UNKNOWN. During a motion, a
+ * stop replaces a byte that waits in the buffer. */
 ppmc104_result_t ppmc104_stop(ppmc104_t *dev);
-/** Decelerate, then end. PPMC104_ERR_DECELERATING if already decelerating, PPMC104_ERR_UNKNOWN without a
- * motion. */
+/** Decelerate, then end. The result is PPMC104_ERR_DECELERATING if the motor is already decelerating, and
+ * PPMC104_ERR_UNKNOWN without a motion. */
 ppmc104_result_t ppmc104_stop_slowly(ppmc104_t *dev);
 
-/** Return the status register; needs no handshake. */
+/** Return the status register. This needs no handshake. */
 uint8_t ppmc104_status(ppmc104_t *dev);
 /**
- * Return true while an operation is running, beginning with the return of the function that started it.
- * With DATASHEET timing, BUSY rises up to 112 us later (rule P104-DS-03). Therefore the first call after a
- * start may wait for BUSY with an unknown command, which leaves error 0 in the status register. The result
- * is also true if this wait ends with a time-out.
+ * Return true while an operation is running. This begins when the function that started it returns. With
+ * DATASHEET timing, BUSY rises up to 112 us later (rule P104-DS-03). Therefore the first call after a start
+ * may wait for BUSY by sending an unknown command, which leaves error 0 in the status register. If this wait
+ * times out, the result is also true.
  */
 bool ppmc104_busy(ppmc104_t *dev);
 /**
- * Wait for the end of the operation, then read the finish status (which clears the interrupt). Compare it
- * and the remaining pulses with the operation that was started. An interrupt routine may have read the
- * finish status before. The limit of the waits (`limit`, `give_up`) must be long enough for the motion.
+ * Wait for the end of the operation, and read the finish status, which clears the interrupt. Compare the
+ * finish status and the remaining pulses with the operation that was started. An interrupt routine may have
+ * read the finish status before.
+ * The limit of the waits (`limit`, `give_up`) must be long enough for the motion.
  * @param finish may be null; valid if the result is PPMC104_OK or PPMC104_UNCONFIRMED
- * @return PPMC104_UNCONFIRMED: the part was reset during the motion, runs a motion of another program, or
+ * @return PPMC104_UNCONFIRMED: the part was reset during the motion, executes a motion of another program, or
  * its count disagrees
  */
 ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish);
@@ -235,49 +236,49 @@ ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish);
 /** @name Reads
  * Not allowed during an operation (PPMC104_ERR_BUSY). @{ */
 /**
- * Read the finish status, which clears the interrupt. An interrupt-driven program must call it before the
- * next operation: during the next operation the part rejects the read, the interrupt stays pending, and
- * the end causes no new edge. Therefore a routine for a late interrupt treats PPMC104_ERR_BUSY as "not
- * now" and returns.
+ * Read the finish status, which clears the interrupt. An interrupt-driven program must call this function
+ * before the next operation. During the next operation, the part rejects the read, the interrupt remains
+ * pending, and the end of the operation causes no new edge. Therefore, if an interrupt routine is late and
+ * receives PPMC104_ERR_BUSY, it must only return.
  */
 ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish);
-ppmc104_result_t ppmc104_inputs(ppmc104_t *dev, uint8_t *levels);          /**< PPMC104_IN_..., 0 = active */
+ppmc104_result_t ppmc104_inputs(ppmc104_t *dev, uint8_t *levels);          /**< PPMC104_IN_..., 0: active */
 ppmc104_result_t ppmc104_outputs(ppmc104_t *dev, uint8_t *levels);         /**< S1..S5, hold, dir: bits 7..3, 2, 1 */
 ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< AUXI3..0 in bits 3..0 */
 /**
- * Return the pulses that the last operation did not make, 0 .. 16 777 216. The function does not read the
- * finish status, and the driver does not store it. Therefore the caller passes the finish status of this
- * operation: the number of the part alone does not distinguish 0 pulses from 1.
+ * Return the number of pulses that the last operation did not make, 0 .. 16 777 216. The caller passes the
+ * finish status of this operation, because the number in the part does not distinguish 0 pulses from 1. This
+ * function does not read the finish status, and the driver does not store it.
  * @return PPMC104_UNCONFIRMED if this is the finish status of a part that was reset
  */
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses);
-/** Convert the part's number of remaining pulses to pulses, for a motion with this finish status. */
+/** Convert the number of remaining pulses in the part to pulses, for a motion with this finish status. */
 uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number);
 /** @} */
 
-/** Set the chopper times at standstill, 0 .. 255: about 3 us each plus 27 us (on) and 33 us (off). Not
- * during an operation. */
+/** Set the chopper times at standstill, 0 .. 255: about 3 us per unit, plus 27 us (on) and 33 us (off).
+ * Not during an operation. */
 ppmc104_result_t ppmc104_switching(ppmc104_t *dev, uint8_t on, uint8_t off);
-/** Set the auxiliary outputs: a 1 in bits 3..0 drives AUXO3..0 low. Always allowed. */
+/** Set the auxiliary outputs: 1 in bits 3..0 drives AUXO3..0 low. Always allowed. */
 ppmc104_result_t ppmc104_aux_outputs(ppmc104_t *dev, uint8_t bits);
 /** Set the pin AUX: true drives the pin low. Always allowed. */
 ppmc104_result_t ppmc104_aux(ppmc104_t *dev, bool on);
 /**
- * Switch all coils off; the initialisation becomes void. PPMC104_ERR_BUSY during an operation, because the
- * part would execute the code as AUX ON. At standstill the code is sent after a command that the part does
- * not know. The part accepts that command only when a motion that was just sent has begun (see
- * ppmc104_busy()).
+ * Switch all coils off. Then the initialisation is no longer valid. During an operation, the result is
+ * PPMC104_ERR_BUSY, because the part would execute the code as AUX ON. At standstill, this function first
+ * sends a command that the part does not know. If a motion has just been started, the part accepts this
+ * command only when the motion has begun (see ppmc104_busy()).
  */
 ppmc104_result_t ppmc104_excitation_off(ppmc104_t *dev);
 
 /** @name Bytes
  * For commands that have no function here. @{ */
-/** Send a command and its parameters; after each byte, check whether the part has accepted it. count 0 ..
- * 4. */
+/** Send a command and its parameters. After each byte, check that the part has accepted it. `count` is 0
+ * .. 4. */
 ppmc104_result_t ppmc104_command(ppmc104_t *dev, uint8_t code, const uint8_t *data, unsigned count);
 /** Send one data byte. */
 ppmc104_result_t ppmc104_data(ppmc104_t *dev, uint8_t value);
-/** Read `count` bytes of an answer, low byte first. count 1 .. 4. */
+/** Read `count` bytes of an answer, low byte first. `count` is 1 .. 4. */
 ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value);
 /** Send a read command and read its answer of `count` bytes. */
 ppmc104_result_t ppmc104_ask(ppmc104_t *dev, uint8_t code, unsigned count, uint32_t *value);
@@ -286,8 +287,8 @@ ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte);
 /** @} */
 
 /** @name Core
- * Shared by the drivers of the other parts; programs do not need it. @{ */
-/** Poll until status & mask == value, or a bit of `or_set` is 1; `status` receives the last byte read. */
+ * The drivers of the other parts use these functions. Programs do not need them. @{ */
+/** Poll until (status & mask) == value, or a bit of `or_set` is 1. `status` receives the last status. */
 ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status);
 /** Return whether a wait has exceeded its limit after this number of unsuccessful polls. */
 bool ppmc104_over(ppmc104_t *dev, unsigned long polls);
@@ -295,13 +296,13 @@ bool ppmc104_over(ppmc104_t *dev, unsigned long polls);
 ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8_t or_set);
 /** Decode a finish status, and store the end of the operation in `order`. */
 void ppmc104_decode_finish(uint8_t raw, ppmc104_order_t *order, ppmc104_finish_t *finish);
-/** Replace a finish status that was read before by the stored finish status. */
+/** If the finish status was read before, replace it by the stored finish status. */
 void ppmc104_recall(ppmc104_order_t *order, ppmc104_finish_t *finish);
-/** Compare the finish status and the part's number of remaining pulses with the order. */
+/** Compare the finish status and the number of remaining pulses in the part with the order. */
 ppmc104_result_t ppmc104_confirm(const ppmc104_order_t *order, const ppmc104_finish_t *finish, uint32_t number);
-/** As ppmc104_wait(), but with `remaining` as the code that reads the remaining pulses. */
+/** As ppmc104_wait(), with `remaining` as the code that reads the remaining pulses. */
 ppmc104_result_t ppmc104_wait_by(ppmc104_t *dev, ppmc104_finish_t *finish, uint8_t remaining);
-/** Return the signed value of 32 bits in two's complement. */
+/** Convert 32 bits in two's complement to a signed value. */
 int32_t ppmc104_signed(uint32_t value);
 /** @} */
 

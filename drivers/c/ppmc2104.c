@@ -16,7 +16,7 @@
 #define CODE_AUX_OUTPUTS 0xC1u
 #define CODE_AUX_INPUTS 0xC2u
 #define BOTH_AXES 3u
-#define STATUS_ZERO 0x40u /* reads 0 on every part */
+#define STATUS_ZERO 0x40u /* reads as 0 on every part */
 #define SWITCHING_MIN 0x40u
 #define RAMP_MIN 4u
 #define RAMP_MAX 11220u
@@ -68,8 +68,8 @@ bool ppmc2104_busy(ppmc2104_t *dev, unsigned axis)
     return is_axis(axis) && (ppmc2104_status(dev) & busy_bit(axis)) != 0u;
 }
 
-/* Discard bytes that another program left unread: with DATASHEET timing they stay until the next answer is
- * ready. */
+/* Discard bytes that another program has not read. With DATASHEET timing, they stay until the next answer
+ * is ready. */
 static ppmc104_result_t drain(ppmc2104_t *dev)
 {
     unsigned n;
@@ -95,8 +95,8 @@ static ppmc104_result_t fetch_byte(ppmc2104_t *dev, uint8_t code, uint8_t *byte)
     return result;
 }
 
-/* Read and clear both error registers. The result is the first error that is not 0, with that of `axis`
- * first. */
+/* Read and clear both error registers. The result is the error of `axis`, or if this is 0, that of the
+ * other axis. */
 static ppmc104_result_t read_errors(ppmc2104_t *dev, unsigned axis)
 {
     uint8_t number[2] = {0u, 0u}, first;
@@ -115,7 +115,8 @@ static ppmc104_result_t read_errors(ppmc2104_t *dev, unsigned axis)
     return first == 0u ? PPMC104_OK : (ppmc104_result_t)(PPMC2104_ERR_UNKNOWN - 1 + (int)first);
 }
 
-/* A stop does not wait for an empty buffer during a motion: it may replace a byte whose own call timed out. */
+/* During a motion, a stop does not wait for an empty buffer: it may replace a byte whose call has timed
+ * out. */
 ppmc104_result_t ppmc2104_command(ppmc2104_t *dev, uint8_t code, const uint8_t *data, unsigned count)
 {
     const unsigned axis = (code & 0x20u) != 0u ? 2u : 1u;
@@ -126,7 +127,7 @@ ppmc104_result_t ppmc2104_command(ppmc2104_t *dev, uint8_t code, const uint8_t *
     if (count > 4u) {
         return PPMC104_BAD_ARGUMENT;
     }
-    /* Each byte is checked: the data of a rejected code would overwrite its error number. */
+    /* Each byte is checked, because the data of a rejected code would overwrite its error number. */
     for (n = 0; n <= count; ++n) {
         ppmc104_result_t result = n == 0u
                                       ? ppmc104_send(&dev->bus, PPMC104_REG_STATUS, code, stop ? busy_bit(axis) : 0u)
@@ -176,8 +177,8 @@ ppmc104_result_t ppmc2104_open(ppmc2104_t *dev)
     ppmc104_result_t result;
 
     dev->known[0] = dev->known[1] = false;
-    /* Error code reads are the only codes without a side effect on motions. The first read may end an
-     * unfinished instruction (error 3); then this read returns no byte. */
+    /* Only error code reads have no side effect on motions. The first read may end an incomplete
+     * instruction (error 3); then it returns no byte. */
     result = ppmc2104_command(dev, CODE_ERROR, NULL, 0u);
     if (result == PPMC104_TIMEOUT || result == PPMC104_NO_PART) {
         return result;
@@ -242,7 +243,7 @@ static ppmc104_result_t send_motion(ppmc2104_t *dev, unsigned axis, const ppmc21
     const bool counted = motion->op == PPMC2104_MOVE || motion->op == PPMC2104_CONSTANT;
     uint8_t data[4];
     unsigned count = 0u;
-    uint32_t left = motion->pulses - 1u; /* the part counts from 0 */
+    uint32_t left = motion->pulses - 1u; /* the part expects the number of pulses minus 1 */
     ppmc104_result_t result;
 
     if (motion->op == PPMC2104_CONSTANT || motion->op == PPMC2104_JOG || motion->op == PPMC2104_HOME) {
@@ -253,10 +254,10 @@ static ppmc104_result_t send_motion(ppmc2104_t *dev, unsigned axis, const ppmc21
         data[count++] = (uint8_t)(left >> 8 & 0xFFu);
         data[count++] = (uint8_t)(left >> 16 & 0xFFu);
     }
-    /* The pulses-only bit is bit 7 of the code in both parts. */
+    /* Bit 7 of the code selects "pulses only" in both parts. */
     result = ppmc2104_command(dev, for_axis(0x40u | motion->flags | (unsigned)motion->op, axis), data, count);
     if (result == PPMC104_OK || result == PPMC104_TIMEOUT) {
-        /* Without the confirmed end of the last motion the position is unknown. */
+        /* If the end of the last motion was not confirmed, the position is unknown. */
         dev->known[axis - 1u] = dev->known[axis - 1u] && (order->operation == 0u || order->counted);
         order->operation = (uint8_t)motion->op;
         order->flags = motion->flags;
@@ -319,7 +320,7 @@ ppmc104_result_t ppmc2104_start_both(ppmc2104_t *dev, const ppmc2104_motion_t *f
     if (result == PPMC104_OK) {
         result = send_motion(dev, 2u, second);
     }
-    /* With DATASHEET timing RUN is not sampled before the processing windows have closed (P2104-DS-14). */
+    /* With DATASHEET timing, RUN is not sampled until the processing windows have closed (P2104-DS-14). */
     if (result == PPMC104_OK) {
         result = ppmc104_poll(&dev->bus, PPMC2104_STATUS_CMND | PPMC2104_STATUS_CMND << 1, 0u, 0u, &status);
     }
@@ -328,7 +329,7 @@ ppmc104_result_t ppmc2104_start_both(ppmc2104_t *dev, const ppmc2104_motion_t *f
             const ppmc104_result_t stopped = ppmc2104_stop(dev, axis);
             const ppmc104_result_t ended = stopped == PPMC104_OK ? ppmc2104_wait(dev, axis, NULL) : stopped;
             if (ended != PPMC104_OK) {
-                return ended; /* RUN stays low: this axis would move */
+                return ended; /* RUN stays low, because this axis would move */
             }
         }
     }
@@ -344,7 +345,7 @@ static ppmc104_result_t stop_by(ppmc2104_t *dev, unsigned axis, unsigned code)
         return PPMC104_BAD_ARGUMENT;
     }
     result = ppmc2104_command(dev, for_axis(code, axis), NULL, 0u);
-    /* The stop takes effect although it ended an unfinished instruction (P2104-STP-07). */
+    /* The stop takes effect even if it ended an incomplete instruction (P2104-STP-07). */
     return result == PPMC2104_ERR_CUT ? PPMC104_OK : result;
 }
 
@@ -418,7 +419,7 @@ ppmc104_result_t ppmc2104_wait(ppmc2104_t *dev, unsigned axis, ppmc104_finish_t 
         dev->known[axis - 1u] = false;
         order->operation = 0u;
     } else if (!order->counted) {
-        /* An origin search has no cause bit, but may leave pulses. */
+        /* An origin search sets no cause bit, but may leave pulses. */
         made = order->pulses - (finish->operation == PPMC2104_HOME ? number + 1u : ppmc104_left(finish, number));
         made = (order->flags & PPMC104_CCW) != 0u ? ~made + 1u : made;
         dev->position[axis - 1u] = ppmc104_signed((uint32_t)dev->position[axis - 1u] + made);

@@ -22,7 +22,7 @@
 #define OPENING 0x02u
 #define HOST 0x03u
 
-/* Control codes of the line: kind in bits 7..4. */
+/* Control codes of the line; bits 7..4 are the kind. */
 #define LINE_POLL 0x80u
 #define LINE_INSTRUCTION 0x90u
 #define LINE_BUSY 0x80u
@@ -64,14 +64,14 @@
 #define EVENT_BYTES 9u
 #define EVENT_BYTES_LINE 7u
 #define COLLECT_MAX 256u
-#define GAP_READS 4u /* after a block, the next block appears at least 8 cycles later */
-#define LOOK_POLLS 256u /* polls of CSR between two status reads in a wait */
+#define GAP_READS 4u /* the next block appears at least 8 cycles after the end of a block */
+#define LOOK_POLLS 256u /* polls of CSR between two reads of the status in a wait */
 
-/* Causes of END codes 31 .. 39 on the line. */
+/* Causes of the END codes 31 .. 39 of the line. */
 static const uint8_t CAUSES[9] = {0x80u, 0x20u, 0x01u, 0x02u, 0u, 0x08u, 0x04u, 0x40u, 0x10u};
 
 typedef struct {
-    uint8_t header, code, count; /* count: data bytes after the code */
+    uint8_t header, code, count; /* count: number of data bytes after the code */
     uint8_t data[BLOCK_MAX];
 } block_t;
 
@@ -149,7 +149,7 @@ static void keep(ppmc312_t *dev, uint8_t source, uint8_t code, const uint8_t *da
         dev->ended = true;
         dev->cause = data[0];
         dev->stopped_at = count >= 5u ? get32(data + 1) : 0u;
-        return; /* for ppmc312_wait() */
+        return; /* ppmc312_wait() returns it */
     }
     if (dev->stored == PPMC312_REPORTS_MAX) {
         dev->lost = true;
@@ -168,7 +168,7 @@ static void keep(ppmc312_t *dev, uint8_t source, uint8_t code, const uint8_t *da
 
 /* ---- blocks on the bus ---- */
 
-/* Read the waiting block. A pointer, length or header that is not legal means damage on the bus. */
+/* Read the pending block. An invalid pointer, length or header indicates damage on the bus. */
 static ppmc104_result_t read_block(ppmc312_t *dev, block_t *block)
 {
     uint8_t raw[BLOCK_MAX];
@@ -196,7 +196,7 @@ static ppmc104_result_t read_block(ppmc312_t *dev, block_t *block)
     return PPMC104_OK;
 }
 
-/* Store a block that is not an answer to the host. A damaged block is an error. */
+/* Store a block that is not an answer to the host. If the block is damaged, return an error. */
 static ppmc104_result_t sort(ppmc312_t *dev, const block_t *block)
 {
     const bool stopped = block->code == PPMC312_REPORT_STOPPED;
@@ -212,7 +212,7 @@ static ppmc104_result_t sort(ppmc312_t *dev, const block_t *block)
     return PPMC104_BAD_REPLY;
 }
 
-/* Fetch all waiting blocks; discard an answer whose call has ended. */
+/* Read all pending blocks. Discard an answer whose call has ended. */
 static ppmc104_result_t collect_bus(ppmc312_t *dev)
 {
     block_t block;
@@ -285,8 +285,8 @@ static uint8_t digit(unsigned value)
     return (uint8_t)(value < 10u ? '0' + value : 'a' + value - 10u);
 }
 
-/* Return the value of a hexadecimal digit, 16 for any other character: capital letters are an error on
- * this line. */
+/* Return the value of a hexadecimal digit, or 16 for any other character. On this line, capital letters
+ * are an error. */
 static unsigned digit_value(uint8_t character)
 {
     if (character >= '0' && character <= '9') {
@@ -369,7 +369,7 @@ static ppmc104_result_t parse_frame(const ppmc312_t *dev, unsigned gives, uint8_
     return PPMC104_BAD_REPLY;
 }
 
-/* After a damaged reply the station may still be sending. */
+/* After a damaged reply, the station may still be sending. */
 static ppmc104_result_t receive_frame(const ppmc312_t *dev, unsigned gives, uint8_t *kind, uint8_t *data)
 {
     ppmc104_result_t result = parse_frame(dev, gives, kind, data);
@@ -380,10 +380,11 @@ static ppmc104_result_t receive_frame(const ppmc312_t *dev, unsigned gives, uint
     return result;
 }
 
-/* Write code and data for the line for an instruction of the bus; return 0 if the line does not have it. */
+/* Convert code and data of an instruction of the bus for the line. Return 0 if the line does not have the
+ * instruction. */
 static unsigned to_line(const uint8_t *body, unsigned count, uint8_t *out)
 {
-    static const uint8_t motions[5] = {0x83u, 0x84u, 0x82u, 0x86u, 0x85u}; /* of 82 .. 86 */
+    static const uint8_t motions[5] = {0x83u, 0x84u, 0x82u, 0x86u, 0x85u}; /* instructions 82 .. 86 */
     const uint8_t code = body[0];
     const unsigned flags = count > 1u ? body[1] : 0u;
     unsigned skip = 2u, n;
@@ -437,9 +438,9 @@ static unsigned line_gives(uint8_t code)
     }
 }
 
-/* Send an instruction in the codes of the line. It is repeated after a rejected checksum, because nothing
- * was executed then, and if it only reads. Positions and states are read twice, because the checksum does
- * not cover bit 7 of a byte. */
+/* Send an instruction on the line. After a rejected checksum it is repeated, because it was not executed.
+ * After other errors it is repeated if it only reads. Positions and states are read twice, because the
+ * checksum does not cover bit 7 of a byte. */
 static ppmc104_result_t talk(ppmc312_t *dev, const uint8_t *body, unsigned count, uint8_t *data, uint8_t *error)
 {
     const unsigned gives = line_gives(body[0]);
@@ -472,8 +473,8 @@ static ppmc104_result_t talk(ppmc312_t *dev, const uint8_t *body, unsigned count
             return result;
         }
         if (result == PPMC104_OK) {
-            /* During a motion no two positions are equal; in the last attempt only the upper bytes are
-             * compared. */
+            /* During a motion, two positions are never equal. Therefore the last attempt compares only the
+             * upper bytes. */
             const unsigned compared = body[0] != CODE_STATUS && attempt + 1u == ATTEMPTS ? gives - 2u : gives;
             bool same = have;
             for (n = 0; n < gives; ++n) {
@@ -554,7 +555,7 @@ static ppmc104_result_t exchange_line(ppmc312_t *dev, const uint8_t *body, unsig
         answer->data[n] = 0u;
     }
     if (body[0] == CODE_POSITION) {
-        first = 1u; /* the bus sends the number of the counter first */
+        first = 1u; /* the answer on the bus begins with the number of the counter */
         answer->data[0] = body[1];
     }
     if (body[0] == CODE_RESET) {
@@ -586,7 +587,7 @@ static ppmc104_result_t collect(ppmc312_t *dev)
     return news && result == PPMC104_OK ? PPMC104_BAD_REPLY : result;
 }
 
-/* `body`: code and parameters. A rejection becomes a result; an answer with another code is damaged. */
+/* `body` is code and parameters. A rejection becomes a result. An answer with another code is damaged. */
 static ppmc104_result_t instruct(ppmc312_t *dev, uint8_t header, const uint8_t *body, unsigned count, uint8_t code,
                                  block_t *answer)
 {
@@ -636,7 +637,7 @@ ppmc104_result_t ppmc312_ask(ppmc312_t *dev, uint8_t code, const uint8_t *data, 
     return result;
 }
 
-/* Send an instruction whose answer has exactly `want` bytes. */
+/* Send an instruction whose answer must have exactly `want` bytes. */
 static ppmc104_result_t ask_exactly(ppmc312_t *dev, uint8_t code, const uint8_t *data, unsigned count, uint8_t *answer,
                                     unsigned want)
 {
@@ -680,7 +681,7 @@ ppmc104_result_t ppmc312_open(ppmc312_t *dev, uint8_t *version)
 
     clear(dev);
     if (dev->line == NULL) {
-        /* After a reset with DATASHEET timing the part is closed for 1.6 ms. */
+        /* After a reset with DATASHEET timing, the part does not accept blocks for 1.6 ms. */
         result = ppmc104_poll(&dev->bus, CSR_CLOSED, 0u, 0u, &csr);
         (void)dev->bus.read(dev->bus.ctx, REG_CONTROL);
     }
@@ -837,7 +838,7 @@ static bool rate_legal(const ppmc312_t *dev, uint16_t rate)
     return !dev->table || (rate >= dev->rate_min && rate <= dev->rate_max);
 }
 
-/* Write code and parameters of a motion; return 0 if the motion is not legal. */
+/* Encode a motion as code and parameters. Return 0 if the motion is not allowed. */
 static unsigned encode(const ppmc312_t *dev, const ppmc312_motion_t *motion, uint8_t *body)
 {
     const bool origin = motion->op == PPMC312_SEARCH || motion->op == PPMC312_RETURN;
@@ -963,7 +964,7 @@ ppmc104_result_t ppmc312_change(ppmc312_t *dev, bool ramp, uint16_t rate, ppmc31
     return triggered(dev, (uint8_t)(CODE_CHANGE + (ramp ? 0u : 1u)), &rate, when, position);
 }
 
-/* Return whether the end agrees with the order. */
+/* Return whether the end of the motion agrees with the order. */
 static bool agrees(const ppmc312_t *dev)
 {
     const bool endless = dev->op != PPMC312_MOVE && dev->op != PPMC312_CONSTANT && dev->op != PPMC312_STEP;
@@ -979,7 +980,7 @@ static bool agrees(const ppmc312_t *dev)
     return dev->cause == PPMC312_CAUSE_NORMAL ? made == dev->pulses : made <= dev->pulses;
 }
 
-/* The part is at standstill and the report of the end is missing. On the line a damaged frame may be the
+/* The part is at standstill, but the report of the end is missing. On the line, a damaged frame may be the
  * cause. */
 static ppmc104_result_t recover(ppmc312_t *dev)
 {
@@ -1007,7 +1008,7 @@ ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end)
     for (;;) {
         result = collect(dev);
         if (result == PPMC104_BAD_REPLY && dev->line != NULL) {
-            result = PPMC104_OK; /* its content was lost: see recover() */
+            result = PPMC104_OK; /* a damaged report: see recover() */
             dev->busy = false;
         }
         if (result != PPMC104_OK) {
@@ -1082,7 +1083,7 @@ ppmc104_result_t ppmc312_position(ppmc312_t *dev, bool encoder, int32_t *positio
     uint32_t count = 0u;
     ppmc104_result_t result = count_of(dev, encoder, &count);
 
-    /* The state is read after the counter, so a reset between the two is noticed. */
+    /* The state is read after the counter, so that a reset between the two is detected. */
     if (result == PPMC104_OK) {
         result = ppmc312_status(dev, &status);
     }

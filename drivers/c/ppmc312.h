@@ -4,10 +4,12 @@
  * Driver for the PPMC-312 on its parallel bus or on a serial line: C99, no dependencies, no heap, no floating point, no
  * globals.
  *
- * The driver uses the core in ppmc104.h: add ppmc104.c and ppmc312.c to a program. Results are those of ppmc104.h. One
- * ppmc312_t serves one part or station; calls for the same part, or for stations of the same line, must not overlap.
+ * The driver uses the core in ppmc104.h: add ppmc104.c and ppmc312.c to a program. Results are those of
+ * ppmc104.h. One ppmc312_t serves one part or station. Calls for the same part, or for stations on the same
+ * line, must not overlap.
  *
- * A rate is the number of ticks of the base clock from one pulse to the next: small is fast. Distances are pulses.
+ * A rate is the number of base clocks from one pulse to the next, so a small rate is fast. Distances are
+ * pulses.
  */
 #ifndef PPMC312_H
 #define PPMC312_H
@@ -22,9 +24,9 @@ extern "C" {
 /** Directions and options of a motion. */
 #define PPMC312_CW 0x00u
 #define PPMC312_CCW 0x40u
-#define PPMC312_INDEX 0x10u /**< SEARCH, RETURN: also wait for the index of the encoder */
+#define PPMC312_INDEX 0x10u /**< SEARCH, RETURN: the origin also requires the index of the encoder */
 
-/** Base clocks at a 16 MHz crystal. */
+/** Base clocks with a 16 MHz crystal. */
 typedef enum {
     PPMC312_8MHZ,
     PPMC312_1MHZ,
@@ -42,34 +44,34 @@ typedef struct {
     bool sigmoid;
     uint16_t rate_start; /**< RS, 0x11 .. 0xFFFF, at least rate_high + 128 */
     uint16_t rate_high;  /**< RH, 2 .. 0xFFEF */
-    uint32_t up;         /**< NA, pulses of the acceleration, 1 .. 0xFFFFFF; too few: detail 05 */
+    uint32_t up;         /**< NA, pulses of the acceleration, 1 .. 0xFFFFFF; if it is too small: detail 05 */
     uint16_t rate_stop;  /**< RP, as rate_start; 0: deceleration like the acceleration. Only on the bus */
-    uint32_t down;       /**< ND, as `up`, if rate_stop is not 0 */
+    uint32_t down;       /**< ND, range as `up`; ignored if rate_stop is 0 */
 } ppmc312_table_t;
 
-/** Free ramps, each list with the fastest stage first. Only on the bus. */
+/** Free ramps. Each list begins with the fastest stage. Only on the bus. */
 typedef struct {
     ppmc312_clock_t clock;
     uint8_t up_stages;     /**< 2 .. 127 */
-    uint8_t down_stages;   /**< 2 .. 127; 0: deceleration like the acceleration */
-    const uint16_t *rates; /**< one per stage of the longer ramp, 2 or more each */
+    uint8_t down_stages;   /**< 2 .. 127; 0: the deceleration is as the acceleration */
+    const uint16_t *rates; /**< one rate per stage of the longer ramp, each at least 2 */
     const uint32_t *up;    /**< pulses of each stage, 2 .. 0xFFFFFF */
-    const uint32_t *down;  /**< not used if down_stages is 0 */
+    const uint32_t *down;  /**< as `up`; ignored if down_stages is 0 */
 } ppmc312_curve_t;
 
 /** Motions; the values are instruction codes. */
 typedef enum {
-    PPMC312_SEARCH = 0x10,       /**< at `rate` to the origin */
-    PPMC312_RETURN = 0x11,       /**< with ramps past the origin, back to it at the start-up rate */
-    PPMC312_MOVE = 0x82,         /**< `pulses` with ramps */
-    PPMC312_CONSTANT = 0x83,     /**< `pulses` at `rate` */
+    PPMC312_SEARCH = 0x10,       /**< at `rate`, until the origin */
+    PPMC312_RETURN = 0x11,       /**< with ramps past the origin, then back to it at the start-up rate */
+    PPMC312_MOVE = 0x82,         /**< `pulses` pulses with ramps */
+    PPMC312_CONSTANT = 0x83,     /**< `pulses` pulses at `rate` */
     PPMC312_STEP = 0x84,         /**< one pulse */
     PPMC312_RUN = 0x85,          /**< with a ramp, until a stop */
     PPMC312_RUN_CONSTANT = 0x86  /**< at `rate`, until a stop */
 } ppmc312_op_t;
 
-/** Time at which an instruction is executed. With all values except NOW, the instruction is stored in the
- * override buffer, and its answer is a report. */
+/** Time at which an instruction is executed. With all values except NOW, the override buffer stores the
+ * instruction, and its answer is a report. */
 typedef enum {
     PPMC312_NOW = 0,
     PPMC312_AT_POSITION = 4, /**< not for motions */
@@ -81,7 +83,7 @@ typedef enum {
 typedef struct {
     ppmc312_op_t op;
     uint8_t flags;       /**< PPMC312_CW or _CCW, and PPMC312_INDEX */
-    uint16_t rate;       /**< 0: high rate of the table (not for SEARCH), or rate_high .. slowest start or stop rate */
+    uint16_t rate;       /**< 0: high rate of the table (not SEARCH), or rate_high .. slowest start or stop rate */
     uint32_t pulses;     /**< MOVE, CONSTANT: 1 .. 0xFFFFFFFF */
     ppmc312_when_t when;
 } ppmc312_motion_t;
@@ -90,10 +92,10 @@ typedef struct {
 #define PPMC312_CAUSE_ALARM 0x80u
 #define PPMC312_CAUSE_NORMAL 0x40u
 #define PPMC312_CAUSE_ORIGIN 0x20u
-#define PPMC312_CAUSE_LOW 0x10u        /**< decelerating stop at or below the stop rate */
+#define PPMC312_CAUSE_LOW 0x10u        /**< decelerating stop at the stop rate or slower */
 #define PPMC312_CAUSE_STOP_SLOWLY 0x08u
 #define PPMC312_CAUSE_STOP 0x04u
-#define PPMC312_CAUSE_HIGH_LIMIT 0x02u /**< decelerated by the high-speed limit */
+#define PPMC312_CAUSE_HIGH_LIMIT 0x02u /**< the high-speed limit caused the deceleration */
 #define PPMC312_CAUSE_LIMIT 0x01u
 
 /** End of a motion. */
@@ -103,55 +105,55 @@ typedef struct {
     int32_t position; /**< pulse counter of the part */
 } ppmc312_end_t;
 
-/** Codes of the reports, see docs/ppmc312/README.md, chapter 6. */
+/** Codes of the reports; see docs/ppmc312/README.md, chapter 6. */
 #define PPMC312_REPORT_NONE 0x00u
-#define PPMC312_REPORT_STOPPED 0xE0u        /**< cause, position (4 bytes, on the line not present) */
+#define PPMC312_REPORT_STOPPED 0xE0u        /**< cause, position (4 bytes, not on the line) */
 #define PPMC312_REPORT_INTERLOCK 0xE1u
 #define PPMC312_REPORT_RUN 0xE2u            /**< a motion that waited for RUN has begun */
-#define PPMC312_REPORT_ENCODER 0xE3u        /**< 0 inside, 1 outside */
-#define PPMC312_REPORT_IN_POSITION 0xE4u    /**< 0 inside, 1 outside */
+#define PPMC312_REPORT_ENCODER 0xE3u        /**< 0: inside, 1: outside */
+#define PPMC312_REPORT_IN_POSITION 0xE4u    /**< 0: inside, 1: outside */
 #define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: the report does not name the instruction */
-#define PPMC312_REPORT_INPUTS 0xE9u         /**< 1 if earlier changes were overwritten; then the changed bits */
-#define PPMC312_REPORT_ALARM 0xF4u          /**< 0 pin, 1 .. 3 unread answers */
+#define PPMC312_REPORT_INPUTS 0xE9u         /**< 1: earlier changes were overwritten; then the changed bits */
+#define PPMC312_REPORT_ALARM 0xF4u          /**< 0: pin, 1 .. 3: unread answers */
 #define PPMC312_REPORT_EVENT_FAILED 0xF8u
 #define PPMC312_REPORT_OVERRIDE_FAILED 0xF9u
 
 /** Source of a report. */
 #define PPMC312_FROM_PART 0x23u
-#define PPMC312_FROM_EVENT 0x0Bu    /**< `code` is that of the executed instruction */
-#define PPMC312_FROM_OVERRIDE 0x1Bu /**< `code` is that of the instruction in the override buffer */
+#define PPMC312_FROM_EVENT 0x0Bu    /**< `code` is the code of the executed instruction */
+#define PPMC312_FROM_OVERRIDE 0x1Bu /**< `code` is the code of the instruction in the override buffer */
 
 #define PPMC312_DATA_MAX 29u   /**< data bytes of an answer */
-#define PPMC312_REPORTS_MAX 8u /**< reports that the driver stores */
+#define PPMC312_REPORTS_MAX 8u /**< maximum number of reports that the driver stores */
 
-/** A report. Longer data are truncated. */
+/** A report. Additional data bytes are discarded. */
 typedef struct {
     uint8_t source, code, count;
     uint8_t data[8];
 } ppmc312_report_t;
 
-/** States: `condition` of ppmc312_status_t. */
+/** States: ppmc312_status_t::condition. */
 #define PPMC312_STATE_INI 0x01u /**< no table */
 #define PPMC312_STATE_NOR 0x02u /**< ready */
 #define PPMC312_STATE_ACC 0x04u
 #define PPMC312_STATE_FIX 0x08u
 #define PPMC312_STATE_ABN 0x10u /**< alarm */
-#define PPMC312_STATE_WRN 0x20u /**< waits for RUN */
+#define PPMC312_STATE_WRN 0x20u /**< a motion waits for RUN */
 
-/** Status, see docs/ppmc312/instructions.md, 4D. */
+/** Status; see docs/ppmc312/instructions.md, 4D. */
 typedef struct {
     uint8_t operation, condition, buffers;
 } ppmc312_status_t;
 
 /** One part. Fill it with ppmc312_setup() or ppmc312_setup_line(). */
 typedef struct {
-    ppmc104_t bus;           /**< access functions of the bus, and the limits of all waits: bus.limit, bus.give_up */
-    const ppmc_line_t *line; /**< null on the bus */
-    uint8_t station;         /**< on the line */
-    bool sum_chars;          /**< on the line: SUM_MODE "CHARS"; may be changed after ppmc312_setup_line() */
-    unsigned reply_ms;       /**< on the line: longest time to the first byte of a reply; 300 */
-    uint8_t detail[2];       /**< numbers of the last rejection: e of F0; s and condition of F1 */
-    /* of the driver */
+    ppmc104_t bus;           /**< access functions of the bus; bus.limit, bus.give_up: limits of all waits */
+    const ppmc_line_t *line; /**< serial line; null on the bus */
+    uint8_t station;         /**< line only: station number */
+    bool sum_chars;          /**< line only: SUM_MODE "CHARS"; may be changed after ppmc312_setup_line() */
+    unsigned reply_ms;       /**< line only: maximum time in ms until the first byte of a reply; 300 */
+    uint8_t detail[2];       /**< numbers of the last rejection: e of F0, or s and condition of F1 */
+    /* private to the driver */
     bool table, armed, busy, moving, ended, known[2];
     uint16_t rate_min, rate_max;
     ppmc312_op_t op;
@@ -162,67 +164,70 @@ typedef struct {
     bool lost;
 } ppmc312_t;
 
-/** Fill `dev` for the parallel bus, without a bus access. `reg` is the register, 0 .. 7. */
+/** Fill `dev` for the parallel bus. Makes no bus access. `reg` is the register number, 0 .. 7. */
 void ppmc312_setup(ppmc312_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
                    void (*write)(void *ctx, unsigned reg, uint8_t value), void *ctx);
-/** Fill `dev` for a station of a line, 0 .. 15; nothing is sent. */
+/** Fill `dev` for a station of a line, 0 .. 15. Sends nothing. */
 ppmc104_result_t ppmc312_setup_line(ppmc312_t *dev, const ppmc_line_t *line, unsigned station);
 
-/** Check that the part responds, read the waiting blocks, read the version. Motions continue; the positions
- * are unknown. */
+/** Check that the part responds, read the pending blocks, and read the version. Motions continue. The
+ * positions are unknown. */
 ppmc104_result_t ppmc312_open(ppmc312_t *dev, uint8_t *version);
-/** Reset by instruction FF: no table, position unknown. */
+/** Reset with instruction FF. Afterwards there is no table, and the position is unknown. */
 ppmc104_result_t ppmc312_reset(ppmc312_t *dev);
 
-/** Set up linear or sigmoid ramps; only at standstill. A rejected table leaves the part without one. */
+/** Set up linear or sigmoid ramps; only at standstill. After a rejected table, the part has no table. */
 ppmc104_result_t ppmc312_table(ppmc312_t *dev, const ppmc312_table_t *table);
 /** Set up free ramps. */
 ppmc104_result_t ppmc312_curve(ppmc312_t *dev, const ppmc312_curve_t *curve);
 
 /** @name Motions
- * The functions return when the part has accepted the motion. PPMC312_ERR_LIMIT: nothing moves. @{ */
+ * The functions return when the part has accepted the motion. PPMC312_ERR_LIMIT: the motor does not move.
+ * @{ */
 ppmc104_result_t ppmc312_start(ppmc312_t *dev, const ppmc312_motion_t *motion);
-/** Move with ramps at the high rate. @param pulses CW positive, not 0 */
+/** Move with ramps at the high rate. @param pulses CW is positive; not 0 */
 ppmc104_result_t ppmc312_move(ppmc312_t *dev, int32_t pulses);
-/** The same to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is reached already. */
+/** Move with ramps to a position. @return PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT: this is the
+ * current position */
 ppmc104_result_t ppmc312_move_to(ppmc312_t *dev, int32_t position);
-/** Stop, immediately or with the ramp. @param position for PPMC312_AT_POSITION */
+/** Stop immediately or with the ramp. @param position only for PPMC312_AT_POSITION */
 ppmc104_result_t ppmc312_stop(ppmc312_t *dev, bool slowly, ppmc312_when_t when, int32_t position);
-/** Change the rate of the running motion, through the ramp or immediately. */
+/** Change the rate of the running motion, along the ramp or immediately. */
 ppmc104_result_t ppmc312_change(ppmc312_t *dev, bool ramp, uint16_t rate, ppmc312_when_t when, int32_t position);
 /** @} */
 
 /**
- * Wait for the end of the motion that this driver started. Fetch reports; ppmc312_report() returns the
- * others. While override or event buffers are in use, the driver sends no status instruction on the bus,
- * because an unread answer together with a trigger causes an alarm. A reset of the part during this time
- * ends the wait with PPMC104_TIMEOUT.
+ * Wait for the end of the motion that this driver started. The function reads reports; ppmc312_report()
+ * returns those of other events. While override or event buffers are in use, the driver sends no status
+ * instruction on the bus, because an unread answer together with a trigger causes an alarm. If the part is
+ * reset during this time, the wait ends with PPMC104_TIMEOUT.
  * @param end may be null; valid if the result is PPMC104_OK
- * @return PPMC104_UNCONFIRMED: the part is at standstill without a report, or its position disagrees with
- * the order; PPMC312_ERR_STATE: no motion was started
+ * @return PPMC104_UNCONFIRMED: the part is at standstill without a report, or its position disagrees with the
+ * order. PPMC312_ERR_STATE: no motion was started
  */
 ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end);
 
-/** Fetch reports and return the oldest report; `code` is PPMC312_REPORT_NONE if there is no report. */
+/** Read reports, and return the oldest one. If there is no report, `code` is PPMC312_REPORT_NONE. */
 ppmc104_result_t ppmc312_report(ppmc312_t *dev, ppmc312_report_t *report);
 
-/** Return the state of the part; allowed at any time. */
+/** Return the state of the part. Allowed at any time. */
 ppmc104_result_t ppmc312_status(ppmc312_t *dev, ppmc312_status_t *status);
 /**
- * Return the pulse position or the encoder position; allowed at any time.
- * @return PPMC104_POSITION_UNKNOWN: ppmc312_set_position() was not called since the last reset, or the
- * part has no table: it may have been reset
+ * Return the pulse position or the encoder position. Allowed at any time.
+ * @return PPMC104_POSITION_UNKNOWN: ppmc312_set_position() was not called since the last reset, or the part
+ * has no table, because it may have been reset
  */
 ppmc104_result_t ppmc312_position(ppmc312_t *dev, bool encoder, int32_t *position);
 /** Set the pulse or encoder position. Only at standstill and with a table. */
 ppmc104_result_t ppmc312_set_position(ppmc312_t *dev, bool encoder, int32_t position);
 
 /** @name Event buffers 0 and 1
- * An edge of the pin executes the next entry, in order. @{ */
+ * An edge of the pin executes the next entry, in the order in which they were stored. @{ */
 ppmc104_result_t ppmc312_event_motion(ppmc312_t *dev, unsigned buffer, const ppmc312_motion_t *motion);
-/** Register another instruction: its code and parameters as on the bus. @param count 0 .. 9, on the line 0 .. 7 */
+/** Store another instruction: its code and parameters as on the bus.
+ * @param count 0 .. 9, on the line 0 .. 7 */
 ppmc104_result_t ppmc312_event(ppmc312_t *dev, unsigned buffer, uint8_t code, const uint8_t *data, unsigned count);
-/** Delete the last entry. PPMC312_ERR_FULL if there is no entry. */
+/** Delete the last entry. If there is no entry, the result is PPMC312_ERR_FULL. */
 ppmc104_result_t ppmc312_event_delete(ppmc312_t *dev, unsigned buffer);
 /** @} */
 
@@ -232,28 +237,29 @@ typedef enum {
     PPMC312_EXCITATION_OFF = 0x21,
     PPMC312_COUNTER_CLEAR = 0x22,
     PPMC312_ZERO_CLAMP = 0x23,
-    PPMC312_ALARM_CLEAR = 0x24, /**< also ends the alarm state */
-    PPMC312_INTERLOCK = 0x44,   /**< alternately on and off */
-    PPMC312_RUN_MONITOR = 0x45  /**< alternately on and off */
+    PPMC312_ALARM_CLEAR = 0x24, /**< also ends the abnormal state */
+    PPMC312_INTERLOCK = 0x44,   /**< each call toggles interlock control */
+    PPMC312_RUN_MONITOR = 0x45  /**< each call toggles the RUN monitoring */
 } ppmc312_driver_t;
 ppmc104_result_t ppmc312_driver(ppmc312_t *dev, ppmc312_driver_t what);
 
 ppmc104_result_t ppmc312_inputs(ppmc312_t *dev, uint8_t *levels);          /**< AUXI */
 ppmc104_result_t ppmc312_control_inputs(ppmc312_t *dev, uint16_t *levels); /**< 27: first byte in bits 15..8 */
-ppmc104_result_t ppmc312_outputs(ppmc312_t *dev, uint8_t bits);            /**< 0 .. 63, 1 = low */
-ppmc104_result_t ppmc312_input_mask(ppmc312_t *dev, uint8_t mask);         /**< watched bits of AUXI; 0: off */
+ppmc104_result_t ppmc312_outputs(ppmc312_t *dev, uint8_t bits);            /**< 0 .. 63, 1: low */
+ppmc104_result_t ppmc312_input_mask(ppmc312_t *dev, uint8_t mask);         /**< monitored bits of AUXI; 0: off */
 ppmc104_result_t ppmc312_speed_limit(ppmc312_t *dev, uint16_t rate);       /**< high-speed limit, 2 or more */
-ppmc104_result_t ppmc312_end_monitor(ppmc312_t *dev, bool on);             /**< a motion waits for end_n */
+ppmc104_result_t ppmc312_end_monitor(ppmc312_t *dev, bool on);             /**< 1: a motion waits for end_n */
 ppmc104_result_t ppmc312_in_position(ppmc312_t *dev, uint16_t range);      /**< monitor; 0: off */
 ppmc104_result_t ppmc312_encoder(ppmc312_t *dev, uint16_t range);          /**< deviation monitor; 0: off */
 ppmc104_result_t ppmc312_interlock_at(ppmc312_t *dev, int32_t position);
-/** Line only: last error code; framing, overrun and checksum errors since the last read. */
+/** Line only: return the last error code, and the framing, overrun and checksum errors since the last
+ * read. */
 ppmc104_result_t ppmc312_line_errors(ppmc312_t *dev, uint8_t *last, uint8_t counts[3]);
 
 /**
- * Send any instruction of the bus and read its answer; on the line it is translated.
+ * Send any instruction of the bus and read its answer. On the line, the instruction is translated.
  * @param count  parameter bytes, 0 .. 29
- * @param answer PPMC312_DATA_MAX bytes, or null
+ * @param answer array of PPMC312_DATA_MAX bytes, or null
  * @param got    number of data bytes of the answer, or null
  */
 ppmc104_result_t ppmc312_ask(ppmc312_t *dev, uint8_t code, const uint8_t *data, unsigned count, uint8_t *answer,

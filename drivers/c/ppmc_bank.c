@@ -8,7 +8,7 @@
 #define CONFIG_FAST 0x01u
 #define CONFIG_PLAIN 0x02u
 #define ANY_AXIS 0u
-#define GO_READS 16u /* a read takes at least 9 cycles, and GO lasts up to 64 */
+#define GO_READS 16u /* a read takes at least 9 cycles, and GO is active for up to 64 cycles */
 
 static uint8_t peek(const ppmc_bank_t *bank, unsigned number, unsigned reg)
 {
@@ -30,7 +30,7 @@ static bool has(ppmc_bank_set_t axes, unsigned number)
     return (axes >> number & 1u) != 0u;
 }
 
-/* ---- an axis as a part ---- */
+/* ---- an axis as a PPMC-104 ---- */
 
 static uint8_t axis_read(void *ctx, unsigned reg)
 {
@@ -57,7 +57,7 @@ ppmc104_result_t ppmc_bank_axis(const ppmc_bank_t *bank, unsigned number, ppmc_b
 
 /* ---- the bank ---- */
 
-/* Byte k of a register with one bit per axis is at axis k. */
+/* A register with one bit per axis has byte k at axis k. */
 static void write_mask(ppmc_bank_t *bank, ppmc_bank_set_t axes)
 {
     unsigned k;
@@ -107,7 +107,7 @@ ppmc104_result_t ppmc_bank_position(const ppmc_bank_t *bank, unsigned number, in
     if (number >= bank->axes) {
         return PPMC104_BAD_ARGUMENT;
     }
-    /* The lowest byte first, because its read latches the others. */
+    /* The lowest byte is first, because its read latches the other bytes. */
     for (n = 0; n < 4u; ++n) {
         value |= (uint32_t)peek(bank, number, PPMC_BANK_REG_POSITION + n) << (8u * n);
     }

@@ -11,16 +11,18 @@
 
 /** A serial line with 8 data bits, no parity, one stop bit. Several stations may share one ppmc_line_t. */
 typedef struct {
-    /** Send bytes and return when the last stop bit was sent; on RS-485 also switch the driver on and off. */
+    /** Send bytes, and return when the last stop bit was sent. On RS-485, also switch the driver on and
+     * off. */
     void (*send)(void *ctx, const uint8_t *bytes, unsigned count);
-    /** Wait at most `milliseconds` for a byte; false if no byte has arrived. 0: return only a byte received
-     * already. */
+    /** Wait at most `milliseconds` for a byte. False: no byte has arrived. 0: return only a byte that was
+     * received before the call. */
     bool (*receive)(void *ctx, uint8_t *byte, unsigned milliseconds);
-    void *ctx; /**< passed to the functions */
-    bool echo; /**< the receiver receives its own frames (two wires); the driver skips these frames */
+    void *ctx; /**< argument of the two functions */
+    bool echo; /**< the receiver receives the frames of this host (two wires); the driver skips them */
 } ppmc_line_t;
 
-/** Of the drivers: discard bytes until the line was silent for `milliseconds`, or up to 64 bytes. */
+/** For the drivers only: discard bytes until the line was silent for `milliseconds`, or 64 bytes were
+ * discarded. */
 static inline void ppmc_line_drain(const ppmc_line_t *line, unsigned milliseconds)
 {
     uint8_t byte;

@@ -2,7 +2,7 @@
 /* Driver for the controller of the J105 STMC; stmc.h documents the functions. */
 #include "stmc.h"
 
-/* Read codes by map: data sheet, family. */
+/* Read codes, indexed by map: data sheet, family. */
 static const uint8_t CODE_INPUTS[2] = {0x82u, 0x81u};
 static const uint8_t CODE_OUTPUTS[2] = {0x83u, 0x82u};
 static const uint8_t CODE_REMAINING[2] = {0x84u, 0x83u};
@@ -12,7 +12,7 @@ static const uint8_t CODE_REMAINING[2] = {0x84u, 0x83u};
 #define CODE_INIT_POSITIVE 0x08u
 #define CODE_INIT_HALF 0x04u
 
-#define INPUTS_ZERO 0x30u /* read 0 on every part */
+#define INPUTS_ZERO 0x30u /* read as 0 on every part */
 #define CLOCK_MAX 1000000ul
 
 const char *stmc_strerror(ppmc104_result_t result)
@@ -62,7 +62,7 @@ ppmc104_result_t stmc_probe(stmc_t *dev)
 {
     uint8_t levels = 0;
     uint32_t steps;
-    /* The code with the highest number exists in one map only; in the other it is unknown even during a motion. */
+    /* The highest read code exists in one map only. In the other map it is unknown, even during a motion. */
     ppmc104_result_t result = ppmc104_ask(&dev->bus, CODE_REMAINING[STMC_MAP_SHEET], 3u, &steps);
 
     if (result == PPMC104_TIMEOUT || result == PPMC104_NO_PART) {
@@ -141,7 +141,7 @@ bool stmc_busy(stmc_t *dev)
 
 ppmc104_result_t stmc_wait(stmc_t *dev, ppmc104_finish_t *finish)
 {
-    /* A wrong code would be another read, so the read codes must be known. */
+    /* A wrong code would be another read. Therefore the read codes must be known. */
     if (!dev->probed) {
         uint8_t status;
         ppmc104_result_t result = PPMC104_OK;

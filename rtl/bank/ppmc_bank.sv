@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank: 4 to 64 axes on one engine; for the host, each axis is a PPMC-104.
-// Rules:  BANK-GEN-01..05 and, through its blocks, all others. Manual: docs/bank/README.md.
-// Timing: axis a is visited every R = max(AXES, 8) cycles; edges are exact to the cycle. d_o is valid 5
-//         cycles after a read strobe has begun.
+// ppmc_bank: 4 to 64 axes that share one engine. For the host, each axis is a PPMC-104.
+// Rules:  BANK-GEN-01..05; the instantiated blocks implement all others. Manual: docs/bank/README.md.
+// Timing: each axis is visited every R = max(AXES, 8) cycles; its edges are exact to the cycle. d_o is
+//         valid 5 cycles after the start of a read strobe.
 `default_nettype none
 
 module ppmc_bank
@@ -17,7 +17,7 @@ module ppmc_bank
     input  wire logic              clk,
     input  wire logic              rst_n,
     // host bus
-    input  wire logic [       9:0] a,       // 9..4 axis, 3..0 register
+    input  wire logic [       9:0] a,       // [9:4]: axis, [3:0]: register
     input  wire logic              cs_n,
     input  wire logic              rd_n,
     input  wire logic              wr_n,
@@ -25,18 +25,18 @@ module ppmc_bank
     output logic      [       7:0] d_o,
     output logic                   d_oe,
     output logic                   int_n,   // low: at least one interrupt is pending
-    // switches, active low, one bit for each axis
+    // switches, active low, one bit per axis
     input  wire logic [  AXES-1:0] l1_n,    // CW limit
     input  wire logic [  AXES-1:0] l2_n,    // CCW limit
     input  wire logic [  AXES-1:0] l3_n,    // CW slow-down limit
     input  wire logic [  AXES-1:0] l4_n,    // CCW slow-down limit
     input  wire logic [  AXES-1:0] cnp_n,   // origin
     input  wire logic [  AXES-1:0] alm_n,   // alarm
-    // motors, one bit for each axis; s: five bits S5..S1 for each axis
+    // motors, one bit per axis; s has five bits S5..S1 per axis
     output logic      [5*AXES-1:0] s,
     output logic      [  AXES-1:0] hold,
     output logic      [  AXES-1:0] pout_n,
-    output logic      [  AXES-1:0] dir      // 0 = CW
+    output logic      [  AXES-1:0] dir      // 0: CW, 1: CCW
 );
 
   localparam int unsigned RoundBits = (AXES < 8) ? 3 : $clog2(AXES);
@@ -178,8 +178,8 @@ module ppmc_bank
 
   pin_status_t axis_pin_status[AXES];
 
-  // AND and OR need half the cells of a multiplexer. last_stage marks the axis in stage 5. The axis in stage
-  // 2 is three axes after it.
+  // AND and OR gates need half the cells of a multiplexer. last_stage marks the axis in stage 5; the axis
+  // in stage 2 is three axes after it.
   always_comb begin
     pin_status = '0;
     for (int unsigned i = 0; i < AXES; i++)

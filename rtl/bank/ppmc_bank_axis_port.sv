@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_axis_port: maps the 16 registers of one axis of a bank to the four address lines of the UART
-//         bridge; register 0x3 selects the axis.
-// Rules:  register map in docs/bank/carrier.md; forwards strobes as BANK-WIN-04 requires.
-// Timing: combinational, except for the selected axis. axis_o changes during the write strobe at register 0x3
-//         and is stable from (gap of ppmc_strobe_master - 1) cycles before the next strobe on. The bank
-//         receives no strobe at 0x3 and no strobe for axes 64 .. 255.
+// ppmc_bank_axis_port: connects the four address lines of the UART bridge to the 16 registers of one axis
+//         of a bank. Register 0x3 selects the axis.
+// Rules:  register map: docs/bank/carrier.md; strobes are forwarded as BANK-WIN-04 requires.
+// Timing: combinational, except the selected axis. axis_o changes during a write strobe at register 0x3. It
+//         is stable from (gap of ppmc_strobe_master - 1) cycles before the next strobe on. The bank
+//         receives no strobe for register 0x3 and for the axes 64 .. 255.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_bank_axis_port (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,    // reset of the bank; selects axis 0
-    // host, synchronous to clk_i; rd_n, wr_n and write data are connected to the bank unchanged
+    // host, synchronous to clk_i; rd_n, wr_n and write data are connected directly to the bank
     input  wire logic       cs_ni,     // chip select
     input  wire logic       wr_ni,     // write strobe
     input  wire logic [3:0] a_i,       // register
@@ -29,7 +29,7 @@ module ppmc_bank_axis_port (
   logic is_select, no_axis;
 
   assign is_select = a_i == AxisSelect;
-  assign no_axis = axis_o[7:6] != '0;  // the window ends at axis 63
+  assign no_axis = axis_o[7:6] != '0;  // the window has no axis above 63
   assign cs_no = cs_ni || is_select || no_axis;
   assign a_o = {axis_o[5:0], a_i};
   assign d_o = is_select ? axis_o : no_axis ? '1 : bank_d_i;

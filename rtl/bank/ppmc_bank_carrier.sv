@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_carrier: all blocks of a board with a bank except clock generator and pads: the bank and its host
-//         interface. This is either the UART bridge with the registers of one selected axis, or an SPI
-//         slave with the complete window.
+// ppmc_bank_carrier: all logic of a board with a bank except clock generator and pads. Contains the bank
+//         and its host interface. This is either the UART bridge, which accesses the registers of one
+//         selected axis, or an SPI slave, which accesses the complete window.
 // Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
-//         (from 0) has bit a of each port, and bits 5 a to 5 a + 4 of s (S1 to S5).
-// Timing: that of ppmc_bank; the inputs need no external synchroniser.
+//         (from 0) uses bit a of each port; in s, it uses bits 5 a to 5 a + 4 (S1 to S5).
+// Timing: as ppmc_bank. The inputs need no external synchroniser.
 `default_nettype none
 
 module ppmc_bank_carrier #(
-    parameter int unsigned CLK_HZ     = 100_000_000,  // BANK-GEN-02
-    parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
-    parameter bit          PHASE_IDLE = 1'b1,         // level of s before the first initialisation
-    parameter              HOST       = "UART",       // or "SPI"
-    parameter int unsigned BAUD       = 115_200,      // line rate of the bridge after reset
-    parameter int unsigned RECORD     = 0             // 2**RECORD records of pins, 4 .. 16; 0: no recorder
+    parameter int unsigned CLK_HZ = 100_000_000,  // clock frequency in Hz, see BANK-GEN-02
+    parameter int unsigned XTAL_HZ = 16_000_000,
+    parameter int unsigned AXES = 32,  // 4, 8, 16, 32 or 64
+    parameter bit PHASE_IDLE = 1'b1,  // level of s before the first initialisation
+    parameter HOST = "UART",  // or "SPI"
+    parameter int unsigned BAUD = 115_200,  // baud rate of the bridge after reset
+    parameter int unsigned RECORD = 0  // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic              clk,
     input  wire logic              rst_n,
@@ -27,8 +27,8 @@ module ppmc_bank_carrier #(
     input  wire logic              mosi,
     output logic                   miso_o,
     output logic                   miso_oe,
-    output logic                   int_n,       // at least one axis has a pending interrupt
-    // switches, 0 = active
+    output logic                   int_n,       // low: at least one axis has a pending interrupt
+    // switches, active low
     input  wire logic [  AXES-1:0] l1_n,
     input  wire logic [  AXES-1:0] l2_n,
     input  wire logic [  AXES-1:0] l3_n,
@@ -40,7 +40,7 @@ module ppmc_bank_carrier #(
     output logic      [  AXES-1:0] hold,
     output logic      [  AXES-1:0] pout_n,
     output logic      [  AXES-1:0] dir,
-    // LEDs, 1 = on
+    // LEDs, 1: on
     output logic                   led_link,    // a script or a frame is running, or a response is being sent
     output logic                   led_moving,  // at least one motor is moving
     output logic                   led_switch   // a limit or an alarm is active
@@ -125,12 +125,12 @@ module ppmc_bank_carrier #(
     assign unused   = uart_rxd ^ part_oe;
   end else begin : g_uart
     localparam int unsigned AxisBits = $clog2(AXES);
-    localparam int unsigned Watch = 32 + 14 * AXES;  // recorded levels, first pin in the low bits
+    localparam int unsigned Watch = 32 + 14 * AXES;  // recorded levels; the first pin is bit 0
 
     logic host_cs_n;
     logic [3:0] host_a;
     logic [7:0] to_host, axis, straps;
-    logic [AxisBits-1:0] pins_axis;  // axis that op PINS reads
+    logic [AxisBits-1:0] pins_axis;  // axis that operation PINS reads
 
     logic [Watch-1:0] watch;
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, decides, and
-//         writes the state back.
-// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_update.
-// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters in each cycle.
-//         Stages: 0 address, 1 RAM, 2 compare, 3 plan, 4 update, 5 write and load of pin_cmd_o, 6 the command
-//         is valid in the pin block: the first cycle at whose end a pin can change.
-//         The interval is read two cycles earlier, because the address of a threshold contains the rate.
+// ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, makes
+//         decisions, and writes the state back.
+// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; ppmc_bank_plan and ppmc_bank_update implement others.
+// Timing: a visit takes seven cycles from the address of the axis to its edge. In each cycle, a new axis
+//         enters.
+//         Stages: 0: address; 1: RAM; 2: compare; 3: plan; 4: update; 5: write, load of pin_cmd_o; 6: the
+//         command is valid in the pin block, and a pin can change at the end of this cycle for the first
+//         time.
+//         The interval is read two cycles earlier, because the address of a threshold contains its rate.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -22,10 +24,10 @@ module ppmc_bank_engine
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [5:0][RoundBits-1:0] axis_i,  // axes in stages 0 to 5
-    input wire logic [4:3] clear_i,  // the visits in stages 3 and 4 reset their axes
+    input wire logic [4:3] clear_i,  // 1: reset the axes of the visits in stages 3 and 4
     // from the window
     input wire in_buf_t in_buf_i,  // stage 1: input buffer
-    input wire read_progress_t read_progress_i,  // stage 1: response bytes read by the host
+    input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
     input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: W minus the cycles since GO
@@ -34,10 +36,10 @@ module ppmc_bank_engine
     // results of a visit, stage 5
     output axis_status_t status_o,  // status register
     output logic [31:0] position_o,  // position
-    output logic read_data_we_o,  // write read_data_o
+    output logic read_data_we_o,  // strobe: write read_data_o
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output logic [RoundBits-1:0] at_cycle_o,  // cycle of pin_cmd_o in the round
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which pin_cmd_o is executed
     output logic irq_set_o,  // set the pending interrupt of the axis
     output logic irq_clear_o  // clear the pending interrupt of the axis
 );
@@ -47,7 +49,7 @@ module ppmc_bank_engine
   localparam int unsigned HoldBits = $clog2(HoldRounds);
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
-  // Small FPGAs have few block RAMs: with few axes, the smallest memory is built from logic.
+  // Small FPGAs have few block RAMs. Therefore, with few axes, the smallest memory is built from logic.
   // verilator lint_off UNUSEDPARAM
   localparam string IntervalStyle = (Round > 8) ? "block" : "logic";
   // verilator lint_on UNUSEDPARAM
@@ -55,9 +57,9 @@ module ppmc_bank_engine
   typedef logic [RoundBits-1:0] axis_t;
 
   // ---- memories ------------------------------------------------------------------------------------
-  // state_s1_t is read in stage 1, because the comparisons need it; state_s2_t is read in stage 2.
+  // The comparisons need state_s1_t, so it is read in stage 1. state_s2_t is read in stage 2.
   typedef struct packed {
-    logic [TimeBits-1:0] cycles_left;  // cycles to the awaited edge
+    logic [TimeBits-1:0] cycles_left;  // cycles until the awaited edge
     motion_state_t       motion;
     init_state_t         init_state;
     parser_t             parser;
@@ -72,7 +74,7 @@ module ppmc_bank_engine
   (* ram_style = "block", no_rw_check *) state_s1_t state1_mem[Round];
   (* ram_style = "block", no_rw_check *) state_s2_t state2_mem[Round];
   (* ram_style = IntervalStyle, no_rw_check *) interval_t interval_mem[Round];
-  // A visit writes these words only when a byte sets them, so they do not pass through all stages.
+  // A visit writes these words only when a byte changes them, so they are not part of all pipeline stages.
   (* ram_style = "block", no_rw_check *) last_cmd_t last_cmd_mem[Round];
   (* ram_style = "block", no_rw_check *) ramp_t ramp_mem[Round];
   (* ram_style = "block", no_rw_check *) chop_units_t chop_units_mem[Round];
@@ -108,7 +110,7 @@ module ppmc_bank_engine
     last_cmd_s1_q <= last_cmd_mem[axis_i[0]];
     ramp_s1_q <= ramp_mem[axis_i[0]];
     chop_units_s3_q <= chop_units_mem[axis_i[2]];
-    // interval_s0_q.decel = 1: the threshold of the next slower rate is compared.
+    // If interval_s0_q.decel = 1, the threshold of the next slower rate is compared.
     interval_s0_q <= interval_pre_q;
     lookup_rate_s0_q <= interval_pre_q.rate + 8'(interval_pre_q.decel);
     interval_s1_q <= interval_s0_q;
@@ -330,7 +332,7 @@ module ppmc_bank_engine
     read_data_o <= clear_i[4] ? '0 : read_data;
     read_data_we_o <= clear_i[4] || decision_s4_q.read;
     pin_cmd_o <= clear_i[4] ? '0 : pin_cmd;
-    // The command is executed in the first possible cycle, or cycles_left cycles after this cycle.
+    // A pin command is executed either in the first possible cycle, or cycles_left cycles after it.
     at_cycle_o     <= axis_i[0] + axis_t'(2)
         + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
     irq_set_o <= irq_set && !clear_i[4];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_interval_rom: duration of an interval after its low time; a ROM with one word for each base
-//         clock, extra time and rate, so that no multiplier is needed.
+// ppmc_bank_interval_rom: returns the time from the end of a pulse (its low time) until the next pulse. The
+//         ROM has one word for each base clock, extra time and rate, so no multiplier is needed.
 // Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (internal base clock), BANK-GEN-02.
 // Timing: after_low_o is valid two cycles after interval_i.
 `default_nettype none
@@ -13,12 +13,12 @@ module ppmc_bank_interval_rom
     parameter int unsigned TimeBits = 20
 ) (
     input wire logic clk_i,
-    input wire interval_t interval_i,  // interval; decel is not used
-    output logic [TimeBits-1:0] after_low_o  // cycles, minus Round
+    input wire interval_t interval_i,  // interval; the field decel is not used
+    output logic [TimeBits-1:0] after_low_o  // time in cycles, minus Round
 );
 
-  // Word at address i = {slow_base, extra_time, rate}: cycles from the end of the low time to the next pulse,
-  // minus Round.
+  // Word at address i = {slow_base, extra_time, rate}: cycles from the end of the low time to the next
+  // pulse, minus Round.
   function automatic int unsigned after_low(int unsigned i);
     int unsigned rate, interval, low;
     rate     = i % 256;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins: pins of one axis of a bank. Executes each command of a visit in its cycle, and outputs no
-//         pulse when a switch or STOP ends the motion.
+// ppmc_bank_pins: pins of one axis of a bank. Executes each command of a visit in the requested cycle.
+//         Outputs no pulse after a switch or STOP has ended the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
-//         cycle in which cycle_i = at_cycle_q; halt is executed at the end of the first cycle. A switch acts
-//         in the cycle in which it is active on switches_i.
+//         cycle in which cycle_i = at_cycle_q, except halt, which is executed at the end of the first
+//         cycle. A switch acts in the cycle in which it is active on switches_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -19,27 +19,27 @@ module ppmc_bank_pins
     input wire logic rst_ni,
     input wire logic [RoundBits-1:0] cycle_i,  // number of the cycle in the round
     // command
-    input wire logic load_i,  // pin_cmd_i is for this axis
+    input wire logic load_i,  // strobe: pin_cmd_i is for this axis
     input wire pin_cmd_t pin_cmd_i,  // immediate halt, and pin changes of the next round
     input wire logic [RoundBits-1:0] at_cycle_i,  // cycle of the pin changes
-    input wire logic stop_i,  // end every running motion
-    input wire switches_t switches_i,  // synchronous levels
+    input wire logic stop_i,  // 1: end a running motion
+    input wire switches_t switches_i,  // switches, synchronised
     // status for the visits
-    output logic armed_o,  // pulses may be output
-    output logic emitted_o,  // the last ordered pulse has been output
-    output logic stopped_o,  // cause of armed_o = 0: STOP or a stop command
-    output logic alarm_o,  // cause of armed_o = 0: alarm
-    output logic limit_o,  // cause of armed_o = 0: limit of the direction
+    output logic armed_o,  // 1: pulses may be output
+    output logic emitted_o,  // 1: the last ordered pulse has been output
+    output logic stopped_o,  // armed_o = 0 because of STOP or a stop command
+    output logic alarm_o,  // armed_o = 0 because of an alarm
+    output logic limit_o,  // armed_o = 0 because of the limit of the direction
     // pins
     output logic [5:1] s_o,  // phases
-    output logic hold_o,  // at standstill for the hold time
-    output logic pout_no,  // pulse, L = active
-    output logic dir_o  // 0 = CW
+    output logic hold_o,  // high: standstill for the hold time
+    output logic pout_no,  // pulse, active low
+    output logic dir_o  // 0: CW, 1: CCW
 );
 
   pin_cmd_t pin_cmd_q;
   logic [RoundBits-1:0] at_cycle_q;
-  logic loads_pulse;  // a command with a pulse is loaded
+  logic loads_pulse;  // strobe: a command with a pulse is loaded
   // cycle_hit: the command is executed in this cycle; end_motion: a cause ends the motion in this cycle
   logic cycle_hit, limit, halt, end_motion, pulse, pulse_end, set_pins, unused_slow;
 
@@ -53,8 +53,8 @@ module ppmc_bank_pins
   assign pulse_end = cycle_hit && pin_cmd_q.pulse_end;
   assign set_pins = cycle_hit && pin_cmd_q.set_pins;
 
-  // The action of a command (pulse, pulse_end or set_pins) may still be pending when the next command is
-  // loaded. Then it is executed in exactly this cycle.
+  // When the next command is loaded, the action of the current command (pulse, pulse_end or set_pins) may
+  // still be pending. In this case it is executed in exactly this cycle.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       pin_cmd_q                     <= '0;

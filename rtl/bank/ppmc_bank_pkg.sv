@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pkg: register numbers of a bank, types that its blocks exchange for one axis, and the state of
-//         an axis in RAM.
+// ppmc_bank_pkg: register numbers of a bank, types of the signals between its blocks for one axis, and the
+//         state of an axis in RAM.
 // Rules:  BANK-GEN-01..04, BANK-WIN-01..03.
 `default_nettype none
 
@@ -12,7 +12,7 @@ package ppmc_bank_pkg;
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 
-  // Registers of the window, a[3:0] (BANK-WIN-02, -03).
+  // Registers of the window, a[3:0] (BANK-WIN-02, BANK-WIN-03).
   localparam logic [3:0] REG_DATA = 4'h0;
   localparam logic [3:0] REG_STATUS = 4'h1;
   localparam logic [3:0] REG_CONFIG = 4'h2;
@@ -25,14 +25,14 @@ package ppmc_bank_pkg;
   localparam logic [7:0] INFO_MARK = 8'h42;
   localparam logic [7:0] INFO_VERSION = 8'h01;
 
-  // Byte in the input buffer. It is new while seq differs from that of the byte accepted last.
+  // Byte in the input buffer. It is new while its seq differs from the seq of the last accepted byte.
   typedef struct packed {
     logic [1:0] seq;
     logic       is_command;  // 1: command, 0: parameter
     logic [7:0] data;
   } in_buf_t;
 
-  // Progress of the host in reading a response; seq is that of the response.
+  // Progress of the host in reading a response. seq is the seq of this response.
   typedef struct packed {
     logic [1:0] seq;
     logic [1:0] bytes_read;
@@ -42,10 +42,10 @@ package ppmc_bank_pkg;
   typedef struct packed {
     logic [1:0]  seq;
     logic [1:0]  bytes;  // number of bytes: 0, 1 or 3
-    logic [23:0] data;   // first byte in the low bits
+    logic [23:0] data;   // response; first byte in bits 7:0
   } read_data_t;
 
-  // Status register of an axis, and seq of the byte that the axis accepted last.
+  // Status register of an axis, and seq of the last accepted byte.
   typedef struct packed {
     logic [1:0] ack_seq;
     logic       error;
@@ -55,7 +55,7 @@ package ppmc_bank_pkg;
 
   // State of the command unit, in addition to last_cmd_t.
   typedef struct packed {
-    logic [1:0] ack_seq;  // seq of the byte accepted last
+    logic [1:0] ack_seq;  // seq of the last accepted byte
     logic       error;
     logic [2:0] number;   // error number, or number of missing parameters
   } parser_t;
@@ -63,18 +63,18 @@ package ppmc_bank_pkg;
   // Last command and its parameters, written with each accepted byte.
   typedef struct packed {
     logic [7:0]  code;
-    logic [23:0] params;  // the last in the high bits
+    logic [23:0] params;  // the last parameter is in bits 23:16
   } last_cmd_t;
 
   // Settings of an initialisation, written when its last byte is accepted.
   typedef struct packed {
-    logic                              chop;   // chop at standstill
+    logic                              chop;   // 1: chop at standstill
     logic [7:0]                        slow;   // start-up rate
     logic [7:0]                        fast;   // high-speed rate
     logic [ppmc104_pkg::STEP_BITS-1:0] steps;  // acceleration pulses PA
   } ramp_t;
 
-  // Units of the chopper phases, written when the host sets them.
+  // Units of the chopper phases. They are written when the host sets them.
   typedef struct packed {
     logic [7:0] off;
     logic [7:0] on;
@@ -82,84 +82,85 @@ package ppmc_bank_pkg;
 
   // Timing of the running interval.
   typedef struct packed {
-    logic       slow_base;   // base clock of 125 kHz
-    logic       extra_time;  // extra time of 7.5 us
-    logic       decel;       // the deceleration has begun
-    // Rate of the running interval. While accelerating, after the low time: rate of the next interval.
+    logic       slow_base;   // base clock; 1: 125 kHz
+    logic       extra_time;  // 1: extra time of 7.5 us
+    logic       decel;       // 1: the deceleration has begun
+    // Rate of the running interval. During acceleration, after the low time: rate of the next interval.
     logic [7:0] rate;
   } interval_t;
 
-  // State of a motion. At standstill, decel_margin is the number of remaining pulses that a host reads, and
-  // ramp_level is the number of remaining units of a chopper phase.
+  // State of a motion. At standstill, two fields have another meaning: decel_margin is the number of
+  // remaining pulses, which the host can read; ramp_level is the number of remaining units of a chopper
+  // phase.
   typedef struct packed {
     logic        busy;
-    logic        more_pulses;    // at least one more pulse must be ordered
-    logic        last_ordered;   // the last pulse has been ordered
-    logic        held;           // waits for GO
-    logic        pulse_low;      // from the order of a pulse to the order of its end
-    logic        decel_forced;   // deceleration was requested
-    logic        decel_natural;  // deceleration has begun by pulse count
-    logic        flag_stop;      // deceleration was requested by a command
-    logic        flag_slow;      // deceleration was requested by a slow-down limit
+    logic        more_pulses;    // 1: at least one more pulse must be ordered
+    logic        last_ordered;   // 1: the last pulse has been ordered
+    logic        held;           // 1: the axis waits for GO
+    logic        pulse_low;      // 1: the end of an ordered pulse has not been ordered yet
+    logic        decel_forced;   // 1: deceleration was requested
+    logic        decel_natural;  // 1: deceleration has begun because of the pulse count
+    logic        flag_stop;      // 1: a command requested the deceleration
+    logic        flag_slow;      // 1: a slow-down limit requested the deceleration
     logic [2:0]  op;             // operation
-    logic        pout_only;      // POUT mode: the phases do not change
-    logic        ccw;            // direction is CCW
-    logic        silent;         // no interrupt at the end
-    logic [24:0] decel_margin;   // (pulses after the next pulse) - 1 - index of the running interval
+    logic        pout_only;      // 1: POUT mode, the phases do not change
+    logic        ccw;            // 1: CCW
+    logic        silent;         // 1: no interrupt at the end
+    logic [24:0] decel_margin;   // pulses after the next pulse - 1 - index of the running interval
     logic [14:0] ramp_level;     // index of the running interval + 1
   } motion_state_t;
 
   // Progress of an initialisation.
   typedef struct packed {
     logic initialised;
-    logic building;     // the ramp table is being built
+    logic building;     // 1: the ramp table is being built
   } init_state_t;
 
   // Phases, chopper, finish status, and sequence number of the last response.
   typedef struct packed {
     logic        hold;             // level of the pin hold
-    logic        chop;             // chop at standstill
-    logic        phases_on;        // state of the chopper: phases on
-    logic        chop_programmed;  // the host has set the times of the chopper
+    logic        chop;             // 1: chop at standstill
+    logic        phases_on;        // chopper, 1: the phases are on
+    logic        chop_programmed;  // 1: the host has set the times of the chopper
     logic [1:0]  motor;            // motor_e
-    logic        half;             // half step
+    logic        half;             // 1: half step
     logic        positive;         // 0: s is inverted
     logic        two_phases;       // see ppmc_motion_pkg
-    logic [5:1]  pattern;          // phases, 1 = on
-    logic        finish_unread;    // finish status not read yet
+    logic [5:1]  pattern;          // phases, 1: on
+    logic        finish_unread;    // 1: the host has not read the finish status
     stop_cause_t cause;            // cause of the end of the last motion
-    logic [1:0]  read_data_seq;    // seq of the response stored last
+    logic [1:0]  read_data_seq;    // seq of the last stored response
   } output_state_t;
 
-  // State of the pin block and switches of an axis, as sampled by a visit.
+  // State of the pin block and of the switches of an axis, sampled by a visit.
   typedef struct packed {
-    logic      armed;     // pulses may be output
-    logic      emitted;   // the last ordered pulse has been output
-    logic      stop;      // cause of armed = 0: STOP or a stop command
-    logic      alarm;     // cause of armed = 0: alarm
-    logic      limit;     // cause of armed = 0: limit
-    logic      in_group;  // member of the group
+    logic      armed;     // 1: pulses may be output
+    logic      emitted;   // 1: the last ordered pulse has been output
+    logic      stop;      // armed = 0 because of STOP or a stop command
+    logic      alarm;     // armed = 0 because of an alarm
+    logic      limit;     // armed = 0 because of a limit
+    logic      in_group;  // 1: the axis is a member of the group
     switches_t switches;
   } pin_status_t;
 
-  // Command of a visit to the pin block. halt is executed immediately; pulse, pulse_end and set_pins are
-  // executed in one cycle of the next round, and at most one of them is 1.
+  // Command of a visit to the pin block. halt is executed immediately. pulse, pulse_end and set_pins are
+  // executed in one cycle of the next round; at most one of these three is 1.
   typedef struct packed {
-    logic       halt;       // no more pulses
-    logic       pulse;      // a pulse begins
-    logic       pulse_end;  // the pulse ends
-    logic       set_pins;   // the other pins change
+    logic       halt;       // 1: output no more pulses
+    logic       pulse;      // 1: begin a pulse
+    logic       pulse_end;  // 1: end the pulse
+    logic       set_pins;   // 1: set the other pins
     logic       arm;        // with set_pins: pulses may follow; with pulse: another pulse may follow
-    logic       search;     // the origin ends the motion
-    logic       ccw;        // level of dir; selects the limit
+    logic       search;     // 1: the origin ends the motion
+    logic       ccw;        // level of dir; also selects the limit
     logic       hold;       // level of hold
     logic [5:1] s;          // levels of s
   } pin_cmd_t;
 
-  // Comparisons of a visit, made one cycle before the decisions.
+  // Comparisons of a visit. They are made one cycle before the decisions.
   typedef struct packed {
-    logic edge_in_round;    // the awaited edge is in the next round
-    logic rate_mismatch;    // the rate is not yet the rate of its index
+    logic edge_in_round;    // the awaited edge occurs in the next round
+    logic rate_mismatch;    // the rate does not match the index of the interval yet
     logic margin_zero;      // motion_state_t.decel_margin is 0
     logic margin_negative;  // motion_state_t.decel_margin is negative
     logic ramp_bottom;      // motion_state_t.ramp_level is 0 or 1
@@ -170,34 +171,34 @@ package ppmc_bank_pkg;
 
   // Decisions of a visit.
   typedef struct packed {
-    logic       start;          // an operation starts
-    logic       go_accept;      // GO: pulse 1 is scheduled
-    logic       go_reject;      // GO: no operation is waiting
-    logic       finish;         // a motion ends
-    logic       init_done;      // an initialisation is complete
-    logic       init;           // an initialisation begins
-    logic       first_init;     // with init: the first since reset or Excitation OFF
-    logic       exc_off;        // Excitation OFF
-    logic       switching;      // the times of the chopper are set
-    logic       read;           // a read command
-    logic [2:0] read_select;    // data selected by the read command
-    logic       halt;           // a stop command that acts immediately
+    logic       start;          // start an operation
+    logic       go_accept;      // GO: schedule pulse 1
+    logic       go_reject;      // GO: reject, because no operation is waiting
+    logic       finish;         // end a motion
+    logic       init_done;      // complete an initialisation
+    logic       init;           // begin an initialisation
+    logic       first_init;     // with init: it is the first since reset or Excitation OFF
+    logic       exc_off;        // execute Excitation OFF
+    logic       switching;      // set the times of the chopper
+    logic       read;           // execute a read command
+    logic [2:0] read_select;    // data that the read command selects
+    logic       halt;           // execute a stop command that acts immediately
     logic       abort_motion;   // the pin block has ended the motion
     logic       cancel_pulse;   // with abort_motion: the last ordered pulse was not output
-    logic       flag_stop;      // deceleration by a command
-    logic       flag_slow;      // deceleration by a slow-down limit
-    logic       pulse;          // a pulse is ordered
-    logic       last_pulse;     // with pulse: last pulse
-    logic       level_up;       // with pulse: ramp_level + 1
-    logic       level_down;     // with pulse: ramp_level - 1
-    logic       decel_point;    // with pulse: the deceleration begins
-    logic       decel_natural;  // with pulse: deceleration by pulse count
-    logic       pulse_end;      // the end of a low time is ordered
-    logic       rate_next;      // the rate changes by one
-    logic       chop_edge;      // an edge of the chopper is ordered
+    logic       flag_stop;      // decelerate because of a command
+    logic       flag_slow;      // decelerate because of a slow-down limit
+    logic       pulse;          // order a pulse
+    logic       last_pulse;     // with pulse: it is the last pulse
+    logic       level_up;       // with pulse: increment ramp_level
+    logic       level_down;     // with pulse: decrement ramp_level
+    logic       decel_point;    // with pulse: begin the deceleration
+    logic       decel_natural;  // with pulse: decelerate because of the pulse count
+    logic       pulse_end;      // order the end of a low time
+    logic       rate_next;      // change the rate by one
+    logic       chop_edge;      // order an edge of the chopper
     logic       chop_unit;      // one unit of the chopper phase has passed
-    logic       hold_running;   // the hold time is running
-    logic       hold_end;       // the hold time has ended
+    logic       hold_running;   // count the hold time
+    logic       hold_end;       // end the hold time
   } decision_t;
 
   // Command set of the PPMC-104 without the commands that a bank does not have (BANK-GEN-03).

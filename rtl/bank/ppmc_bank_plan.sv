@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_plan: decisions of a visit: whether the byte is accepted, the effect of byte and switches on the
-//         motion, the edge to order from the pin block, and the cycles to the next edge.
+// ppmc_bank_plan: decides in each visit whether the byte is accepted, how byte and switches affect the
+//         motion, which edge the pin block must output, and how many cycles remain until the next edge.
 // Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
 //         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
 // Timing: combinational.
-// How:    cycles_left of state_s1_t is the number of cycles from the visit to the awaited edge. All values
-//         added to it are reduced by Round, because the next visit is one round later.
+// How:    cycles_left of state_s1_t is the number of cycles from the visit to the awaited edge. The next
+//         visit is one round later, so all values that are added to cycles_left are reduced by Round.
 `default_nettype none
 
 module ppmc_bank_plan
@@ -23,27 +23,27 @@ module ppmc_bank_plan
     input wire interval_t interval_i,  // timing of the running interval
     input wire init_state_t init_state_i,  // progress of the initialisation
     input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
-    input wire logic hold_end_i,  // the hold time ends with this visit
+    input wire logic hold_end_i,  // 1: the hold time ends in this visit
     input wire pin_status_t pin_status_i,  // pin block and switches
     input wire compare_t compare_i,  // comparisons of this visit
-    input wire logic builder_free_i,  // a ramp table may be built
+    input wire logic builder_free_i,  // 1: the builder of ramp tables is free
     // command unit
-    input wire logic extra_time_i,  // vsel = L in CONFIG
-    input wire in_buf_t in_buf_i,  // byte of the host
-    input wire logic in_buf_new_i,  // in_buf_i is not yet accepted
-    input wire decoded_t decoded_i,  // in_buf_i.data as a code
-    input wire cmd_error_e param_error_i,  // error in an initialisation that in_buf_i completes
-    input wire parser_state_t parser_i,  // state before this byte
-    output parser_state_t parser_o,  // state after this byte
-    output logic take_o,  // the byte is accepted
-    output logic [7:0] code_o,  // code of the actions in decision_o
+    input wire logic extra_time_i,  // 1: extra time (vsel low in CONFIG)
+    input wire in_buf_t in_buf_i,  // byte from the host
+    input wire logic in_buf_new_i,  // 1: in_buf_i has not been accepted yet
+    input wire decoded_t decoded_i,  // in_buf_i.data decoded as a code
+    input wire cmd_error_e param_error_i,  // error of an initialisation whose last byte is in_buf_i
+    input wire parser_state_t parser_i,  // state before the byte
+    output parser_state_t parser_o,  // state after the byte
+    output logic take_o,  // 1: the byte is accepted
+    output logic [7:0] code_o,  // code of the command in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
     input wire logic [TimeBits-1:0] go_delay_i,  // W minus the cycles since GO
-    input wire logic [TimeBits-1:0] after_low_i,  // cycles after the low time, minus Round
+    input wire logic [TimeBits-1:0] after_low_i,  // cycles from the low time to the next pulse, minus Round
     output decision_t decision_o,  // decisions of the visit
-    output logic restart_time_o,  // restart cycles_left from 0
-    output logic [TimeBits-1:0] add_cycles_o  // cycles to add to cycles_left
+    output logic restart_time_o,  // 1: clear cycles_left before the addition
+    output logic [TimeBits-1:0] add_cycles_o  // cycles that are added to cycles_left
 );
 
   localparam int unsigned WidthCycles = 20 * Quantum;  // W in cycles
@@ -75,7 +75,7 @@ module ppmc_bank_plan
     chop_edge = chop_unit && motion_i.ramp_level == '0;
   end
 
-  // ---- the byte ------------------------------------------------------------------------------------
+  // ---- byte ----------------------------------------------------------------------------------------
 
   assign pulses_done = !motion_i.more_pulses || abort_motion;
   assign is_init = parser_i.code[7:6] == 2'b00;
@@ -116,7 +116,7 @@ module ppmc_bank_plan
       .stop_o        (unused_stop)
   );
 
-  // ---- the motion ----------------------------------------------------------------------------------
+  // ---- motion --------------------------------------------------------------------------------------
 
   always_comb begin
     decision_o.abort_motion = abort_motion;
@@ -140,7 +140,8 @@ module ppmc_bank_plan
     pulse = motion_i.more_pulses && !motion_i.held && !motion_i.pulse_low && !abort_motion
         && compare_i.edge_in_round && !compare_i.rate_mismatch;
     decision_o.pulse = pulse && !halt;
-    // A low time that may still become longer does not end before its length is known.
+    // A low time whose rate is still changing may become longer. It does not end before its length is
+    // known.
     low_may_grow =
         compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered && interval_i.rate < 8'd3;
     decision_o.pulse_end = motion_i.pulse_low && compare_i.edge_in_round && !low_may_grow && !cancel_pulse;
@@ -169,7 +170,8 @@ module ppmc_bank_plan
 
   // ---- cycles to the next edge ---------------------------------------------------------------------
 
-  // Low time at a rate, minus Round: half the interval if halves = 1 and the rate is 0 to 2, else W.
+  // Low time at a rate, minus Round. With halves = 1 and a rate of 0 to 2, it is half of the interval;
+  // otherwise W.
   function automatic cycles_t low_time(logic [7:0] rate, logic halves);
     unique case ({
       halves && rate[7:2] == '0, rate[1:0]
@@ -181,15 +183,15 @@ module ppmc_bank_plan
     endcase
   endfunction
 
-  // Low time of the next slower rate minus the low time of this rate, minus Round.
+  // Low time of the next slower rate, minus the low time of this rate, minus Round.
   function automatic cycles_t low_time_increase(logic [7:0] rate, logic halves);
     if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return -cycles_t'(Round);
     return (rate[1:0] == 2'd2) ? cycles_t'(WidthCycles - 3 * HalfBaseCycles - Round)
         : cycles_t'(HalfBaseCycles - Round);
   endfunction
 
-  // Fixed time of a chopper phase, minus Round. on: ON phase; programmed: the host has set the units; extra:
-  // vsel = L.
+  // Fixed time of a chopper phase, minus Round. on = 1: ON phase; programmed = 1: the host has set the
+  // units; extra = 1: vsel is low.
   function automatic cycles_t chop_time(logic on, logic programmed, logic extra);
     unique case ({
       on, programmed, extra
@@ -203,7 +205,7 @@ module ppmc_bank_plan
     endcase
   endfunction
 
-  // The decisions of the byte are applied last, because they are timing-critical. After a halt no edge is
+  // The decisions of the byte are timing-critical, so they are applied last. After a halt, no edge is
   // scheduled.
   always_comb begin
     restart_time_o = decision_o.start || go_accept || finish || init_done;

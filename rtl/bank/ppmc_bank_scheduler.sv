@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_scheduler: selects the axis of each visit, and extends reset, GO and STOP to a round, so that
+// ppmc_bank_scheduler: selects the axis of each visit. Extends reset, GO and STOP to one round, so that
 //         they act on all axes.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
-// Timing: axis 0 is in stage 0 in the first cycle after reset. clear_o covers one visit of every axis. go_o
-//         is high for one round, from the cycle after go_i; stop_o is high for one round plus one cycle,
-//         from the cycle after stop_i.
+// Timing: axis 0 is in stage 0 in the first cycle after reset. clear_o is high for one visit of every axis.
+//         go_o is high for one round from the cycle after go_i on. stop_o is high for one round plus one
+//         cycle from the cycle after stop_i on.
 `default_nettype none
 
 module ppmc_bank_scheduler #(
@@ -16,14 +16,14 @@ module ppmc_bank_scheduler #(
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic go_i,  // GO is written at the next edge
-    input wire logic stop_i,  // STOP is written at the next edge
+    input wire logic go_i,  // strobe: GO is written at the next edge
+    input wire logic stop_i,  // strobe: STOP is written at the next edge
     output logic [Stages-1:0][RoundBits-1:0] axis_o,  // axis of the visit in each stage
-    output logic [Round-1:0] last_stage_o,  // bit i: axis i is in the last stage
-    output logic [Stages:0] clear_o,  // bit i: reset the axis in stage i
-    output logic go_o,  // GO is active for the visits of this cycle
+    output logic [Round-1:0] last_stage_o,  // [i]: axis i is in the last stage
+    output logic [Stages:0] clear_o,  // [i]: reset the axis in stage i
+    output logic go_o,  // 1: GO is active for the visits in this cycle
     output logic [TimeBits-1:0] go_delay_o,  // W minus the cycles since GO
-    output logic stop_o  // end every running motion
+    output logic stop_o  // 1: end every running motion
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -38,10 +38,10 @@ module ppmc_bank_scheduler #(
     end
   end
 
-  // Number of further cycles for which go_o and stop_o stay high.
+  // Number of further cycles for which go_o and stop_o remain high.
   logic [RoundBits-1:0] go_left_q;
-  logic [RoundBits:0] stop_left_q;  // a round + 1: the last operation to start is armed by then
-  logic go_pending_q;  // another GO was written during go_o
+  logic [RoundBits:0] stop_left_q;  // a round + 1 cycle: then the operation that started last is armed
+  logic go_pending_q;  // GO was written again while go_o = 1
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_tables: ramp tables of all axes in one RAM, and one builder that fills them.
+// ppmc_bank_tables: ramp tables of all axes in one RAM, with one builder that fills them.
 // Rules:  P104-RMP-02, P104-INI-07, BANK-INI-01, BANK-HSK-05.
-// Timing: build_start_i is accepted in a cycle with build_busy_o = 0; the table is complete when build_busy_o
-//         is deasserted.
+// Timing: build_start_i is accepted while build_busy_o = 0. The table is complete when build_busy_o falls.
 //         threshold_o is valid two cycles after axis_i and rate_i.
 `default_nettype none
 
@@ -13,16 +12,16 @@ module ppmc_bank_tables #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // build
-    input  wire logic                build_start_i,  // build a table from the values below
+    input  wire logic                build_start_i,  // strobe: build a table
     input  wire logic [AxisBits-1:0] build_axis_i,   // axis of the table to build
     input  wire logic [         7:0] slow_i,         // start-up rate
     input  wire logic [         7:0] fast_i,         // high-speed rate
     input  wire logic [StepBits-1:0] steps_i,        // acceleration pulses PA
-    output logic                     build_busy_o,   // a build is in progress
-    output logic      [AxisBits-1:0] build_axis_o,   // axis of the running build
+    output logic                     build_busy_o,   // 1: a build is in progress
+    output logic      [AxisBits-1:0] build_axis_o,   // axis of the current build
     // look up
     input  wire logic [AxisBits-1:0] axis_i,         // axis of the look-up
-    input  wire logic [         7:0] rate_i,         // r
+    input  wire logic [         7:0] rate_i,         // rate r
     output logic      [StepBits-1:0] threshold_o     // first index with a rate below r
 );
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_update: executes the decisions of a visit: next state of the axis, command to the pin block,
-//         response to the host.
+// ppmc_bank_update: executes the decisions of a visit. Computes the next state of the axis, the command to
+//         the pin block, and the response to the host.
 // Rules:  P104-PRO-01..04, P104-OPR-01..05, P104-END-01..07, P104-RD-02..07, P104-INI-05..08, P104-AUX-03/04,
 //         P104-PHS-01..06, P104-SW-02..05; BANK-WIN-07, BANK-MOT-01..04.
 // Timing: combinational.
@@ -26,7 +26,7 @@ module ppmc_bank_update
     input wire interval_t interval_i,  // interval of the motion
     input wire init_state_t init_state_i,  // progress of the initialisation
     input wire chop_units_t chop_units_i,  // units of the chopper phases
-    input wire logic chop_i,  // chopping at standstill, from the initialisation
+    input wire logic chop_i,  // 1: chop at standstill; from the initialisation
     input wire logic [7:0] slow_i,  // start-up rate
     input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
     input wire logic [HoldBits-1:0] hold_left_i,  // remaining rounds of the hold time, minus 1
@@ -40,13 +40,13 @@ module ppmc_bank_update
     output logic [31:0] position_o,  // CW pulses minus CCW pulses
     // outputs
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output read_data_t read_data_o,  // response to a read command, with decision_i.read
-    output logic irq_set_o,  // set the pending interrupt of the axis
-    output logic irq_clear_o  // clear the pending interrupt of the axis
+    output read_data_t read_data_o,  // response to a read command; valid with decision_i.read
+    output logic irq_set_o,  // 1: set the pending interrupt of the axis
+    output logic irq_clear_o  // 1: clear the pending interrupt of the axis
 );
 
   op_code_t   code;
-  init_code_t init;  // code_i as the code of an initialisation
+  init_code_t init;  // code_i as an initialisation code
   logic has_ramp, unused_bits;
 
   assign unused_bits = &{1'b0, decision_i, pin_status_i, code, init};
@@ -58,8 +58,8 @@ module ppmc_bank_update
 
   logic [24:0] margin_add;
   logic [24:0] decel_margin;  // with finish: remaining pulses minus 1
-  logic count_down;  // ramp_level decreases by 1
-  logic position_changes;  // a pulse is added or removed
+  logic count_down;  // decrement ramp_level
+  logic position_changes;  // a pulse is counted or cancelled
   logic ccw;  // direction of this pulse
 
   assign ccw    = motion_i.ccw ^ decision_i.cancel_pulse;
@@ -211,7 +211,8 @@ module ppmc_bank_update
         s: (outputs_o.pattern & {5{outputs_o.phases_on}}) ^ {5{!outputs_o.positive}}
     };
 
-    // The new seq differs from that of the previous response and from that of the response read last.
+    // The new seq differs from the seq of the previous response and from the seq of the response that was
+    // read last.
     read_data_o.seq = outputs_i.read_data_seq + 2'd1;
     if (read_data_o.seq == read_seq_i) read_data_o.seq = outputs_i.read_data_seq + 2'd2;
     read_data_o.bytes = (decision_i.read_select == SEL_REMAINING) ? 2'd3 : 2'd1;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_window: host interface of a bank: strobes, registers, one input buffer and one output queue for
-//         each axis.
+// ppmc_bank_window: host interface of a bank. Contains strobe logic and registers, and for each axis one
+//         input buffer and one output queue.
 // Rules:  BANK-WIN-01..08, BANK-HSK-01/03/04, BANK-GEN-04/05, BANK-GRP-01..04.
-// Timing: a write acts at the first edge after the end of its strobe has left the synchronisers. d_o is valid
-//         from the third edge after the start of a read strobe has left the synchronisers. in_buf_o,
-//         read_progress_o and config_no are valid one cycle after axis_i.
-// How:    the RAM words of the addressed axis are read in every cycle. If a visit writes these words in the
-//         cycle in which they are read, the words read before are kept. The registers of the bank
-//         (bank_reg_q, bank_reg_q2) are updated in every cycle.
+// Timing: a write acts at the first edge after the end of its strobe has passed the synchronisers. d_o is
+//         valid from the third edge after the start of a read strobe has passed the synchronisers.
+//         in_buf_o, read_progress_o and config_no are valid one cycle after axis_i.
+// How:    the RAM words of the addressed axis are read in every cycle. If a visit writes one of these words
+//         in the same cycle, the words from the previous cycle are kept. The registers of the bank
+//         (bank_reg_q, bank_reg_q2) are always updated.
 `default_nettype none
 
 module ppmc_bank_window
@@ -25,29 +25,29 @@ module ppmc_bank_window
     input wire logic wr_ni,  // write strobe
     input wire logic [7:0] d_i,  // data written by the host
     output logic [7:0] d_o,  // data read by the host
-    output logic d_oe_o,  // the host is reading: drive d_o
+    output logic d_oe_o,  // 1: drive d_o, because the host reads
     // visits
     input wire logic ready_i,  // 0: the axes are being reset
     input wire logic [RoundBits-1:0] axis_i,  // axis of the next visit
     output in_buf_t in_buf_o,  // input buffer of axis_i
-    output read_progress_t read_progress_o,  // response bytes of axis_i that were read
+    output read_progress_t read_progress_o,  // response bytes of axis_i that the host has read
     output logic [1:0] config_no,  // vsel and csel of axis_i, inverted
-    input wire logic [RoundBits-1:0] done_axis_i,  // axis of the visit that ends
+    input wire logic [RoundBits-1:0] done_axis_i,  // axis whose visit ends
     input wire axis_status_t status_i,  // status of done_axis_i
     input wire logic [31:0] position_i,  // position of done_axis_i
-    input wire logic read_data_we_i,  // write read_data_i
+    input wire logic read_data_we_i,  // strobe: write read_data_i
     input wire read_data_t read_data_i,  // response to a read command
     // bank
     input wire logic [Axes-1:0] map_i,  // pending interrupts
     output logic [Axes-1:0] mask_o,  // members of the group
-    output logic go_o,  // GO is written at the next edge
-    output logic stop_o  // STOP is written at the next edge
+    output logic go_o,  // strobe: GO is written at the next edge
+    output logic stop_o  // strobe: STOP is written at the next edge
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
-  // With few axes, only the positions use block RAM, because small FPGAs have few block RAMs. For the few
-  // bits of a status, the synthesis tool decides. Only attributes use these parameters, and simulation
-  // ignores attributes.
+  // With few axes, only the positions use block RAM, because small FPGAs have few block RAMs. A status has
+  // only few bits, so the synthesis tool selects its memory. Only attributes use these parameters;
+  // simulation ignores them.
   // verilator lint_off UNUSEDPARAM
   localparam string ReadDataStyle = (Slots > 8) ? "block" : "logic";
   localparam string StatusStyle = (Slots > 8) ? "block" : "auto";
@@ -96,7 +96,7 @@ module ppmc_bank_window
   assign read_done = read_s3_q && !read_s2;
   assign load      = read_s4_q && !read_s5_q && read_s2;
 
-  // ---- data written by the host --------------------------------------------------------------------
+  // ---- write accesses of the host -------------------------------------------------------------------
 
   in_buf_t in_buf_mem[Slots];
   read_progress_t read_progress_mem[Slots];
@@ -113,7 +113,7 @@ module ppmc_bank_window
       config_n_mem[i]      = '0;
     end
 
-  // All words are cleared while the bank is not ready.
+  // While the bank is not ready, all words are cleared.
   assign in_buf_we           = !ready_i || (write && waddr_q[3:1] == 3'd0);
   assign config_we           = !ready_i || (write && waddr_q[3:0] == REG_CONFIG);
   assign read_progress_we    = !ready_i || (read_done && data_shown_q);
@@ -141,7 +141,7 @@ module ppmc_bank_window
   assign go_o   = write && waddr_q[3:0] == REG_GO;
   assign stop_o = write && waddr_q[3:0] == REG_STOP;
 
-  // ---- data read by the host -----------------------------------------------------------------------
+  // ---- read accesses of the host --------------------------------------------------------------------
 
   (* ram_style = StatusStyle, no_rw_check *) axis_status_t status_mem[Slots];
   (* ram_style = "block", no_rw_check *) logic [31:0] position_mem[Slots];
@@ -197,10 +197,10 @@ module ppmc_bank_window
     endcase
     collision_q <= done_axis_i == axis_s2;
     if (!collision_q) axis_regs_q2 <= axis_regs_q;
-    bank_reg_q2 <= bank_reg_q;  // even if collision_q = 1: any visit may change the map
+    bank_reg_q2 <= bank_reg_q;  // also if collision_q = 1, because any visit may change the map
   end
 
-  // The new seq differs from the seq of the previous byte and from that of the byte accepted last.
+  // The new seq differs from the seq of the previous byte and from the seq of the last accepted byte.
   always_comb begin
     in_buf_wdata.is_command = waddr_q[0];
     in_buf_wdata.data       = wdata_q;
@@ -212,8 +212,8 @@ module ppmc_bank_window
   logic [1:0] bytes_read, byte_index;
   logic [7:0] data, status, value;
   logic ibf, obf, axis_exists;
-  logic [23:0] position_latch_q;  // bytes 1..3 of the position, loaded with byte 0
-  logic ready_q;  // ready_i at the time of the read data
+  logic [23:0] position_latch_q;  // bytes 1..3 of the position, latched when byte 0 is read
+  logic ready_q;  // ready_i in the cycle of the read data
 
   assign axis_exists = 32'(a_s2[9:4]) < Axes;
 

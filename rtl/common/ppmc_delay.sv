@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_delay: reports whether a number of ticks, known at elaboration, has passed since the last restart.
+// ppmc_delay: reports that a constant number of ticks has passed since the last restart.
 // Rules:  P104-GEN-02/03; P312-GEN-02, times of P312-OUT-01/02, P312-INP-33, P312-SER-10..17.
-// Timing: that of ppmc_timer. With tick_i = 1, a time of n crystal cycles is ppmc_pkg::cyc(n, ClkHz, XtalHz)
-//         ticks: after a restart at edge e, past_o is high from edge e + ceil(n * ClkHz / XtalHz) on.
+// Timing: as ppmc_timer. For a time of n crystal cycles, set tick_i = 1 and Ticks = ppmc_pkg::cyc(n, ClkHz,
+//         XtalHz). Then, after a restart at edge e, past_o is high from edge e + ceil(n * ClkHz / XtalHz)
+//         on.
 `default_nettype none
 
 module ppmc_delay #(
-    parameter int unsigned Ticks = 16  // 1 .. 2**24 - 1
+    parameter int unsigned Ticks = 16  // number of ticks, 1 .. 2**24 - 1
 ) (
     input  wire logic clk_i,
-    input  wire logic restart_i,  // restart the count from 0
-    input  wire logic tick_i,     // count one tick
-    output logic      past_o      // Ticks ticks have passed since the restart
+    input  wire logic restart_i,  // strobe: restart the count from 0
+    input  wire logic tick_i,     // strobe: count one tick
+    output logic      past_o      // 1: the ticks have passed since the restart
 );
 
   localparam int unsigned Width = ppmc_lfsr_pkg::width(Ticks - 1);

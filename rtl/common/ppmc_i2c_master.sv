@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_i2c_master: master of an I2C bus with one master: sends START, STOP and bytes, receives bytes, and
-//         frees a bus whose data line is stuck.
+// ppmc_i2c_master: master of an I2C bus that has no other master. Sends START, STOP and bytes, receives
+//         bytes, and frees a bus whose data line is stuck.
 // Rules:  docs/pmc006/README.md, 14 (EEPROM); P006-BAD-13 (clock held low).
-// Timing: the lines change at tick_o, four ticks a bit: SDA changes, SCL rises, SDA is sampled, SCL falls.
-//         START and STOP take six ticks. done_o or fail_o is high one cycle after the last tick. If the next
-//         command is valid before the next tick, it follows without a gap. While a device holds SCL low, the
-//         sample is repeated at each tick, for up to 1 ms. SCL rises SclRiseCycles cycles after its tick, so
-//         that it is low for 55 % of the period, rounded up to a whole cycle.
+// Timing: the lines change at tick_o. A bit takes four ticks: SDA changes, SCL rises, SDA is sampled, SCL
+//         falls. START and STOP take six ticks. done_o or fail_o is high one cycle after the last tick. If
+//         the next command is valid before the next tick, it follows without a gap. While a device holds
+//         SCL low, the sample is repeated at each tick for up to 1 ms. SCL rises SclRiseCycles cycles after
+//         its tick, so that it is low for 55 % of the period, rounded up to a whole cycle.
 // Assumes: cmd_i is stable until done_o or fail_o.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -15,28 +15,28 @@ module ppmc_i2c_master
   import ppmc_i2c_pkg::*;
 #(
     parameter int unsigned ClkHz = 16_000_000,
-    parameter int unsigned SclHz = 400_000      // at most ClkHz / 20
+    parameter int unsigned SclHz = 400_000      // frequency of SCL, at most ClkHz / 20
 ) (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    output logic                tick_o,    // strobe: tick, four per bit
+    output logic                tick_o,    // strobe: a tick, four per bit
     input  wire i2c_cmd_e       cmd_i,     // command
     input  wire logic     [7:0] byte_i,    // byte to send; 8'hff to receive
-    input  wire logic           ack_i,     // ninth bit to send; 1: the other device may drive it
-    output logic                first_o,   // byte_i and ack_i are loaded at the next edge
-    output logic                done_o,    // single-cycle strobe: the command is complete
-    output logic                fail_o,    // SCL or SDA is stuck; both are released
-    output logic          [7:0] byte_o,    // byte received
-    output logic                nack_o,    // ninth bit; for CmdFree the last bit sampled
+    input  wire logic           ack_i,     // ninth bit; 1: the other device may drive it
+    output logic                first_o,   // strobe: byte_i and ack_i are loaded at the next edge
+    output logic                done_o,    // strobe: the command is complete
+    output logic                fail_o,    // strobe: SCL or SDA is stuck; both are released
+    output logic          [7:0] byte_o,    // received byte
+    output logic                nack_o,    // ninth bit; for CmdFree: the last sampled bit
     input  wire logic           scl_i,     // SCL of the bus, synchronised
     input  wire logic           sda_i,     // SDA of the bus, synchronised
-    output logic                scl_oe_o,  // drive SCL low
-    output logic                sda_oe_o   // drive SDA low
+    output logic                scl_oe_o,  // 1: drive SCL low
+    output logic                sda_oe_o   // 1: drive SDA low
 );
 
   localparam int unsigned StretchTicks = 4 * SclHz / 1000 + 1;
-  // SclLowCycles: 0.55 of a bit in cycles (a 24C32 at 400 kHz needs SCL low for 1.3 us). SclRiseCycles:
-  // SclLowCycles minus two ticks, at their shortest length.
+  // SclLowCycles: 0.55 bit times in cycles (a 24C32 at 400 kHz needs SCL low for 1.3 us). SclRiseCycles:
+  // SclLowCycles minus the shortest duration of two ticks.
   localparam longint unsigned Scl20 = 64'd20 * 64'(SclHz);
   localparam int unsigned SclLowCycles = 32'((64'd11 * 64'(ClkHz) + Scl20 - 64'd1) / Scl20);
   localparam int unsigned SclRiseCycles = SclLowCycles - ClkHz / (2 * SclHz);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_lfsr_pkg: counters in the form of a shift register with feedback (Galois LFSR, maximal length), for
-//         blocks that only compare the count with a few values. A binary counter needs a gate or a carry cell
-//         for each bit; an LFSR needs one to three XOR gates in all.
-// How:    the state after n steps is x**n modulo a primitive polynomial, beginning with x**0 = 1; it repeats
+// ppmc_lfsr_pkg: counters that are shift registers with feedback (Galois LFSRs of maximal length), for
+//         blocks that only compare the count with a few values. A binary counter needs a gate or a carry
+//         cell for each bit; an LFSR needs only one to three XOR gates.
+// How:    the state after n steps is x**n modulo a primitive polynomial, and x**0 = 1. The states repeat
 //         after 2**bits - 1 steps. The state 0 would never change, but no step leads to it.
 `default_nettype none
 
@@ -11,7 +11,7 @@ package ppmc_lfsr_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // Primitive polynomials of degree 31 .. 2 without their highest power; x**0 is the lowest bit.
+  // Primitive polynomials of the degrees 31 .. 2, without their highest power. Bit 0 is x**0.
   localparam logic [31:2][7:0] TAPS = {
     8'h09,  // 31
     8'h53,
@@ -45,7 +45,7 @@ package ppmc_lfsr_pkg;
     8'h03
   };
 
-  // Bits of a count that must distinguish the values 0 .. `top`; top is at most 2**31 - 2.
+  // Bits of a counter that must distinguish 0 .. `top`, which is at most 2**31 - 2.
   function automatic int unsigned width(int unsigned top);
     return (top < 2) ? 2 : 32'($clog2(64'(top) + 64'd2));
   endfunction
@@ -57,11 +57,12 @@ package ppmc_lfsr_pkg;
     return ({state[29:0], 1'b0} & mask) ^ (state[bits-1] ? 31'(TAPS[bits]) : '0);
   endfunction
 
-  // State after n steps, n below 2**bits; for elaboration only. For each bit of n, from the highest down, it
-  // squares the power and, if the bit is 1, adds a step. It has few statements, because tools evaluate
-  // functions slowly.
+  // State after n steps; n is below 2**bits; only for elaboration. The loop uses the bits of n from the
+  // highest down. For each bit, it squares the power and, if the bit is 1, adds a step. The function has
+  // few statements, because tools evaluate functions slowly.
   function automatic logic [30:0] after(int unsigned n, int unsigned bits);
-    // whole: the polynomial; power: x**m, m: the bits of n used so far; square: power squared
+    // whole: polynomial; power: x**m, where m consists of the bits of n used so far; square: square of
+    // power
     logic [31:0] whole, power, square;
     whole = (32'd1 << bits) | 32'(TAPS[bits]);
     power = 32'd1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pkg: functions that all cores share: conversion of times, widths of counters, arithmetic of short
-//         numbers.
-// Rules:  P104-GEN-02, P104-GEN-03 (times are given in crystal cycles and converted into clock cycles only
-//         here).
+// ppmc_pkg: functions that all cores share. They convert times, calculate widths of counters, and process
+//         short numbers.
+// Rules:  P104-GEN-02, P104-GEN-03 (times are specified in crystal cycles; only this package converts them
+//         to clock cycles).
 `default_nettype none
 
 package ppmc_pkg;
@@ -10,14 +10,15 @@ package ppmc_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // Cycles that last as long as `xtal_cycles` crystal cycles, rounded up: CYC(n) of the rules.
+  // Clock cycles that last as long as `xtal_cycles` crystal cycles, rounded up; CYC(n) in the rules.
   function automatic int unsigned cyc(int unsigned xtal_cycles, int unsigned clk_hz, int unsigned xtal_hz);
     longint unsigned product;
     product = 64'(xtal_cycles) * 64'(clk_hz);
     return 32'((product + 64'(xtal_hz) - 64'd1) / 64'(xtal_hz));
   endfunction
 
-  // Cycles that last as long as `xtal_cycles` crystal cycles, rounded to the nearest integer (half up).
+  // Clock cycles that last as long as `xtal_cycles` crystal cycles, rounded to the nearest integer (half
+  // up).
   function automatic int unsigned cyc_round(int unsigned xtal_cycles, int unsigned clk_hz,
                                             int unsigned xtal_hz);
     longint unsigned product;
@@ -25,13 +26,13 @@ package ppmc_pkg;
     return 32'((64'd2 * product + 64'(xtal_hz)) / (64'd2 * 64'(xtal_hz)));
   endfunction
 
-  // Bits of a counter that must hold 0 .. `top`; at least 1.
+  // Bits of a counter that must store 0 .. `top`; at least 1.
   function automatic int unsigned cnt_width(int unsigned top);
     return (top < 2) ? 1 : 32'($clog2(64'(top) + 64'd1));
   endfunction
 
-  // x + 1, x - 1 and x < y of short numbers, built from gates: on an ECP5 the two ends of a carry chain cost
-  // as much as five bits of it.
+  // x + 1, x - 1 and x < y of short numbers, built from gates. On an ECP5, the two ends of a carry chain
+  // cost as much as five of its bits.
   function automatic logic [31:0] inc(logic [31:0] x);
     logic carry;
     carry = 1'b1;
@@ -50,7 +51,7 @@ package ppmc_pkg;
     for (int unsigned i = 0; i < 32; i++) less = (x[i] == y[i]) ? less : y[i];
   endfunction
 
-  // Greatest common divisor; it keeps phase accumulators narrow.
+  // Greatest common divisor. Dividing by it keeps phase accumulators narrow.
   function automatic longint unsigned gcd(longint unsigned a, longint unsigned b);
     longint unsigned x, y, t;
     x = a;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ram: block RAM with one write and one read port.
-// Timing: latency: two cycles from raddr_i to rdata_o. Block RAMs are slow, so their output has a register.
-// Assumes: no block reads an address in the cycle in which it is written (the read may return either word).
-// Note:   contents are not reset; they start as zeros, and every user writes a word before reading it.
+// Timing: read latency two cycles, because the slow block RAM has an output register.
+// Assumes: no address is read in the cycle in which it is written (the read would return either word).
+// Note:   the contents are not reset. They are initially 0, and every user writes a word before reading it.
 `default_nettype none
 
 module ppmc_ram #(
@@ -10,11 +10,11 @@ module ppmc_ram #(
     parameter int unsigned AddrBits = 8
 ) (
     input  wire logic                clk_i,
-    input  wire logic                we_i,     // write at the next edge
-    input  wire logic [AddrBits-1:0] waddr_i,  // address of the write
-    input  wire logic [   Width-1:0] wdata_i,  // data to write
-    input  wire logic [AddrBits-1:0] raddr_i,  // address of the read
-    output logic      [   Width-1:0] rdata_o   // word at raddr_i, valid two cycles later
+    input  wire logic                we_i,     // strobe: write at the next edge
+    input  wire logic [AddrBits-1:0] waddr_i,  // write address
+    input  wire logic [   Width-1:0] wdata_i,  // write data
+    input  wire logic [AddrBits-1:0] raddr_i,  // read address
+    output logic      [   Width-1:0] rdata_o   // word at raddr_i, two cycles later
 );
 
   (* ram_style = "block", no_rw_check *)

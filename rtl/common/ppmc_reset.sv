@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_reset: reset of a core: asserted asynchronously, released synchronously.
+// ppmc_reset: reset generator of a core. Asserts the reset asynchronously and releases it synchronously.
 // Rules:  P104-PORT-03.
-// Timing: rst_no falls immediately with rst_ni. At the second rising edge of clk_i with rst_ni high, rst_no
-//         rises.
+// Timing: rst_no falls immediately when rst_ni falls. It rises at the second rising edge of clk_i at which
+//         rst_ni is high.
 `default_nettype none
 
 module ppmc_reset (
     input  wire logic clk_i,
-    input  wire logic rst_ni,  // asynchronous, active low
-    output logic      rst_no   // reset for every flip-flop of the core
+    input  wire logic rst_ni,  // reset, asynchronous
+    output logic      rst_no   // reset of all flip-flops of the core
 );
 
   logic meta_q;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_square: square wave with a half period of HalfXtal crystal cycles, made by phase accumulation; no
-//         drift.
+// ppmc_square: square wave with a half period of HalfXtal crystal cycles. A phase accumulator avoids drift.
 // Rules:  P2104-PORT-06.
-// Timing: toggle t occurs at rising edge number ceil(t * HalfXtal * ClkHz / XtalHz), where edge 1 is the
-//         first rising edge after reset. Half a period lasts at least one cycle.
+// Timing: toggle t occurs at rising edge number ceil(t * HalfXtal * ClkHz / XtalHz); edge 1 is the first
+//         rising edge after reset. A half period is at least one cycle.
 `default_nettype none
 
 module ppmc_square #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter int unsigned HalfXtal = 2            // crystal cycles in half a period
+    parameter int unsigned HalfXtal = 2            // half period in crystal cycles
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_tick_gen: tick every `TickXtal` crystal cycles; phase accumulation, exact, without drift.
+// ppmc_tick_gen: outputs a tick every `TickXtal` crystal cycles. A phase accumulator avoids drift.
 // Rules:  P104-BCK-03 (quantum ticks), P104-GEN-04.
 // Timing: after a restart that takes effect at edge e, tick n is high in the cycle before edge e + ceil(n *
-//         TickXtal * ClkHz / XtalHz), so that registers enabled by it change on exactly that edge.
+//         TickXtal * ClkHz / XtalHz). Registers that are enabled by the tick change at exactly this edge.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_tick_gen #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
-    parameter int unsigned TickXtal  = 4,           // crystal cycles in a tick period
-    parameter int unsigned MinCycles = 2            // shortest tick period allowed, in cycles: 1 or 2
+    parameter int unsigned TickXtal  = 4,           // tick period in crystal cycles
+    parameter int unsigned MinCycles = 2            // shortest permitted tick period in cycles, 1 or 2
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic restart_i,  // phase 0 at the next edge
-    output logic      tick_o      // tick, high for one cycle, registered
+    input  wire logic restart_i,  // strobe: set the phase to 0 at the next edge
+    output logic      tick_o      // strobe, registered: a tick
 );
 
   localparam longint unsigned Period = 64'(TickXtal) * 64'(ClkHz);
@@ -40,7 +40,7 @@ module ppmc_tick_gen #(
     logic [Width-1:0] phase_d, phase_q;
     logic wrap;
 
-    // The phase runs one cycle ahead of the tick, which leaves a cycle for the output register.
+    // The phase is one cycle ahead of the tick, which leaves a cycle for the output register.
     always_comb begin
       wrap = phase_q >= Width'(Modulus - Step);
       phase_d = phase_q + (wrap ? Width'(Step) - Width'(Modulus) : Width'(Step));

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_rx: UART receiver, 8 data bits, no parity, 1 stop bit; any rate up to clk / 5.
+// ppmc_uart_rx: UART receiver with 8 data bits, no parity, 1 stop bit, for any rate up to clk / 5.
 // Rules:  UB-LIN-01, UB-LIN-03 .. 05.
-// Timing: the block synchronises the line and samples each bit in its middle, to the nearest cycle. valid_o
-//         or error_o is high for one cycle in the middle of the stop bit; byte_o is valid for at least one
-//         more bit time.
-// Rate:   step_i = 2**Width * rate / clk. It may change at any time and is effective immediately. With a
-//         Modulus (even, above 2**(Width-1)) bit times are exact fractions: step_i = Modulus * rate / clk,
-//         and wrap_i = step_i - Modulus.
+// Timing: the block synchronises the line, and samples each bit in its middle, to the nearest cycle.
+//         valid_o or error_o is high for one cycle in the middle of the stop bit. byte_o is valid for at
+//         least one more bit time.
+// Rate:   Modulus = 0: step_i = 2**Width * rate / clk. A change of step_i is effective immediately.
+//         Modulus != 0 makes bit times exact fractions: step_i = Modulus * rate / clk, and wrap_i = step_i
+//         - Modulus. Modulus must be even and greater than 2**(Width-1).
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_uart_rx #(
     parameter int unsigned     Width   = 20,  // bits of the phase accumulator
-    parameter longint unsigned Modulus = 0    // phases in a bit; 0: 2**Width
+    parameter longint unsigned Modulus = 0    // phases per bit; 0: 2**Width
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic [Width-1:0] step_i,   // phases in a cycle
-    input  wire logic [Width-1:0] wrap_i,   // step_i - Modulus; not used if Modulus = 0
-    input  wire logic             rxd_i,    // raw pin, idle high
-    output logic      [      7:0] byte_o,   // character, valid with valid_o
-    output logic                  valid_o,  // a character with a high stop bit was received
-    output logic                  error_o,  // a character with a low stop bit was received
-    output logic                  break_o   // with error_o: all data bits were low as well
+    input  wire logic [Width-1:0] step_i,   // phases per cycle
+    input  wire logic [Width-1:0] wrap_i,   // step_i - Modulus; ignored if Modulus = 0
+    input  wire logic             rxd_i,    // line, asynchronous; idle high
+    output logic      [      7:0] byte_o,   // received character; valid with valid_o
+    output logic                  valid_o,  // strobe: a character with a high stop bit was received
+    output logic                  error_o,  // strobe: a character with a low stop bit was received
+    output logic                  break_o   // with error_o; 1: all data bits were also low
 );
 
   typedef enum logic [1:0] {
@@ -47,18 +47,18 @@ module ppmc_uart_rx #(
       .q2_o(line)
   );
 
-  // Between characters the phase is one half, so the first carry marks the middle of the start bit. On
-  // average the edge of the line occurs half a cycle before the cycle that samples it. Therefore this cycle
-  // counts as part of the start bit.
+  // Between characters, the phase is one half, so the first carry marks the middle of the start bit. On
+  // average, the edge of the line occurs half a cycle before it is sampled. Therefore the cycle of the
+  // sample counts as part of the start bit.
   if (Modulus == 0) begin : g_binary
     logic unused_wrap;
 
     assign unused_wrap = &{1'b0, wrap_i};
     assign {middle, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
   end else begin : g_modulus
-    // The phase starts at an offset, so that a carry marks the end of each bit time. The step after a carry
-    // restores this offset. The end of a character already sets the phase, because the next character may
-    // begin in the very next cycle.
+    // The phase starts at an offset, so that each carry marks the end of a bit time. The step after a carry
+    // restores the offset. The phase is set at the end of a character, because the next character may begin
+    // in the next cycle.
     logic wrapped_q, char_ends;
     logic [Width-1:0] sum;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_tx: UART transmitter, 8 data bits, no parity, 1 stop bit; any rate up to clk / 2.
+// ppmc_uart_tx: UART transmitter with 8 data bits, no parity, 1 stop bit, for any rate up to clk / 2.
 // Rules:  UB-LIN-01, UB-LIN-03.
-// Timing: a byte is accepted in a cycle with valid_i and ready_o high; its start bit begins at the next edge.
-//         ready_o is high again at the end of the stop bit, so the gap between two characters may be as short
-//         as one cycle.
+// Timing: a byte is accepted in a cycle in which valid_i and ready_o are high. Its start bit begins at the
+//         next edge. ready_o rises at the end of the stop bit, so the gap between two characters may be one
+//         cycle.
 // Rate:   step_i = 2**Width * rate / clk.
 // Assumes: step_i is constant while a character is sent.
 `default_nettype none
@@ -13,16 +13,16 @@ module ppmc_uart_tx #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic [Width-1:0] step_i,   // phases in a cycle
-    input  wire logic [      7:0] byte_i,   // character to send
-    input  wire logic             valid_i,  // byte_i is valid
-    output logic                  ready_o,  // a byte is accepted with valid_i
-    output logic                  txd_o     // the line, idle high
+    input  wire logic [Width-1:0] step_i,   // phases per cycle
+    input  wire logic [      7:0] byte_i,   // character to be sent
+    input  wire logic             valid_i,  // 1: byte_i is valid
+    output logic                  ready_o,  // 1: a byte is accepted with valid_i
+    output logic                  txd_o     // line, idle high
 );
 
   logic [Width-1:0] phase_q, phase_d;
   logic [8:0] bits_q;  // remaining data bits and the stop bit
-  logic [3:0] bits_left_q;  // remaining bits without the current bit
+  logic [3:0] bits_left_q;  // bits that remain after the current bit
   logic bit_end;
 
   assign {bit_end, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
@@ -40,8 +40,8 @@ module ppmc_uart_tx #(
     end
   end
 
-  // The phase starts at 0, so bit edge n occurs ceil(n * bit time) cycles after the start. These are the
-  // cycles nearest to an ideal grid that begins half a cycle later.
+  // The phase starts at 0, so bit edge n occurs ceil(n * bit time) cycles after the start. Compared with an
+  // ideal grid that begins half a cycle later, each edge occurs in the nearest cycle.
   always_ff @(posedge clk_i) begin
     phase_q <= ready_o ? '0 : phase_d;
     if (ready_o) begin

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_cycles: number of crystal cycles that end in each clock cycle, from a restart; no drift.
+// ppmc_xtal_cycles: outputs the number of crystal cycles that end in each clock cycle. The sum has no
+//         drift.
 // Rules:  P104-GEN-02/03.
 // Timing: after a restart at edge e, the sum of cycles_o over the next n cycles is floor(n * XtalHz / ClkHz).
 `default_nettype none
@@ -10,7 +11,7 @@ module ppmc_xtal_cycles #(
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic       restart_i,  // restart the count at the next edge
+    input  wire logic       restart_i,  // strobe: restart the count at the next edge
     output logic      [1:0] cycles_o    // crystal cycles that end in this cycle, 0 .. 3
 );
 

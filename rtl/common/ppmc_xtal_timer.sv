@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_timer: counts crystal cycles from a restart and reports whether a number of them has passed.
+// ppmc_xtal_timer: counts crystal cycles from a restart on, and reports that a variable number has passed.
 // Rules:  P104-GEN-02/03 for times that are not known at elaboration.
-// Timing: after a restart at edge e, past_o is high from edge e + ceil(limit * ClkHz / XtalHz) on; a register
-//         that it enables changes one edge later. The count stops at its maximum and never wraps.
-// Assumes: limit_i is at most 2**Width - 2; if XtalHz > 2 * ClkHz, at most 2**Width - 4.
+// Timing: after a restart at edge e, past_o is high from edge e + ceil(limit * ClkHz / XtalHz) on. A
+//         register that past_o enables changes one edge later. The count stops at its maximum and never
+//         wraps.
 `default_nettype none
 
 module ppmc_xtal_timer #(
@@ -13,9 +13,9 @@ module ppmc_xtal_timer #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             restart_i,  // restart the count from 0
+    input  wire logic             restart_i,  // strobe: restart the count from 0
     input  wire logic [Width-1:0] limit_i,    // number of crystal cycles
-    output logic                  past_o      // limit_i crystal cycles have passed
+    output logic                  past_o      // 1: limit_i crystal cycles have passed
 );
 
   logic [1:0] cycles;

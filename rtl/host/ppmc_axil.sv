@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_axil: AXI4-Lite subordinate (32 bits) for the strobe bus of a device.
-// Rules:  register map and responses in docs/integration.md; strobes by UB-BUS-01.
-// Timing: all outputs except the data multiplexer are registered. The block holds at most one write and one
-//         read. It executes one access at a time; if both wait, writes and reads alternate. The B response is
-//         valid 8 cycles after both AW and W were accepted, R 10 cycles after AR; for the bridge register, 2
-//         cycles. It takes longer if another access is in progress.
+// Rules:  register map and responses: docs/integration.md; strobes: UB-BUS-01.
+// Timing: all outputs except the data multiplexer are registered. The block stores at most one write and
+//         one read, and executes one access at a time. If both wait, writes and reads alternate. The B
+//         response is valid 8 cycles after both AW and W were accepted, the R response 10 cycles after AR
+//         was accepted. For the bridge register, this time is 2 cycles. A response is later if another
+//         access is in progress.
 `default_nettype none
 `include "ppmc_assert.svh"
 
@@ -19,8 +20,8 @@ module ppmc_axil #(
     input  wire logic [AddrBits+2:0] awaddr_i,   // byte address
     input  wire logic                wvalid_i,   // write data are valid
     output logic                     wready_o,   // write data are accepted
-    input  wire logic [        31:0] wdata_i,    // bits 7..0 are used
-    input  wire logic [         3:0] wstrb_i,    // bit 0: bits 7..0 are written
+    input  wire logic [        31:0] wdata_i,    // bits 7:0 are used
+    input  wire logic [         3:0] wstrb_i,    // bit 0: bits 7:0 are written
     output logic                     bvalid_o,   // write response is valid
     input  wire logic                bready_i,   // write response is accepted
     output logic      [         1:0] bresp_o,    // result of the write
@@ -29,9 +30,9 @@ module ppmc_axil #(
     input  wire logic [AddrBits+2:0] araddr_i,   // byte address
     output logic                     rvalid_o,   // read data are valid
     input  wire logic                rready_i,   // read data are accepted
-    output logic      [        31:0] rdata_o,    // bits 7..0 are used
+    output logic      [        31:0] rdata_o,    // bits 7:0 are used
     output logic      [         1:0] rresp_o,    // result of the read
-    output logic                     irq_o,      // interrupt of the device, H = active
+    output logic                     irq_o,      // interrupt of the device, active high
     // pins of the device
     output logic                     cs_no,      // chip select
     output logic                     rd_no,      // read strobe
@@ -39,7 +40,7 @@ module ppmc_axil #(
     output logic      [AddrBits-1:0] a_o,        // register
     output logic      [         7:0] d_o,        // write data
     input  wire logic [         7:0] d_i,        // read data
-    input  wire logic                int_ni      // interrupt, L = active
+    input  wire logic                int_ni      // interrupt, active low
 );
 
   typedef logic [AddrBits:0] word_addr_t;  // address of a 32-bit word
@@ -47,9 +48,9 @@ module ppmc_axil #(
   word_addr_t aw_q, ar_q;
   logic [7:0] w_q;
   logic strobe_q;  // byte lane 0 of W is enabled
-  logic busy_q, write_q;  // busy_q: a strobe access is in progress; write_q: it is a write
-  logic write_next_q;  // 1: if both wait, the write is next
-  logic bridge_reg_q;  // 1: R returns the bridge register or 0, no device data
+  logic busy_q, write_q;  // busy_q: a strobe access is in progress; write_q: this access is a write
+  logic write_next_q;  // 1: if a write and a read wait, the write is next
+  logic bridge_reg_q;  // 1: R returns the bridge register or 0, not data of the device
   logic flag_q, unused;
   assign unused = &{1'b0, awaddr_i[1:0], araddr_i[1:0], wdata_i[31:8], wstrb_i[3:1]};
 
@@ -59,7 +60,7 @@ module ppmc_axil #(
   word_addr_t word;
   logic [7:0] rdata;
 
-  // awready_o, wready_o and arready_o are low exactly while the register of their channel is full.
+  // awready_o, wready_o and arready_o are low only while the register of the channel is full.
   assign write_pending = !busy_q && !awready_o && !wready_o && !bvalid_o;
   assign read_pending  = !busy_q && !arready_o && !rvalid_o;
   assign write_first   = write_pending && (write_next_q || !read_pending);
@@ -158,7 +159,7 @@ module ppmc_axil #(
   `PPMC_ASSERT(axil_b_room, !(end_write && bvalid_o))
   `PPMC_ASSERT(axil_r_room, !(end_read && rvalid_o))
   `PPMC_ASSERT(axil_answer_per_strobe, !done || busy_q)
-  // The manager's side of the contract: a request stays unchanged until it is accepted.
+  // Obligation of the manager: a request does not change until it is accepted.
   `PPMC_ASSERT(axil_aw_held, !$past(rst_ni && awvalid_i && !awready_o)
                || (awvalid_i && awaddr_i == $past(awaddr_i)))
   `PPMC_ASSERT(axil_w_held, !$past(rst_ni && wvalid_i && !wready_o)

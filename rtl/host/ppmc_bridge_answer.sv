@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_answer: collects the data of an answer in the answer buffer: single bytes, IDENT, VERSION,
-//         RECORDED, COUNT.
-// Rules:  UB ops IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
-// Timing: put_i stores a byte at the next edge. A block takes one cycle for each byte; COUNT is restarted if
-//         the counter has changed during this time. The full flags are valid two cycles after the last byte.
-// Assumes: each counter changes by one at a time, and at most once in 4 cycles. For COUNT to end, the counter
-//         changes at most once in 8 cycles.
+// ppmc_bridge_answer: stores the data of an answer in the answer buffer. These are single bytes, and blocks
+//         of data for IDENT, VERSION, RECORDED and COUNT.
+// Rules:  UB operations IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
+// Timing: put_i stores a byte at the next edge. A block takes one cycle per byte. COUNT is restarted if the
+//         counter has changed during this time. The full flags are valid two cycles after the last byte.
+// Assumes: each counter changes by one at a time, and at most once in 4 cycles. COUNT only ends if the
+//         counter changes at most once in 8 cycles.
 `default_nettype none
 
 module ppmc_bridge_answer
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned Axes = 1,
-    parameter logic [127:0] Ident = '0,  // first byte in the low bits
-    parameter logic [127:0] Build = '0  // data of op VERSION
+    parameter logic [127:0] Ident = '0,  // data of operation IDENT; first byte in bits 7:0
+    parameter logic [127:0] Build = '0  // data of operation VERSION
 ) (
     input  wire logic                 clk_i,
     input  wire logic                 rst_ni,
-    input  wire logic                 clear_i,    // begin a new answer
-    input  wire logic                 put_i,      // store one byte
-    input  wire logic   [        7:0] data_i,     // byte to store, with put_i
+    input  wire logic                 clear_i,    // strobe: begin a new answer
+    input  wire logic                 put_i,      // strobe: store one byte
+    input  wire logic   [        7:0] data_i,     // byte; valid with put_i
     input  wire logic                 ident_i,    // strobe: begin a block of 16 bytes
-    input  wire block_e               block_i,    // block to store; stable while busy_o = 1
-    input  wire logic   [       63:0] info_i,     // data of RECORDED, followed by zeros
+    input  wire block_e               block_i,    // block to be stored; stable while busy_o = 1
+    input  wire logic   [       63:0] info_i,     // data of RECORDED, which zeros follow
     input  wire logic                 count_i,    // strobe: begin a block of COUNT
     input  wire logic                 second_i,   // 1: COUNT of axis 2; stable while busy_o = 1
-    input  wire logic   [Axes*32-1:0] counter_i,  // pulse counters, axis 1 in the low bits
-    output logic                      busy_o,     // a block is being stored
-    output logic                      full_o,     // no space for one more byte
-    output logic                      full4_o,    // no space for 4 bytes
-    output logic                      full16_o,   // no space for 16 bytes
+    input  wire logic   [Axes*32-1:0] counter_i,  // pulse counters; axis 1 is in bits 31:0
+    output logic                      busy_o,     // 1: a block is being stored
+    output logic                      full_o,     // 1: no space for another byte
+    output logic                      full4_o,    // 1: no space for 4 bytes
+    output logic                      full16_o,   // 1: no space for 16 bytes
     output logic        [        8:0] length_o,   // number of stored bytes
     // buffer
     output logic                      we_o,       // write enable of the buffer
@@ -76,7 +76,7 @@ module ppmc_bridge_answer
     full4_o  <= length_o > 9'd252;
     full16_o <= length_o > 9'd240;
     if (clear_i) length_o <= '0;
-    else if (we_o) length_o <= length_o + {{7{recount}}, 2'b01};  // +1 per byte; -3 if COUNT is restarted
+    else if (we_o) length_o <= length_o + {{7{recount}}, 2'b01};  // +1 per byte; -3 when COUNT is restarted
     if (ident_i || count_i) begin
       counting_q <= count_i;
       left_q     <= count_i ? 4'd3 : 4'd15;

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_decode: decodes the code of an op: the first need of the op (op_need_e), and whether the op may
-//         begin.
-// Rules:  the op table of docs/uart_bridge.md, UB-ANS-02, -05.
+// ppmc_bridge_decode: decodes the code of an operation (op). Outputs what the op needs first (op_need_e),
+//         and whether the op may begin.
+// Rules:  table of the ops in docs/uart_bridge.md; UB-ANS-02, UB-ANS-05.
 // Timing: combinational.
 `default_nettype none
 
 module ppmc_bridge_decode
   import ppmc_bridge_pkg::*;
 #(
-    parameter int unsigned Axes = 1,  // pulse counters
-    parameter bit Recorder = 1'b0  // 1: there is a recorder
+    parameter int unsigned Axes = 1,  // number of pulse counters, 1 or 2
+    parameter bit Recorder = 1'b0  // 1: the bridge has a recorder
 ) (
-    input  wire logic [7:0] op_i,      // op code
-    input  wire logic       full_i,    // no space for one more byte in the answer
-    input  wire logic       full4_i,   // no space for 4 bytes
-    input  wire logic       full16_i,  // no space for 16 bytes
+    input  wire logic [7:0] op_i,      // code of the op
+    input  wire logic       full_i,    // 1: no space for another byte in the answer
+    input  wire logic       full4_i,   // 1: no space for 4 bytes
+    input  wire logic       full16_i,  // 1: no space for 16 bytes
     output op_need_e        need_o,    // first need of the op
     output result_e         fail_o,    // ResDone, or the reason why the op may not begin
-    output logic            second_o,  // the op refers to axis 2
-    output logic            ident_o,   // the op begins a block of 16 bytes
-    output logic            count_o,   // the op begins a block of 4 bytes
+    output logic            second_o,  // 1: the op is for axis 2
+    output logic            ident_o,   // 1: the op begins a block of 16 bytes
+    output logic            count_o,   // 1: the op begins a block of 4 bytes
     output block_e          block_o    // selected block of 16 bytes
 );
 

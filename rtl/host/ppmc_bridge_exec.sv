@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_exec: executes the script in the request buffer, with accesses to the bus of the device; stores
-//         the data in the answer.
-// Rules:  the op table of docs/uart_bridge.md, UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
-// Timing: start_i begins a script of length_i bytes, resend_i sends the last answer again; both only in
-//         StIdle. answer_o is high until answered_i. Request bytes are read two cycles after their address.
+// ppmc_bridge_exec: executes the script in the request buffer, accesses the bus of the device, and stores
+//         the data in the answer. A script consists of operations (ops).
+// Rules:  table of the ops in docs/uart_bridge.md; UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
+// Timing: start_i begins a script of length_i bytes, and resend_i sends the last answer again. Both are
+//         allowed only in StIdle. answer_o is high until answered_i. A request byte is read two cycles
+//         after its address.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_bridge_exec
   import ppmc_bridge_pkg::*;
 #(
-    parameter int unsigned TopCode = 6,  // highest line rate code
-    parameter int unsigned Axes = 1,  // pulse counters
-    parameter bit Recorder = 1'b0,  // 1: there is a recorder
+    parameter int unsigned TopCode = 6,  // code of the highest line rate
+    parameter int unsigned Axes = 1,  // number of pulse counters, 1 or 2
+    parameter bit Recorder = 1'b0,  // 1: the bridge has a recorder
     parameter logic [127:0] Ident = '0,
     parameter logic [127:0] Build = '0  // data of op VERSION
 ) (
@@ -20,16 +21,16 @@ module ppmc_bridge_exec
     input  wire logic                    rst_ni,
     input  wire logic                    ms_i,          // strobe every millisecond
     // request
-    input  wire logic                    start_i,       // begin a script
-    input  wire logic                    resend_i,      // send the last answer again
+    input  wire logic                    start_i,       // strobe: begin a script
+    input  wire logic                    resend_i,      // strobe: send the last answer again
     input  wire logic      [        7:0] length_i,      // length of the script in bytes
     output logic           [        7:0] raddr_o,       // address in the script
     input  wire logic      [        7:0] rdata_i,       // byte at raddr_o, two cycles later
-    input  wire logic                    interrupt_i,   // a byte was received after start_i
+    input  wire logic                    interrupt_i,   // 1: a byte was received after start_i
     // answer
-    output logic                         script_o,      // a script is running
-    output logic                         answer_o,      // the script has ended, its answer is being sent
-    input  wire logic                    answered_i,    // the answer has been sent
+    output logic                         script_o,      // 1: a script is running
+    output logic                         answer_o,      // 1: the script has ended, its answer is being sent
+    input  wire logic                    answered_i,    // strobe: the answer has been sent
     output script_result_t               result_o,      // result of the script
     output logic                         we_o,          // write enable of the answer buffer
     output logic           [        7:0] waddr_o,       // write address
@@ -37,14 +38,14 @@ module ppmc_bridge_exec
     // settings
     output bridge_cmd_t                  bridge_cmd_o,  // settings made by scripts
     // recorder
-    output logic                         rec_next_o,    // request the next byte of the recorder
+    output logic                         rec_next_o,    // strobe: request the next byte of the recorder
     input  wire logic      [        7:0] rec_data_i,    // byte of the records
     input  wire logic      [       63:0] rec_info_i,    // data of op RECORDED
     // board
     input  wire logic      [        7:0] pins_i,        // pins for op PINS
-    input  wire logic      [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
+    input  wire logic      [Axes*32-1:0] count_i,       // pulse counters; axis 1 is in bits 31:0
     output logic           [   Axes-1:0] count_zero_o,  // strobe: set the counter to 0
-    output logic                         part_rst_no,   // reset of the device, L = active
+    output logic                         part_rst_no,   // reset of the device, active low
     // bus of the device
     output logic                         cs_no,         // chip select
     output logic                         rd_no,         // read strobe
@@ -56,20 +57,20 @@ module ppmc_bridge_exec
 
   typedef enum logic [3:0] {
     StIdle,
-    StOp,        // next op
+    StOp,        // accepts the next op
     StDecode,
-    StArg,       // first operand
+    StArg,       // accepts the first operand
     StArg2,
-    StCheck,     // operands are complete
-    StLoop,      // next byte of the op
-    StPoll,      // read access of a wait
-    StCompare,   // check of the data of this read
+    StCheck,     // checks the operands
+    StLoop,      // begins the next byte of the op
+    StPoll,      // begins a read access of a wait
+    StCompare,   // checks the data of this access
     StWrite,
     StWriteEnd,
     StRead,
     StReadEnd,
-    StPut,       // store a byte in the answer
-    StPause,     // pause of RESET, or storing a block
+    StPut,       // stores a byte in the answer
+    StPause,     // waits for the end of RESET, or for a block
     StAnswer
   } state_e;
 
@@ -77,13 +78,13 @@ module ppmc_bridge_exec
   result_e result_q;
   logic [8:0] length;  // number of data bytes in the answer
   logic [7:0] pos_q;
-  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: operand 1, then bytes of the op left; left_q: of the script
+  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: operand 1, then bytes left of the op; left_q: of the script
   logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2, the results of the byte are valid
   logic script_end_q, too_short_q, is_zero_q, bad_arg_q, hit_q, compare_q, timeout;
   logic first_q, written_q, has_read_q;
   logic [3:0] group, low;
   logic system, byte_valid, take;
-  logic system_q, is_read_q, is_send_q, two_args_q, fetch_q;  // flags of the kind of op; valid after StDecode
+  logic system_q, is_read_q, is_send_q, two_args_q, fetch_q;  // kind of the op; valid after StDecode
 
   assign {group, low} = op_q;
   assign system = group == OpSystem;
@@ -128,7 +129,7 @@ module ppmc_bridge_exec
   // ---------------------------------------------------------------- answer
 
   logic ident, count, full, full4, full16, block, decode;
-  logic second;  // the op refers to axis 2
+  logic second;  // 1: the op is for axis 2
   block_e block_kind;
   op_need_e need;
   result_e reject;
@@ -181,7 +182,7 @@ module ppmc_bridge_exec
   // ---------------------------------------------------------------- sequence
 
   state_e  next;
-  result_e fail;  // not ResDone: the script ends with this result
+  result_e fail;  // other than ResDone: the script ends with this result
 
   always_comb begin
     next = state_q;
@@ -256,7 +257,7 @@ module ppmc_bridge_exec
   assign answer_o   = state_q == StAnswer;
   assign rec_next_o = Recorder && state_q == StPut && fetch_q;
 
-  logic set, set_q;  // set: an op with a setting is legal; set_q: set, one cycle later
+  logic set, set_q;  // set: a valid op makes a setting; set_q: the same, one cycle later
   logic [7:0] straps_q;
   assign set = state_q == StCheck && byte_valid && system_q && !bad_arg_q;
 

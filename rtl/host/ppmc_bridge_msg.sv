@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_msg: selects the next message (answer, event or NAK) and supplies its bytes.
+// ppmc_bridge_msg: selects the next message (answer, event or NAK), and supplies its bytes.
 // Rules:  UB-ANS-01, UB-MSG-01/02, UB-FRM-07 (order).
-// Timing: that of ppmc_bridge_tx. answered_o is high for one cycle after the last stop bit of an answer.
+// Timing: as ppmc_bridge_tx. answered_o is high for one cycle after the last stop bit of an answer.
 `default_nettype none
 
 module ppmc_bridge_msg
@@ -10,26 +10,26 @@ module ppmc_bridge_msg
     input  wire logic                 clk_i,
     input  wire logic                 rst_ni,
     // answer; all inputs are stable while answer_i = 1
-    input  wire logic                 script_i,       // a script is running: no new message is begun
-    input  wire logic                 answer_i,       // an answer is available, until answered_o
+    input  wire logic                 script_i,       // 1: a script is running, no new message is begun
+    input  wire logic                 answer_i,       // 1: an answer is available; 1 until answered_o
     input  wire logic           [6:0] seq_i,          // sequence number of the request
     input  wire script_result_t       result_i,       // result of the script
     output logic                [7:0] raddr_o,        // address in the answer
     input  wire logic           [7:0] rdata_i,        // byte at raddr_o, two cycles later
-    output logic                      answered_o,     // the answer has been sent
+    output logic                      answered_o,     // strobe: the answer has been sent
     // event
-    input  wire logic                 event_i,        // an event message is pending
+    input  wire logic                 event_i,        // 1: an event message is pending
     input  wire logic           [7:0] pins_i,         // pins in the event message
-    output logic                      event_taken_o,  // the event message is being sent
+    output logic                      event_taken_o,  // strobe: the event message is being sent
     // NAK
-    input  wire nak_e                 nak_i,          // NAK to send; NakNone: no NAK
-    output logic                      nak_taken_o,    // the NAK is being sent
+    input  wire nak_e                 nak_i,          // NAK to be sent; NakNone: no NAK
+    output logic                      nak_taken_o,    // strobe: the NAK is being sent
     // framer
-    output logic                      start_o,        // begin a frame
-    input  wire logic                 idle_i,         // the framer is idle
+    output logic                      start_o,        // strobe: begin a frame
+    input  wire logic                 idle_i,         // 1: the framer is idle
     output logic                [7:0] byte_o,         // next byte of the frame
-    output logic                      more_o,         // byte_o is valid; 0: the frame ends
-    input  wire logic                 take_i          // byte_o is accepted
+    output logic                      more_o,         // 1: byte_o is valid, 0: the frame ends
+    input  wire logic                 take_i          // strobe: byte_o is accepted
 );
 
   typedef enum logic [1:0] {
@@ -39,10 +39,10 @@ module ppmc_bridge_msg
   } msg_kind_e;
 
   msg_kind_e kind_q;
-  logic sending_q;  // from start_o to the last stop bit
-  logic [2:0] head_q;  // byte of the head; 4: head complete
+  logic sending_q;  // 1 from start_o to the last stop bit
+  logic [2:0] head_q;  // index of the next byte of the head; 4: the head is complete
   logic [8:0] index_q;  // index of the data byte
-  logic tail_q;  // no data byte left
+  logic tail_q;  // 1: no data byte is left
 
   assign raddr_o       = index_q[7:0];
   assign answered_o    = sending_q && idle_i && !start_o && kind_q == MsgAnswer;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_pkg: constants and types of the UART bridge: op codes, results, NAK codes, line rates, CRC.
+// ppmc_bridge_pkg: constants and types of the UART bridge, such as codes of operations (ops), results, NAK
+//         codes, line rates and CRC.
 // Rules:  docs/uart_bridge.md.
 `default_nettype none
 
@@ -12,11 +13,11 @@ package ppmc_bridge_pkg;
   localparam logic [7:0] ESCAPE = 8'h7D;
   localparam int unsigned ESCAPE_BIT = 5;  // bit that is inverted in an escaped byte
   localparam logic [7:0] PROTOCOL_VERSION = 8'd1;
-  localparam logic [15:0] DEFAULT_LIMIT_MS = 16'd250;  // default limit of a wait
-  localparam int unsigned SILENCE_MS = 100;  // limit of silence inside a frame
-  localparam int unsigned TRIAL_MS = 1000;  // trial time of a new rate
+  localparam logic [15:0] DEFAULT_LIMIT_MS = 16'd250;  // default time limit of a wait
+  localparam int unsigned SILENCE_MS = 100;  // maximum silence inside a frame
+  localparam int unsigned TRIAL_MS = 1000;  // time in which a new rate must be confirmed
 
-  // Ops without a register number: low four bits of an op whose high four bits are OpSystem.
+  // Ops without a register number: bits 3:0 of an op whose bits 7:4 are OpSystem.
   typedef enum logic [3:0] {
     SysNop,
     SysIdent,
@@ -35,7 +36,7 @@ package ppmc_bridge_pkg;
     SysRecorded
   } sys_e;
 
-  // High four bits of an op.
+  // Bits 7:4 of an op.
   typedef enum logic [3:0] {
     OpSystem,
     OpWrite,
@@ -58,15 +59,15 @@ package ppmc_bridge_pkg;
     ResInterrupted
   } result_e;
 
-  // Result of a script; valid from its end until the next script begins.
+  // Result of a script. It is valid from the end of the script until the next script begins.
   typedef struct packed {
     result_e    result;
     logic [7:0] pos;     // position of the op that ended the script
-    logic [7:0] last;    // byte most recently read in the script; 0 if no byte
+    logic [7:0] last;    // last byte that the script has read; 0: no byte
     logic [8:0] length;  // number of data bytes in the answer
   } script_result_t;
 
-  // Settings made by scripts, from the script engine to the other blocks of the bridge.
+  // Settings that scripts make, from the script engine to the other blocks of the bridge.
   typedef struct packed {
     logic       valid;   // strobe: op and arg are valid
     sys_e       op;      // RATE, EVENTS, RECORD or another op
@@ -79,16 +80,16 @@ package ppmc_bridge_pkg;
   localparam logic [1:0] RECORD_BEGIN = 2'd1;
   localparam logic [1:0] RECORD_REWIND = 2'd2;
 
-  // First need of an op.
+  // What an op needs first.
   typedef enum logic [2:0] {
-    NeedNothing,  // no need: the op is complete
+    NeedNothing,  // the op is complete
     NeedOperand,
-    NeedCheck,    // check of the number in its code
-    NeedByte,     // one byte to store in the answer
-    NeedBlock     // bytes to store in the answer, or a pause
+    NeedCheck,    // check of the number in the code of the op
+    NeedByte,     // one byte to be stored in the answer
+    NeedBlock     // bytes to be stored in the answer, or a pause
   } op_need_e;
 
-  // Block of 16 bytes.
+  // Block of 16 bytes for the answer.
   typedef enum logic [1:0] {
     BlockIdent,
     BlockVersion,
@@ -124,7 +125,7 @@ package ppmc_bridge_pkg;
     return code <= 6 && 64'(clk_hz) >= 64'd5 * 64'(rate_hz(code, baud));
   endfunction
 
-  // Highest available code; the codes are in the order of their rates.
+  // Highest available code. The codes are in the order of their rates.
   function automatic int unsigned top_code(int unsigned clk_hz, int unsigned baud);
     int unsigned top;
     top = 0;
@@ -132,8 +133,8 @@ package ppmc_bridge_pkg;
     return top;
   endfunction
 
-  // Bits of the phase accumulators. At the slowest rate, the rounding of the step must not move the last edge
-  // of a character by more than a quarter of a cycle: 10 * (clk / rate) / (2 * step) <= 1/4.
+  // Bits of the phase accumulators. Rounding the step must not move the last edge of a character by more
+  // than a quarter of a cycle at the slowest rate: 10 * (clk / rate) / (2 * step) <= 1/4.
   function automatic int unsigned phase_width(int unsigned clk_hz, int unsigned baud);
     longint unsigned ratio;
     int unsigned slowest;
@@ -147,7 +148,7 @@ package ppmc_bridge_pkg;
     return ((64'(rate) << (width + 1)) / 64'(clk_hz) + 64'd1) >> 1;
   endfunction
 
-  // CRC-16, polynomial 1021, after one more byte (UB-FRM-03).
+  // CRC-16 (polynomial 1021h) after one more byte (UB-FRM-03).
   function automatic logic [15:0] crc_next(logic [15:0] crc, logic [7:0] data);
     logic [7:0] mix;
     mix = crc[15:8] ^ data;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rate: selects the line rate: change of the rate after an answer, and return to the initial
+// ppmc_bridge_rate: selects the line rate. Changes the rate after an answer, and returns to the initial
 //         rate.
 // Rules:  UB-LIN-02, UB-LIN-03, UB-LIN-06, UB-LIN-07.
-// Timing: step_o follows the code by one cycle. If no valid frame is received at a new rate, the initial rate
-//         returns 1000 .. 1001 ms after the answer.
+// Timing: step_o follows the code by one cycle. If no valid frame is received at a new rate, the initial
+//         rate is selected again 1000 .. 1001 ms after the answer.
 `default_nettype none
 
 module ppmc_bridge_rate
@@ -16,12 +16,12 @@ module ppmc_bridge_rate
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     input  wire logic             ms_i,        // strobe every millisecond
-    input  wire logic             set_i,       // op RATE with an available code
+    input  wire logic             set_i,       // strobe: op RATE with an available code
     input  wire logic [      2:0] code_i,      // code of the new rate
-    input  wire logic             answered_i,  // the last stop bit of the answer has ended
-    input  wire logic             good_i,      // a valid frame was received
-    input  wire logic             break_i,     // a break was received
-    output logic      [Width-1:0] step_o       // phases in a cycle
+    input  wire logic             answered_i,  // strobe: the last stop bit of the answer has ended
+    input  wire logic             good_i,      // strobe: a valid frame was received
+    input  wire logic             break_i,     // strobe: a break was received
+    output logic      [Width-1:0] step_o       // phases per cycle
 );
 
   localparam int unsigned TrialBits = $clog2(TRIAL_MS + 1);

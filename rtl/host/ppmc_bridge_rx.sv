@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rx: extracts requests from the received bytes: flags, escapes, CRC, length, silence.
+// ppmc_bridge_rx: extracts requests from the received bytes. Handles flags, escapes, CRC, length and
+//         silence.
 // Rules:  UB-FRM-01 .. 08, UB-SEQ-03.
 // Timing: outputs respond two cycles after valid_i or error_i.
 // Assumes: byte_i is stable for these two cycles.
-// Buffer: the script of a request is stored from address 0 on; the CRC follows it.
+// Note:   the script of a request is stored from address 0 of the buffer on; its CRC follows it.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,7 +15,7 @@ module ppmc_bridge_rx
     input  wire logic       rst_ni,
     input  wire logic       ms_i,        // strobe every millisecond
     // receiver
-    input  wire logic [7:0] byte_i,      // character
+    input  wire logic [7:0] byte_i,      // received character
     input  wire logic       valid_i,     // strobe: byte_i was received with a stop bit
     input  wire logic       error_i,     // strobe: byte_i was received without a stop bit
     // request buffer
@@ -23,24 +24,24 @@ module ppmc_bridge_rx
     output logic      [7:0] wdata_o,     // write data
     // received frame
     output logic            good_o,      // strobe: a valid frame
-    output logic            request_o,   // with good_o: a request to execute or to answer again
+    output logic            request_o,   // with good_o; 1: a request to be executed or answered again
     output logic      [6:0] seq_o,       // sequence number of the frame
     output logic      [7:0] length_o,    // length of the script in bytes, with request_o
     // while a script runs or its answer is sent
-    input  wire logic       busy_i,      // no request can be accepted
-    output logic            dropped_o,   // a byte was received while busy_i = 1
+    input  wire logic       busy_i,      // 1: no request can be accepted
+    output logic            dropped_o,   // 1: a byte was received while busy_i = 1
     // NAK to be sent
-    output nak_e            nak_o,       // NakNone: no NAK
-    input  wire logic       nak_taken_i  // the NAK is being sent
+    output nak_e            nak_o,       // NAK to be sent; NakNone: no NAK
+    input  wire logic       nak_taken_i  // strobe: the NAK is being sent
 );
 
   localparam logic [8:0] Empty = '1;
   localparam int unsigned QuietBits = $clog2(SILENCE_MS + 1);
 
   logic hunt_q, escaped_q, seq_high_q;
-  logic [8:0] index_q;  // index of the previous content byte: 0 is SEQ; Empty: no byte
+  logic [8:0] index_q;  // index of the previous byte of the frame, 0: SEQ; Empty: no byte
   logic [15:0] crc_q;
-  logic [QuietBits-1:0] quiet_q;  // remaining time of silence, ms
+  logic [QuietBits-1:0] quiet_q;  // time in ms until the silence is too long
   logic is_flag_q, is_escape_q, valid_q, error_q, busy_q, short_q, crc_bad_q, quiet_over_q, open_q;
   logic flag, begin_q, content, silent;
   nak_e fault;
@@ -54,7 +55,8 @@ module ppmc_bridge_rx
   assign content  = valid_q && !busy_q && !hunt_q && !is_flag_q && (escaped_q || !is_escape_q);
   assign silent   = ms_i && quiet_over_q && open_q && !hunt_q && !busy_q;
 
-  // These signals are decoded one cycle before use. Their operands are stable between two characters.
+  // These signals are decoded one cycle before they are used. Their operands are stable between two
+  // characters.
   always_ff @(posedge clk_i) begin
     is_flag_q    <= byte_i == FLAG;
     is_escape_q  <= byte_i == ESCAPE;

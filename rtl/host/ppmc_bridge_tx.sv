@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_tx: puts messages into frames: flags, escapes, CRC.
+// ppmc_bridge_tx: sends messages as frames with flags, escapes and CRC.
 // Rules:  UB-FRM-01 .. 03.
-// Timing: a message begins in a cycle with start_i and idle_o. take_o consumes byte_i. more_i = 1: another
-//         byte is available; more_i is sampled one character time after the previous take_o. idle_o is high
-//         again when the last stop bit has ended.
+// Timing: a message begins in a cycle in which start_i and idle_o are high. take_o accepts byte_i. more_i =
+//         1 indicates that another byte is available. It is sampled one character time after the previous
+//         take_o. idle_o rises when the last stop bit has ended.
 `default_nettype none
 
 module ppmc_bridge_tx
@@ -12,15 +12,15 @@ module ppmc_bridge_tx
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
     // message
-    input  wire logic       start_i,  // begin a frame
-    output logic            idle_o,   // no frame is being sent
+    input  wire logic       start_i,  // strobe: begin a frame
+    output logic            idle_o,   // 1: no frame is being sent
     input  wire logic [7:0] byte_i,   // next byte of the frame
-    input  wire logic       more_i,   // byte_i is valid; 0: the frame ends
-    output logic            take_o,   // byte_i is accepted
+    input  wire logic       more_i,   // 1: byte_i is valid, 0: the frame ends
+    output logic            take_o,   // strobe: byte_i is accepted
     // transmitter
-    output logic      [7:0] byte_o,   // character
-    output logic            valid_o,  // byte_o is valid
-    input  wire logic       ready_i   // byte_o is accepted
+    output logic      [7:0] byte_o,   // character to be sent
+    output logic            valid_o,  // 1: byte_o is valid
+    input  wire logic       ready_i   // 1: byte_o is accepted
 );
 
   typedef enum logic [2:0] {
@@ -34,7 +34,7 @@ module ppmc_bridge_tx
   state_e state_q;
   logic full_q, plain_q, escaped_q;
   logic special, accepted;
-  logic [ 7:0] char_q;  // next character, before escaping
+  logic [ 7:0] char_q;  // next character, not escaped
   logic [15:0] crc_q;
   logic [ 3:0] bit_q;  // bit of char_q that the CRC uses next; 8: no bit
   logic        feedback;
@@ -47,7 +47,7 @@ module ppmc_bridge_tx
   assign take_o   = state_q == StContent && !full_q && ready_i && more_i;
   assign idle_o   = state_q == StIdle && !full_q && ready_i;
 
-  // The next character is chosen when the transmitter is free again, which adds one cycle of idle line to a
+  // The next character is selected when the transmitter is free again. This adds one idle cycle to each
   // character.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -97,7 +97,7 @@ module ppmc_bridge_tx
     end
   end
 
-  // The CRC uses one bit a cycle, so it is ready long before the next character.
+  // The CRC uses one bit per cycle, so it is complete long before the next character.
   assign feedback = crc_q[15] ^ char_q[~bit_q[2:0]];
 
   always_ff @(posedge clk_i) begin

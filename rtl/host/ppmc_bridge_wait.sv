@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_wait: compares the duration of a wait of a script with its limit.
+// ppmc_bridge_wait: compares the duration of a wait in a script with its time limit.
 // Rules:  UB-WAIT-01, op TIMEOUT.
-// Timing: the time is held at 0 while waiting_i is low. timeout_o rises limit .. limit + 1 ms and one cycle
-//         after waiting_i; with limit 0, timeout_o is always high.
+// Timing: while waiting_i is low, the time is 0. timeout_o rises limit .. limit + 1 ms, plus one cycle,
+//         after waiting_i. With a limit of 0, timeout_o is always high.
 `default_nettype none
 
 module ppmc_bridge_wait
@@ -10,11 +10,11 @@ module ppmc_bridge_wait
 (
     input  wire logic        clk_i,
     input  wire logic        ms_i,       // strobe every millisecond
-    input  wire logic        start_i,    // a new script: set the default limit
-    input  wire logic        set_i,      // set another limit
-    input  wire logic [15:0] limit_i,    // new limit, ms
-    input  wire logic        waiting_i,  // a wait is in progress
-    output logic             timeout_o   // the limit has been reached
+    input  wire logic        start_i,    // strobe: a new script; set the default limit
+    input  wire logic        set_i,      // strobe: set the limit to limit_i
+    input  wire logic [15:0] limit_i,    // new limit in ms
+    input  wire logic        waiting_i,  // 1: a wait is in progress
+    output logic             timeout_o   // 1: the limit has been reached
 );
 
   logic [15:0] limit_q, wait_q;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_isa: 8-bit ISA or PC/104 slave for devices with two registers each: address decoder, bus driver,
-//         common interrupt.
+// ppmc_isa: 8-bit ISA or PC/104 slave for devices with two registers each. Contains the address decoder,
+//         the bus driver and the common interrupt.
 // Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the devices sample them (ppmc_strobe_bus).
-//         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low from the first
-//         rising edge of clk_i that samples the write to the first rising edge that does not.
+//         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low, from the first
+//         rising edge of clk_i at which the write is sampled active to the first at which it is sampled
+//         inactive.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_isa #(
-    parameter int unsigned Parts  = 1,     // device p: data at Base + 2p, status and command at Base + 2p + 1
-    parameter bit          Source = 1'b0,  // 1: a source register follows, bit p = interrupt of device p;
-                                           // a write to it causes a new edge of irq_o if one is active
-    parameter int unsigned Base   = 'h3B0  // multiple of the length of the window
+    parameter int unsigned Parts  = 1,     // device p: data at Base + 2p, status, command at Base + 2p + 1
+    parameter bit          Source = 1'b0,  // 1: a source register follows, bit p: interrupt of device p;
+                                           // a write causes a new edge of irq_o if one is active
+    parameter int unsigned Base   = 'h3B0  // base address, a multiple of the window's length
 ) (
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
@@ -22,17 +23,17 @@ module ppmc_isa #(
     input  wire logic                  ior_ni,   // read strobe
     input  wire logic                  iow_ni,   // write strobe
     output logic      [      7:0]      sd_o,     // data read by the host
-    output logic                       sd_oe_o,  // the host is reading: drive sd_o
+    output logic                       sd_oe_o,  // 1: drive sd_o, because the host reads
     output logic                       irq_o,    // 1: at least one device has an interrupt
-    // devices; ior_ni and iow_ni are connected to them unchanged
+    // devices; ior_ni and iow_ni are connected directly to them
     output logic      [Parts-1:0]      cs_no,    // chip selects
-    output logic                       a0_o,     // 0 data, 1 status or command
+    output logic                       a0_o,     // 0: data, 1: status or command
     input  wire logic [Parts-1:0][7:0] d_i,      // read data of the devices
-    input  wire logic [Parts-1:0]      d_oe_i,   // the devices are being read
-    input  wire logic [Parts-1:0]      int_ni    // interrupts of the devices, L = active
+    input  wire logic [Parts-1:0]      d_oe_i,   // 1: the device is being read
+    input  wire logic [Parts-1:0]      int_ni    // interrupts of the devices, active low
 );
 
-  localparam int unsigned Bits = $clog2(2 * Parts + (Source ? 1 : 0));  // address bits of the window
+  localparam int unsigned Bits = $clog2(2 * Parts + (Source ? 1 : 0));  // address bits inside the window
 
   if (Parts < 1 || Parts > 8) begin : g_check_parts
     $fatal(1, "ppmc_isa: Parts must be 1 .. 8");
@@ -62,7 +63,7 @@ module ppmc_isa #(
   // ---- interrupts ------------------------------------------------------------------------------------
 
   logic source_oe;
-  logic [Parts-1:0] source;  // stable while it is read
+  logic [Parts-1:0] source;  // stable while the host reads it
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) irq_o <= 1'b0;

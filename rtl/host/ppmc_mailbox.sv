@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_mailbox: one input byte and a short output queue, between a host port and a command unit.
+// ppmc_mailbox: one input byte and a short output queue between a host port and a command unit.
 // Rules:  P104-HSK-01/02 (input), P104-HSK-05/06/08 (output).
-// Timing: a byte written in a cycle with wr_i is valid on byte_o after that edge; ready_o follows one cycle
-//         later, so that the decoding may be registered. take_i may occur in the cycle of another wr_i: the
-//         old byte is accepted, and the new byte stays. After rd_done_i, obf_o is low for one cycle; then the
-//         next byte of the queue is valid.
+// Timing: a byte that is written with wr_i is valid on byte_o after that edge. ready_o follows one cycle
+//         later, so that the decoding may be registered. take_i may occur in the cycle of another wr_i:
+//         then the old byte is accepted, and the new byte is stored. After rd_done_i, obf_o is low for one
+//         cycle; then the next byte of the queue is valid.
 `default_nettype none
 
 module ppmc_mailbox #(
-    parameter int unsigned QueueBytes = 3  // bytes of the longest read data, at least 3
+    parameter int unsigned QueueBytes = 3  // bytes of the longest read data; at least 3
 ) (
     input  wire logic                    clk_i,
     input  wire logic                    rst_ni,
     // host port
-    input  wire logic                    wr_i,       // the host has written
-    input  wire logic                    wr_a0_i,    // the write is a command
-    input  wire logic [             7:0] wr_data_i,  // byte written
-    input  wire logic                    rd_done_i,  // the host has read out_o
+    input  wire logic                    wr_i,       // strobe: the host has written
+    input  wire logic                    wr_a0_i,    // with wr_i; 1: command, 0: data
+    input  wire logic [             7:0] wr_data_i,  // written byte; valid with wr_i
+    input  wire logic                    rd_done_i,  // strobe: the host has read out_o
     output logic      [             7:0] out_o,      // output buffer
-    output logic                         obf_o,      // out_o has not been read yet
-    output logic                         new_o,      // out_o changes at the next edge
-    output logic                         ibf_o,      // an input byte is pending
+    output logic                         obf_o,      // 1: out_o has not been read yet
+    output logic                         new_o,      // 1: out_o changes at the next edge
+    output logic                         ibf_o,      // 1: an input byte is pending
     // command unit
-    output logic                         ready_o,    // byte_o is available
-    output logic                         command_o,  // byte_o was written as a command
+    output logic                         ready_o,    // 1: byte_o is available
+    output logic                         command_o,  // 1: byte_o was written as a command, 0: as data
     output logic      [             7:0] byte_o,     // byte written by the host
-    input  wire logic                    take_i,     // byte_o is accepted
-    input  wire logic                    load_i,     // load new read data; unread bytes are dropped
-    input  wire logic [8*QueueBytes-1:0] answer_i,   // read data, first byte in the low bits
-    input  wire logic                    long_i      // all bytes are valid, otherwise one
+    input  wire logic                    take_i,     // strobe: byte_o is accepted
+    input  wire logic                    load_i,     // strobe: load new read data; discard unread bytes
+    input  wire logic [8*QueueBytes-1:0] answer_i,   // read data; first byte in bits 7:0
+    input  wire logic                    long_i      // 1: answer_i has QueueBytes bytes, 0: one byte
 );
 
   if (QueueBytes < 3) begin : g_check
@@ -59,7 +59,7 @@ module ppmc_mailbox #(
 
   localparam int unsigned MoreBits = 8 * (QueueBytes - 1);
   logic [MoreBits-1:0] more_q;  // bytes after the current byte
-  logic [QueueBytes-2:0] more_valid_q;  // bytes of more_q that are present
+  logic [QueueBytes-2:0] more_valid_q;  // [n]: byte n of more_q is valid
   logic next;
 
   assign next  = !obf_o && more_valid_q[0];

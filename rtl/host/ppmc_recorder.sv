@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder: logic analyser: records every change of the watched levels, with the cycles since the
+// ppmc_recorder: logic analyser that records every change of the watched levels, and the time since the
 //         previous record.
 // Rules:  docs/uart_bridge.md, UB-REC.
-// Timing: a record holds the levels as flip-flops sampled them, and the number of cycles since the sample of
-//         the previous record: {levels, time}, lowest bit first, with TimeBits bits of time. When the time
-//         has reached its maximum without a change of levels, a record is written, too. Changes in successive
-//         cycles are all recorded. The bytes of the records are read in order: data_o is valid 4 cycles after
-//         begin_i, rewind_i or next_i.
+// Timing: a record is {levels, time}, lowest bit first. The levels are sampled by flip-flops. The time is
+//         the number of cycles since the sample of the previous record; it has TimeBits bits. A record is
+//         also written when the time reaches its maximum without a change. Changes in successive cycles are
+//         all recorded. The bytes of the records are read in order. data_o is valid 4 cycles after begin_i,
+//         rewind_i or next_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,18 +14,18 @@ module ppmc_recorder
   import ppmc_recorder_pkg::*;
 #(
     parameter int unsigned Width = 48,  // number of levels
-    parameter int unsigned AddrBits = 10  // 2**AddrBits records, 4 .. 16; see ppmc_recorder_ram
+    parameter int unsigned AddrBits = 10  // 2**AddrBits records, AddrBits = 4 .. 16; see ppmc_recorder_ram
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [Width-1:0] watch_i,  // levels, synchronous to clk_i
     // strobes
     input wire logic begin_i,  // clear and start; the first record is the current state
-    input wire logic end_i,  // write the last record, with or without a change
-    input wire logic rewind_i,  // read from the first record on
-    input wire logic next_i,  // read the next byte
+    input wire logic end_i,  // write the last record, even without a change
+    input wire logic rewind_i,  // continue with the first byte of the first record
+    input wire logic next_i,  // continue with the next byte
     output logic [7:0] data_o,  // byte of the records; 0 while recording
-    output logic [63:0] info_o  // data of op RECORDED, first byte in the low bits
+    output logic [63:0] info_o  // data of op RECORDED; first byte in bits 7:0
 );
 
   localparam int unsigned Bytes = record_bytes(Width);
@@ -70,7 +70,7 @@ module ppmc_recorder
   always_ff @(posedge clk_i) begin
     first_q <= begin_i;
     time_q  <= begin_i ? '0 : we ? TimeBits'(1) : time_q + 1'b1;
-    rest_q  <= !begin_i && !we && time_q == ~TimeBits'(1);  // time_q reaches its maximum
+    rest_q  <= !begin_i && !we && time_q == ~TimeBits'(1);  // 1 when time_q reaches its maximum
   end
 
   // ---------------------------------------------------------------- bytes
@@ -92,7 +92,7 @@ module ppmc_recorder
       .rdata_o(record)
   );
 
-  // Two multiplexer stages, because a block RAM of an ECP5 needs half a cycle at 100 MHz.
+  // Two multiplexer stages, because a block RAM of an ECP5 already needs half a cycle at 100 MHz.
   logic [16*Pairs-1:0] padded;
   logic [ 8*Pairs-1:0] byte_of_pair_q;
   assign padded = (16 * Pairs)'(record);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_spi: SPI slave, mode 0 or 3, most significant bit first, for the strobe bus of a device.
-// Rules:  docs/bank/spi.md; strobes by UB-BUS-01.
+// ppmc_spi: SPI slave for the strobe bus of a device; mode 0 or 3, most significant bit first.
+// Rules:  docs/bank/spi.md; strobes: UB-BUS-01.
 // Timing: clk_i samples sck, mosi and cs_n. miso follows a falling edge of sck by 2 to 3 cycles. A write
-//         begins 2 to 3 cycles after the last bit of its byte, a read 2 to 3 cycles after the first bit of
-//         the byte that requests it. An access ends long before the next access can begin, at any sck.
-// Assumes: the low time of sck is longer than 3 cycles plus the delay of the pads (clk >= 8 sck leaves 1
-//         cycle for them); the high time of sck is longer than 1 cycle.
+//         begins 2 to 3 cycles after the last bit of its byte. A read begins 2 to 3 cycles after the first
+//         bit of the byte that requests it. At any frequency of sck, an access ends long before the next
+//         access can begin.
+// Assumes: the low time of sck is longer than 3 cycles plus the delay of the pads (with clk >= 8 sck, the
+//         pads have 1 cycle); the high time of sck is longer than 1 cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,12 +16,12 @@ module ppmc_spi #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // SPI
-    input  wire logic                sck_i,      // raw pin
-    input  wire logic                mosi_i,     // raw pin
-    input  wire logic                cs_ni,      // raw pin, L = a frame
-    output logic                     miso_o,     // status, zeros, read data
-    output logic                     miso_oe_o,  // drive miso_o
-    output logic                     active_o,   // LED: a frame is being received
+    input  wire logic                sck_i,      // clock, asynchronous
+    input  wire logic                mosi_i,     // data from the host, asynchronous
+    input  wire logic                cs_ni,      // frame, asynchronous, active low
+    output logic                     miso_o,     // data to the host: status, zeros or read data
+    output logic                     miso_oe_o,  // 1: drive miso_o
+    output logic                     active_o,   // LED, 1: a frame is being received
     // pins of the device
     output logic                     cs_no,      // chip select
     output logic                     rd_no,      // read strobe
@@ -28,7 +29,7 @@ module ppmc_spi #(
     output logic      [AddrBits-1:0] a_o,        // register
     output logic      [         7:0] d_o,        // write data
     input  wire logic [         7:0] d_i,        // read data
-    input  wire logic                int_ni      // interrupt, L = active
+    input  wire logic                int_ni      // interrupt, active low
 );
 
   if (AddrBits < 1 || AddrBits > 10) begin : g_check
@@ -36,16 +37,16 @@ module ppmc_spi #(
   end
 
   typedef enum logic [1:0] {
-    StHigh,  // first byte of the header
-    StLow,   // second byte of the header
+    StHigh,  // receives the first byte of the header
+    StLow,   // receives the second byte of the header
     StData,
-    StWaste  // the header was rejected
+    StWaste  // ignores the frame, because the header was rejected
   } state_e;
 
   typedef struct packed {
     logic fast;     // sck was low for less than 3 samples
-    logic cut;      // cs_n rose inside a byte or a header
-    logic refused;  // a header had ones in bits 12..10
+    logic cut;      // cs_n rose within a byte or a header
+    logic refused;  // bits 12:10 of a header were not 0
   } flags_t;
 
   typedef struct packed {
@@ -57,7 +58,7 @@ module ppmc_spi #(
   // ---- pins ------------------------------------------------------------------------------------------
 
   logic sck, mosi, cs_n;
-  logic [2:0] meta, sck_q;  // sck_q: previous samples of sck, the newest in bit 0
+  logic [2:0] meta, sck_q;  // sck_q: previous samples of sck, the newest is bit 0
 
   ppmc_sync #(
       .Width   (3),
@@ -79,7 +80,7 @@ module ppmc_spi #(
   assign fall    = !cs_n && !sck && sck_q[0];
   assign byte_in = {bits_q, mosi};
   assign byte_end   = rise && count_q == 3'd7;
-  assign frame_end   = cs_n && active_o;  // high for one cycle
+  assign frame_end   = cs_n && active_o;  // strobe, because active_o follows by one cycle
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -101,12 +102,13 @@ module ppmc_spi #(
   state_e state_q;
   mode_t mode_q;
   logic [9:0] addr_q;
-  logic reject_q;  // header rejected
+  logic reject_q;  // 1: the header is rejected
   logic req, ready, done, unused;
 
   assign unused = ^{addr_q, meta};
 
-  // A read begins at the first bit of the byte that requests it, so that it ends during the seven other bits.
+  // A read begins at the first bit of the byte that requests it, so that it ends during the other seven
+  // bits.
   assign req    = state_q == StData && (mode_q.write ? byte_end : rise && count_q == '0 && mosi);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -138,7 +140,7 @@ module ppmc_spi #(
   // ---- data to the host ------------------------------------------------------------------------------
 
   flags_t sent_flags_q, flags_q, now;
-  logic read_req_q;  // this byte requests a read
+  logic read_req_q;  // 1: the current byte requests a read
   logic [7:0] out_q, status, rdata;
 
   always_comb begin
@@ -148,7 +150,7 @@ module ppmc_spi #(
     now.refused = byte_end && state_q == StLow && reject_q;
   end
 
-  // A flag stays set until a status byte with this flag has been sent completely.
+  // A flag remains set until a status byte with this flag has been sent completely.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       sent_flags_q <= '0;
@@ -201,7 +203,7 @@ module ppmc_spi #(
   );
 
 `ifndef SYNTHESIS
-  logic open_q;  // a read is in progress
+  logic open_q;  // 1: a read is in progress
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) open_q <= 1'b0;
     else open_q <= req ? !mode_q.write : open_q && !done;

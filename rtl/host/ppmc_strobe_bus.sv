@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_strobe_bus: 8-bit host port with chip select, address line and two strobes, synchronised to the core
-//         clock.
+// ppmc_strobe_bus: 8-bit host port with chip select, address line and two strobes, which it synchronises to
+//         the clock of the core.
 // Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02; P2104-BUS-01..10.
-// Timing: if the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge 2. Reads
-//         respond early: only d_oe_o and d_o sample raw pins, at edge 0. The data are refreshed once at edge
-//         1 and are then stable until the next read.
-// Styles: 0 = read strobe and write strobe (rd_ni, wr_ni); 1 = data strobe on wr_ni with direction on rd_ni
-//         (1 = read).
+// Timing: write: when the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge
+//         2.
+//         Read: d_oe_o and d_o respond at edge 0; only these registers sample asynchronous pins. The data
+//         are loaded again at edge 1, and are then stable until the next read.
+// Note:   bus style 0: read strobe rd_ni and write strobe wr_ni. Style 1: data strobe wr_ni, direction
+//         rd_ni (1: read).
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -18,22 +19,22 @@ module ppmc_strobe_bus (
     input  wire logic       cs_ni,         // chip select
     input  wire logic       rd_ni,         // read strobe, or direction
     input  wire logic       wr_ni,         // write strobe, or data strobe
-    input  wire logic       a0_i,          // 1 = status or command, 0 = data
+    input  wire logic       a0_i,          // 0: data, 1: status or command
     input  wire logic [7:0] d_i,           // data written by the host
     output logic      [7:0] d_o,           // data read by the host
-    output logic            d_oe_o,        // the host is reading: drive d_o
+    output logic            d_oe_o,        // 1: drive d_o, because the host reads
     // write side
-    output logic            wr_o,          // a write is complete
-    output logic            wr_a0_o,       // 1 = the write was to status or command
-    output logic      [7:0] wr_data_o,     // byte written
-    output logic            wr_busy_o,     // a write is in progress: the status must indicate IBF = 1
+    output logic            wr_o,          // strobe: a write is complete
+    output logic            wr_a0_o,       // with wr_o; 1: command, 0: data
+    output logic      [7:0] wr_data_o,     // written byte; valid with wr_o
+    output logic            wr_busy_o,     // 1: a write is in progress; the status must indicate IBF = 1
     // read side
     input  wire logic [7:0] status_i,      // status byte for the host
     input  wire logic [7:0] data_i,        // data byte for the host
-    input  wire logic       data_valid_i,  // data_i has not been read yet
-    input  wire logic       data_new_i,    // data_i changes at the next edge
-    output logic            rd_busy_o,     // data_i is being read: the status must not indicate this byte
-    output logic            rd_done_o      // data_i has been read
+    input  wire logic       data_valid_i,  // 1: data_i has not been read yet
+    input  wire logic       data_new_i,    // 1: data_i changes at the next edge
+    output logic            rd_busy_o,     // 1: data_i is being read; the status must omit this byte
+    output logic            rd_done_o      // strobe: data_i has been read
 );
 
   typedef struct packed {
@@ -76,10 +77,10 @@ module ppmc_strobe_bus (
     wr2    = is_write(s2, style_i);
   end
 
-  // Write: the byte of the last sample in which the strobe is active is used. a01 and d1 sample the pins;
-  // wr_a0_o and wr_data_o load them while wr1 is high. At the end of the strobe, wr1 may be metastable. Then
-  // it makes no difference whether the registers are loaded once more, because address and data have been
-  // stable since the previous sample (P104-BUS-04).
+  // Write: the byte of the last sample in which the strobe is active is used. a01 and d1 sample the pins.
+  // While wr1 is high, wr_a0_o and wr_data_o are loaded from a01 and d1. At the end of the strobe, wr1 may
+  // be metastable. In this case it does not matter whether the registers are loaded again, because address
+  // and data have been stable since the previous sample (P104-BUS-04).
   logic wr_s3_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -96,9 +97,9 @@ module ppmc_strobe_bus (
   assign wr_o      = wr_s3_q && !wr2;
   assign wr_busy_o = wr1 || wr2 || wr_s3_q;
 
-  // Read: the byte counts as read if it was valid at the last load of d_o and no new byte arrives during the
-  // read. A strobe of a single sample has no refresh. Therefore a byte that arrived at edge 0 of such a
-  // strobe was not output.
+  // Read: the byte counts as read if it was valid when d_o was loaded last, and if no new byte arrives
+  // during the read. A strobe of only one sample does not load the data again. Therefore, a byte that
+  // arrived at edge 0 of such a strobe was not output.
   logic reading_q, new_q, new_s2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

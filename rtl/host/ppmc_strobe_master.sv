@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_strobe_master: read and write accesses on the strobe bus of a device, for bridges on the same chip.
-// Rules:  UB-BUS-01; keeps P104-BUS-03/04, the times of docs/ppmc2104/README.md, 4.2, STMC-BUS-11/20 and
-//         P312-PAR-10/11 at every CLK_HZ.
-// Timing: a request is accepted in a cycle with req_i and ready_o high, together with we_i, addr_i and
-//         wdata_i. done_o is high for one cycle when the strobe has ended; rdata_o is valid from then until
-//         the end of the next read. One write every 8 cycles, one read every 10 cycles.
+// ppmc_strobe_master: executes read and write accesses on the strobe bus of a device, for bridges on the
+//         same chip.
+// Rules:  UB-BUS-01. At every CLK_HZ, it complies with P104-BUS-03/04, the times of
+//         docs/ppmc2104/README.md, 4.2, STMC-BUS-11/20 and P312-PAR-10/11.
+// Timing: a request (req_i with we_i, addr_i and wdata_i) is accepted in a cycle in which ready_o is high.
+//         done_o is high for one cycle when the strobe has ended. rdata_o is valid from then until the end
+//         of the next read. A write takes 8 cycles, a read 10 cycles.
 `default_nettype none
 
 module ppmc_strobe_master #(
     parameter int unsigned AddrBits = 1,
-    parameter int unsigned WriteCycles = 4,  // length of a write strobe in cycles, at least 2
-    parameter int unsigned ReadCycles = 6,  // length of a read strobe in cycles, at least 5
-    parameter int unsigned GapCycles = 4  // cycles without a strobe between accesses, at least 3
+    parameter int unsigned WriteCycles = 4,  // length of a write strobe in cycles; at least 2
+    parameter int unsigned ReadCycles = 6,  // length of a read strobe in cycles; at least 5
+    parameter int unsigned GapCycles = 4  // cycles without a strobe between two accesses; at least 3
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // master
-    input  wire logic                req_i,    // an access is requested
-    input  wire logic                we_i,     // the access is a write
+    input  wire logic                req_i,    // 1: an access is requested
+    input  wire logic                we_i,     // 1: the access is a write, 0: a read
     input  wire logic [AddrBits-1:0] addr_i,   // register
     input  wire logic [         7:0] wdata_i,  // write data
-    output logic                     ready_o,  // an access begins with req_i
+    output logic                     ready_o,  // 1: a request is accepted
     output logic                     done_o,   // strobe: the access has ended
-    output logic      [         7:0] rdata_o,  // read data, valid with done_o
-    // pins of the device; cs_n falls and rises with the strobes
+    output logic      [         7:0] rdata_o,  // read data; valid with done_o
+    // pins of the device; cs_n has the timing of the strobes
     output logic                     cs_no,    // chip select
     output logic                     rd_no,    // read strobe
     output logic                     wr_no,    // write strobe
@@ -47,7 +48,7 @@ module ppmc_strobe_master #(
   } state_e;
 
   state_e state_q;
-  logic [CntBits-1:0] left_q;  // remaining cycles in this state, minus 1
+  logic [CntBits-1:0] left_q;  // remaining cycles in the current state, minus 1
   logic write_q;
 
   assign ready_o = state_q == StIdle;

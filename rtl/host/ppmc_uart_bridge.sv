@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_bridge: UART host interface of a device: one frame carries a script of bus accesses, one frame
-//         answers it.
+// ppmc_uart_bridge: UART host interface of a device. A request frame contains a script of bus accesses, and
+//         an answer frame contains its results.
 // Rules:  docs/uart_bridge.md.
-// Timing: this block synchronises rxd_i; int_ni, pins_i, watch_i and count_i are synchronous to clk_i.
+// Timing: this block synchronises rxd_i. int_ni, pins_i, watch_i and count_i are synchronous to clk_i.
 `default_nettype none
 
 module ppmc_uart_bridge
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned ClkHz     = 24_000_000,  // at least 5 * Baud
-    parameter int unsigned XtalHz    = 16_000_000,  // crystal; only for IDENT, like Part and Datasheet
-    parameter int unsigned Baud      = 115_200,     // line rate after reset
+    parameter int unsigned XtalHz    = 16_000_000,  // crystal; only for IDENT, as Part and Datasheet
+    parameter int unsigned Baud      = 115_200,     // baud rate after reset
     parameter int unsigned Part      = 104,
-    parameter int unsigned Axes      = 1,           // number of pulse counters: 1 or 2
-    parameter bit          Counter   = 1'b1,        // 1: pulses are counted; only for IDENT
+    parameter int unsigned Axes      = 1,           // number of pulse counters, 1 or 2
+    parameter bit          Counter   = 1'b1,        // 1: the pulses are counted; only for IDENT
     parameter bit          Datasheet = 1'b0,
     parameter int unsigned Watch     = 1,           // number of recorded levels
-    parameter int unsigned Record    = 0            // 2**Record records, 4 .. 16; 0: no recorder
+    parameter int unsigned Record    = 0            // 4 .. 16: 2**Record records; 0: no recorder
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
-    input  wire logic               rxd_i,         // from the PC, raw pin
-    output logic                    txd_o,         // to the PC
+    input  wire logic               rxd_i,         // line from the PC, asynchronous
+    output logic                    txd_o,         // line to the PC
     // bus of the device
     output logic                    cs_no,         // chip select
     output logic                    rd_no,         // read strobe
@@ -29,15 +29,15 @@ module ppmc_uart_bridge
     output logic      [        3:0] a_o,           // register
     output logic      [        7:0] d_o,           // write data
     input  wire logic [        7:0] d_i,           // read data
-    input  wire logic               int_ni,        // interrupt, L = active
-    output logic                    part_rst_no,   // reset of the device, L = active
+    input  wire logic               int_ni,        // interrupt, active low
+    output logic                    part_rst_no,   // reset of the device, active low
     // board
     output logic      [        7:0] straps_o,      // strap outputs
-    input  wire logic [        7:0] pins_i,        // pins for op PINS
+    input  wire logic [        7:0] pins_i,        // pins for operation PINS
     input  wire logic [  Watch-1:0] watch_i,       // levels for the recorder
-    input  wire logic [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
+    input  wire logic [Axes*32-1:0] count_i,       // pulse counters; axis 1 is in bits 31:0
     output logic      [   Axes-1:0] count_zero_o,  // strobe: set the counter to 0
-    output logic                    active_o       // a script is running or its answer is being sent
+    output logic                    active_o       // 1: a script is running, or its answer is being sent
 );
 
   if (!is_available(0, ClkHz, Baud)) begin : g_check
@@ -54,8 +54,8 @@ module ppmc_uart_bridge
   localparam int unsigned Width = phase_width(ClkHz, Baud);
   localparam int unsigned TopCode = top_code(ClkHz, Baud);
   localparam logic [7:0] IdentFlags = {4'(TopCode), 2'(Axes - 1), Counter, Datasheet};
-  // The zeros are needed because Verilator up to 5.032 treats a parameter that is set to a plain number as
-  // one without a width.
+  // The leading zeros are necessary: Verilator up to 5.032 assumes that a parameter which is set to a plain
+  // number has no width.
   localparam logic [127:0] Ident = {
     32'd0 | ClkHz, 32'd0 | XtalHz, IdentFlags, Part[15:0], PROTOCOL_VERSION, 8'h43, 8'h4D, 8'h50, 8'h50
   };
@@ -155,7 +155,7 @@ module ppmc_uart_bridge
       .nak_taken_i(nak_taken)
   );
 
-  // A request that was already answered is answered again from the buffer (UB-SEQ-02).
+  // A request that has already been answered is answered again from the buffer (UB-SEQ-02).
   assign resend    = request && seq == last_seq_q && seq != '0;
   assign start    = request && !resend;
   assign active_o = script || answer;
@@ -165,8 +165,8 @@ module ppmc_uart_bridge
     else if (start) last_seq_q <= seq;
   end
 
-  // The lower half of the RAM holds the request, the upper half the answer. While a script runs, no request
-  // is received.
+  // The lower half of the RAM stores the request, the upper half the answer. No request is received while a
+  // script runs.
   ppmc_ram #(
       .Width   (8),
       .AddrBits(9)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_host: host interface of a board with a PC: bridge, pulse counters, levels of the switches.
-// Rules:  docs/uart_bridge.md; PINS returns one axis: {alarm, origin, slow CCW, slow CW, CCW, CW limit, hold,
-//         int_n}. With two axes the straps select the axis: bit 7 = 1 is axis 1.
-// Timing: this block synchronises switches_ni and rxd_i; the outputs of the device are synchronous to clk_i.
+// ppmc_uart_host: host interface of a board for a PC. Contains the UART bridge and the pulse counters, and
+//         returns the levels of the switches.
+// Rules:  docs/uart_bridge.md. PINS returns the levels of one axis: {alarm, origin, slow CCW, slow CW, CCW,
+//         CW limit, hold, int_n}. With two axes, strap bit 7 selects the axis (1: axis 1).
+// Timing: this block synchronises switches_ni and rxd_i. The outputs of the device are synchronous to
+//         clk_i.
 `default_nettype none
 
 module ppmc_uart_host #(
@@ -11,15 +13,15 @@ module ppmc_uart_host #(
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,
     parameter bit          Datasheet = 1'b0,
-    parameter int unsigned Axes      = 1,           // 1 or 2; axis 1 in the low bits
-    parameter bit          Counter   = 1'b1,        // 1: pulses are counted
+    parameter int unsigned Axes      = 1,           // number of axes, 1 or 2; axis 1 uses the low bits
+    parameter bit          Counter   = 1'b1,        // 1: the pulses are counted
     parameter int unsigned Watch     = 1,           // number of recorded levels
     parameter int unsigned Record    = 0            // 2**Record records; 0: no recorder
 ) (
     input  wire logic              clk_i,
-    input  wire logic              rst_ni,       // asynchronous
-    input  wire logic              rxd_i,        // from the PC, raw pin
-    output logic                   txd_o,        // to the PC
+    input  wire logic              rst_ni,       // reset, asynchronous
+    input  wire logic              rxd_i,        // line from the PC, asynchronous
+    output logic                   txd_o,        // line to the PC
     // bus of the device
     output logic                   cs_no,        // chip select
     output logic                   rd_no,        // read strobe
@@ -27,16 +29,16 @@ module ppmc_uart_host #(
     output logic      [       3:0] a_o,          // register; a device may use only the low bits
     output logic      [       7:0] d_o,          // write data
     input  wire logic [       7:0] d_i,          // read data
-    input  wire logic              int_ni,       // interrupt, L = active
-    output logic                   part_rst_no,  // reset of the device, L = active
+    input  wire logic              int_ni,       // interrupt, active low
+    output logic                   part_rst_no,  // reset of the device, active low
     // board
     output logic      [       7:0] straps_o,     // strap outputs
-    input  wire logic [Axes*6-1:0] switches_ni,  // switches for op PINS
-    input  wire logic [  Axes-1:0] hold_i,       // HOLD for op PINS: motor at standstill
-    input  wire logic [  Axes-1:0] pout_ni,      // pulses to count
+    input  wire logic [Axes*6-1:0] switches_ni,  // switches for operation PINS
+    input  wire logic [  Axes-1:0] hold_i,       // HOLD for operation PINS; high: standstill
+    input  wire logic [  Axes-1:0] pout_ni,      // pulses to be counted
     input  wire logic [  Axes-1:0] dir_i,        // direction of the pulses on pout_ni
     input  wire logic [ Watch-1:0] watch_i,      // levels for the recorder, synchronous to clk_i
-    output logic                   active_o      // a script is running or its answer is being sent
+    output logic                   active_o      // 1: a script is running, or its answer is being sent
 );
 
   logic [Axes*6-1:0] switches, unused_meta;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_wishbone: Wishbone B4 slave (classic cycles, 32 bits) for the strobe bus of a device.
-// Rules:  register map and responses in docs/integration.md; strobes by UB-BUS-01.
-// Timing: a device register responds 6 cycles (write) or 8 cycles (read) after the first cycle with CYC and
-//         STB, one cycle later if the access directly follows another one. The bridge register and masked
-//         accesses respond 1 cycle after that first cycle. A master may abort an access: a strobe that has
-//         begun still ends, and there is no response.
+// Rules:  register map and responses: docs/integration.md; strobes: UB-BUS-01.
+// Timing: a device register responds 6 cycles (write) or 8 cycles (read) after the first cycle of CYC and
+//         STB. If another access directly precedes it, the response is one cycle later. The bridge register
+//         and masked accesses respond 1 cycle after that first cycle. A master may abort an access: then
+//         there is no response, but a strobe that has begun is completed.
 `default_nettype none
 `include "ppmc_assert.svh"
 
@@ -13,17 +13,17 @@ module ppmc_wishbone #(
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    // Wishbone; adr_i bits are numbered as in a byte address
-    input  wire logic                cyc_i,   // bus cycle of the master
-    input  wire logic                stb_i,   // transfer of the bus cycle
-    input  wire logic                we_i,    // the transfer is a write
+    // Wishbone; adr_i has the bit numbers of a byte address
+    input  wire logic                cyc_i,   // 1: bus cycle of the master
+    input  wire logic                stb_i,   // 1: transfer of the bus cycle
+    input  wire logic                we_i,    // 1: the transfer is a write, 0: a read
     input  wire logic [AddrBits+2:2] adr_i,   // register
-    input  wire logic [         3:0] sel_i,   // bit 0: bits 7..0 are used
-    input  wire logic [        31:0] dat_i,   // write data, bits 7..0
-    output logic      [        31:0] dat_o,   // read data, bits 7..0
-    output logic                     ack_o,   // transfer complete
-    output logic                     err_o,   // transfer rejected
-    output logic                     irq_o,   // interrupt of the device, H = active
+    input  wire logic [         3:0] sel_i,   // bit 0: bits 7:0 are used
+    input  wire logic [        31:0] dat_i,   // write data in bits 7:0
+    output logic      [        31:0] dat_o,   // read data in bits 7:0
+    output logic                     ack_o,   // strobe: the transfer is complete
+    output logic                     err_o,   // strobe: the transfer is rejected
+    output logic                     irq_o,   // interrupt of the device, active high
     // pins of the device
     output logic                     cs_no,   // chip select
     output logic                     rd_no,   // read strobe
@@ -31,21 +31,21 @@ module ppmc_wishbone #(
     output logic      [AddrBits-1:0] a_o,     // register
     output logic      [         7:0] d_o,     // write data
     input  wire logic [         7:0] d_i,     // read data
-    input  wire logic                int_ni   // interrupt, L = active
+    input  wire logic                int_ni   // interrupt, active low
 );
 
   logic call, bridge_reg, bad, done, ready, req, unused;
   logic [7:0] rdata;
-  logic busy_q;  // a strobe access of this bridge is in progress
-  logic waiting_q;  // 1: the master still waits for this response
-  logic no_strobe_q;  // 1: this response needs no strobe
-  logic error_q;  // 1: this response is ERR, not ACK
-  logic flag_q;  // data bit 0 of this response
+  logic busy_q;  // 1: a strobe access of this bridge is in progress
+  logic waiting_q;  // 1: the master still waits for the response of this access
+  logic no_strobe_q;  // 1: the current response needs no strobe
+  logic error_q;  // 1: the current response is ERR, 0: ACK
+  logic flag_q;  // data bit 0 of the current response
 
   assign unused = &{1'b0, sel_i[3:1], dat_i[31:8]};
   assign call = cyc_i && stb_i && !busy_q && !no_strobe_q;
   assign bridge_reg = adr_i[AddrBits+2];
-  // bad: reserved, or a write to the bridge register
+  // bad: access to a reserved register, or write to the bridge register
   assign bad    = bridge_reg && (we_i || adr_i[AddrBits+1:2] != '0);
   assign req = call && !bridge_reg && sel_i[0];
 
@@ -88,7 +88,7 @@ module ppmc_wishbone #(
     end
   end
 
-  // CYC and STB gate the response, so that a master that aborts at the last moment receives no response.
+  // CYC and STB gate the response. Therefore, a master that aborts at the last moment receives no response.
   logic answer;
   assign answer = cyc_i && stb_i && (no_strobe_q || (done && waiting_q));
   assign ack_o  = answer && !(no_strobe_q && error_q);
@@ -102,7 +102,7 @@ module ppmc_wishbone #(
   `PPMC_ASSERT(wb_answer_single, !((ack_o || err_o) && $past(ack_o || err_o)))
   `PPMC_ASSERT(wb_ack_per_strobe, no_strobe_q || ack_o == (done && waiting_q && cyc_i && stb_i))
   `PPMC_ASSERT(wb_strobe_owned, !done || busy_q)
-  // The master's side of the contract: a request that is neither answered nor aborted stays unchanged.
+  // Obligation of the master: a request that is neither answered nor aborted does not change.
   `PPMC_ASSERT(wb_request_stable, !($past(rst_ni && cyc_i && stb_i && !ack_o && !err_o) && cyc_i && stb_i)
                || $past({we_i, adr_i, sel_i, dat_i[7:0]}) == {we_i, adr_i, sel_i, dat_i[7:0]})
   // verilog_format: on

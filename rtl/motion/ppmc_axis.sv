@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axis: runs one motion from start to end: time and low time of each pulse, cause of the end.
+// ppmc_axis: executes one motion from start to end. Determines the time and low time of each pulse, and the
+//         cause of the end.
 // Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
 //         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21; STMC-MOT-05..08,
 //         STMC-CLK-01..05.
 // Timing: motion_o.busy rises at the edge that ends the cycle of start_i. Pulse 1 occurs WidthXtal crystal
-//         cycles later; if run_i was low, this time begins at the end of the RUN gate. With the external
-//         clock, pulse 1 occurs at the first edge at or after this time. When no pulse is left, busy falls
-//         one cycle after low_o, or at the next edge if low_o is already 0; event_o.done is high in the cycle
-//         before. No output is a pin: pins follow low_o and event_o through one register (ppmc_motor_port).
-// Edges:  the comment above `edges` describes the external clock.
+//         cycles later; if run_i was low, this time begins when the RUN gate ends. With the external clock,
+//         pulse 1 occurs at the first clock edge at or after this time.
+//         When no pulse is left, busy falls one cycle after low_o falls, or at the next edge if low_o is
+//         already 0. event_o.done is high in the cycle before busy falls.
+//         No output is a pin. Pins follow low_o and event_o through one register (ppmc_motor_port).
+// Note:   the comment above `edges` describes the external clock.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -20,51 +22,51 @@ module ppmc_axis
     parameter int unsigned CountBits = 24,
     parameter int unsigned RateBits = 8,
     parameter int unsigned StepBits = 14,
-    parameter int unsigned LevelBits = StepBits,  // must hold PA + 1
-    parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up, crystal cycles
-    parameter int unsigned FastQuanta = 8,  // period of the fast internal base clock, quanta
-    parameter int unsigned SlowQuanta = 32,  // period of the slow internal base clock, quanta
-    parameter int unsigned ExtraQuanta = 30,  // extra time with base_i.extra, quanta; 0: no extra time
-    parameter int unsigned HalfRates = 3,  // number of fastest rates whose pulse width is half an interval
-    parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately
-    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits are effective off the plateau in POUT mode, too
+    parameter int unsigned LevelBits = StepBits,  // bits of ramp_level; must hold PA + 1
+    parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up time in crystal cycles
+    parameter int unsigned FastQuanta = 8,  // period of the fast internal base clock in quanta
+    parameter int unsigned SlowQuanta = 32,  // period of the slow internal base clock in quanta
+    parameter int unsigned ExtraQuanta = 30,  // extra time in quanta if base_i.extra = 1; 0: no extra time
+    parameter int unsigned HalfRates = 3,  // number of rates whose pulse width is half an interval
+    parameter bit StopAtSlow = 1'b0,  // 1: a deceleration request at the start-up rate is a stop
+    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits also act off the plateau in POUT mode
     parameter bit SlowOrigin = 1'b0,  // 1: a slow-down limit ends an origin search immediately
     parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last pulse; 0: immediate end
     parameter bit PulsePin = 1'b1  // 0: no pulse output; low_o stays 0, the last pulse ends the motion
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    // start; the operation and its data are loaded with start_i
-    input wire logic start_i,  // an operation starts at the next edge
+    // start; operation and data are loaded with start_i
+    input wire logic start_i,  // strobe: an operation starts at the next edge
     input wire op_t op_i,  // operation to start
-    input wire logic [CountBits-1:0] count_i,  // number of pulses - 1
+    input wire logic [CountBits-1:0] count_i,  // number of pulses, minus 1
     input wire logic [RateBits-1:0] rate_i,  // rate at constant speed
     input wire base_clock_t base_i,  // base clock of the operation
-    // active ramp, stable while busy
+    // current ramp, stable while busy
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
-    output logic [RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two cycles later
-    input wire logic [StepBits-1:0] lut_data_i,  // thr(r); PA at rate_fast_i
+    output logic [RateBits-1:0] lut_addr_o,  // r; address of lut_data_i
+    input wire logic [StepBits-1:0] lut_data_i,  // thr(r), two cycles after lut_addr_o; PA at rate_fast_i
     // stops
-    input wire logic halt_i,  // immediate stop command
-    input wire logic decel_i,  // deceleration stop command
-    input wire switches_t switches_i,  // synchronous levels
-    input wire logic slow_i,  // act on the slow-down limit: slow_seen_o, possibly delayed
-    output logic slow_seen_o,  // an effective slow-down limit is active
+    input wire logic halt_i,  // strobe: immediate stop command
+    input wire logic decel_i,  // strobe: deceleration stop command
+    input wire switches_t switches_i,  // switches, synchronised
+    input wire logic slow_i,  // 1: act on a slow-down limit; slow_seen_o, possibly delayed
+    output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 must wait
-    input wire logic end_delay_i,  // 1 keeps the motion from ending
+    input wire logic end_delay_i,  // 1: the motion must not end yet
     // clocks
-    input wire logic quantum_i,  // quantum tick, restarted by restart_o
+    input wire logic quantum_i,  // strobe: quantum tick, restarted by restart_o
     input wire logic clock_pin_i,  // external base clock, asynchronous
-    output logic restart_o,  // restart the quantum count: at pulse 1 and at the end of a motion
+    output logic restart_o,  // strobe: restart the quantum count (at pulse 1 and at the end)
     // state
     output motion_t motion_o,  // state of the motion
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
-    output logic low_o,  // a pulse is active
+    output logic low_o,  // 1: a pulse is active
     output motion_event_t event_o,  // events at the next edge
-    output stop_cause_t cause_o,  // valid with event_o.done
-    output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
+    output stop_cause_t cause_o,  // causes of the end; valid with event_o.done
+    output logic [CountBits-1:0] left_o  // remaining pulses, in the form that the host reads
 );
 
   localparam int unsigned ShortPeriodXtal = 128;  // P104-TIM-05, rate 0: 8 us at 16 MHz
@@ -74,8 +76,8 @@ module ppmc_axis
 
   typedef enum logic [1:0] {
     StIdle,
-    StStart,  // direction set-up, wait for the first base edge
-    StRun,    // between pulses
+    StStart,  // direction set-up; then waits for the first base edge
+    StRun,    // outputs pulses
     StFinish  // no further pulse; waits for the end of the last low time
   } state_e;
 
@@ -104,8 +106,8 @@ module ppmc_axis
     if (stop) fire = 1'b0;
   end
 
-  // In the RUN gate, limits and alarm are effective and the origin is not. The direction set-up begins when
-  // the gate ends.
+  // In the RUN gate, limits and alarm are effective, but the origin is not. The direction set-up begins
+  // when the gate ends.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) gated_q <= 1'b0;
     else if (start_i || run_i) gated_q <= !run_i;
@@ -209,19 +211,20 @@ module ppmc_axis
       .past_o (width_past)
   );
 
-  // Interval: counts base clocks, which are internal or edges of the clock pin, and adds the extra time.
-  // With the external clock, pulses and cuts occur in the cycle of an effective edge and act at the end of
-  // this cycle:
-  // - Edge number rate + 1 after a pulse outputs the next pulse (u_rate: hit_o), or the extra time follows
-  //   this edge. An edge while low_o = 1 outputs no pulse; the next edge does. This can occur only after a
-  //   pulse of rate 0 whose period is not short.
-  // - Edge number floor((rate + 1) / 2) marks half of the interval (u_rate: half_o). It cuts low_o, unless
-  //   the pulse is a full pulse. At rate 0, the falling edge cuts low_o if the period before the pulse was
-  //   short (u_shaper, P104-TIM-05).
-  // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. Only from the
-  // second deceleration step on, this rate may still rise for some cycles (rising). During these cycles
-  // neither event occurs: the half is made up for afterwards, and the next pulse cannot be reached yet (times
-  // in ppmc_ramp_seq).
+  // Interval: counts base clocks and adds the extra time. A base clock is internal, or an edge of the clock
+  // pin.
+  // With the external clock, pulses and cuts of low_o occur in the cycle of an effective edge, and act at
+  // the end of this cycle:
+  // - Edge number rate + 1 after a pulse outputs the next pulse (u_rate: hit_o). If extra time remains, the
+  //   pulse is output after this time. If low_o = 1 at an edge, the pulse is output at the next edge
+  //   instead. This can occur only after a pulse of rate 0 whose period is not short.
+  // - Edge number floor((rate + 1) / 2) marks the middle of the interval (u_rate: half_o). It cuts low_o,
+  //   unless the pulse is a full pulse. At rate 0, the falling edge cuts low_o if the period before the
+  //   pulse was short (u_shaper, P104-TIM-05).
+  // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. This rate may
+  // still rise for some cycles (rising = 1), but only from the second deceleration step on. During these
+  // cycles, neither event occurs. The middle is marked afterwards, and the next pulse is not yet possible
+  // (times in ppmc_ramp_seq).
   assign edges = base_q.external && rise;
   assign tick = base_q.external ? edges && ext_count : base_tick;
   assign cut   = base_q.external &&
@@ -302,12 +305,12 @@ module ppmc_axis
           base: base_q
       };
 
-  // The assertions check that there is no pulse at or after an immediate cause, that a motion which no cause
-  // ends has completed its count, and that no pulse is missed because a low time was not cut.
+  // The assertions check that no pulse occurs at or after an immediate cause, that a motion without a cause
+  // completes its count, and that no pulse is missed because a low time was not cut.
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
   // External clock edges less than 4 cycles apart are too fast (P104-BAD-14, P2104-BAD-19): the cut may be
-  // too late.
+  // late.
   logic [2:0] ticked_q;
   logic too_fast, too_fast_q;
   assign too_fast = too_fast_q || (tick && ticked_q != '0);

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_chopper: switches the phases of a motor on and off at standstill.
-// Rules:  P104-SW-01..06, P104-AUX-03. An ON or OFF phase lasts base + UnitQuanta * units quanta; both values
-//         are loaded at the beginning of the phase.
+// Rules:  P104-SW-01..06, P104-AUX-03. An ON or OFF phase lasts base + UnitQuanta * units quanta. Both
+//         values are loaded when the phase begins.
 // Timing: on_o changes at the edge that ends the cycle of a quantum tick. restart_i acts at the next edge.
-//         run_i = 0 switches the phases on in the same cycle.
+//         While run_i = 0, on_o is 1 (combinational).
 `default_nettype none
 
 module ppmc_chopper #(
-    parameter int unsigned UnitQuanta = 12,  // quanta in a unit of the host's parameter; 0: no units
+    parameter int unsigned UnitQuanta = 12,  // quanta per unit of the host's parameter; 0: no units
     parameter int unsigned BaseBits   = 9,
     parameter int unsigned UnitBits   = 8
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                run_i,        // 0: phases stay on
-    input  wire logic                restart_i,    // begin a complete ON phase at the next edge
-    input  wire logic                quantum_i,    // quantum tick
-    input  wire logic [BaseBits-1:0] on_base_i,    // base time of the ON phase, quanta, at least 1
-    input  wire logic [BaseBits-1:0] off_base_i,   // base time of the OFF phase, quanta, at least 1
-    input  wire logic [UnitBits-1:0] on_units_i,   // units added to on_base_i
-    input  wire logic [UnitBits-1:0] off_units_i,  // units added to off_base_i
-    output logic                     on_o          // 1 = phases on
+    input  wire logic                run_i,        // 0: the phases stay on
+    input  wire logic                restart_i,    // strobe: begin a complete ON phase at the next edge
+    input  wire logic                quantum_i,    // strobe: quantum tick
+    input  wire logic [BaseBits-1:0] on_base_i,    // base time of the ON phase in quanta, at least 1
+    input  wire logic [BaseBits-1:0] off_base_i,   // base time of the OFF phase in quanta, at least 1
+    input  wire logic [UnitBits-1:0] on_units_i,   // number of units added to on_base_i
+    input  wire logic [UnitBits-1:0] off_units_i,  // number of units added to off_base_i
+    output logic                     on_o          // 1: phases on
 );
 
   localparam int unsigned UnitWidth = ppmc_pkg::cnt_width(UnitQuanta);
   localparam int unsigned CountBits = (BaseBits > UnitWidth) ? BaseBits : UnitWidth;
 
-  logic [CountBits-1:0] left_q;  // remaining quanta of the base time, then of the unit
-  logic [ UnitBits-1:0] units_q;  // units of this phase that are still to run
+  logic [CountBits-1:0] left_q;  // remaining quanta of the base time or of the current unit
+  logic [ UnitBits-1:0] units_q;  // remaining units of this phase
   logic on_q, next_on, part_ends, phase_ends;
 
   assign on_o = on_q || !run_i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_excitation: pattern of energised phases, for 3-, 4- and 5-phase motors in full and half step.
+// ppmc_excitation: pattern of the energised phases of 3-, 4- and 5-phase motors, for full and half steps.
 // Rules:  P104-PHS-01..06 (tables: docs/ppmc104/README.md, 10.1; P104-PHS-03/05: index 0 and phases off).
 // Timing: pattern_o changes at the edge that ends the cycle of phase_init_i, off_i or step_i.
 // How:    see ppmc_motion_pkg.
@@ -12,15 +12,15 @@ module ppmc_excitation
     input  wire logic         clk_i,
     input  wire logic         rst_ni,
     input  wire motor_e       motor_i,       // number of phases
-    input  wire logic         half_i,        // 1 = half step
-    input  wire logic         phase_init_i,  // set the phases to index 0: S1 and S2 on
-    input  wire logic         off_i,         // switch all phases off until phase_init_i
-    input  wire logic         step_i,        // advance by one step
-    input  wire logic         ccw_i,         // direction of the step: 1 = down the table
-    output logic        [5:1] pattern_o      // 1 = energised
+    input  wire logic         half_i,        // 1: half step
+    input  wire logic         phase_init_i,  // strobe: set the phases to index 0 (S1 and S2 on)
+    input  wire logic         off_i,         // strobe: switch all phases off until phase_init_i
+    input  wire logic         step_i,        // strobe: make one step
+    input  wire logic         ccw_i,         // direction of the step, 1: down the table
+    output logic        [5:1] pattern_o      // 1: energised
 );
 
-  logic two_phases_q;  // two adjacent phases are on: even index of the half-step table
+  logic two_phases_q;  // 1: two adjacent phases are on (even index of the half-step table)
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_clock: edges of an external base clock and the length of its last period.
+// ppmc_ext_clock: detects the edges of an external base clock, and classifies the length of its last
+//         period.
 // Rules:  P104-BCK-04, P104-INT-03 (period compared with the threshold), P104-TIM-05 (rate 0).
-// Timing: for a rising pin edge first sampled at edge t, rise_o is high in the cycle before edge t + 2; for a
-//         falling edge likewise fall_o. In the cycle of rise_o, long_period_o and short_period_o refer to the
-//         period that this edge ends.
+// Timing: if an edge of the pin is first sampled at edge t, rise_o or fall_o is high in the cycle before
+//         edge t + 2. In the cycle of rise_o, long_period_o and short_period_o refer to the period that
+//         ends with this edge.
 `default_nettype none
 
 module ppmc_ext_clock #(
-    parameter int unsigned LongPeriodCycles  = 136,  // a longer period is long
-    parameter int unsigned ShortPeriodCycles = 128   // a shorter period is short; at most LongPeriodCycles
+    parameter int unsigned LongPeriodCycles  = 136,  // a period above this number of cycles is long
+    parameter int unsigned ShortPeriodCycles = 128   // a period below it is short; at most LongPeriodCycles
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
     input  wire logic pin_i,          // external clock, asynchronous
-    output logic      rise_o,         // rising edge of the pin
-    output logic      fall_o,         // falling edge of the pin
-    output logic      long_period_o,  // more than LongPeriodCycles cycles since the previous rising edge
-    output logic      short_period_o  // less than ShortPeriodCycles cycles since the previous rising edge
+    output logic      rise_o,         // strobe: rising edge of the pin
+    output logic      fall_o,         // strobe: falling edge of the pin
+    output logic      long_period_o,  // 1: more than LongPeriodCycles cycles between rising edges
+    output logic      short_period_o  // 1: less than ShortPeriodCycles cycles between rising edges
 );
 
   localparam int unsigned Width = ppmc_lfsr_pkg::width(LongPeriodCycles);
@@ -25,11 +26,11 @@ module ppmc_ext_clock #(
 
   logic level, last_q, not_short_q;
   logic unused_meta;
-  logic [Width-1:0] age_q;  // cycles since the last rising edge; not used with long_period_o
+  logic [Width-1:0] age_q;  // cycles since the last rising edge; unused if long_period_o = 1
 
   ppmc_sync #(
       .Width   (1),
-      .ResetVal(1'b1)  // an idle-high pin must not produce an edge
+      .ResetVal(1'b1)  // so that a pin that idles high produces no edge
   ) u_sync (
       .clk_i,
       .rst_ni,
@@ -45,7 +46,7 @@ module ppmc_ext_clock #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       last_q <= 1'b1;
-      not_short_q <= 1'b1;  // no previous edge: the period is infinite
+      not_short_q <= 1'b1;  // there is no previous edge, so the period is infinite
       long_period_o <= 1'b1;
     end else begin
       last_q <= level;
@@ -59,7 +60,7 @@ module ppmc_ext_clock #(
     end
   end
 
-  // No reset, because long_period_o is set until the first edge clears it.
+  // No reset: long_period_o is 1 until the first edge, which sets age_q.
   always_ff @(posedge clk_i) begin
     if (rise_o) age_q <= Width'(1);
     else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_extra_time: fixed extra time of an interval with an external base clock.
-// Rules:  P104-INT-03, P104-INT-04. The extra time has two parts. The first part runs from a pulse to the
-//         first base edge at or after the pulse. The second part runs after the edge that ends the count. So
-//         an interval lasts (rate + 1) periods plus the extra time, and no frequency has to be measured.
-// Timing: fire_o is combinational: it is high in the cycle of hit_i, or when the second part has passed.
+// Rules:  P104-INT-03, P104-INT-04.
+// Timing: fire_o is combinational: it is high in the cycle of hit_i, or in the cycle in which the second
+//         part of the extra time has passed.
+// How:    the first part of the extra time runs from a pulse to the first base edge at or after the pulse.
+//         The second part runs after the edge that ends the count. Therefore an interval lasts (rate + 1)
+//         periods plus the extra time, without a measurement of the frequency.
 `default_nettype none
 
 module ppmc_ext_extra_time #(
@@ -11,22 +13,22 @@ module ppmc_ext_extra_time #(
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic en_i,           // 0: no extra time, hit_i passes to fire_o
-    input  wire logic restart_i,      // a pulse
-    input  wire logic edge_i,         // a base edge
-    input  wire logic long_period_i,  // edge_i ends a period that is too long for the extra time
-    input  wire logic hit_i,          // this base edge ends the count
-    output logic      count_o,        // base edges are counted
-    output logic      fire_o          // the interval ends
+    input  wire logic en_i,           // 0: no extra time, fire_o = hit_i
+    input  wire logic restart_i,      // strobe: a pulse
+    input  wire logic edge_i,         // strobe: a base edge
+    input  wire logic long_period_i,  // with edge_i: the period is too long for the extra time
+    input  wire logic hit_i,          // strobe: this base edge ends the count
+    output logic      count_o,        // 1: base edges are counted
+    output logic      fire_o          // strobe: the interval ends
 );
 
   localparam int unsigned Width = ppmc_lfsr_pkg::width(ExtraCycles - 1);
   localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(ExtraCycles - 2, Width));
 
-  logic [Width-1:0] elapsed_q;  // elapsed part of the extra time
-  logic last_q, over_q;  // last_q: one cycle of the extra time is left; over_q: no cycle is left
-  logic before_q;  // no base edge since the pulse
-  logic after_q;  // the count has ended, the rest of the extra time runs
+  logic [Width-1:0] elapsed_q;  // elapsed part of the extra time (LFSR state)
+  logic last_q, over_q;  // last_q: one cycle of the extra time is left; over_q: none is left
+  logic before_q;  // 1: no base edge has occurred since the pulse
+  logic after_q;  // 1: the count has ended, and the second part is running
   logic counts;
 
   assign count_o = !(en_i && before_q);
@@ -51,7 +53,7 @@ module ppmc_ext_extra_time #(
     end
   end
 
-  // No reset, because the first pulse restarts elapsed_q.
+  // No reset: the first pulse sets elapsed_q.
   always_ff @(posedge clk_i) begin
     if (restart_i) elapsed_q <= Width'(1);
     else if (counts) elapsed_q <= Width'(ppmc_lfsr_pkg::step(31'(elapsed_q), Width));

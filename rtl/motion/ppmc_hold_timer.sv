@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_hold_timer: asserts hold_o when the motor has been at standstill for the hold time, which is fixed or
-//         a number of units set by the host.
+// ppmc_hold_timer: asserts hold_o when the motor has been at standstill for the hold time. This time is
+//         fixed, or a number of units set by the host.
 // Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05; STMC-HLD-01.
-// Timing: hold_o is deasserted one cycle after busy_i rises. It is asserted one cycle, plus RestCycles
-//         cycles, after quantum tick number Quanta since the fall of busy_i (with units: tick number Quanta *
-//         (units_i + 1)). units_i is sampled while busy_i is high.
+// Timing: hold_o is deasserted one cycle after busy_i rises. It is asserted 1 + RestCycles cycles after
+//         quantum tick number Quanta since the fall of busy_i. With units, this is tick number Quanta *
+//         (units_i + 1). units_i is sampled while busy_i is high.
 `default_nettype none
 
 module ppmc_hold_timer #(
     parameter int unsigned Quanta = 136_000,  // quantum ticks; 34 ms at 16 MHz
-    parameter int unsigned RestCycles = 0,  // cycles after the last quantum, fewer than a quantum has
-    parameter int unsigned UnitBits = 0,  // bits of units_i; 0: fixed time; else Quanta is a power of 2
+    parameter int unsigned RestCycles = 0,  // cycles added to the quanta; fewer than one quantum has
+    parameter int unsigned UnitBits = 0,  // bits of units_i, Quanta is a power of 2; 0: fixed time
     localparam int unsigned UnitTop = (UnitBits == 0) ? 0 : UnitBits - 1
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             busy_i,     // a motion is in progress
-    input  wire logic             quantum_i,  // quantum tick, restarted by the fall of busy_i
+    input  wire logic             busy_i,     // 1: a motion is in progress
+    input  wire logic             quantum_i,  // strobe: quantum tick, restarted by the fall of busy_i
     input  wire logic [UnitTop:0] units_i,    // hold time in units, minus 1
-    output logic                  hold_o      // at standstill for the hold time; 1 after reset
+    output logic                  hold_o      // high: standstill for the hold time; 1 after reset
 );
 
   logic done;
@@ -62,8 +62,8 @@ module ppmc_hold_timer #(
       $fatal(1, "ppmc_hold_timer: a unit must be a power of two of quanta");
     end
 
-    logic [UnitBits-1:0] units_q;  // units left after the running one
-    logic [Scale-1:0] scale_q;  // elapsed quanta of the running unit
+    logic [UnitBits-1:0] units_q;  // units that remain after the current unit
+    logic [Scale-1:0] scale_q;  // elapsed quanta of the current unit
     logic done_q;
 
     assign done = done_q;

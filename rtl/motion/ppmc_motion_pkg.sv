@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_motion_pkg: types that the motion blocks share; independent of the host.
+// ppmc_motion_pkg: types that the motion blocks share. They do not depend on the host.
 `default_nettype none
 
 package ppmc_motion_pkg;
@@ -17,18 +17,18 @@ package ppmc_motion_pkg;
 
   // Operation of an axis; the axis latches it at the start.
   typedef struct packed {
-    logic ramp;       // accelerates and decelerates by the ramp table
-    logic single;     // one pulse, no wait for a base clock
-    logic origin;     // ends at the origin
-    logic pout_only;  // phases do not change; slow-down limit only on the plateau
-    logic ccw;        // direction
+    logic ramp;       // 1: accelerates and decelerates along the ramp table
+    logic single;     // 1: one pulse, without waiting for a base clock
+    logic origin;     // 1: ends at the origin
+    logic pout_only;  // 1: the phases do not change; slow-down limits act only on the plateau
+    logic ccw;        // direction, 1: CCW
   } op_t;
 
   // Base clock of an operation; the axis latches it at the start.
   typedef struct packed {
-    logic external;  // edges of the clock pin, not the internal base clock
-    logic slow;      // slow internal base clock
-    logic extra;     // extra time in every interval
+    logic external;  // 1: edges of the clock pin, 0: internal base clock
+    logic slow;      // 1: slow internal base clock
+    logic extra;     // 1: extra time in every interval
   } base_clock_t;
 
   // Causes that ended a motion before its last pulse (P104-END-04), in the bit order of the finish status.
@@ -39,7 +39,7 @@ package ppmc_motion_pkg;
     logic slow;   // slow-down limit in the direction of the motion
   } stop_cause_t;
 
-  // Levels of the switches after the synchroniser, 1 = active.
+  // Levels of the switches after the synchroniser, 1: active.
   typedef struct packed {
     logic limit_cw;
     logic limit_ccw;
@@ -51,37 +51,38 @@ package ppmc_motion_pkg;
 
   // State of the motion of an axis.
   typedef struct packed {
-    logic        busy;     // from the start until the low time of the last pulse has ended
-    logic        moving;   // before pulse 1 or between pulses, not yet stopping
-    logic        running;  // between pulses
-    logic        gated;    // waiting in the RUN gate
-    logic        dec;      // decelerating, forced or natural
-    logic        top;      // on the plateau of the ramp
-    op_t         op;       // the running or last operation
+    logic        busy;     // 1 from the start until the low time of the last pulse has ended
+    logic        moving;   // 1 before pulse 1 and between pulses, if not yet stopping
+    logic        running;  // 1 between pulses
+    logic        gated;    // 1: waiting in the RUN gate
+    logic        dec;      // 1: decelerating, forced or natural
+    logic        top;      // 1: on the plateau of the ramp
+    op_t         op;       // current or last operation
     base_clock_t base;     // base clock of this operation
   } motion_t;
 
   // Events of a motion at the next edge.
   typedef struct packed {
     logic pulse;     // a pulse begins
-    logic last;      // with pulse: last pulse
+    logic last;      // with pulse: it is the last pulse
     logic complete;  // with pulse: the count is complete
     logic stop;      // immediate end
     logic done;      // the motion has ended
   } motion_event_t;
 
-  // Times of the chopper: a phase lasts its base time plus its units. They are sampled when the phase begins.
+  // Times of the chopper. A phase lasts its base time plus its units. Both are sampled when the phase
+  // begins.
   typedef struct packed {
-    logic [31:0] on_base;    // base time of the ON phase, quanta, at least 1
-    logic [31:0] off_base;   // base time of the OFF phase, quanta, at least 1
-    logic [7:0]  on_units;   // ON units set by the host
-    logic [7:0]  off_units;  // OFF units set by the host
+    logic [31:0] on_base;    // base time of the ON phase in quanta, at least 1
+    logic [31:0] off_base;   // base time of the OFF phase in quanta, at least 1
+    logic [7:0]  on_units;   // units of the ON phase, set by the host
+    logic [7:0]  off_units;  // units of the OFF phase, set by the host
   } chop_time_t;
 
-  // Phases of a motor, 1 = energised. No table is needed: a full step rotates the pattern by one phase. Half
-  // steps use in turn AND and OR of the pattern and the rotated pattern. A 5-phase motor starts with OR,
-  // other motors with AND. two_phases: two adjacent phases are on, which is an even index of the half-step
-  // table.
+  // Phases of a motor, 1: energised. No table is needed. A full step rotates the pattern by one phase. Half
+  // steps alternately use the AND and the OR of the pattern and the rotated pattern; a 5-phase motor starts
+  // with OR, other motors with AND. two_phases = 1: two adjacent phases are on, which is an even index of
+  // the half-step table.
   function automatic logic [5:1] rotate_phases(logic [5:1] pattern, motor_e motor, logic ccw);
     logic [5:1] t;
     if (ccw) begin

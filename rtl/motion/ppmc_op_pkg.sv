@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_op_pkg: operations of the PPMC family by number (bits 2..0 of a code), and their meaning for the axis.
+// ppmc_op_pkg: operation numbers of the PPMC family (bits 2:0 of a code), and their conversion for the
+//         axis.
 // Rules:  P104-OPR-01, P104-CMD-01; P2104-CMD-01.
 `default_nettype none
 
@@ -15,7 +16,7 @@ package ppmc_op_pkg;
   localparam logic [2:0] OP_CONT_HIGH = 3'b110;
   localparam logic [2:0] OP_ORIGIN = 3'b111;
 
-  // Operation in the form that the axis uses.
+  // Converts an operation to the form that the axis uses.
   function automatic ppmc_motion_pkg::op_t motion_op(logic pout_only, logic ccw, logic [2:0] op);
     return
     '{
@@ -28,7 +29,7 @@ package ppmc_op_pkg;
     ;
   endfunction
 
-  // Number of bytes that follow the code.
+  // Returns the number of bytes that follow the code.
   function automatic logic [2:0] op_params(logic [2:0] op);
     unique case (op)
       OP_ACC_DEC:                  return 3'd3;

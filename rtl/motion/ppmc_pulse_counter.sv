@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_counter: motor position, counted from the pulse output: CW up, CCW down.
-// Rules:  UB ops COUNT and ZERO (docs/uart_bridge.md).
-// Timing: count_o changes one cycle after pout_n falls; clear_i has priority over a pulse at the same edge.
+// ppmc_pulse_counter: counts the motor position from the pulse output. CW pulses count up, CCW pulses count
+//         down.
+// Rules:  operations COUNT and ZERO of the bridge (docs/uart_bridge.md).
+// Timing: count_o changes one cycle after pout_ni falls. clear_i has priority over a pulse at the same
+//         edge.
 `default_nettype none
 
 module ppmc_pulse_counter #(
@@ -9,10 +11,10 @@ module ppmc_pulse_counter #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             clear_i,  // set the count to 0
+    input  wire logic             clear_i,  // strobe: set the count to 0
     input  wire logic             pout_ni,  // pulse output, synchronous to clk_i
-    input  wire logic             dir_i,    // 0 = CW
-    output logic      [Width-1:0] count_o   // two's complement, wraps
+    input  wire logic             dir_i,    // 0: CW, 1: CCW
+    output logic      [Width-1:0] count_o   // count, two's complement; wraps
 );
 
   logic pout_nq;

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_shaper: low time of a pulse; the same time is the direction set-up before the first pulse.
+// ppmc_pulse_shaper: times the low time of a pulse, and the direction set-up before the first pulse, which
+//         has the same length.
 // Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
 //         changed).
-// Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i, unless it is cut. past_o
-//         rises WidthCycles cycles after arm_i.
+// Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i on, unless it is cut.
+//         past_o rises WidthCycles cycles after arm_i.
 `default_nettype none
 
 module ppmc_pulse_shaper #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
     parameter int unsigned RateBits  = 8,
-    parameter int unsigned WidthXtal = 80,          // low time, crystal cycles
-    parameter int unsigned HalfXtal  = 16,          // half a fast base clock, crystal cycles
-    parameter int unsigned HalfRates = 3            // rates 0 .. HalfRates - 1 have half an interval instead
+    parameter int unsigned WidthXtal = 80,          // low time in crystal cycles
+    parameter int unsigned HalfXtal  = 16,          // half a fast base clock in crystal cycles
+    parameter int unsigned HalfRates = 3            // number of rates with a low time of half an interval
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                arm_i,    // start the time without a pulse
-    input  wire logic                pulse_i,  // pulse event
-    input  wire logic                full_i,   // with pulse_i: full pulse, which is not cut
-    input  wire logic                halve_i,  // half intervals apply (fast internal base clock)
-    input  wire logic [RateBits-1:0] rate_i,   // rate of the interval that follows
-    input  wire logic                cut_i,    // end the low time now, unless the pulse is a full pulse
-    output logic                     low_o,    // 1 = pulse active
+    input  wire logic                arm_i,    // strobe: start the time without a pulse
+    input  wire logic                pulse_i,  // strobe: a pulse
+    input  wire logic                full_i,   // with pulse_i; 1: full pulse, which is never cut
+    input  wire logic                halve_i,  // 1: low times of half an interval apply
+    input  wire logic [RateBits-1:0] rate_i,   // rate of the interval after the pulse
+    input  wire logic                cut_i,    // 1: end the low time now, unless the pulse is a full pulse
+    output logic                     low_o,    // 1: a pulse is active
     output logic                     past_o    // WidthCycles cycles have passed since arm_i or pulse_i
 );
 
@@ -31,9 +32,9 @@ module ppmc_pulse_shaper #(
 
   localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthCycles - 2, Width));
 
-  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i; not used after past_o
+  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i (LFSR state); unused after past_o
   logic full_q;
-  logic [HalfRates:0] halves;  // bit r: half the interval of rate r has passed; the top bit is always 0
+  logic [HalfRates:0] halves;  // [r]: half of the interval of rate r has passed; the top bit is 0
 
   assign halves[HalfRates] = 1'b0;
 
@@ -60,7 +61,7 @@ module ppmc_pulse_shaper #(
     end
   end
 
-  // No reset, because each use restarts age_q.
+  // No reset: every use sets age_q.
   always_ff @(posedge clk_i) begin
     if (arm_i || pulse_i) age_q <= Width'(1);
     else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));

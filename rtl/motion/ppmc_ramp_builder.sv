@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder: fills the ramp table: for every rate r from fast_i + 1 to slow_i, the first step with a
-//         rate below r; for fast_i, where the acceleration ends, PA.
-// Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 cycles for every legal initialisation).
-// Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete. If
-//         fast_i = slow_i, the table holds only PA and busy_o is short. addr_o = slow_i from the end of a
-//         build until the next build.
+// ppmc_ramp_builder: fills the ramp table. For each rate r from fast_i + 1 to slow_i, the entry thr(r) is
+//         the first step with a rate below r. The entry for fast_i, where the acceleration ends, is PA.
+// Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 cycles for every valid initialisation).
+// Timing: busy_o rises at the edge that ends the cycle of start_i. It falls when the table is complete. If
+//         fast_i = slow_i, the table contains only PA, and busy_o is short. From the end of a build until
+//         the next build, addr_o = slow_i.
 // Assumes: slow_i, fast_i and steps_i are stable from the cycle after start_i until busy_o falls.
 // How:    with s = 2r + 1, a = RL + 1, b = RH + 1, E = PA*b*b:
 //             thr(r) - 1 = floor((E*(2a)*(2a)/(s*s) - E) / ((a - b)*(a + b))).
@@ -19,40 +19,40 @@ module ppmc_ramp_builder
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                start_i,  // start a build
+    input  wire logic                start_i,  // strobe: start a build
     input  wire logic [RateBits-1:0] slow_i,   // start-up rate RL
     input  wire logic [RateBits-1:0] fast_i,   // high-speed rate RH, at most slow_i
     input  wire logic [StepBits-1:0] steps_i,  // PA, at least 1
-    output logic                     busy_o,   // a build is in progress
-    output logic                     we_o,     // write port of the table: enable
-    output logic      [RateBits-1:0] addr_o,   // address r
-    output logic      [StepBits-1:0] data_o    // data thr(r); PA for fast_i
+    output logic                     busy_o,   // 1: a build is in progress
+    output logic                     we_o,     // write port of the table: write enable
+    output logic      [RateBits-1:0] addr_o,   // write port: address r
+    output logic      [StepBits-1:0] data_o    // write port: data thr(r); PA for fast_i
 );
 
   localparam int unsigned MulBits = ppmc_pkg::cnt_width(RateBits - 1);
 
   (* fsm_encoding = "none" *)
-  pass_e pass_q;  // running pass
+  pass_e pass_q;  // current pass
   pass_e pass;  // next pass
-  logic first_q, begin_q;  // first_q, begin_q: first and second cycle of a build
-  logic factor_2a_q;  // 1: the factor is 2a; 0: the factor is b
-  logic second_mul_q;  // second multiplication by this factor
-  logic [MulBits-1:0] mul_q;  // index of the multiplier bit; between two factors the highest
+  logic first_q, begin_q;  // first and second cycle of a build
+  logic factor_2a_q;  // 1: the factor is 2a, 0: b
+  logic second_mul_q;  // 1: second multiplication by this factor
+  logic [MulBits-1:0] mul_q;  // index of the multiplier bit; before each factor, the highest index
   logic [RateBits-1:0] rate_q;  // r
-  logic found_q;  // bits_q is a threshold
-  logic [StepBits-1:0] bits_q;  // PA, then a threshold, received bit by bit
+  logic found_q;  // 1: bits_q is a threshold
+  logic [StepBits-1:0] bits_q;  // PA, or a threshold that is received bit by bit
   logic next, last, done, use_bit, mul_bit, sum, product;
   logic [RateBits:0] first, second;
 
   assign done    = rate_q == slow_i;
   assign next    = begin_q ? !done : last && !(pass_q == PassOutput && done);
   assign mul_bit = factor_2a_q ? slow_i[mul_q] : fast_i[mul_q];
-  assign product = pass_q == PassMulEnd && factor_2a_q && second_mul_q;  // the last product
+  assign product = pass_q == PassMulEnd && factor_2a_q && second_mul_q;  // last product
   assign we_o    = begin_q || found_q;
   assign addr_o  = rate_q;
   assign data_o  = bits_q;
 
-  // Divisors minus 1: s and s, or a - b and a + b.
+  // Divisors minus 1, for the pairs (s, s) and (a - b, a + b).
   always_comb begin
     first  = {rate_q, 1'b0};
     second = {rate_q, 1'b0};
@@ -81,12 +81,12 @@ module ppmc_ramp_builder
       .last_o  (last)
   );
 
-  // A quotient may be rounded down before the next division, and before an integer is subtracted, without
-  // changing the result. So thr(r) takes four divisions by short numbers in two pairs: by s and s,
-  // then by a - b and a + b. The subtraction is between the pairs, the increment follows the second pair. All
-  // operations are bit-serial (ppmc_ramp_serial).
-  // Next pass: once per build, n is multiplied by b, b, 2a and 2a, with one pass for each multiplier bit.
-  // Then four passes follow for each r.
+  // thr(r) requires four divisions by short numbers, in two pairs: by s and s, then by a - b and a + b. The
+  // subtraction is between the pairs, and the increment follows the second pair. It does not change the
+  // result that a quotient is rounded down before the next division, or before an integer is subtracted.
+  // All operations are bit-serial (ppmc_ramp_serial).
+  // Next pass: once per build, n is multiplied by b, b, 2a and 2a, with one pass per multiplier bit. Then
+  // four passes follow for each r.
   always_comb begin
     unique case (pass_q)
       PassInit:   pass = PassMulBit;
@@ -128,7 +128,7 @@ module ppmc_ramp_builder
     end
   end
 
-  // No reset, because every build begins with a load.
+  // No reset: every build begins with a load.
   always_ff @(posedge clk_i) begin
     if (first_q) rate_q <= fast_i;
     else if ((found_q && !done) || (last && product)) rate_q <= RateBits'(ppmc_pkg::inc(32'(rate_q)));

@@ -1,76 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_seq: counts the pulses of a motion, traverses the ramp, outputs the rate of each interval.
+// ppmc_ramp_seq: counts the pulses of a motion, traverses the ramp, and outputs the rate of each interval.
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
-// Timing: all state changed by pulse_i is valid after its edge, except rate_o, the rate of the new interval.
-//         - Accelerating or at constant rate: rate_o changes at the same edge. The look-up of the next rate
-//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); during this time lookup_busy_o
-//           delays a pulse.
-//         - First deceleration step: rate_o changes one cycle later (rising_o), to the rate of the interval
-//           before the last acceleration step.
-//         - Further deceleration steps: rate_o is valid when rising_o falls. The look-up runs in the new
-//           interval, also for 3 n + 1 cycles, and rate_o rises from the previous rate.
-// Assumes: pulses are at least 3 cycles apart; the first pulse is at least 4 cycles after load_i.
+// Timing: all state that pulse_i changes is valid after its edge, except rate_o, the rate of the new
+//         interval.
+//         - Acceleration and constant rate: rate_o changes at the same edge. The look-up of the next rate
+//           follows. It takes 3 n + 1 cycles, where n is the number of rates that the ramp skips. During
+//           this time, lookup_busy_o delays a pulse.
+//         - First deceleration step: rate_o changes one cycle later (rising_o = 1), to the rate of the
+//           interval before the last acceleration step.
+//         - Further deceleration steps: the look-up runs in the new interval, also for 3 n + 1 cycles.
+//           During it, rate_o rises from the previous rate. It is valid when rising_o falls.
+// Assumes: pulses are at least 3 cycles apart; pulse 1 is at least 4 cycles after load_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_ramp_seq #(
-    parameter int unsigned CountBits = 24,  // pulses
+    parameter int unsigned CountBits = 24,  // bits of the pulse count
     parameter int unsigned RateBits  = 8,
-    parameter int unsigned StepBits  = 14,  // bits of the ramp step; PA + 1 must fit
-    parameter int unsigned LutBits   = 14   // width of the ramp table
+    parameter int unsigned StepBits  = 14,  // bits of the ramp step; must hold PA + 1
+    parameter int unsigned LutBits   = 14   // bits of a word of the ramp table
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    // active ramp
+    // current ramp
     input wire logic [RateBits-1:0] slow_i,  // start-up rate
     input wire logic [RateBits-1:0] fast_i,  // high-speed rate
-    output logic [RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two cycles later
-    input wire logic [LutBits-1:0] lut_data_i,  // thr(r); at fast_i: acceleration pulses PA
+    output logic [RateBits-1:0] lut_addr_o,  // r; address of lut_data_i
+    input wire logic [LutBits-1:0] lut_data_i,  // thr(r), two cycles after lut_addr_o; at fast_i: PA
     // operation
-    input wire logic load_i,  // start: load count_i and rate_i
-    input wire logic [CountBits-1:0] count_i,  // pulses to output, minus 1
-    input wire logic single_i,  // one pulse, regardless of count_i
-    input wire logic [RateBits-1:0] rate_i,  // rate of the first interval: slow_i, or of constant speed
-    input wire logic ramp_i,  // use the ramp; stable from load_i to the next load_i
-    input wire logic pulse_i,  // pulse event
-    input wire logic forced_i,  // forced deceleration; stays set until the motion ends
+    input wire logic load_i,  // strobe: start; load count_i and rate_i
+    input wire logic [CountBits-1:0] count_i,  // number of pulses, minus 1
+    input wire logic single_i,  // 1: one pulse, regardless of count_i
+    input wire logic [RateBits-1:0] rate_i,  // rate of the first interval: slow_i, or the constant rate
+    input wire logic ramp_i,  // 1: use the ramp; stable from load_i to the next load_i
+    input wire logic pulse_i,  // strobe: a pulse
+    input wire logic forced_i,  // 1: forced deceleration; remains 1 until the motion ends
     // state
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
-    output logic lookup_busy_o,  // a look-up is running: no pulse may occur
-    output logic rising_o,  // a look-up is running: rate_o may still rise
-    output logic last_o,  // a pulse now would be the last pulse
-    output logic final_o,  // a pulse now would complete the count
-    output logic top_o,  // running interval is on the plateau
-    output logic at_start_rate_o,  // before any deceleration: running interval has the start-up rate
-    output logic dec_o,  // natural deceleration has begun
-    output logic [CountBits-1:0] left_o  // remaining pulses minus 1, but at least 0
+    output logic lookup_busy_o,  // 1: a look-up is running, and no pulse may occur
+    output logic rising_o,  // 1: a look-up is running, and rate_o may still rise
+    output logic last_o,  // 1: the next pulse is the last pulse
+    output logic final_o,  // 1: the next pulse completes the count
+    output logic top_o,  // 1: the running interval is on the plateau
+    output logic at_start_rate_o,  // before any deceleration; 1: the running interval has the start-up rate
+    output logic dec_o,  // 1: the natural deceleration has begun
+    output logic [CountBits-1:0] left_o  // remaining pulses minus 1; at least 0
 );
 
   typedef enum logic [1:0] {
     StRest,  // the threshold of lookup_rate_q is valid
-    StRead,  // table access
+    StRead,  // reads the table
     StWait,
     StTest
   } state_e;
 
   state_e state_q;
-  // ramp_level: number of acceleration pulses that were output and not yet reversed; this is the index of the
-  // running interval + 1. ramp_level_nq is ramp_level inverted, so that the comparison is an addition without
-  // inverters.
+  // ramp_level: number of acceleration pulses that have been output and are not yet reversed. It equals the
+  // index of the running interval + 1. It is stored inverted (ramp_level_nq), so that the comparison is an
+  // addition without inverters.
   logic [StepBits-1:0] ramp_level, ramp_level_nq;
-  logic [RateBits-1:0] lookup_rate_q;  // rate under test
-  logic [RateBits-1:0] prev_rate_q;  // rate of the interval before the last step up
+  logic [RateBits-1:0] lookup_rate_q;  // rate that is being tested
+  logic [RateBits-1:0] prev_rate_q;  // rate of the interval before the last acceleration step
   logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, one cycle later
-  logic load_q;  // lookup_rate_q is the rate of the running interval
-  logic decel_q;  // the deceleration has begun
-  logic end_q;  // the look-up is at the end of the ramp; valid before each test
-  logic lookup_slow_q;  // lookup_rate_q is the start-up rate; valid long before it is used
+  logic load_q;  // 1: lookup_rate_q is the rate of the running interval
+  logic decel_q;  // 1: the deceleration has begun
+  logic end_q;  // 1: the look-up is at the end of the ramp; valid before each test
+  logic lookup_slow_q;  // lookup_rate_q is the start-up rate; valid long before its use
   logic up, down, decel_starts, odd, high, lookup_step, below, reached, more;
   logic [StepBits:0] unused_sum;
 
-  // Ramp step at a pulse event: up, down or no step. left_o is the number of pulses after this pulse.
+  // Direction of the ramp step at a pulse: up, down or no step. left_o is the number of pulses after this
+  // pulse.
   always_comb begin
-    odd          = left_o[0] ^ ramp_level[0];  // with near_q: the deceleration needs all remaining pulses
+    odd          = left_o[0] ^ ramp_level[0];  // with near_q, 1: decelerate through all remaining pulses
     down         = ramp_i && (forced_i || dec_o || (near_q && odd));
     up           = ramp_i && !down && !near_q && !top_o;
     decel_starts = down && !decel_q;
@@ -88,7 +90,7 @@ module ppmc_ramp_seq #(
       dec_o  <= 1'b0;
     end else begin
       near_q <= !high && !ppmc_pkg::less(32'(ramp_level), 32'(left_o[StepBits-1:0]));
-      full_q <= reached;  // 1 without a look-up and before deceleration: ramp_level = PA
+      full_q <= reached;  // without a look-up and before the deceleration; 1: ramp_level = PA
       zero_q <= !high && left_o[StepBits-1:0] == '0;
       low_q  <= ramp_level[StepBits-1:1] == '0;
       if (load_i) begin
@@ -101,14 +103,15 @@ module ppmc_ramp_seq #(
     end
   end
 
-  // Synchronous reset, because it also loads a single step. The reset of the core is long enough for it.
+  // The reset is synchronous, because this path also loads a single step. The reset of the core is long
+  // enough.
   always_ff @(posedge clk_i) begin
     if (!rst_ni || (load_i && single_i)) left_o <= '0;
     else if (load_i) left_o <= count_i;
     else if (pulse_i && !zero_q) left_o <= left_o - 1'b1;
   end
 
-  // No reset, because every motion begins with a load.
+  // No reset: every motion begins with a load.
   always_ff @(posedge clk_i) begin
     lookup_slow_q <= lookup_rate_q == slow_i;
     end_q <= decel_q ? rate_o == slow_i : lookup_rate_q == fast_i;
@@ -120,21 +123,23 @@ module ppmc_ramp_seq #(
 
   assign ramp_level = ~ramp_level_nq;
 
-  // No reset, because every motion begins with a load.
+  // No reset: every motion begins with a load.
   always_ff @(posedge clk_i) begin
     if (load_i) ramp_level_nq <= '1;
     else if (pulse_i && (up || down)) ramp_level_nq <= ramp_level_nq + {{(StepBits - 1) {!down}}, 1'b1};
   end
 
-  // Rate look-up. While accelerating, lookup_rate_q decreases as long as ramp_level has reached the threshold
-  // of lookup_rate_q; after the look-up, lookup_rate_q is the rate of the next step up. While decelerating,
-  // rate_o follows lookup_rate_q as long as the index, ramp_level - 1, is below the threshold of
-  // lookup_rate_q; after the look-up, lookup_rate_q is the next slower rate. The threshold of lookup_rate_q
-  // is valid then, so that a look-up begins with a test. below: ramp_level < threshold; while decelerating,
-  // ramp_level <= threshold. In these cases the sum has a carry. Base clocks 4 cycles apart never reach the
-  // end of an interval before its look-up ends, because n is at most the rate of the interval. Base clocks 6
-  // cycles apart do not reach the middle of the interval before the look-up ends: on ramps of 4 steps and
-  // more, n is smaller than the rate, or 1.
+  // Rate look-up.
+  // Acceleration: lookup_rate_q decreases while ramp_level has reached the threshold of lookup_rate_q.
+  // Afterwards, lookup_rate_q is the rate of the next acceleration step.
+  // Deceleration: rate_o follows lookup_rate_q while the index, ramp_level - 1, is below the threshold of
+  // lookup_rate_q. Afterwards, lookup_rate_q is the next slower rate.
+  // After a look-up, the threshold of lookup_rate_q is valid, so the next look-up begins with a test.
+  // below: ramp_level < threshold; during deceleration, ramp_level <= threshold. In these cases, the sum
+  // has a carry.
+  // If base clocks are 4 cycles apart, a look-up always ends before the end of its interval, because n is
+  // at most the rate of the interval. If base clocks are 6 cycles apart, it also ends before the middle of
+  // the interval: on ramps of 4 steps and more, n is smaller than the rate, or 1.
   assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), decel_q} + {1'b0, ramp_level_nq, decel_q};
   assign reached             = !below;
   assign more                = !end_q && reached != decel_q;
@@ -171,7 +176,7 @@ module ppmc_ramp_seq #(
     end
   end
 
-  // No reset, because the first step up loads prev_rate_q.
+  // No reset: the first acceleration step loads prev_rate_q.
   always_ff @(posedge clk_i) begin
     if (pulse_i && up) prev_rate_q <= rate_o;
   end

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial: bit-serial arithmetic of the ramp builder: three long numbers in one block RAM, with one
-//         bit of each number in a word.
+// ppmc_ramp_serial: bit-serial arithmetic of the ramp builder. One block RAM stores three long numbers;
+//         each word has one bit of each number.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
-// Timing: a pass begins in the cycle after start_i and lasts 2 cycles more than it has words. last_o marks
+// Timing: a pass begins in the cycle after start_i and takes 2 cycles more than it has words. last_o marks
 //         its last cycle, in which the next pass may be started. PassOutput outputs one bit per cycle from
 //         its third to its last cycle (use_o = 1).
-// How:    n = numerator, u = subtrahend between the divisions, v = product, quotient or difference. Bit i is
-//         stored in word i. A quotient follows its dividend by two cycles and is written two words lower: its
-//         lowest bits are stored in the last two words of the RAM. No pass ever writes a 1 into u there.
+// How:    n is the numerator, u the subtrahend between the divisions, v a product, quotient or difference.
+//         Bit i is stored in word i. A quotient follows its dividend by two cycles and is written two words
+//         lower, so its lowest bits are stored in the last two words of the RAM. No pass ever writes a 1
+//         into u there.
 `default_nettype none
 
 module ppmc_ramp_serial
@@ -19,27 +20,27 @@ module ppmc_ramp_serial
 ) (
     input  wire logic              clk_i,
     input  wire logic              rst_ni,
-    input  wire logic              start_i,   // begin a pass
-    input  wire pass_e             next_i,    // pass to begin, valid with start_i
-    input  wire pass_e             pass_i,    // next_i from the cycle after start_i, stable during the pass
+    input  wire logic              start_i,   // strobe: begin a pass
+    input  wire pass_e             next_i,    // pass to be begun; valid with start_i
+    input  wire pass_e             pass_i,    // current pass: next_i, from the cycle after start_i on
     input  wire logic              mul_i,     // multiplier bit of PassMulBit; stable during the pass
-    input  wire logic              keep_i,    // PassMulEnd sets u, too; stable during the pass
-    input  wire logic              init_i,    // bit of PassInit, in the order and at the time of bit_o
+    input  wire logic              keep_i,    // 1: PassMulEnd also sets u; stable during the pass
+    input  wire logic              init_i,    // bit of PassInit, in the order and timing of bit_o
     input  wire logic  [Width-1:0] first_i,   // first divisor of a division, minus 1
     input  wire logic  [Width-1:0] second_i,  // divisor of the first quotient, minus 1
-    output logic                   bit_o,     // bit of PassOutput, the lowest first
-    output logic                   use_o,     // bit_o is valid, init_i is used
-    output logic                   last_o     // the pass ends with this cycle
+    output logic                   bit_o,     // bit of PassOutput; the lowest bit is first
+    output logic                   use_o,     // 1: bit_o is valid, and init_i is used
+    output logic                   last_o     // strobe: last cycle of the pass
 );
 
-  localparam int unsigned DivideBits = StepBits + 2 * RateBits;  // bits of v when u is subtracted
+  localparam int unsigned DivideBits = StepBits + 2 * RateBits;  // bits of v at the subtraction of u
   localparam int unsigned Bits = DivideBits + 2 * Width;  // bits of n
   localparam int unsigned AddrBits = ppmc_pkg::cnt_width(Bits + 10);
 
   typedef logic [AddrBits-1:0] addr_t;
   typedef struct packed {logic n, v, u;} serial_word_t;
 
-  // First and last word of each pass. Divisions run towards lower words.
+  // First and last word of each pass. Divisions count the words down.
   function automatic addr_t first_word(pass_e pass);
     unique case (pass)
       PassDivideSquare: return addr_t'(Bits - 1);
@@ -60,7 +61,7 @@ module ppmc_ramp_serial
   endfunction
 
   serial_word_t rd, wr;
-  addr_t read_addr_q, use_addr;  // read_addr_q: word to read; use_addr: word in use
+  addr_t read_addr_q, use_addr;  // read_addr_q: word to be read; use_addr: word in use
   addr_t flip, flipped;
   logic down;
   logic run_q, read_q, use_q, second_q;  // stages of a word: address, RAM, use, second division
@@ -68,8 +69,8 @@ module ppmc_ramp_serial
   assign down     = pass_i inside {PassDivideSquare, PassDivide};
   assign use_o    = use_q;
   assign last_o   = use_q && !read_q;
-  // use_addr is read_addr_q two words back: minus 2 in a pass that runs upwards, else plus 2; built from
-  // gates.
+  // use_addr is the read_addr_q of two cycles before: minus 2 if the pass counts up, plus 2 if it counts
+  // down. It is built from gates.
   assign flip     = {{(AddrBits - 1) {!down}}, 1'b0};
   assign flipped  = read_addr_q ^ flip;
   assign use_addr = {(AddrBits - 1)'(ppmc_pkg::inc(32'(flipped[AddrBits-1:1]))), flipped[0]} ^ flip;
@@ -118,7 +119,7 @@ module ppmc_ramp_serial
     sum = addend ^ operand ^ carry_q;
   end
 
-  // carry_q is cleared between passes; before PassSubtract and PassOutput it is set.
+  // carry_q is set before PassSubtract and PassOutput, and cleared before all other passes.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       v_q     <= '0;

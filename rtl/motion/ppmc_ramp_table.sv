@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_table: ramp table in block RAM with its builder, and the parameters that it was built from.
+// ppmc_ramp_table: ramp table in block RAM, with its builder and the parameters from which it was built.
 // Rules:  P104-RMP-02, P104-INI-05/07.
-// Timing: see ppmc_ramp_builder; data_o is valid two cycles after addr_i.
+// Timing: see ppmc_ramp_builder. data_o is valid two cycles after addr_i.
 `default_nettype none
 
 module ppmc_ramp_table #(
@@ -10,14 +10,14 @@ module ppmc_ramp_table #(
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                start_i,  // start a build
+    input  wire logic                start_i,  // strobe: start a build
     input  wire logic [RateBits-1:0] slow_i,   // start-up rate; stable while busy_o = 1
     input  wire logic [RateBits-1:0] fast_i,   // high-speed rate; stable while busy_o = 1
     input  wire logic [StepBits-1:0] steps_i,  // acceleration pulses PA; stable while busy_o = 1
-    output logic                     busy_o,   // build in progress: the outputs below are not valid
-    output logic      [RateBits-1:0] slow_o,   // start-up rate of the ramp in the table
-    output logic      [RateBits-1:0] fast_o,   // high-speed rate of the ramp in the table
-    output logic      [StepBits-1:0] steps_o,  // acceleration pulses of the ramp in the table
+    output logic                     busy_o,   // 1: build in progress, outputs below not valid
+    output logic      [RateBits-1:0] slow_o,   // start-up rate of the table
+    output logic      [RateBits-1:0] fast_o,   // high-speed rate of the table
+    output logic      [StepBits-1:0] steps_o,  // acceleration pulses of the table
     input  wire logic [RateBits-1:0] addr_i,   // r
     output logic      [StepBits-1:0] data_o    // thr(r); PA for fast_o
 );
@@ -26,9 +26,9 @@ module ppmc_ramp_table #(
   logic [RateBits-1:0] waddr;
   logic [StepBits-1:0] wdata;
 
-  assign slow_o = waddr;  // the builder has stopped at this address
+  assign slow_o = waddr;  // the builder stops at this address
 
-  // No reset, because a build sets these outputs.
+  // No reset: a build sets these outputs.
   always_ff @(posedge clk_i) begin
     if (busy_o) {steps_o, fast_o} <= {steps_i, fast_i};
   end

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_tables: ramp tables of two axes in two block RAMs, and one builder that fills both.
+// ppmc_ramp_tables: ramp tables of two axes in two block RAMs, with one builder that fills both.
 // Rules:  P2104-RMP-01/02, P2104-HSK-05 (a build waits for at most one other build).
-// Timing: see ppmc_ramp_builder. A build lasts two cycles longer than the builder is busy, counted from the
-//         edge of start_i or from the end of the build that it has to wait for. data_o is valid two cycles
-//         after addr_i.
+// Timing: see ppmc_ramp_builder. A build begins at the edge of start_i or, if another build is running, at
+//         the end of that build. It takes two cycles longer than the builder is busy. data_o is valid two
+//         cycles after addr_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,16 +13,16 @@ module ppmc_ramp_tables #(
 ) (
     input  wire logic                     clk_i,
     input  wire logic                     rst_ni,
-    input  wire logic [2:1]               start_i,  // start a build; not while busy_o of the same axis
-    input  wire logic [2:1][RateBits-1:0] slow_i,   // start-up rate; stable while busy_o
-    input  wire logic [2:1][RateBits-1:0] fast_i,   // high-speed rate; stable while busy_o
-    input  wire logic [2:1][StepBits-1:0] steps_i,  // acceleration pulses PA; stable while busy_o
-    output logic      [2:1]               busy_o,   // build pending or in progress: data_o is not valid
+    input  wire logic [2:1]               start_i,  // strobe: start a build; only while busy_o = 0
+    input  wire logic [2:1][RateBits-1:0] slow_i,   // start-up rate; stable while busy_o = 1
+    input  wire logic [2:1][RateBits-1:0] fast_i,   // high-speed rate; stable while busy_o = 1
+    input  wire logic [2:1][StepBits-1:0] steps_i,  // acceleration pulses PA; stable while busy_o = 1
+    output logic      [2:1]               busy_o,   // 1: build pending or in progress, data_o not valid
     input  wire logic [2:1][RateBits-1:0] addr_i,   // r
     output logic      [2:1][StepBits-1:0] data_o    // thr(r)
 );
 
-  logic second_q;  // axis of the running build: 1 = axis 2
+  logic second_q;  // axis of the current build, 1: axis 2
   logic was_busy_q, we, start, busy, done;
   logic [2:1] build_axis;
   logic [RateBits-1:0] slow_q, fast_q, waddr;
@@ -44,7 +44,7 @@ module ppmc_ramp_tables #(
     end
   end
 
-  // No reset, because every build begins with a load.
+  // No reset: every build begins with a load.
   always_ff @(posedge clk_i) begin
     if (start) begin
       slow_q  <= busy_o[1] ? slow_i[1] : slow_i[2];

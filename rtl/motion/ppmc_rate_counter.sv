@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_rate_counter: counts the base clocks of an interval; base clock number rate + 1 ends it.
-// Rules:  P104-INT-01, P104-TIM-05 (half_o), P104-BCK-05 (base clocks are skipped while the rate is still
-//         looked up).
+// ppmc_rate_counter: counts the base clocks of an interval. Base clock number rate + 1 ends the interval.
+// Rules:  P104-INT-01, P104-TIM-05 (half_o), P104-BCK-05 (during a rate look-up, base clocks are skipped).
 // Timing: hit_o and half_o are combinational from tick_i. half_o is high from base clock number
-//         floor((rate_i + 1) / 2) on. If rising_i is high at this base clock, half_o rises late, but always:
-//         2 cycles after the last cycle of rising_i.
-// Assumes: ticks are at least 3 cycles apart. A device whose hosts send divisors (J105 STMC) uses
-//         divisor - 1 as rate_i.
-// Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
+//         floor((rate_i + 1) / 2) on. Exception: if rising_i is high at this base clock, half_o rises 2
+//         cycles after the last cycle of rising_i.
+// Assumes: ticks are at least 3 cycles apart. A device whose hosts send divisors (J105 STMC) sets rate_i to
+//         the divisor minus 1.
+// Note:   the count runs upwards, because the rate may still rise while an interval runs (see
+//         ppmc_ramp_seq).
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,13 +16,13 @@ module ppmc_rate_counter #(
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                restart_i,  // a pulse: restart the count from 0
-    input  wire logic                tick_i,     // a base clock that is counted
+    input  wire logic                restart_i,  // strobe: a pulse; restart the count from 0
+    input  wire logic                tick_i,     // strobe: a base clock to be counted
     input  wire logic [RateBits-1:0] rate_i,     // rate of the running interval
-    input  wire logic                wait_i,     // the interval must not end yet
-    input  wire logic                rising_i,   // rate_i may still rise
-    output logic                     hit_o,      // this base clock ends the interval
-    output logic                     half_o      // base clock floor((rate + 1) / 2) occurs now or has passed
+    input  wire logic                wait_i,     // 1: the interval must not end yet
+    input  wire logic                rising_i,   // 1: rate_i may still rise
+    output logic                     hit_o,      // strobe: this base clock ends the interval
+    output logic                     half_o      // 1 from base clock floor((rate_i + 1) / 2) on
 );
 
   logic [RateBits-1:0] count_q;  // base clocks since the pulse
@@ -46,8 +46,8 @@ module ppmc_rate_counter #(
     end
   end
 
-  // No reset, because the first pulse of a motion restarts count_q. The count stops at rate_i, where later
-  // base clocks have no effect (P104-BCK-05).
+  // No reset: the first pulse of a motion sets count_q. The count stops at rate_i, because later base
+  // clocks have no effect (P104-BCK-05).
   always_ff @(posedge clk_i) begin
     if (restart_i) count_q <= '0;
     else if (tick_i && !equal) count_q <= number;

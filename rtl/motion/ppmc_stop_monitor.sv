@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_monitor: detects the causes that end or decelerate a motion and records them in the finish
+// ppmc_stop_monitor: detects the causes that end or decelerate a motion, and stores them for the finish
 //         status.
 // Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05; P2104-FDC-02, P2104-OPR-09;
 //         STMC-IN-03/04, STMC-DEC-03..06, STMC-FIN-02/03.
-// Timing: stop_o and forced_o are combinational, so that a cause present in a cycle also acts on a pulse at
-//         the end of this cycle.
+// Timing: stop_o and forced_o are combinational. Therefore a cause that is active in a cycle also acts on a
+//         pulse at the end of this cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_stop_monitor
   import ppmc_motion_pkg::*;
 #(
-    parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately
-    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits are effective off the plateau in POUT mode, too
+    parameter bit StopAtSlow = 1'b0,  // 1: a deceleration request at the start-up rate is a stop
+    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits also act off the plateau in POUT mode
     parameter bit SlowOrigin = 1'b0   // 1: a slow-down limit ends an origin search immediately
 ) (
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
-    input  wire logic      clear_i,          // a new operation starts: clear the causes
-    input  wire logic      complete_i,       // the last pulse of the count is output: clear the causes
-    input  wire logic      armed_i,          // before the first pulse or between pulses
-    input  wire op_t       op_i,             // the running operation
-    input  wire switches_t switches_i,       // synchronous levels
-    input  wire logic      top_i,            // the running interval is on the plateau
-    input  wire logic      at_start_rate_i,  // the running interval has the start-up rate
-    input  wire logic      dec_i,            // natural deceleration has begun
-    input  wire logic      halt_i,           // immediate stop command
-    input  wire logic      decel_i,          // deceleration stop command
-    input  wire logic      slow_i,           // act on the slow-down limit: slow_seen_o, possibly delayed
-    output logic           slow_seen_o,      // an effective slow-down limit is active; not valid with stop_o
-    output logic           stop_o,           // end the motion now, no further pulse
-    output logic           forced_o,         // forced deceleration is requested; not valid with stop_o
-    output logic           flagged_o,        // forced deceleration was requested (registered)
-    output stop_cause_t    cause_o           // causes of the end of the motion, until clear_i
+    input  wire logic      clear_i,          // strobe: a new operation starts; clear the causes
+    input  wire logic      complete_i,       // strobe: the count is complete; clear the causes
+    input  wire logic      armed_i,          // 1 before the first pulse and between pulses
+    input  wire op_t       op_i,             // current operation
+    input  wire switches_t switches_i,       // switches, synchronised
+    input  wire logic      top_i,            // 1: the running interval is on the plateau
+    input  wire logic      at_start_rate_i,  // 1: the running interval has the start-up rate
+    input  wire logic      dec_i,            // 1: the natural deceleration has begun
+    input  wire logic      halt_i,           // strobe: immediate stop command
+    input  wire logic      decel_i,          // strobe: deceleration stop command
+    input  wire logic      slow_i,           // 1: act on a slow-down limit; slow_seen_o, possibly delayed
+    output logic           slow_seen_o,      // 1: a slow-down limit is effective; not valid with stop_o
+    output logic           stop_o,           // 1: end the motion now, without a further pulse
+    output logic           forced_o,         // 1: forced deceleration is requested; not valid with stop_o
+    output logic           flagged_o,        // registered: forced deceleration was requested
+    output stop_cause_t    cause_o           // causes of the end of the motion; valid until clear_i
 );
 
   logic limit, slow, halt, block, hard, slow_now, decel_now, can_request;
@@ -47,9 +47,9 @@ module ppmc_stop_monitor
   assign hard = armed_i && (limit || switches_i.alarm || halt || block || (switches_i.origin && op_i.origin));
   assign stop_o = hard || (StopAtSlow && at_start_rate_i && (slow_now || decel_now));
 
-  // Deceleration can be requested once. An immediate end at the same edge has priority over the request, but
-  // slow_seen_o and forced_o do not include this priority. Their user evaluates them with a pulse, and no
-  // pulse occurs at an immediate end.
+  // A deceleration can be requested only once. An immediate end at the same edge has priority, but
+  // slow_seen_o and forced_o do not include this priority. They are only evaluated together with a pulse,
+  // and no pulse occurs at an immediate end.
   assign can_request = armed_i && op_i.ramp && !flagged_o && !dec_i;
   assign slow_seen_o = can_request && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = can_request && slow_i;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006: integrated microstepping controller with a serial line; replacement for the PMC006B4.
-// Rules:  P006-PORT-01..04, all others through its blocks; pins, parameters: docs/pmc006/README.md, 2.
-// Timing: the input synchronisers have a latency of two cycles. All outputs are registered. From reset to the
-//         end of the boot, the device neither receives frames nor drives the motor.
+// pmc006: integrated microstepping controller with a serial line; replaces the PMC006B4.
+// Rules:  P006-PORT-01..04; the instantiated blocks implement all others. Pins, parameters:
+//         docs/pmc006/README.md, 2.
+// Timing: the input synchronisers have a latency of two cycles. All outputs are registered. From reset to
+//         the end of the boot, the device does not receive frames and does not drive the motor.
 `default_nettype none
 
 module pmc006
@@ -11,13 +12,13 @@ module pmc006
     parameter int unsigned CLK_HZ     = 16_000_000,    // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,    // no effect
     parameter              TIMING     = "FAST",        // or "DATASHEET", which behaves the same
-    parameter              STEP_ACK   = "MANUAL",      // reply to s: 3; with "ECHO" its data
-    parameter int unsigned BAUD       = 9600,          // serial rate, 1200 .. 115 200
+    parameter              STEP_ACK   = "MANUAL",      // reply to s: 3; with "ECHO": its data
+    parameter int unsigned BAUD       = 9600,          // baud rate of the line, 1200 .. 115 200
     parameter int unsigned I2C_HZ     = 400_000,       // clock of the EEPROM in Hz, 10e3 .. 400e3
     parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 0 .. 127
     parameter int unsigned T_OFF_NS   = 20_000,        // off time of the chopper in ns, 1_000 .. 100_000
     parameter int unsigned T_BLANK_NS = 1_000,         // blanking time in ns, 100 .. 10_000
-    parameter int unsigned FW_VERSION = 32'h0000_0123  // reply to instruction R, 32 bits
+    parameter int unsigned FW_VERSION = 32'h0000_0123  // 32 bits; reply to instruction R
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -59,7 +60,7 @@ module pmc006
     input  wire logic       sda_i,
     output logic            sda_o,
     output logic            sda_oe,
-    // monitor
+    // monitor of the motion
     output logic            mon_step,
     output logic            mon_dir,
     output logic            mon_busy

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_carrier: all logic of a board with a PMC006B4 except the clock generator and the pads: the core,
-// reset and LEDs, the serial line (USB and RS-485, wired-AND) and the bus of an A/D converter.
+// pmc006_carrier: all logic of a board with a PMC006B4 except clock generator and pads. Contains the core,
+//         the reset, the LEDs, the serial line (USB and RS-485, wired-AND) and the bus of an A/D converter.
 // Rules:  P006-PORT-01..04; pins: docs/pmc006/README.md, 2; LEDs, wiring: docs/boards.md.
 // Timing: see pmc006 and ppmc_board_reset. The inputs need no external synchroniser.
-// Assumes: conv is stable from the rising edge of adc_stb or bemf_stb until 4 cycles later.
+// Assumes: conv is stable from the rising edge of adc_stb or bemf_stb until 4 cycles after it.
 `default_nettype none
 
 module pmc006_carrier #(
-    parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned CLK_HZ     = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter              STEP_ACK   = "MANUAL",    // or "ECHO"
     parameter int unsigned BAUD       = 9600,
     parameter int unsigned I2C_HZ     = 400_000,
@@ -21,9 +21,9 @@ module pmc006_carrier #(
     input  wire logic       uart_rxd,
     output logic            uart_txd,
     // host: RS-485 transceiver
-    input  wire logic       rs485_rxd,    // RO
-    output logic            rs485_txd,    // DI
-    output logic            rs485_de,     // DE
+    input  wire logic       rs485_rxd,    // receiver output RO of the transceiver
+    output logic            rs485_txd,    // driver input DI
+    output logic            rs485_de,     // driver enable DE
     // H-bridges of the motor
     output logic            m10,
     output logic            m11,
@@ -31,7 +31,7 @@ module pmc006_carrier #(
     output logic            m20,
     output logic            m21,
     output logic            bridge_b_en,
-    output logic            pwm_a_ref,    // to the comparator through a low-pass filter
+    output logic            pwm_a_ref,    // low-pass filtered, it is the reference of the comparator
     output logic            pwm_b_ref,
     input  wire logic       cmp_a,        // 1: the current has reached the reference
     input  wire logic       cmp_b,
@@ -43,11 +43,11 @@ module pmc006_carrier #(
     input  wire logic       fset_n,
     input  wire logic [4:0] gpi,
     output logic      [4:0] gpo,
-    // converter: one bus, two strobes
+    // A/D converter: one bus, two strobes
     input  wire logic [9:0] conv,
     input  wire logic       adc_stb,      // rising edge: conv is the voltage of GPI1
-    input  wire logic       bemf_stb,     // rising edge: conv is the back-EMF
-    // EEPROM: 1 pulls low
+    input  wire logic       bemf_stb,     // rising edge: conv is the back EMF
+    // EEPROM bus; *_oe = 1 drives the line low
     input  wire logic       scl_i,
     output logic            scl_oe,
     input  wire logic       sda_i,
@@ -55,7 +55,7 @@ module pmc006_carrier #(
     // monitor
     output logic            mon_step,
     output logic            mon_dir,
-    output logic      [3:0] lamps         // 1 = on; bits 3..0: out of reset, EXT low, motion, line
+    output logic      [3:0] lamps         // 1: on; [3]: out of reset, [2]: EXT low, [1]: motion, [0]: line
 );
 
   logic rst_n, rxd, mon_busy, unused;
@@ -63,7 +63,7 @@ module pmc006_carrier #(
   logic [7:0] a_ref, b_ref;
   logic a_sign, b_sign, scl_o, sda_o;
 
-  // Both lines idle high. Assumes: only one host transmits at a time.
+  // Both lines idle high. Assumes that only one host transmits at a time.
   assign rxd = uart_rxd && rs485_rxd;
   assign uart_txd = rs485_txd;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_pkg: instruction codes, registers and their factory values of the PMC006B4.
+// pmc006_pkg: instruction codes, and registers with their factory values, of the PMC006B4.
 // Rules:  P006-CMD-01..57, P006-PRG-01/02/10..17/20/30..33; codes: docs/pmc006/README.md, 4, 13.
 `default_nettype none
 
@@ -8,7 +8,8 @@ package pmc006_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instruction codes: bit 7 = 0, code of a frame; bit 7 = 1, instruction only of the user program -----
+  // ---- instruction codes: bit 7 = 0: code of a frame; bit 7 = 1: instruction only of the user program
+  // ----
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -29,7 +30,7 @@ package pmc006_pkg;
   localparam logic [7:0] I_VSTOP = 8'h53;  // S
   localparam logic [7:0] I_STLEN = 8'h54;  // T
   localparam logic [7:0] I_ATT_READ = 8'h55;  // U
-  localparam logic [7:0] I_STORED = 8'h56;  // V, not in the original
+  localparam logic [7:0] I_STORED = 8'h56;  // V, which the original does not have
   localparam logic [7:0] I_PUT = 8'h57;  // W
   localparam logic [7:0] I_STPOS = 8'h58;  // X
   localparam logic [7:0] I_STCFG = 8'h59;  // Y
@@ -73,7 +74,7 @@ package pmc006_pkg;
   localparam logic [7:0] P_RESET_EN = 8'h93;
   localparam logic [7:0] P_PAUSE_EN = 8'h94;
 
-  // Instruction code of an opcode of the user program: a frame code (I_…) or a program code (P_…).
+  // Instruction code for an opcode of the user program: a frame code (I_…) or a program code (P_…).
   function automatic logic [7:0] program_op(logic [7:0] opcode);
     unique case (opcode)
       8'h01:   return I_STEP;
@@ -90,23 +91,24 @@ package pmc006_pkg;
     endcase
   endfunction
 
-  // Origin of an instruction.
+  // Source of an instruction.
   typedef enum logic [1:0] {
     FromFrame,
     FromProgram,
-    FromTry,      // instruction of the program, executed by E
-    FromBoot      // a parameter from the EEPROM
+    FromTry,      // program instruction, executed by E
+    FromBoot      // parameter from the EEPROM
   } instr_source_e;
 
-  // Instruction being executed.
+  // Instruction in progress.
   typedef struct packed {
     logic [7:0]    op;
-    logic [3:0]    option;  // of a program instruction; 15: 15 or more; 0 otherwise
+    logic [3:0]    option;  // option of a program instruction, 15: 15 or more; otherwise 0
     instr_source_e source;
     logic [31:0]   data;
   } exec_cmd_t;
 
-  // ---- registers; the value is the address of the copy in pmc006_reply_ram --------------------------------
+  // ---- registers; the value is the address in pmc006_reply_ram
+  // --------------------------------------------
 
   // A reset of pmc006_reply_ram fills the addresses from 2 on.
   typedef enum logic [4:0] {
@@ -135,13 +137,15 @@ package pmc006_pkg;
 
   // Register access of an instruction.
   typedef struct packed {
-    logic      write;   // 1: write the register; 0: read it for the reply
+    logic      write;   // 1: write the register, 0: read it for the reply
     register_e reg_id;
   } reg_access_t;
 
-  // ---- between line, control, motion and drive ------------------------------------------------------------
+  // ---- signals between line, control, motion and drive
+  // ----------------------------------------------------
 
-  // Frame from the host. code and data are valid with go and stable until bytes of the next frame arrive.
+  // Frame from the host. code and data are valid with go, and stable until a byte of the next frame is
+  // received.
   typedef struct packed {
     logic        go;    // strobe: a valid frame is complete
     logic [7:0]  code;  // instruction code
@@ -150,30 +154,30 @@ package pmc006_pkg;
 
   // Start of a motion. Assumes: start and run are not high in the same cycle.
   typedef struct packed {
-    logic        start;  // strobe (s, ROT): make count steps
-    logic [30:0] count;  // steps, at least 1; valid with start
+    logic        start;  // strobe (s, ROT): make `count` steps
+    logic [30:0] count;  // number of steps, at least 1; valid with start
     logic        run;    // strobe (N 1 at standstill): run until stopped
     logic        speed;  // SPEED_MODE; 0: decelerate and end a speed run
   } motion_start_t;
 
   // State of the motion.
   typedef struct packed {
-    logic busy;     // a motion is in progress
-    logic forward;  // direction of the current or the last motion
-    logic steady;   // constant speed above 0
+    logic busy;     // 1: a motion is in progress
+    logic forward;  // direction of the current or last motion; 1: forward
+    logic steady;   // 1: constant speed above 0
   } motion_status_t;
 
   // Values from the motion for the drive.
   typedef struct packed {
     logic [7:0]  increment;     // angle of a step, 512 per electrical turn
-    logic [10:0] current_comp;  // B, P006-EXC-22
-    logic [6:0]  lead_angle;    // W, P006-EXC-23
+    logic [10:0] current_comp;  // B of P006-EXC-22
+    logic [6:0]  lead_angle;    // W of P006-EXC-23
   } drive_cmd_t;
 
   // Sample of an A/D converter.
   typedef struct packed {
     logic       valid;  // strobe: level is new
-    logic [9:0] level;  // valid with valid
+    logic [9:0] level;  // sample; valid with `valid`
   } sample_t;
 
   localparam logic [6:0] PROGRAM_LAST_LINE = 7'd99;
@@ -194,7 +198,7 @@ package pmc006_pkg;
     logic [10:0] ccomp;     // 100 .. 1200
     logic [10:0] scomp;     // 300 .. 2000
     logic [13:0] vmax;      // pps, 0 .. 16000
-    logic        dir;       // 1 = forward
+    logic        dir;       // 1: forward
     logic        regulate;  // 1: analog speed (VMAX scaled by the converter)
     logic        free;      // 1: motor released
   } motor_settings_t;
@@ -219,12 +223,12 @@ package pmc006_pkg;
   // Settings used only by the control.
   typedef struct packed {
     logic [7:0] addr;     // address on the line, 1 .. 120, 255
-    logic [1:0] trigm;    // trigger edge, 1 = rising; bit 0: EXT1
-    logic [1:0] exten;    // 1 = emergency input enabled; bit 0: EXT1
+    logic [1:0] trigm;    // trigger edge, 1: rising; [0]: EXT1
+    logic [1:0] exten;    // 1: emergency input enabled; [0]: EXT1
     logic       offline;  // 1: start the user program after the boot
     logic [6:0] stlen;    // stall length, samples; 64 only after a reset
-    logic [2:0] stcfg;    // 0: detect a stall; 1: stop the motion; 2: drive GPO5
-    logic [8:0] stlvl;    // stall level, of bemf_level
+    logic [2:0] stcfg;    // [0]: detect a stall, [1]: stop the motion, [2]: drive GPO5
+    logic [8:0] stlvl;    // stall level; compared with bemf_i.level
   } control_settings_t;
 
   localparam control_settings_t CONTROL_RESET = '{

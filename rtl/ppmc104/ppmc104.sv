@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104: single-axis stepper controller, a replacement for the Ampere PPMC-104BFP.
-// Rules:  P104-PORT-01..04, P104-PAR-01; its blocks implement all others. Manual: docs/ppmc104/README.md.
-// Timing: a command takes effect 4 cycles after the rising edge that first samples the end of its write.
-//         Motor pins follow one cycle later.
+// ppmc104: single-axis stepper controller; replaces the Ampere PPMC-104BFP.
+// Rules:  P104-PORT-01..04, P104-PAR-01; the instantiated blocks implement all others. Manual:
+//         docs/ppmc104/README.md.
+// Timing: a command takes effect 4 cycles after the rising edge at which the end of its write is first
+//         sampled. The motor pins follow one cycle later.
 `default_nettype none
 
 module ppmc104
@@ -29,7 +30,7 @@ module ppmc104
     output logic            int_n,   // low: a motion has ended
     // clock selection
     input  wire logic       csel,    // internal base clock, high: 500 kHz, low: 125 kHz
-    input  wire logic       vsel,    // low: every interval is 7.5 us longer
+    input  wire logic       vsel,    // low: adds 7.5 us to every interval
     input  wire logic       clock,   // external base clock, rising edges
     // switches, active low
     input  wire logic       l1_n,    // CW limit
@@ -162,7 +163,7 @@ module ppmc104
   assign pout_n = motor.pout_n;
   assign dir = motor.dir;
 
-  // ---- functions of this device only ---------------------------------------------------------------
+  // ---- functions that only this device has ---------------------------------------------------------
 
   ppmc104_setup u_switching (
       .clk_i   (clk),

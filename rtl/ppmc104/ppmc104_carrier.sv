@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_carrier: PPMC-104 board without clock generator and pads: ppmc104, and as host interface either the
-//         UART bridge or the bus pins of the old chip.
+// ppmc104_carrier: PPMC-104 board without clock generator and pads. Contains ppmc104 and one host
+//         interface: the UART bridge or the bus pins of the old chip.
 // Rules:  HOST = "UART": docs/uart_bridge.md; HOST = "BUS": P104-PORT-01. Wiring: docs/boards.md.
-// Timing: that of ppmc104; with RECORD != 0 inputs other than the bus act 2 cycles later. No input needs an
+// Timing: as ppmc104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
 //         external synchroniser.
 `default_nettype none
 
@@ -13,14 +13,14 @@ module ppmc104_carrier #(
     parameter bit          PHASE_IDLE = 1'b1,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; with HOST = "UART", d_oe = 0, because reads then remain inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -29,7 +29,7 @@ module ppmc104_carrier #(
     output logic      [7:0] d_o,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", the straps can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,
@@ -59,7 +59,7 @@ module ppmc104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
-  // Input pins as the device receives them, and all recorded levels; the first pin is in the low bits.
+  // in_…: input pins as ppmc104 receives them. watch: all recorded levels; the first pin is bit 0.
   localparam int unsigned Watch = 49;
   logic in_csel, in_vsel, in_clock, in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_alm_n;
   logic [3:0] in_auxi;

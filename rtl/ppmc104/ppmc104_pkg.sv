@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_pkg: codes, limits and functions specific to the PPMC-104BFP.
+// ppmc104_pkg: codes, limits and functions that only the PPMC-104BFP has.
 // Rules:  P104-CMD-01..04, P104-INI-02/03, P104-SW-04.
 `default_nettype none
 
@@ -14,14 +14,14 @@ package ppmc104_pkg;
 
   localparam int unsigned STEP_BITS = 32'd14;
 
-  localparam int unsigned STEPS_MIN = 32'd4;  // acceleration pulses PA
+  localparam int unsigned STEPS_MIN = 32'd4;  // smallest number of acceleration pulses PA
   localparam int unsigned STEPS_MAX = 32'd11_220;
 
-  localparam int unsigned QUANTUM_XTAL = 32'd4;  // crystal periods in a quantum
-  localparam int unsigned FAST_QUANTA = 32'd8;  // quanta in a period of the 500 kHz base clock
-  localparam int unsigned SLOW_QUANTA = 32'd32;  // quanta in a period of the 125 kHz base clock
-  localparam int unsigned EXTRA_QUANTA = 32'd30;  // extra time of an interval, 7.5 us
-  localparam int unsigned HOLD_QUANTA = 32'd136_000;  // time from standstill to HOLD, 34 ms
+  localparam int unsigned QUANTUM_XTAL = 32'd4;  // crystal cycles per quantum
+  localparam int unsigned FAST_QUANTA = 32'd8;  // quanta per period of the 500 kHz base clock
+  localparam int unsigned SLOW_QUANTA = 32'd32;  // quanta per period of the 125 kHz base clock
+  localparam int unsigned EXTRA_QUANTA = 32'd30;  // extra time of an interval in quanta, 7.5 us
+  localparam int unsigned HOLD_QUANTA = 32'd136_000;  // quanta from standstill to HOLD, 34 ms
 
   // Chopper times in quanta (P104-SW-04).
   localparam int unsigned CHOP_UNIT = 32'd12;
@@ -47,7 +47,7 @@ package ppmc104_pkg;
       stmc_stop_rules: 1'b0
   };
 
-  // Low three bits of the codes 10 000 xxx that are not read commands.
+  // Bits 2:0 of the codes 10 000 xxx that are not read commands.
   localparam logic [2:0] SEL_SWITCHING = 3'b100;
   localparam logic [2:0] SEL_AUX_OUT = 3'b110;
 
@@ -82,7 +82,7 @@ package ppmc104_pkg;
     return d;
   endfunction
 
-  // Returns the error number of the complete parameters of an initialisation.
+  // Checks the complete parameters of an initialisation; returns the error number.
   function automatic cmd_error_e check_params(logic [31:0] params);
     if (params[31:16] > 16'(STEPS_MAX)) return ErrStepsHigh;
     if (ppmc_pkg::less(32'(params[7:0]), 32'(params[15:8])) || params[31:16] < 16'(STEPS_MIN))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_proc_time: processing times that only PPMC-104 has (Datasheet = 1): delays slow-down limits and
-//         allows only stop commands during a fast motion. ppmc_proc_time implements the other processing
-//         times.
+// ppmc104_proc_time: with Datasheet = 1, implements the processing times that only the PPMC-104 has. It
+//         delays slow-down limits, and allows only stop commands during a fast motion. ppmc_proc_time
+//         implements the other processing times.
 // Rules:  P104-DS-10/12, P104-LIM-01 (the limits are monitored without gaps).
-// Timing: slow_o is asserted one cycle after the nominal time. With Datasheet = 0 slow_o = slow_seen_i.
+// Timing: slow_o is asserted one cycle after the nominal time. With Datasheet = 0, slow_o = slow_seen_i.
 `default_nettype none
 
 module ppmc104_proc_time
@@ -20,19 +20,19 @@ module ppmc104_proc_time
     input  wire logic          rst_ni,
     input  wire motion_t       motion_i,     // status of the motion
     input  wire logic    [7:0] rate_i,       // rate of the running interval
-    input  wire logic          slow_seen_i,  // the axis samples an active slow-down limit
-    output logic               slow_o,       // 1: react to a slow-down limit in this cycle
+    input  wire logic          slow_seen_i,  // 1: a slow-down limit is active and effective
+    output logic               slow_o,       // 1: act on a slow-down limit in this cycle
     output logic               stops_only_o  // 1: only stop commands are accepted
 );
 
-  // Crystal periods: microseconds times 16.
+  // Times in crystal cycles: microseconds times 16.
   localparam int unsigned FlagLimitXtal = 12 * 16;
   localparam int unsigned FlagLimitTopXtal = 17 * 16;
-  // Intervals in quanta: during a shorter interval, only stop commands are accepted.
+  // Interval limits in quanta. During an interval below the limit, only stop commands are accepted.
   localparam int unsigned FastIntervalPoutQuanta = 100;
   localparam int unsigned FastIntervalPhaseQuanta = 148;
 
-  // Number of rates r for which (r + 1) * period + extra time is below the interval limit.
+  // Number of rates r whose interval, (r + 1) * period + extra time, is below the limit.
   function automatic int unsigned fast_interval_rates(bit pout_only, bit slow, bit extra);
     int unsigned limit, period;
     limit  = (pout_only ? FastIntervalPoutQuanta : FastIntervalPhaseQuanta) - (extra ? EXTRA_QUANTA : 0);
@@ -82,7 +82,7 @@ module ppmc104_proc_time
 
     assign slow_o = slow_busy_q && slow_past;
 
-    // Lowest rate value at which all commands are accepted, by pout_only, slow and extra.
+    // Lowest rate value at which all commands are accepted, for pout_only, slow and extra.
     function automatic logic [7:0] fast_interval_rate(logic pout_only, logic slow, logic extra);
       logic [7:0] found;
       found = '0;

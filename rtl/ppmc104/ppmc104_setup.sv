@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_setup: registers of the host settings outside the initialisation: switching parameters, auxiliary
-//         outputs.
+// ppmc104_setup: stores the switching parameters and auxiliary outputs, which the host sets outside an
+//         initialisation.
 // Rules:  P104-AUX-01..06, P104-SW-04.
-// Timing: all outputs change at the edge that ends the cycle of their action. auxo_o and aux_no are pins.
+// Timing: all outputs change at the edge that ends the cycle of their action. auxo_o and aux_no drive pins
+//         directly.
 `default_nettype none
 
 module ppmc104_setup
@@ -12,7 +13,7 @@ module ppmc104_setup
 (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    input  wire action_t        act_i,     // action, takes effect at the next rising edge
+    input  wire action_t        act_i,     // actions, effective at the next rising edge
     input  wire logic    [31:0] params_i,  // parameters of act_i.switching
     input  wire logic    [ 3:0] aux_i,     // data of act_i.aux_out
     input  wire logic           vsel_i,    // VSEL, synchronised
@@ -22,7 +23,7 @@ module ppmc104_setup
 );
 
   logic programmed_q;
-  logic [7:0] on_q, off_q;  // chopper times set by the host, units
+  logic [7:0] on_q, off_q;  // chopper times set by the host, in units
   logic unused_bits;
 
   assign unused_bits = &{1'b0, act_i, params_i};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104: two-axis stepper controller, a replacement for the Ampere PPMC-2104AFP.
-// Rules:  P2104-PORT-01..06, P2104-PAR-01, P2104-STA-01..07, P2104-AUX-02/03; its blocks implement the rest.
-// Timing: an instruction takes effect 4 cycles after the rising edge that first samples the end of its write.
-//         Motor pins and int_n follow one cycle later.
+// ppmc2104: two-axis stepper controller; replaces the Ampere PPMC-2104AFP.
+// Rules:  P2104-PORT-01..06, P2104-PAR-01, P2104-STA-01..07, P2104-AUX-02/03; the instantiated blocks
+//         implement all others.
+// Timing: an instruction takes effect 4 cycles after the rising edge at which the end of its write is first
+//         sampled. The motor pins and int_n follow one cycle later.
 `default_nettype none
 
 module ppmc2104
@@ -17,15 +18,15 @@ module ppmc2104
     // host bus
     input  wire logic       cs_n,
     input  wire logic       a0,        // 0: data, 1: status or instruction code
-    input  wire logic       busc,      // bus style, high: DS and R/W, low: WRS and RDS
+    input  wire logic       busc,      // bus style; high: DS and R/W, low: WRS and RDS
     input  wire logic       ds_wrs_n,
     input  wire logic       rw_rds_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
     output logic            d_oe,
     output logic            int_n,
-    input  wire logic       errint_n,  // low: an error asserts int_n
-    // motors, index = axis
+    input  wire logic       errint_n,  // low: an error also asserts int_n
+    // motors; the index is the axis
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,       // 0: CW, 1: CCW
     output logic      [2:1] hold,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_axis: one of the two axes: settings, motion, motor pins, end status and answers to reads.
-// Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05; its blocks implement the motion.
-// Timing: an action takes effect at the edge that ends its cycle; motor pins follow one cycle later.
+// ppmc2104_axis: one of the two axes. Contains settings, motion, motor pins, end status and answers to read
+//         instructions.
+// Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05; the instantiated blocks
+//         implement the motion.
+// Timing: an action takes effect at the edge that ends its cycle. The motor pins follow one cycle later.
 // Note:   this module has no input from the other axis.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -21,25 +23,25 @@ module ppmc2104_axis
     input  wire axis_action_t                 act_i,          // actions, effective at the next rising edge
     input  wire logic         [          7:0] code_i,         // code of act_i.init and act_i.start
     input  wire logic         [         31:0] params_i,       // parameters of code_i
-    input  wire logic         [          7:0] code_late_i,    // code of the other actions
+    input  wire logic         [          7:0] code_late_i,    // code of all other actions
     input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
-    input  wire logic                         ready_i,        // 1: no table build runs and no window is open
+    input  wire logic                         ready_i,        // 1: no table build, no open window
     output axis_summary_t                     state_o,        // state for the other blocks
-    output logic                              end_o,          // an operation with I = 0 ends
+    output logic                              end_o,          // strobe: an operation with I = 0 ends
     input  wire cmd_error_e                   error_i,        // error register
     output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table
-    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; lut_data_i is expected two cycles later
+    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; address of lut_data_i
     input  wire logic         [STEP_BITS-1:0] lut_data_i,     // thr(r), two cycles after lut_addr_o
     // processing times
     input  wire logic                         run_open_i,     // 1: RUN is sampled
     input  wire logic                         poll_i,         // 1: limits and alarm are sampled
-    input  wire logic                         end_delay_i,    // 1: a stopped operation does not end yet
+    input  wire logic                         end_delay_i,    // 1: a stopped operation must not end yet
     // pins
     input  wire pin_levels_t                  levels_i,       // inputs of this axis, synchronised
     input  wire logic                         extck_i,        // external base clock, asynchronous
     output logic              [          5:1] s_no,           // phases
-    output logic                              hold_o,         // standstill for the hold delay
+    output logic                              hold_o,         // high: standstill for the hold delay
     output logic                              pout_no,        // pulse, active low
     output logic                              dir_o           // 0: CW, 1: CCW
 );
@@ -183,7 +185,7 @@ module ppmc2104_axis
 
   // ---- end status, answers ------------------------------------------------------------------------
 
-  logic unread_q, silent_q;  // unread_q: end status not read yet; silent_q: no interrupt requested
+  logic unread_q, silent_q;  // unread_q: end status is unread; silent_q: no interrupt requested
   logic [2:0] op_q;
 
   assign end_o = event_now.done && !silent_q;
@@ -203,10 +205,10 @@ module ppmc2104_axis
     end
   end
 
-  // The causes are valid until the next operation. While an operation runs, a read of the end status is
-  // rejected.
+  // The causes are valid until the next operation starts. While an operation runs, a read of the end status
+  // is rejected.
   always_comb begin
-    answer_o = remaining;  // only this answer uses the second and third byte
+    answer_o = remaining;  // only this answer has more than one byte
     unique case (code_late_i[2:0])
       SEL_END:   answer_o[7:0] = {unread_q, cause, op_q};
       SEL_INPUTS: begin

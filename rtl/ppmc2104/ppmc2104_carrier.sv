@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_carrier: PPMC-2104 board without clock generator and pads: ppmc2104, and as host interface either
-//         the UART bridge or the bus pins of the old chip.
-// Rules:  HOST = "UART": docs/uart_bridge.md, straps {axis 1 selected for PINS, -, -, errint_n, run, csel};
-//         HOST = "BUS": P2104-PORT-01. Wiring: docs/boards.md.
-// Timing: that of ppmc2104; with RECORD != 0 inputs other than the bus act 2 cycles later. No input needs an
+// ppmc2104_carrier: PPMC-2104 board without clock generator and pads. Contains ppmc2104 and one host
+//         interface: the UART bridge or the bus pins of the old chip.
+// Rules:  HOST = "UART": docs/uart_bridge.md, with the straps {axis 1 selected for PINS, -, -, errint_n,
+//         run, csel}; HOST = "BUS": P2104-PORT-01. Wiring: docs/boards.md.
+// Timing: as ppmc2104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
 //         external synchroniser.
 `default_nettype none
 
@@ -11,17 +11,17 @@ module ppmc2104_carrier #(
     parameter int unsigned CLK_HZ   = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 with a winding on; 0: as on the old chip
+    parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 of an energised winding
     parameter              HOST     = "UART",      // or "BUS"
     parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD   = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; with HOST = "UART", d_oe = 0, because reads then remain inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       busc,
@@ -31,7 +31,7 @@ module ppmc2104_carrier #(
     output logic      [7:0] d_o,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // with HOST = "UART" the straps can also set errint_n, run and csel to 0
+    // with HOST = "UART", the straps can also set errint_n, run and csel to 0
     input  wire logic       errint_n,
     input  wire logic [2:1] run,
     input  wire logic [2:1] csel,
@@ -65,7 +65,7 @@ module ppmc2104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
-  // Input pins as the device receives them, and all recorded levels; the first pin is in the low bits.
+  // in_…: input pins as ppmc2104 receives them. watch: all recorded levels; the first pin is bit 0.
   localparam int unsigned Watch = 63;
   logic in_errint_n;
   logic [2:1] in_csel, in_run, in_extck, in_fl_n, in_bl_n, in_fhl_n, in_bhl_n, in_org_n, in_alm_n;
@@ -167,7 +167,7 @@ module ppmc2104_carrier #(
       .link_o(led_link)
   );
 
-  assign part_busc     = 128'(HOST) == "BUS" && busc;  // the bridge drives read and write strobes
+  assign part_busc     = 128'(HOST) == "BUS" && busc;  // the bridge drives separate read and write strobes
   assign part_csel     = in_csel & straps[1:0];
   assign part_run      = in_run & straps[3:2];
   assign part_errint_n = in_errint_n && straps[4];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_command: accepts bytes from the host, checks them, collects data bytes and issues the actions.
+// ppmc2104_command: accepts bytes from the host, checks them, collects data bytes, and issues the actions.
 // Rules:  P2104-HSK-03/04/08, P2104-CMD-01..04, P2104-INI-02/03, P2104-STP-02..07, P2104-AUX-04,
 //         P2104-ERR-01..05, P2104-LIM-06, P2104-FSM-01..05.
-// Timing: take_o is the C-event: state changes of this block, act_o and error_report_o take effect at the
+// Timing: take_o marks the C-event. act_o, error_report_o and the state of this block take effect at the
 //         edge that ends the cycle of take_o. The request of the byte and the check of its values are
-//         computed in the cycle before; the states and pins of the axes are sampled in the cycle of take_o.
+//         computed one cycle earlier. The states and pins of the axes are sampled in the cycle of take_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,28 +15,28 @@ module ppmc2104_command
     input wire logic clk_i,
     input wire logic rst_ni,
     // mailbox
-    input wire logic ready_i,  // byte_i is available
+    input wire logic ready_i,  // 1: byte_i is valid
     input wire logic command_i,  // 1: byte_i was written as a code, 0: as data
     input wire logic [7:0] byte_i,  // byte from the host
-    input wire logic open_i,  // bytes may be accepted
-    output logic take_o,  // accept strobe, effective at the next rising edge
+    input wire logic open_i,  // 1: a byte may be accepted
+    output logic take_o,  // strobe: the byte is accepted at the next rising edge
     // state of the axes
     input wire axis_summary_t [AXES:1] state_i,  // states of both axes
     input wire pin_levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
-    input wire logic [AXES:1] building_i,  // ramp table build; codes that need the table wait
+    input wire logic [AXES:1] building_i,  // 1: the ramp table is being built; codes that need it wait
     // rate limits (ppmc2104_speed)
     input wire cmd_error_e speed_i,  // rate-limit error of code_o with params_o
     // result
-    output logic [AXES:1] collecting_o,  // data bytes are outstanding
+    output logic [AXES:1] collecting_o,  // 1: more data bytes are expected
     output action_t act_o,  // actions of the accepted byte
     output error_report_t error_report_o,  // errors of the accepted byte
     output logic [7:0] code_o,  // code of the action
     output logic [31:0] params_o,  // data bytes of code_o, the last in the high bits
-    output logic [7:0] code_held_o,  // code_o after the C-event, valid until the next C-event
+    output logic [7:0] code_held_o,  // code_o of the last C-event
     output logic [31:0] params_held_o  // data bytes of code_held_o
 );
 
-  logic [2:0] params_left_q;  // data bytes outstanding
+  logic [2:0] params_left_q;  // data bytes that are still expected
   logic [7:0] code_q;
   logic [31:0] params_q;
   logic collecting;
@@ -52,7 +52,7 @@ module ppmc2104_command
 
   cmd_error_e value;
   logic external, operation;
-  setup_t setup;  // settings of the axis whose data bytes are collected
+  setup_t setup;  // settings of the axis that the code addresses
   init_code_t init_code;
   logic [RATE_BITS:0] gap;
 
@@ -65,7 +65,7 @@ module ppmc2104_command
   always_comb begin
     value = ErrNone;
     if (operation) begin
-      // The rate is the first of four bytes, or the only one.
+      // The rate is the first of four data bytes, or the only data byte.
       if (code_q[2] && !external && (code_q[1:0] == 2'b00 ? params_o[7:0] : params_o[31:24]) == '0) begin
         value = ErrRates;
       end
@@ -83,20 +83,20 @@ module ppmc2104_command
   // ---- request of the byte, one cycle before it is accepted ---------------------------------------
 
   typedef struct packed {
-    axis_action_t act;             // actions if the state of the axis allows them
+    axis_action_t act;             // actions, if the state of the axis allows them
     logic         aux_out;
     logic         aux_in;
-    cmd_error_e   error;           // error of the byte, regardless of the axis state
-    logic         stop;            // stop instruction
-    logic         cancels_params;  // stop that cancels outstanding data bytes
+    cmd_error_e   error;           // error of the byte, regardless of the state of the axis
+    logic         stop;            // the byte is a stop instruction
+    logic         cancels_params;  // stop instruction while data bytes are expected
     logic         needs_idle;      // the byte is an error while the axis is busy
     logic         needs_init;      // the byte is an error while the axis is not initialised
     logic         needs_table;     // the instruction waits while the ramp table is being built
-    logic         no_axis;         // errors are reported for axis 1, regardless of second
+    logic         no_axis;         // errors are reported for axis 1, regardless of `second`
     logic         second;          // the instruction is for axis 2
     logic         ccw;
     logic         origin;
-    logic [2:0]   params;          // data bytes that follow
+    logic [2:0]   params;          // number of data bytes that follow
   } byte_request_t;
 
   decoded_t dec;
@@ -183,9 +183,9 @@ module ppmc2104_command
   assign act_o.aux_out = take_o && request_q.aux_out;
   assign act_o.aux_in  = take_o && request_q.aux_in;
 
-  // ---- errors: order of the checks as in P2104-ERR-04/05 ------------------------------------------
+  // ---- errors: the checks have the order of P2104-ERR-04/05 ----------------------------------------
 
-  logic busy, decel_ok, initialised, error;  // states of the addressed axis
+  logic busy, decel_ok, initialised, error;  // state of the addressed axis
   cmd_error_e number;
 
   assign busy = request_q.second ? state_i[2].busy : state_i[1].busy;

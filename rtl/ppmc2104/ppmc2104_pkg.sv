@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_pkg: codes, error numbers, limits and types specific to the PPMC-2104AFP.
+// ppmc2104_pkg: codes, error numbers, limits and types that only the PPMC-2104AFP has.
 // Rules:  P2104-CMD-01..03, P2104-INI-01/02, P2104-AUX-04..06, P2104-OPR-03; error numbers:
 //         docs/ppmc2104/README.md, 5.2.
 `default_nettype none
@@ -17,30 +17,30 @@ package ppmc2104_pkg;
   localparam int unsigned STEP_BITS = 14;
   localparam int unsigned COUNT_BITS = 24;
 
-  localparam int unsigned STEPS_MIN = 4;  // acceleration pulses PA
+  localparam int unsigned STEPS_MIN = 4;  // smallest number of acceleration pulses PA
   localparam int unsigned STEPS_MAX = 11_220;
-  localparam int unsigned RATE_GAP = 2;  // RL is at least RH + 2
+  localparam int unsigned RATE_GAP = 2;  // RL must be at least RH + 2
 
-  localparam int unsigned QUANTUM_XTAL = 4;  // crystal periods in a quantum
-  localparam int unsigned WIDTH_XTAL = 80;  // 5 us: pulse width, direction set-up, release of INT
-  localparam int unsigned CLOCK_OUT_XTAL = 2;  // crystal periods in half a period of clk_o
+  localparam int unsigned QUANTUM_XTAL = 4;  // crystal cycles per quantum
+  localparam int unsigned WIDTH_XTAL = 80;  // 5 us: pulse width, direction set-up time, release of INT
+  localparam int unsigned CLOCK_OUT_XTAL = 2;  // half period of clk_o in crystal cycles
 
-  localparam int unsigned HOLD_QUANTA = 512;  // unit of the hold delay, 128 us
+  localparam int unsigned HOLD_QUANTA = 512;  // unit of the hold delay in quanta, 128 us
   localparam logic [7:0] HOLD_DEFAULT = 8'h18;
-  localparam logic [7:0] CHOP_ON_DEFAULT = 8'h53;  // units of two quanta, 0.5 us
+  localparam logic [7:0] CHOP_ON_DEFAULT = 8'h53;  // in units of two quanta (0.5 us)
   localparam logic [7:0] CHOP_OFF_DEFAULT = 8'hA6;
 
   // Error numbers, as the host reads them.
   typedef enum logic [3:0] {
     ErrNone      = 4'd0,
     ErrUndefined = 4'd1,
-    ErrData      = 4'd2,   // data byte without a code that needs it
-    ErrAbandoned = 4'd3,   // code while data bytes are outstanding
-    ErrInitial   = 4'd4,   // instruction needs an initialised axis
+    ErrData      = 4'd2,   // data byte that no code needs
+    ErrAbandoned = 4'd3,   // code while data bytes are expected
+    ErrInitial   = 4'd4,   // the instruction needs an initialised axis
     ErrBusy      = 4'd5,
-    ErrStopped   = 4'd6,   // stop of an axis that is not moving
-    ErrRefused   = 4'd7,   // start prevented by a limit, the alarm or the origin
-    ErrDecel     = 4'd8,   // deceleration stop not possible
+    ErrStopped   = 4'd6,   // stop of an axis that does not move
+    ErrRefused   = 4'd7,   // a limit, the alarm or the origin prevents the start
+    ErrDecel     = 4'd8,   // a deceleration stop is not possible
     ErrRates     = 4'd9,   // RL < RH + 2, PA too small, rate 0 with the internal clock
     ErrSteps     = 4'd10,  // PA too large
     ErrSwitching = 4'd11,
@@ -63,7 +63,7 @@ package ppmc2104_pkg;
     CmdAuxIn
   } cmd_kind_e;
 
-  // Low three bits of the codes 10A0 0xxx.
+  // Bits 2:0 of the codes 10A0 0xxx.
   localparam logic [2:0] SEL_END = 3'b000;
   localparam logic [2:0] SEL_INPUTS = 3'b001;
   localparam logic [2:0] SEL_OUTPUTS = 3'b010;
@@ -72,14 +72,14 @@ package ppmc2104_pkg;
   localparam logic [2:0] SEL_HOLD_DELAY = 3'b101;
   localparam logic [2:0] SEL_ERROR = 3'b110;
 
-  // Bits of the setting code.
+  // Bits of the initial setting code.
   typedef struct packed {
     logic [1:0] prefix;    // 00
-    logic       second;    // A: axis 2
-    logic       chop;      // S: chop at standstill
-    logic       external;  // C: base clock from the EXTCK pin
-    logic       half;      // E: half step
-    logic [1:0] motor;     // MM
+    logic       second;    // A, 1: axis 2
+    logic       chop;      // S, 1: chop at standstill
+    logic       external;  // C, 1: base clock from the EXTCK pin
+    logic       half;      // E, 1: half step
+    logic [1:0] motor;     // MM, type of motor
   } init_code_t;
 
   // Bits of an operation code.
@@ -87,14 +87,14 @@ package ppmc2104_pkg;
     logic       pout_only;  // P
     logic       prefix;     // 1
     logic       second;     // A
-    logic       silent;     // I: no interrupt at the end
+    logic       silent;     // I, 1: no interrupt at the end
     logic       ccw;        // D
     logic [2:0] op;
   } op_code_t;
 
   typedef struct packed {
     cmd_kind_e  kind;
-    logic [2:0] params;  // data bytes that follow
+    logic [2:0] params;  // number of data bytes that follow
   } decoded_t;
 
   function automatic decoded_t decode(logic [7:0] code);
@@ -138,17 +138,17 @@ package ppmc2104_pkg;
     logic exc_off;
     logic switching;
     logic hold_delay;
-    logic read;        // axis read, including the error code read
+    logic read;        // axis read, or error code read
   } axis_action_t;
 
-  // Actions of a byte for the device; the auxiliary instructions belong to no axis.
+  // Actions of a byte for the device. The auxiliary instructions belong to no axis.
   typedef struct packed {
     axis_action_t [AXES:1] axis;
     logic                  aux_out;
     logic                  aux_in;
   } action_t;
 
-  // Error of an instruction and its axis.
+  // Error of an instruction, and the axis for which it is stored.
   typedef struct packed {
     logic [AXES:1] axis;    // axis in error; 0: no error
     cmd_error_e    number;
@@ -166,26 +166,26 @@ package ppmc2104_pkg;
     logic bhl;
   } pin_levels_t;
 
-  // Settings of an axis by the host (ppmc2104_setup).
+  // Settings of an axis, made by the host (ppmc2104_setup).
   typedef struct packed {
     logic                 initialised;  // 0: state INITIAL
     logic [RATE_BITS-1:0] slow;         // start-up rate RL
     logic [RATE_BITS-1:0] fast;         // high-speed rate RH
     logic [STEP_BITS-1:0] steps;        // acceleration pulses PA
-    logic                 chop;         // S: chop at standstill
-    logic                 external;     // C: base clock from the EXTCK pin
-    logic                 half;         // E: half step
-    logic [1:0]           motor;        // MM, as motor_e
-    logic [7:0]           on;           // on time of the chopper, units of two quanta
-    logic [7:0]           off;          // off time of the chopper, units of two quanta
-    logic [7:0]           hold_delay;   // units of HOLD_QUANTA, minus 1
+    logic                 chop;         // S, 1: chop at standstill
+    logic                 external;     // C, 1: base clock from the EXTCK pin
+    logic                 half;         // E, 1: half step
+    logic [1:0]           motor;        // MM, type of motor as in motor_e
+    logic [7:0]           on;           // on time of the chopper in units of two quanta
+    logic [7:0]           off;          // off time of the chopper in units of two quanta
+    logic [7:0]           hold_delay;   // hold delay in units of HOLD_QUANTA, minus 1
   } setup_t;
 
-  // Summary of the state of an axis for the command unit.
+  // State of an axis, as far as the command unit needs it.
   typedef struct packed {
     logic   busy;
-    logic   moving;    // before pulse 1 or between pulses
-    logic   decel_ok;  // a deceleration stop would be accepted
+    logic   moving;    // waiting for pulse 1, or outputting pulses
+    logic   decel_ok;  // 1: a deceleration stop is accepted
     setup_t setup;
   } axis_summary_t;
 

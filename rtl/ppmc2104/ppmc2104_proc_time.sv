@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc2104_proc_time: with Datasheet = 1, delays accepted instructions by the processing times of the old
-//         chip and schedules its polling of limits. Otherwise actions are immediate and limits are always
-//         sampled.
+//         chip, and samples limits only at the poll ticks of the old chip. With Datasheet = 0, actions are
+//         immediate and limits are always sampled.
 // Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (DATASHEET).
-// Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for its end
-//         take effect at that edge; the next byte may be accepted one cycle later. Poll ticks occur every
-//         ceil(35 us) cycles, counted from the first rising edge without reset or the end of the last window.
+// Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for its
+//         end take effect at that edge. The next byte may be accepted one cycle later. Poll ticks occur
+//         every ceil(35 us) cycles, counted from the end of the last window, or from the first rising edge
+//         without reset.
 `default_nettype none
 
 module ppmc2104_proc_time
@@ -22,21 +23,21 @@ module ppmc2104_proc_time
     input  wire action_t                act_i,          // actions requested by the byte
     input  wire logic          [   7:0] code_i,         // code of act_i
     input  wire logic          [  31:0] params_i,       // data bytes of code_i
-    input  wire logic          [   7:0] code_held_i,    // code_i after the C-event
+    input  wire logic          [   7:0] code_held_i,    // code_i of the last C-event
     input  wire logic          [  31:0] params_held_i,  // data bytes of code_held_i
     input  wire axis_summary_t [AXES:1] state_i,        // states of both axes
-    output logic                        open_o,         // bytes may be accepted
-    output logic               [AXES:1] window_o,       // a window of this axis is open
+    output logic                        open_o,         // 1: a byte may be accepted
+    output logic               [AXES:1] window_o,       // 1: a window of this axis is open
     // actions that take effect
     output action_t                     act_o,          // actions, effective at the next rising edge
     output logic               [   7:0] code_o,         // code of the actions at the end of a window
     output logic               [  31:0] params_o,       // data bytes of code_o
     output logic               [AXES:1] run_open_o,     // 1: RUN is sampled
-    output logic               [AXES:1] end_delay_o,    // 1: a stopped operation does not end yet
+    output logic               [AXES:1] end_delay_o,    // 1: an operation that was stopped must not end yet
     output logic                        poll_o          // 1: limits and alarms are sampled in this cycle
 );
 
-  // Crystal periods: microseconds times 16.
+  // Times in crystal cycles: microseconds times 16.
   localparam int unsigned SettingXtal = 71_000 * 16;
   localparam int unsigned HaltXtal = 400 * 16;
   localparam int unsigned DecelXtal = 32 * 16;
@@ -75,7 +76,8 @@ module ppmc2104_proc_time
     localparam int unsigned PollCycles = ppmc_pkg::cyc(PollXtal, ClkHz, XtalHz);
     localparam int unsigned PollBits = ppmc_pkg::cnt_width(PollCycles - 1);
 
-    // The byte leaves the mailbox at the C-event. Actions at the end of a window use the held code and data.
+    // The byte leaves the mailbox at the C-event. Therefore actions at the end of a window use the held
+    // code and data.
     assign code_o   = code_held_i;
     assign params_o = params_held_i;
 
@@ -99,7 +101,8 @@ module ppmc2104_proc_time
 
     always_comb begin
       limit = Bits'(AuxXtal);
-      // Not a unique case: before the first reset, flip-flops may request several actions at a time.
+      // Not a unique case, because before the first reset the flip-flops may request several actions at a
+      // time.
       case (1'b1)
         any_act.init: limit = Bits'(SettingXtal);
         any_act.halt: limit = Bits'(HaltXtal);
@@ -191,7 +194,7 @@ module ppmc2104_proc_time
     assign poll_o = poll_q == PollBits'(PollCycles - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) poll_q <= PollBits'(1);  // starts at 1, because reset ends one cycle late
+      if (!rst_ni) poll_q <= PollBits'(1);  // 1, because reset ends one cycle late
       else if (begins || window_q || poll_o) poll_q <= '0;
       else poll_q <= poll_q + 1'b1;
     end

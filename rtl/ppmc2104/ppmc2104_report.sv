@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_report: error registers, interrupt causes and the INT output of both axes.
+// ppmc2104_report: error registers and interrupt causes of both axes, and the INT output.
 // Rules:  P2104-ERR-06, P2104-RD-03/07, P2104-STA-06, P2104-INT-01..05.
-// Timing: registers and causes change at the edge that ends the cycle of their event; int_no follows one
-//         cycle later. A cause that is cleared at edge e keeps int_no = 1 from edge e + 1 to at least edge
+// Timing: registers and causes change at the edge that ends the cycle of their event. int_no follows one
+//         cycle later. If a cause is cleared at edge e, int_no is high from edge e + 1 until at least edge
 //         e + 1 + WidthCycles.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -16,18 +16,18 @@ module ppmc2104_report
     input  wire logic                   rst_ni,
     input  wire error_report_t          error_report_i,  // errors to be stored
     input  wire logic                   errint_ni,       // ERRINT, synchronised
-    input  wire logic          [AXES:1] end_i,           // an operation with I = 0 ends
-    input  wire logic          [AXES:1] read_end_i,      // End status read is executed
-    input  wire logic          [AXES:1] read_error_i,    // Error code read is executed
+    input  wire logic          [AXES:1] end_i,           // strobe: an operation with I = 0 ends
+    input  wire logic          [AXES:1] read_end_i,      // strobe: End status read is executed
+    input  wire logic          [AXES:1] read_error_i,    // strobe: Error code read is executed
     output cmd_error_e         [AXES:1] error_o,         // error registers
     output logic                        any_error_o,     // at least one error register is not 0
-    output logic                        int_no           // interrupt, low while there is a cause
+    output logic                        int_no           // interrupt, low while a cause is set
 );
 
   localparam int unsigned Width = ppmc_pkg::cnt_width(WidthCycles - 1);
 
   logic [AXES:1] end_q, error_q;
-  logic [Width-1:0] age_q;  // cycles since the start of the release window
+  logic [Width-1:0] age_q;  // cycles since a cause was cleared
   logic release_d, window_q;
 
   assign any_error_o = error_o != '0;
@@ -52,7 +52,7 @@ module ppmc2104_report
     end
   end
 
-  // No reset: the start of a release window sets age_q to 0.
+  // No reset: clearing a cause sets age_q to 0.
   always_ff @(posedge clk_i) begin
     if (release_d) age_q <= '0;
     else age_q <= age_q + 1'b1;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_setup: registers that the host sets for one axis: initial setting, switching times, hold delay.
+// ppmc2104_setup: stores the settings of one axis that the host makes: initial setting, switching times and
+//         hold delay.
 // Rules:  P2104-INI-04..07, P2104-AUX-01/04..06, P2104-PHS-03, P2104-SW-01/02.
-// Timing: registers change at the edge that ends the cycle of their action; chop_o follows ready_i in the
-//         same cycle.
+// Timing: registers change at the edge that ends the cycle of their action. chop_o depends on ready_i
+//         combinationally.
 `default_nettype none
 
 module ppmc2104_setup
@@ -13,14 +14,14 @@ module ppmc2104_setup
     input  wire axis_action_t        act_i,          // actions of this axis, effective at the next edge
     input  wire init_code_t          code_i,         // setting code of act_i.init
     input  wire logic         [31:0] params_i,       // data bytes of act_i.init
-    input  wire logic         [31:0] params_late_i,  // data bytes of act_i.switching, act_i.hold_delay
-    input  wire logic                ready_i,        // 1: no table build and no open window of this axis
+    input  wire logic         [31:0] params_late_i,  // data bytes of act_i.switching and act_i.hold_delay
+    input  wire logic                ready_i,        // 1: no table build, no open window of this axis
     output setup_t                   setup_o,        // current settings
-    output logic                     phase_init_o,   // set the phases to index 0
-    output logic                     chop_o          // chop at standstill
+    output logic                     phase_init_o,   // strobe: set the phases to index 0
+    output logic                     chop_o          // 1: chop at standstill
 );
 
-  logic first_q;  // the setting made in INITIAL is not complete
+  logic first_q;  // 1: the setting that was made in INITIAL is not complete
   logic unused_bits;
 
   assign unused_bits = &{1'b0, act_i, code_i, params_i, params_late_i};
@@ -47,7 +48,7 @@ module ppmc2104_setup
         setup_o.fast  <= params_i[15:8];
         setup_o.steps <= params_i[16+:STEP_BITS];
       end
-      // Only the first setting writes these fields; they are then frozen until Excitation OFF.
+      // Only the first setting writes these fields. They then keep their values until Excitation OFF.
       if (phase_init_o) begin
         setup_o.chop     <= code_i.chop;
         setup_o.external <= code_i.external;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_speed: checks a rate against the limits of the old chip, which are lower when both axes operate
-// (Datasheet = 1). With Datasheet = 0 there are no limits.
+// ppmc2104_speed: with Datasheet = 1, checks a rate against the limits of the old chip, which are lower
+//         when both axes operate. With Datasheet = 0, there are no limits.
 // Rules:  P2104-DS-30..35.
-// Timing: error_o follows code_i and params_i by one cycle; csel and the state of the other axis act on it in
-//         the same cycle.
+// Timing: error_o follows code_i and params_i by one cycle, but depends combinationally on csel and on the
+//         state of the other axis.
 `default_nettype none
 
 module ppmc2104_speed
@@ -28,7 +28,7 @@ module ppmc2104_speed
     assign error_o = ErrNone;
   end else begin : g_datasheet
 
-    // Lowest legal rate values: with one or two operating axes, with the fast or the slow internal clock.
+    // Lowest valid rate values for one or two operating axes, with the fast or the slow internal clock.
     typedef struct packed {
       logic [RATE_BITS-1:0] one_axis_fast;
       logic [RATE_BITS-1:0] two_axes_fast;
@@ -44,7 +44,7 @@ module ppmc2104_speed
     axis_summary_t addressed, other;
     min_rates_t min_rates;
     logic [RATE_BITS-1:0] rate;
-    logic [3:0] below, below_q;  // below: the rate value is below each limit; below_q: one cycle later
+    logic [3:0] below, below_q;  // below: rate value below the limit; below_q: one cycle later
     logic is_limited, second_q, csel, below_one_axis, below_two_axes, unused_bits;
 
     assign op_code = op_code_t'(code_i);
@@ -79,7 +79,7 @@ module ppmc2104_speed
       end
     end
 
-    // An axis that is chopping counts as operating.
+    // An axis that chops at standstill counts as operating.
     always_comb begin
       other = second_q ? state_i[1] : state_i[2];
       csel = second_q ? levels_i[2].csel : levels_i[1].csel;

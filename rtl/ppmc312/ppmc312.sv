@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312: intelligent stepper controller for one axis; replaces the PPMC-312.
-// Rules:  P312-GEN-01, P312-PRT-01..03, P312-CMD-FF; its blocks implement all others.
-// Timing: inputs act two cycles after the pin; with TIMING = "DATASHEET" the filter times are added. out_oe
-//         is asserted, and the core leaves reset, two cycles (DATASHEET: 1.6 ms) after the release of the
+// Rules:  P312-GEN-01, P312-PRT-01..03, P312-CMD-FF; the instantiated blocks implement all other rules.
+// Timing: inputs act two cycles after the pin; with TIMING = "DATASHEET" the filter times are added. Two
+//         cycles (DATASHEET: 1.6 ms) after the release of the reset, out_oe is asserted and the core leaves
 //         reset.
-// Note:   mode = 1 selects the parallel bus, mode = 0 a station on a serial line. The level of mode at the
-//         end of the last reset is used. The front end that is not selected is idle.
+// Note:   mode = 1 selects the parallel bus, mode = 0 a station on a serial line. The core uses the level
+//         of mode at the end of the last reset. The front end that is not selected is idle.
 `default_nettype none
 
 module ppmc312
@@ -19,7 +19,7 @@ module ppmc312
     parameter int unsigned VERSION  = 'h12,        // value that the version instruction returns, 0 .. 255
     parameter              SUM_MODE = "BINARY",    // or "CHARS": checksum of the serial mode
     parameter int unsigned SND_LEAD = 1,           // bits from the rise of snd to the start bit, 1 .. 16
-    parameter int unsigned SND_WAIT = 0            // bits of wait before snd in addition to 0.5, 0 .. 8
+    parameter int unsigned SND_WAIT = 0            // snd rises SND_WAIT + 0.5 bits after a stop bit, 0 .. 8
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -96,7 +96,7 @@ module ppmc312
   end
 
   localparam bit Datasheet = 128'(TIMING) == "DATASHEET";
-  // DATASHEET: 9.5 crystal periods
+  // DATASHEET: T_WRQ is 9.5 crystal periods
   localparam int unsigned WaitCycles = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
   // ---- reset --------------------------------------------------------------------------------------
 
@@ -202,8 +202,8 @@ module ppmc312
       .rd_done_o    (rd_done)
   );
 
-  // The station is silent in binary mode (bit 2 low), which is not documented, and with speed 0, which does
-  // not exist.
+  // The station sends nothing in binary mode (speed[2] = 0), which is not documented, and at speed 0, which
+  // does not exist.
   assign talks = serial && speed[2] && speed[1:0] != 2'b00;
 
   ppmc312_serial #(

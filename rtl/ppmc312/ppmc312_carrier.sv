@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_carrier: PPMC-312 board without clock generator and pads: ppmc312, and as host interface the UART
-//         bridge, the pins of the parallel bus or the serial line of the PPMC-312.
-// Rules:  HOST = "UART": docs/uart_bridge.md; strap bits 0, 1, 2 are ANDed with run, evt0_n, evt1_n. HOST =
-//         "BUS": the bus pins of the PPMC-312. HOST = "SERIAL": its serial station; frames are received from
-//         both lines (one master at a time), replies are sent to both. Wiring: docs/boards.md.
-// Timing: that of ppmc312; with RECORD != 0 inputs other than those of the host act 2 cycles later. No input
+// ppmc312_carrier: PPMC-312 board without clock generator and pads. Contains ppmc312 and one host
+//         interface: the UART bridge, the pins of the parallel bus, or the serial line.
+// Rules:  HOST = "UART": docs/uart_bridge.md. Strap bits 0, 1, 2 are ANDed with run, evt0_n, evt1_n.
+//         HOST = "BUS": the pins of the parallel bus.
+//         HOST = "SERIAL": the serial station. It receives frames from both lines (only one may have a
+//         master) and sends replies to both. Wiring: docs/boards.md.
+// Timing: as ppmc312. With RECORD != 0, inputs other than those of the host act 2 cycles later. No input
 //         needs an external synchroniser.
 `default_nettype none
 
 module ppmc312_carrier #(
-    parameter int unsigned CLK_HZ   = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ  = 16_000_000,
-    parameter              TIMING   = "FAST",
-    parameter              SUM_MODE = "BINARY",    // checksum of the serial line; or "CHARS"
-    parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
-    parameter int unsigned SND_WAIT = 0,           // bits of wait before rs485_de in addition to 0.5, 0 .. 8
-    parameter              HOST     = "UART",      // or "BUS", "SERIAL"
-    parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned CLK_HZ = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ = 16_000_000,
+    parameter TIMING = "FAST",
+    parameter SUM_MODE = "BINARY",  // checksum of the serial line; or "CHARS"
+    parameter int unsigned SND_LEAD = 1,  // bit times from rs485_de to the start bit, 1 .. 16
+    parameter int unsigned SND_WAIT = 0,  // rs485_de rises SND_WAIT + 0.5 bits after a stop bit
+    parameter HOST = "UART",  // or "BUS", "SERIAL"
+    parameter int unsigned BAUD = 115_200,  // baud rate of the bridge after reset
+    parameter int unsigned RECORD = 0  // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -31,7 +32,7 @@ module ppmc312_carrier #(
     input  wire logic       hsp,
     input  wire logic [2:0] mod,
     input  wire logic [3:0] adr,
-    // bus host; unless HOST = "BUS" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; d_oe = 0 unless HOST = "BUS", because reads then remain inside the FPGA
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
     input  wire logic       oe_n,
@@ -79,7 +80,7 @@ module ppmc312_carrier #(
   logic [7:0] part_d, straps;
   logic rxd, part_oe, out_oe;
 
-  // Input pins as the device receives them.
+  // Input pins as ppmc312 receives them.
   logic in_fl_n, in_bl_n, in_fhl_n, in_bhl_n, in_org_n, in_index_n, in_alm_n, in_end_n, in_epin, in_epdir;
   logic in_run, in_evt0_n, in_evt1_n, in_extck, part_run, part_evt0_n, part_evt1_n;
   logic [7:0] in_auxi;
@@ -153,8 +154,8 @@ module ppmc312_carrier #(
       .out_oe
   );
 
-  // cd_n is asserted 100 ms after the last pulse, but not before the first pulse. Therefore moved_q asserts
-  // hold until the first pulse.
+  // cd_n is asserted 100 ms after the last pulse, but it is not asserted before the first pulse. Therefore
+  // hold is asserted while moved_q = 0, which is until the first pulse.
   always_ff @(posedge clk or negedge part_rst_n) begin
     if (!part_rst_n) moved_q <= 1'b0;
     else if (pout) moved_q <= 1'b1;
@@ -170,7 +171,7 @@ module ppmc312_carrier #(
   assign led_switch  = !(fl_n && bl_n && fhl_n && bhl_n && alm_n);
 
   if (128'(HOST) == "SERIAL") begin : g_serial
-    // Both lines are high when idle.
+    // Both lines idle high.
     assign rxd = uart_rxd && rs485_rxd;
     assign uart_txd = rs485_txd;
     assign led_link = rs485_de;
@@ -182,7 +183,7 @@ module ppmc312_carrier #(
     logic unused_bus;
     assign unused_bus = ^{rs, cs_n, oe_n, we_n, d_i};
   end else begin : g_host
-    // All recorded levels; the first pin is in the low bits.
+    // All recorded levels; the first pin is bit 0.
     localparam int unsigned Watch = 63;
     logic [Watch-1:0] watch;
     assign watch = {

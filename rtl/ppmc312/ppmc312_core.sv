@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_core: PPMC-312 without host front ends and pin synchronisers: instructions, motor side, monitor of
-//         the generalized input, reports.
-// Rules:  see its blocks. Timing: outputs are registered.
+// ppmc312_core: PPMC-312 without host front ends and pin synchronisers. Contains the instruction unit, the
+//         motor side, the monitor of the generalized input, and the reports.
+// Rules:  see the instantiated blocks.
+// Timing: outputs are registered.
 `default_nettype none
 
 module ppmc312_core
@@ -18,13 +19,13 @@ module ppmc312_core
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: the front end is the serial station
-    input wire logic boot_i,  // 1: the core is leaving a reset by an instruction, which must be reported
+    input wire logic boot_i,  // 1: a reset instruction caused this reset, which must be reported
     output logic reset_o,  // strobe: an instruction requests a reset
-    // front end: blocks of the host, reports to it, in logical order
+    // front end: blocks from the host and reports to the host, in logical order
     input wire host_block_t host_block_i,  // block from the host
     output logic [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
     input wire logic [7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
-    output logic blk_done_o,  // strobe: the block is processed, its response stored
+    output logic blk_done_o,  // strobe: the block is processed and its response is stored
     output logic rd_any_o,  // a report is pending
     input wire logic rd_load_i,  // strobe: load the next report
     output logic [BLOCK_BITS:0] rd_size_o,  // bytes, 3 .. 32; valid 2 cycles after rd_load_i
@@ -34,7 +35,7 @@ module ppmc312_core
     // for the serial station only
     output host_result_t host_result_o,  // result of the block from the host
     output status_e status_o,  // status of the device
-    output poll_result_t poll_result_o,  // result of a poll; rd_load_i consumes it
+    output poll_result_t poll_result_o,  // report for the next poll; rd_load_i consumes it
     // pins
     input wire inputs_t inputs_i,  // input pins, synchronised
     input wire logic extck_i,  // external clock, asynchronous
@@ -60,7 +61,7 @@ module ppmc312_core
 
   assign status_o = state.status;
   assign mask = execute && block.code == I_MASK;
-  // The multiple-occurrence alarm of a discarded report follows one cycle later.
+  // The multiple-occurrence alarm of a discarded report is delayed by one cycle.
   assign multi = '{valid: exec_multi || discarded_q.valid, code: exec_multi ? 2'd1 : discarded_q.code};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -14,16 +14,16 @@ package ppmc312_link_pkg;
   import ppmc312_pkg::*;
   import ppmc312_stage_pkg::*;
 
-  // ---- front end to instructions: a block from the host, in logical order -------------------------
+  // ---- front end to instructions: block from the host, in logical order ---------------------------
 
   typedef struct packed {
-    logic                valid;  // a block is pending, until it is processed
+    logic                valid;  // level: a block is pending; 0 after it is processed
     logic [BLOCK_BITS:0] size;   // bytes of the block, 1 .. 32; stable while valid
   } host_block_t;
 
-  // ---- an instruction in progress -----------------------------------------------------------------
+  // ---- current instruction ------------------------------------------------------------------------
 
-  // Source of an instruction; coded as RESP in the header of the response.
+  // Source of an instruction. The value is the field RESP in the header of the response.
   typedef enum logic [1:0] {
     SrcHost     = 2'b00,
     SrcEvent    = 2'b01,
@@ -32,14 +32,14 @@ package ppmc312_link_pkg;
 
   localparam int unsigned PARAMS = 13;  // parameters of the longest instruction
 
-  // An instruction block. Each parameter is at its place in the long form of the instruction; a missing
-  // parameter is 0. In an initial setting without separate sides, the deceleration side has the values of the
-  // acceleration side.
+  // An instruction block. Each parameter is stored at its position in the long form of the instruction; a
+  // missing parameter is 0. If an initial setting has no separate sides, the deceleration side has the
+  // values of the acceleration side.
   typedef struct packed {
     source_e                source;
-    logic [BLOCK_BITS:0]    size;    // from the host: number of bytes written, 1 .. 32
+    logic [BLOCK_BITS:0]    size;    // bytes that the host has written, 1 .. 32
     logic [7:0]             head;    // header
-    logic [7:0]             len;     // length byte: bytes of code and parameters
+    logic [7:0]             len;     // length byte: number of bytes of code and parameters
     logic [7:0]             code;
     logic [PARAMS-1:0][7:0] par;     // par[0] is the first parameter
   } block_t;
@@ -54,7 +54,7 @@ package ppmc312_link_pkg;
     motor_inputs_t filtered;    // levels after the time filters
     logic [1:0]    evt_n;       // [n]: event pin n, not filtered
     logic [1:0]    evt_fall;    // strobes: falling edge of event n, filtered
-    logic          run;         // 1: starts are not held
+    logic          run;         // 0: RUN holds starts
     logic          epin;        // encoder, counted at its rising edge
     logic          epdir;       // 0: up, 1: down
     logic [7:0]    auxi;        // generalized input
@@ -63,7 +63,7 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic       pout;     // 1: a pulse is active
     logic       dir;      // 0: CW, 1: CCW
-    logic       intlk_n;  // interlock control is active
+    logic       intlk_n;  // interlock; low: interlock control is active
     logic       exon_n;   // excitation
     logic       cclr_n;   // counter clear, 24.576 ms
     logic       aclr_n;   // alarm clear, 24.576 ms
@@ -77,24 +77,24 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic ccw;     // 1: CCW
     logic zero;    // zero return: a second phase follows
-    logic origin;  // ends at the origin (constant-speed search)
-    logic index;   // the origin also requires INDEX
+    logic origin;  // search at constant rate: ends at the origin
+    logic index;   // 1: the origin requires INDEX as well as ORG
   } operation_t;
 
   typedef struct packed {
-    logic start;  // strobe: start op along profile; only at standstill
+    logic start;  // strobe, only at standstill: start op along profile
     operation_t op;  // valid with start
     logic change;  // strobe: change the rate to profile.target
-    profile_t profile;  // stable from start to t0; target until 2 cycles after change
-    logic single_pulse;  // 1: one pulse at the start-up rate; target, dec_pulses ignored; stable like profile
+    profile_t profile;  // stable from start to t0; target: until 2 cycles after change
+    logic single_pulse;  // 1: one pulse at the start-up rate; stable as profile
     logic pos_halt;  // strobe: the position of an immediate stop is reached
-    logic triggers_done;  // 1: all triggered instructions are processed
+    logic triggers_done;  // 1: all triggered instructions have been processed
   } motion_req_t;
 
   // ---- settings for motions, made by instructions -------------------------------------------------
 
   typedef struct packed {
-    logic [15:0] limit_rate;     // HSL, base clocks; high-speed limits act at this rate and at faster rates
+    logic [15:0] limit_rate;     // HSL in base clocks; high-speed limits act at this and faster rates
     logic        end_monitored;  // 1: END is monitored
     logic        run_ignored;    // 1: RUN is not monitored
   } motion_settings_t;
@@ -117,7 +117,7 @@ package ppmc312_link_pkg;
 
   typedef struct packed {
     logic       valid;  // strobe
-    logic [1:0] code;   // 0: pin; multiple occurrence: 1: class 2, 2: class 3 or 4, 3: class 5
+    logic [1:0] code;   // 0: pin; multiple occurrence in 1: class 2, 2: class 3 or 4, 3: class 5
   } alarm_event_t;
 
   typedef struct packed {
@@ -131,23 +131,23 @@ package ppmc312_link_pkg;
   // Monitors, classes 7 and 8: [0] in-position, [1] encode.
   typedef struct packed {
     logic [1:0] pending;  // a report is pending
-    logic [1:0] outside;  // content of the report: 1: outside, 0: inside
+    logic [1:0] outside;  // contents of the report; 1: outside, 0: inside
   } monitor_req_t;
 
   typedef struct packed {
     logic [1:0] load;  // strobe: the report is being loaded
-    logic [1:0] read;  // strobe: the report has been read; with load: loaded and read in one cycle
+    logic [1:0] read;  // strobe: the report has been read; may coincide with load
   } monitor_ack_t;
 
   // ---- instructions to reports: class 2 -----------------------------------------------------------
 
   typedef struct packed {
     logic                  we;
-    logic [BLOCK_BITS-1:0] addr;  // logical: 0 = header
+    logic [BLOCK_BITS-1:0] addr;  // byte of the response in logical order, 0 = header
     logic [7:0]            data;  // byte at addr
   } response_write_t;
 
-  // Result of a triggered instruction. The comments are the codes in the reply to a poll.
+  // Result of a triggered instruction. Each comment is the code in the reply to a poll.
   typedef enum logic [1:0] {
     DoneOverride = 2'b00,  // 28
     DoneEvent    = 2'b01,  // 29
@@ -158,7 +158,7 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic                valid;           // strobe: a response is complete
     logic                host;            // the response is for the host
-    trigger_result_e     trigger_result;  // if not for the host: result of the triggered instruction
+    trigger_result_e     trigger_result;  // valid if host = 0: result of the triggered instruction
     logic [BLOCK_BITS:0] size;            // bytes, 3 .. 32
   } response_done_t;
 
@@ -166,14 +166,14 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic full;       // a response can be read
     logic full_host;  // this response is for the host
-    logic pending;    // a second, newer response waits
+    logic pending;    // another, newer response waits
   } response_queue_t;
 
   // Result of a block from the host, for the serial station.
   typedef struct packed {
     logic       valid;  // strobe: the block is executed
     logic [7:0] code;   // code of the response, one cycle later
-    logic [2:0] first;  // low bits of the first byte after the code, one cycle later
+    logic [2:0] first;  // bits 2:0 of the first byte after the code, one cycle later
   } host_result_t;
 
   // verilator lint_on UNUSEDPARAM

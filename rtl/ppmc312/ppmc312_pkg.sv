@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_pkg: instruction codes, statuses, accept table, instruction lengths, reports and errors of the
-// PPMC-312.
-// Rules:  P312-STA-01 (accept table), P312-BLK-01 (lengths); docs/ppmc312/README.md, Answers
-//         and reports (reports, errors, causes).
+//         PPMC-312.
+// Rules:  P312-STA-01 (accept table), P312-BLK-01 (lengths); docs/ppmc312/README.md, Answers and reports
+//         (reports, errors, causes).
 `default_nettype none
 
 package ppmc312_pkg;
@@ -14,7 +14,7 @@ package ppmc312_pkg;
 
   localparam int unsigned RATE_BITS = 16;
   localparam int unsigned BLOCK_BITS = 5;  // address within a block of 32 bytes
-  localparam int unsigned WIDTH_XTAL = 80;  // pulse width TW, crystal periods
+  localparam int unsigned WIDTH_XTAL = 80;  // pulse width TW in crystal periods
 
   // ---- instruction codes --------------------------------------------------------------------------
 
@@ -56,7 +56,7 @@ package ppmc312_pkg;
   localparam logic [7:0] I_SPEED = 8'h88;
   localparam logic [7:0] I_RESET = 8'hff;
 
-  // ---- statuses: one bit each, in the order of the condition byte ---------------------------------
+  // ---- statuses: one-hot, in the bit order of the condition byte ----------------------------------
 
   typedef enum logic [5:0] {
     StatusIni = 6'b000001,
@@ -71,15 +71,15 @@ package ppmc312_pkg;
 
   typedef struct packed {
     logic       is_known;
-    logic       has_ov;         // bit 2 of the first parameter (OV) requests registration
-    logic       starts_motion;  // starts pulses
-    logic       has_rate;       // parameters 1, 2 are a rate
+    logic       has_ov;         // bit 2 (OV) of the first parameter stores the instruction
+    logic       starts_motion;  // the instruction starts pulses
+    logic       has_rate;       // parameters 1 and 2 are a rate
     logic       zero_is_rh;     // a rate of 0 selects RH
     logic       has_count;      // parameters 3 .. 6 are a number of pulses
     logic [5:0] states_ov0;     // statuses that accept the code with OV = 0
     logic [5:0] states_ov1;     // statuses that accept the code with OV = 1
-    logic [4:0] len_long;       // longer legal length of code and parameters
-    logic [4:0] len_short;      // shorter legal length, at most len_long
+    logic [4:0] len_long;       // longer valid length of code and parameters
+    logic [4:0] len_short;      // shorter valid length; at most len_long
   } instr_info_t;
 
   localparam logic [5:0] STATES_STANDSTILL = StatusIni | StatusNor;
@@ -206,7 +206,7 @@ package ppmc312_pkg;
   localparam logic [7:0] E_INPOS_ZERO = 8'h26;
   localparam logic [7:0] E_ENCODE_ZERO = 8'h27;
 
-  // Causes of the end of a motion, in the bit order of the byte in report E0. Exactly one bit is set.
+  // Causes of the end of a motion, in the bit order of the byte in report E0. The value is one-hot.
   typedef struct packed {logic als, nos, org, low, dec, stp, del, stl;} end_cause_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_proc_time: delays the effect of an instruction by the processing time of the old chip (Datasheet =
-//         1).
+// ppmc312_proc_time: with Datasheet = 1, delays the effect of an instruction by the processing time of the
+//         old chip.
 // Rules:  P312-TIM-02..13, P312-TIM-20.
-// Timing: elapsed_o is high when the time of block_i has passed, counted from the last cycle of idle_i. With
-//         Datasheet = 0 it is always high.
-// Note:   the time of a start ends at pulse 1, which occurs TW after t0.
+// Timing: elapsed_o is high when the time of block_i has passed, counted from the last cycle of idle_i.
+//         With Datasheet = 0, elapsed_o is always high.
+// Note:   the processing time of a start ends at pulse 1, which occurs TW after t0.
 `default_nettype none
 
 module ppmc312_proc_time
@@ -17,16 +17,16 @@ module ppmc312_proc_time
 ) (
     input  wire logic         clk_i,     // clock
     input  wire logic         rst_ni,    // reset, asynchronous
-    input  wire logic         idle_i,    // no instruction is being processed
+    input  wire logic         idle_i,    // 1: no instruction is being processed
     input  wire block_t       block_i,   // the instruction; its time starts when idle_i falls
-    input  wire logic   [7:0] kind_i,    // profile of a planned operation; 0: trapezoidal
+    input  wire logic   [7:0] kind_i,    // status byte of a planned operation; 0: trapezoidal
     output logic              elapsed_o  // the processing time has passed
 );
 
   localparam int unsigned Width = 22;
 
   if (Datasheet) begin : g_datasheet
-    // Times in crystal periods. The latency of the instruction up to this block, about 1 us, is neglected.
+    // Times in crystal periods. The latency from the end of idle_i to this block, about 1 us, is neglected.
     localparam int unsigned PerUs = 16;
     localparam int unsigned Lead = WIDTH_XTAL + 8;
 
@@ -63,14 +63,14 @@ module ppmc312_proc_time
         I_CONST, I_CONT: limit = pulse_us(400);
         I_HIGH, I_ZERO:  limit = rate_given ? pulse_us(400) : pulse_us(60);
         I_ORIGIN, I_STEP: limit = pulse_us(500);
-        // A halt at a position has no processing time, because the position comparison stops the pulses.
+        // A halt at a position has no processing time: the position comparison stops the pulses.
         I_HALT:    limit = (block_i.source == SrcOverride && !block_i.par[0][0]) ? '0 : us(350);
         I_AUX_OUT: limit = us(300);
         default:   ;
       endcase
     end
 
-    // limit_q follows limit by one cycle, so limit must be unchanged for two cycles.
+    // limit_q follows limit by one cycle. elapsed_q requires that limit was unchanged for two cycles.
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         limit_q   <= '0;

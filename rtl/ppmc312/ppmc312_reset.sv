@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_reset: generates the resets from the pin and from the reset instruction; latches mode, line speed
-//         and station number when a reset ends.
+// ppmc312_reset: generates the resets from the reset pin and from the reset instruction. Latches mode, line
+//         speed and station number when a reset ends.
 // Rules:  P312-GEN-01, P312-PRT-02/03, P312-CMD-FF, P312-TIM-01.
-// Timing: ready_o is asserted, and the core leaves reset, two cycles after the release of the reset
-//         (Datasheet = 1: 1.6 ms). The host side leaves reset one cycle after the release; the latched levels
-//         are those of the pins two cycles before.
+// Timing: two cycles after the release of the reset (Datasheet = 1: 1.6 ms), ready_o is asserted and the
+//         core leaves reset. The host side leaves reset one cycle after the release. The latched levels are
+//         those of the pins two cycles earlier.
 `default_nettype none
 
 module ppmc312_reset #(
@@ -21,9 +21,9 @@ module ppmc312_reset #(
     output logic rst_core_no,  // reset of the core, active low
     output logic rst_host_no,  // reset of the host-side registers, active low
     output logic rst_bus_no,  // reset of the bus strobes, active low; by the pin only
-    output logic boot_o,  // the core is leaving a reset by an instruction
+    output logic boot_o,  // 1: a reset instruction caused this reset of the core
     output logic ready_o,  // 1: the reset has ended
-    output logic open_o,  // 1: the bus accepts instructions; 0 until 3 cycles after a reset by an instruction
+    output logic open_o,  // 1: the bus accepts instructions; 0 until 3 cycles after a reset instruction
     output logic serial_o,  // 1: serial, 0: parallel
     output logic [2:0] mod_o,  // latched line speed
     output logic [3:0] adr_o  // latched station number
@@ -31,7 +31,7 @@ module ppmc312_reset #(
 
   localparam int unsigned StartXtal = 25_600;
 
-  // rst_pin_n resets flip-flops and is also a data signal, which restarts the delay.
+  // rst_pin_n resets flip-flops and is also used as data, because it restarts the delay.
   // verilator lint_off SYNCASYNCNET
   logic rst_pin_n;
   // verilator lint_on SYNCASYNCNET
@@ -65,7 +65,7 @@ module ppmc312_reset #(
     end
   end
 
-  // Levels from before the end of the reset are latched, so this synchroniser has no reset.
+  // Levels that were sampled before the end of the reset are latched, so this synchroniser has no reset.
   ppmc_sync #(
       .Width(8)
   ) u_pins (
@@ -94,11 +94,12 @@ module ppmc312_reset #(
     end
   end
 
-  // The pin resets all blocks immediately, regardless of the registers of the resets.
+  // The reset pin resets all blocks immediately, because it bypasses the reset registers.
   assign rst_core_no = rst_core_nq && rst_pin_n;
   assign rst_host_no = rst_host_nq && rst_pin_n;
   assign rst_bus_no  = rst_pin_n;
-  // A strobe that begins during the reset still reads "busy".
+  // open_o follows a reset instruction by 3 cycles, so that a read strobe that began during the reset still
+  // returns "busy".
   assign open_o      = ready_o && !boot_o && boot_q == '0;
 
 endmodule

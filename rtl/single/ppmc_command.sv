@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command: accepts the bytes of the host, checks them, collects parameters and outputs the actions; for
-//         the single-axis devices.
+// ppmc_command: accepts the bytes of the host in the single-axis devices. Checks them, collects parameters,
+//         and outputs the actions.
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
-// Timing: take_o marks the C-event: act_o and all state changes of this block belong to the edge that ends
-//         this cycle. decoded_i and param_error_i are combinational from the byte and are registered here, so
-//         that they are used one cycle later. data_i and is_checked_i are used in the same cycle.
+// Timing: take_o marks the C-event. act_o and the state of this block take effect at the edge that ends the
+//         cycle of take_o. decoded_i and param_error_i are combinational functions of the byte. They are
+//         registered here and used one cycle later. data_i and is_checked_i are used in the same cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,33 +15,33 @@ module ppmc_command
     input wire logic clk_i,
     input wire logic rst_ni,
     // mailbox
-    input wire logic ready_i,  // a byte is available
-    input wire logic command_i,  // byte_i was written as a command
+    input wire logic ready_i,  // 1: a byte is available
+    input wire logic command_i,  // 1: byte_i was written as a command, 0: as data
     input wire logic [7:0] byte_i,  // byte from the host
-    input wire logic open_i,  // bytes may be accepted
-    input wire logic stops_only_i,  // only stop commands may be accepted
-    output logic take_o,  // the byte is accepted at the next edge
+    input wire logic open_i,  // 1: a byte may be accepted
+    input wire logic stops_only_i,  // 1: only stop commands may be accepted
+    output logic take_o,  // strobe: the byte is accepted at the next edge
     // meaning of the byte in this device
-    input wire decoded_t decoded_i,  // byte_i as a code
-    input wire logic [7:0] data_i,  // byte_i in the form in which parameters are stored
+    input wire decoded_t decoded_i,  // byte_i decoded as a code
+    input wire logic [7:0] data_i,  // byte_i as a parameter, in the stored form
     input wire cmd_error_e param_error_i,  // error in params_o; ErrUndefined: no error
-    input wire logic is_checked_i,  // param_error_i applies to the current code; used in the same cycle
+    input wire logic is_checked_i,  // 1: param_error_i applies to the current code
     // state of the core
-    input wire logic busy_i,  // a motion is in progress
-    input wire logic ramp_i,  // running operation has a ramp
-    input wire logic decelerating_i,  // DEC, or no pulse left to output
-    input wire logic initialised_i,  // operations may start
+    input wire logic busy_i,  // 1: a motion is in progress
+    input wire logic ramp_i,  // 1: the running operation has a ramp
+    input wire logic decelerating_i,  // 1: DEC, or no pulse is left to output
+    input wire logic initialised_i,  // 1: operations may start
     // result
-    output logic [3:0] status_o,  // ERR, NUM
+    output logic [3:0] status_o,  // status bits ERR and NUM
     output action_t act_o,  // actions of the accepted byte
     output logic [7:0] code_o,  // code of the action
-    output logic [31:0] params_o,  // parameter bytes of code_o, the last in the high bits
-    output logic [7:0] code_held_o,  // code_o after the C-event, while no byte is accepted
+    output logic [31:0] params_o,  // parameters of code_o; the last one is in bits 31:24
+    output logic [7:0] code_held_o,  // code_o after the C-event; valid until the next byte is accepted
     output logic [31:0] params_held_o  // parameters of code_held_o
 );
 
   decoded_t   dec_q;  // decoded_i, one cycle later
-  cmd_error_e param_error_q;  // param_error_i, one cycle later; the byte is stable before it is accepted
+  cmd_error_e param_error_q;  // param_error_i, one cycle later; the byte is stable for at least this cycle
   parser_state_t parser_q, parser;
   logic stop;
 

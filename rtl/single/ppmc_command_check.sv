@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command_check: checks a byte of the host for a single-axis device: error number, actions, and the next
-//         state of the command unit.
+// ppmc_command_check: checks a byte of the host for a single-axis device. Returns the error number, the
+//         actions, and the next state of the command unit.
 // Rules:  P104-STA-04..06, P104-ERR-00..03, P104-HSK-07, P104-CMD-01..04, P104-INI-02..06, P104-STP-02..08,
 //         P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
-// Timing: combinational; the user of the block stores parser_o.
+// Timing: combinational. The module that instantiates this block stores parser_o.
 `default_nettype none
 
 module ppmc_command_check
   import ppmc_code_pkg::*;
 #(
-    parameter bit Aux = 1'b1  // 1: Excitation OFF during a motion is AUX ON; 0: it is rejected
+    parameter bit Aux = 1'b1  // Excitation OFF during a motion is 1: AUX ON, 0: rejected
 ) (
-    input wire logic take_i,  // a byte is accepted
-    input wire logic command_i,  // byte_i was written as a command
+    input wire logic take_i,  // strobe: a byte is accepted
+    input wire logic command_i,  // 1: byte_i was written as a command, 0: as data
     input wire logic [7:0] byte_i,  // byte from the host
-    input wire logic [7:0] data_i,  // byte_i in the form in which parameters are stored
-    input wire decoded_t decoded_i,  // byte_i as a code
-    input wire cmd_error_e param_error_i,  // error in the complete parameters; ErrUndefined: no error
-    input wire logic is_checked_i,  // param_error_i applies to the current code
-    input wire logic busy_i,  // a motion is in progress
-    input wire logic ramp_i,  // running operation has a ramp
-    input wire logic decelerating_i,  // DEC, or no pulse left to output
-    input wire logic initialised_i,  // operations may start
+    input wire logic [7:0] data_i,  // byte_i as a parameter, in the stored form
+    input wire decoded_t decoded_i,  // byte_i decoded as a code
+    input wire cmd_error_e param_error_i,  // error of the complete parameters; ErrUndefined: no error
+    input wire logic is_checked_i,  // 1: param_error_i applies to the current code
+    input wire logic busy_i,  // 1: a motion is in progress
+    input wire logic ramp_i,  // 1: the running operation has a ramp
+    input wire logic decelerating_i,  // 1: DEC, or no pulse is left to output
+    input wire logic initialised_i,  // 1: operations may start
     input wire parser_state_t parser_i,  // state before this byte
     output parser_state_t parser_o,  // state after this byte
     output action_t act_o,  // actions of this byte
-    output logic stop_o  // byte_i is a stop command, regardless of take_i
+    output logic stop_o  // 1: byte_i is a stop command, regardless of take_i
 );
 
   logic allowed_busy, last_param, error;
@@ -66,7 +66,7 @@ module ppmc_command_check
     end
   end
 
-  // A code without parameters acts immediately, any other code with its last parameter.
+  // A code without parameters acts immediately. Any other code acts with its last parameter.
   always_comb begin
     act_o = '0;
     if (take_i && !error) begin

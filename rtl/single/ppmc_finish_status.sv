@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish_status: finish status and interrupt of a motion, and the data of the read commands, in a
-//         single-axis device.
+// ppmc_finish_status: contains the finish status and the interrupt of a motion in a single-axis device, and
+//         the data of the read commands.
 // Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07; STMC-FIN-01/04/05, STMC-MOT-09/10, STMC-INP-01,
 //         STMC-OUT-01, STMC-REM-01.
-// Timing: finish status and int_no change at the edge that ends the cycle of done_i; answer_o is
+// Timing: finish status and int_no change at the edge that ends the cycle of done_i. answer_o is
 //         combinational.
 `default_nettype none
 
 module ppmc_finish_status
   import ppmc_code_pkg::*;
 #(
-    parameter bit UnreadFlag = 1'b1  // finish status bit 7: 1 = not read yet, 0 = always 1
+    parameter bit UnreadFlag = 1'b1  // 1: bit 7 of the status is 1 until it is read; 0: bit 7 is always 1
 ) (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
-    input  wire logic            start_i,      // an operation starts
-    input  wire op_code_t        op_code_i,    // code of the operation, with start_i
-    input  wire logic            done_i,       // the operation ends
+    input  wire logic            start_i,      // strobe: an operation starts
+    input  wire op_code_t        op_code_i,    // code of the operation; valid with start_i
+    input  wire logic            done_i,       // strobe: the operation ends
     input  wire logic     [ 3:0] cause_i,      // stop, alarm, limit, slow-down limit; stable at standstill
-    input  wire logic            read_i,       // a read command is executed
-    input  wire logic     [ 2:0] select_i,     // data selected by the read command
+    input  wire logic            read_i,       // strobe: a read command is executed
+    input  wire logic     [ 2:0] select_i,     // data that the read command selects
     input  wire logic     [23:0] remaining_i,  // remaining pulses, in the format of SEL_REMAINING
     input  wire logic     [ 7:0] inputs_i,     // pin levels, in the format of SEL_INPUTS
     input  wire logic     [ 7:0] outputs_i,    // pin levels, in the format of SEL_OUTPUTS
     input  wire logic     [ 3:0] auxi_i,       // pin levels, in the format of SEL_AUX_IN
-    output logic          [23:0] answer_o,     // data of the read command, first byte in the low bits
-    output logic                 int_no        // L: a motion has ended
+    output logic          [23:0] answer_o,     // data of the read command; first byte in bits 7:0
+    output logic                 int_no        // low: a motion has ended
 );
 
-  logic unread_q, silent_q;  // unread_q: not read yet; silent_q: no interrupt requested
+  logic unread_q, silent_q;  // unread_q: status is unread; silent_q: no interrupt requested
   logic [2:0] op_q;
   logic unused_bits;
 
@@ -59,7 +59,7 @@ module ppmc_finish_status
   // The causes are valid until the next operation starts. While an operation runs, read commands are
   // rejected.
   always_comb begin
-    answer_o = remaining_i;  // only SEL_REMAINING uses the bytes after the first byte
+    answer_o = remaining_i;  // only SEL_REMAINING has more than one byte
     unique case (select_i)
       SEL_FINISH:  answer_o[7:0] = {unread_q || !UnreadFlag, cause_i, op_q};
       SEL_INPUTS:  answer_o[7:0] = inputs_i;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_proc_time: determines when an accepted byte takes effect in a single-axis device: immediately (FAST)
-//         or after the processing times of the old chip (DATASHEET).
+// ppmc_proc_time: delays the effect of an accepted byte in a single-axis device. With FAST, there is no
+//         delay. With DATASHEET, the delays are the processing times of the old chip.
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
-// Timing: DATASHEET times start at the C-event (2 cycles after the write event) or at the pulse or decision
-//         that they belong to. The event that a time releases occurs one cycle after the nominal time.
-// How:    two timers: one for the current command (mailbox closed), one for the motion (pulse 1, end).
+// Timing: a DATASHEET time starts at the C-event (2 cycles after the write event), or at the pulse or
+//         decision to which it belongs. The event that it delays occurs one cycle after the nominal time.
+// How:    two timers: one for the current command (during which the mailbox is closed), and one for the
+//         motion (pulse 1, end).
 `default_nettype none
 
 module ppmc_proc_time
@@ -15,40 +16,40 @@ module ppmc_proc_time
     parameter int unsigned ClkHz = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000,
     parameter int unsigned StepBits = 14,  // bits of PA
-    parameter int unsigned StepsMin = 4,  // smallest PA; its initialisation takes 16.5 ms
+    parameter int unsigned StepsMin = 4,  // smallest PA; initialisation with this PA takes 16.5 ms
     parameter int unsigned StepsMax = 11_220,  // largest PA
-    parameter bit RampTimes = 1'b1  // 1: a stop in a ramp and the start of a triangular profile take longer
+    parameter bit RampTimes = 1'b1  // 1: extra time for a stop in a ramp and for a triangular profile
 ) (
     input  wire logic                   clk_i,
     input  wire logic                   rst_ni,
     // command unit, at the C-event
     input  wire action_t                act_i,          // actions requested by the byte
     input  wire logic    [         7:0] code_i,         // code of act_i
-    input  wire logic    [        31:0] params_i,       // parameters of act_i; a cycle later a byte lower
-    input  wire logic    [         7:0] code_held_i,    // code_i after the C-event
-    input  wire logic    [        31:0] params_held_i,  // params_i after the C-event
-    input  wire logic    [         2:0] base_i,         // base clock that is selected now
-    output logic                        open_o,         // bytes may be accepted
+    input  wire logic    [        31:0] params_i,       // parameters of act_i; a byte lower one cycle later
+    input  wire logic    [         7:0] code_held_i,    // code_i of the last C-event
+    input  wire logic    [        31:0] params_held_i,  // parameters of code_held_i
+    input  wire logic    [         2:0] base_i,         // base clock that is currently selected
+    output logic                        open_o,         // 1: a byte may be accepted
     // actions when they take effect
-    output action_t                     act_o,          // actions that take effect at the next edge
+    output action_t                     act_o,          // actions, effective at the next edge
     output logic         [         7:0] code_o,         // code of act_o
     output logic         [        31:0] params_o,       // parameters of act_o
     output logic         [         2:0] base_o,         // base clock of the operation that starts
     // initialisation
-    input  wire logic                   initialised_i,  // an initialisation has been completed
-    input  wire logic                   building_i,     // the ramp table is being built
-    input  wire logic    [StepBits-1:0] steps_i,        // active PA
-    output logic                        phase_init_o,   // set the phases to index 0: first initialisation
-    output logic                        ready_o,        // the initialisation is complete
+    input  wire logic                   initialised_i,  // 1: an initialisation has been completed
+    input  wire logic                   building_i,     // 1: the ramp table is being built
+    input  wire logic    [StepBits-1:0] steps_i,        // current PA
+    output logic                        phase_init_o,   // strobe: set the phases to index 0; first time only
+    output logic                        ready_o,        // strobe: the initialisation is complete
     // motion
-    input  wire logic                   ramp_i,         // the running operation has a ramp
-    input  wire logic                   single_i,       // the running operation is a single step
-    input  wire logic                   stop_i,         // immediate end decided at the next edge
-    input  wire logic                   pulse_i,        // pulse event at the next edge
-    input  wire logic                   last_i,         // with pulse_i: last pulse
+    input  wire logic                   ramp_i,         // 1: the running operation has a ramp
+    input  wire logic                   single_i,       // 1: the running operation is a single step
+    input  wire logic                   stop_i,         // strobe: immediate end at the next edge
+    input  wire logic                   pulse_i,        // strobe: pulse event at the next edge
+    input  wire logic                   last_i,         // with pulse_i: it is the last pulse
     input  wire logic                   final_i,        // with pulse_i: the count is complete
-    output logic                        go_o,           // pulse 1 may occur
-    output logic                        end_delay_o     // the motion must not end yet
+    output logic                        go_o,           // 1: pulse 1 may occur
+    output logic                        end_delay_o     // 1: the motion must not end yet
 );
 
   // Times in crystal cycles: microseconds times 16.
@@ -61,7 +62,7 @@ module ppmc_proc_time
 
   localparam int unsigned CommandBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BusyRampXtal, ClkHz, XtalHz) - 1);
 
-  // State of the counter before the tick that ends a time of xtal_cycles.
+  // State of the counter one tick before a time of xtal_cycles ends.
   function automatic logic [CommandBits-1:0] last_state(int unsigned xtal_cycles);
     return CommandBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CommandBits));
   endfunction
@@ -88,10 +89,10 @@ module ppmc_proc_time
                            last_i, final_i};
   end else begin : g_datasheet
 
-    // When the time of a command has passed, its byte is no longer in the mailbox. Therefore the code and the
-    // parameters that were held after the C-event are used.
+    // When the time of a command has passed, its byte has left the mailbox. Therefore the held code and
+    // parameters are used.
     op_code_t op_code, op_held;
-    logic ramp;  // the requested operation has a ramp
+    logic ramp;  // 1: the requested operation has a ramp
     logic unused_bits;
 
     assign op_code     = op_code_t'(code_i);
@@ -135,7 +136,7 @@ module ppmc_proc_time
     localparam logic [CommandBits-1:0] LastConstant = last_state(BusyConstantXtal);
     localparam logic [CommandBits-1:0] LastPhases = last_state(InitPhasesXtal);
 
-    // The mailbox is closed during this time, so the code does not change.
+    // The mailbox is closed during a processing time, so the code is stable.
     always_comb begin
       cmd_last = LastAux;
       if (delayed_q.exc_off) cmd_last = LastExcOff;
@@ -184,7 +185,7 @@ module ppmc_proc_time
 
     logic triangular;
 
-    // triangular: the number of pulses minus 1 (P104-DS-05: D) is below 2 * PA.
+    // triangular = 1: the number of pulses minus 1 (D in P104-DS-05) is below 2 * PA
     assign triangular = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );

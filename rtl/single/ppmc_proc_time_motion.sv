@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_proc_time_motion: long processing times of the old chip (DATASHEET): of an initialisation, before
-//         pulse 1, and at the end of a motion. Only one of them runs at a time, so they share a counter.
+// ppmc_proc_time_motion: implements the long processing times of the old chip (DATASHEET) for
+//         initialisation, the time before pulse 1, and the end of a motion. Only one of them is active at a
+//         time, so they share one counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
-// Timing: times start at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i with
-//         last_i. The event that a time releases occurs one cycle after the nominal time.
-// How:    the parts of a time that grow with a number are 209 crystal cycles for each step of PA, or 123/16
-//         for each pulse of a triangular profile. They are subtracted from the count in portions, one portion
-//         a cycle, as soon as the count is large enough. This always keeps up with the count. number_i
-//         carries PA one cycle after init_i, which is early enough for the first portion.
+// Timing: a time starts at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i
+//         with last_i. The event that it delays occurs one cycle after the nominal time.
+// How:    a part of some times is proportional to a number: 209 crystal cycles per step of PA, 123/16 per
+//         pulse of a triangular profile. This part is subtracted from the count in portions, at most one
+//         per cycle, as soon as the count is large enough. The subtraction always keeps up with the count.
+//         number_i is PA one cycle after init_i, which is early enough for the first portion.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,32 +17,32 @@ module ppmc_proc_time_motion #(
     parameter int unsigned XtalHz = 16_000_000,
     parameter int unsigned StepsMin = 4,  // smallest PA
     parameter int unsigned StepsMax = 11_220,  // largest PA
-    parameter bit RampTimes = 1'b1  // 1: a stop in a ramp and the start of a triangular profile take longer
+    parameter bit RampTimes = 1'b1  // 1: extra time for a stop in a ramp and for a triangular profile
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        init_i,        // an initialisation is accepted
-    input  wire logic        start_i,       // an operation is accepted
+    input  wire logic        init_i,        // strobe: an initialisation is accepted
+    input  wire logic        start_i,       // strobe: an operation is accepted
     input  wire logic        triangular_i,  // with start_i: the profile is triangular (no plateau)
     input  wire logic [15:0] number_i,      // with start_i: pulses minus 1; one cycle after init_i: PA
-    input  wire logic        ramp_i,        // the running operation has a ramp
-    input  wire logic        single_i,      // the running operation is a single step
-    input  wire logic        stop_i,        // immediate end decided at the next edge
-    input  wire logic        pulse_i,       // pulse event at the next edge
-    input  wire logic        last_i,        // with pulse_i: last pulse
+    input  wire logic        ramp_i,        // 1: the running operation has a ramp
+    input  wire logic        single_i,      // 1: the running operation is a single step
+    input  wire logic        stop_i,        // strobe: immediate end at the next edge
+    input  wire logic        pulse_i,       // strobe: pulse event at the next edge
+    input  wire logic        last_i,        // with pulse_i: it is the last pulse
     input  wire logic        final_i,       // with pulse_i: the count is complete
-    output logic             ready_o,       // initialisation complete
-    output logic             go_o,          // pulse 1 may occur; only valid while the operation runs
-    output logic             end_delay_o,   // the motion must not end yet
-    output logic             closed_o       // no byte may be accepted, because the motion ends
+    output logic             ready_o,       // strobe: the initialisation is complete
+    output logic             go_o,          // 1: pulse 1 may occur; valid only while the operation runs
+    output logic             end_delay_o,   // 1: the motion must not end yet
+    output logic             closed_o       // 1: no byte may be accepted, because a motion ends
 );
 
   // Times in crystal cycles.
   localparam int unsigned InitBaseXtal = 264_000;
   localparam int unsigned InitStepXtal = 209;
-  localparam int unsigned PulseXtal = 7;  // for each pulse of a triangular profile: whole crystal cycles
-  localparam int unsigned PulseSixteenths = 11;  // for each pulse of a triangular profile: sixteenths
-  // Times in units of 16 crystal cycles, which are microseconds at 16 MHz.
+  localparam int unsigned PulseXtal = 7;  // per pulse of a triangular profile: whole crystal cycles
+  localparam int unsigned PulseSixteenths = 11;  // per pulse of a triangular profile: sixteenths
+  // Times in units of 16 crystal cycles (1 us at 16 MHz).
   localparam logic [7:0] FirstConstantUnits = 8'd194;
   localparam logic [7:0] FirstRampUnits = 8'd200;
   localparam logic [7:0] FirstSingleUnits = 8'd86;
@@ -57,23 +58,22 @@ module ppmc_proc_time_motion #(
   typedef enum logic [2:0] {
     StRest,
     StInit,
-    StFirst,   // until pulse 1
-    StEnding,  // until BUSY falls
-    StClosed   // until the mailbox opens
+    StFirst,   // waits for pulse 1
+    StEnding,  // waits for the fall of BUSY
+    StClosed   // waits for the opening of the mailbox
   } state_e;
 
   (* fsm_encoding = "none" *)
   state_e state_q;
-  logic
-      ramp_end_q, no_closed_q;  // ramp_end_q: the end uses EndRampUnits; no_closed_q: the end has no StClosed
-  logic last_q;  // the count of the end starts in this cycle, in which the pins change
+  logic ramp_end_q, no_closed_q;  // ramp_end_q: the end takes EndRampUnits; no_closed_q: StClosed is skipped
+  logic last_q;  // the time of the end starts in this cycle, in which the pins change
   logic init_q;  // init_i, one cycle later
   logic restart, past, full, portion, more;
   logic [1:0] cycles;
   logic [CountBits-1:0] count_q, increment;
   logic [7:0] limit;
   logic unused_bits;
-  logic [PortionBits:0] portions_q;  // portions left to subtract, minus 1; negative: no portion
+  logic [PortionBits:0] portions_q;  // remaining portions, minus 1; negative: no portion remains
   logic [3:0] sixteenths_q;  // sixteenths of a crystal cycle
 
   assign unused_bits = &{1'b0, number_i};
@@ -139,12 +139,12 @@ module ppmc_proc_time_motion #(
     if (more) past = 1'b0;
   end
 
-  // full: all times except that of an initialisation have passed. Then the count stops, because pulse 1 may
-  // have to wait for a clock indefinitely.
+  // full = 1: all times except that of an initialisation have passed. The count then stops, because pulse 1
+  // may wait for a clock indefinitely.
   assign full = count_q[12] && state_q != StInit;
 
   assign more    = !portions_q[PortionBits];
-  assign portion = more && count_q[8];  // the count stays below 512 as long as portions are left
+  assign portion = more && count_q[8];  // the count is below 512 while portions remain
 
   logic [4:0] sixteenths;
 

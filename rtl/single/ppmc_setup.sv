@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_setup: settings of the initialisation in a single-axis device, except the ramp (ppmc_ramp_table).
+// ppmc_setup: settings that an initialisation makes in a single-axis device, except the ramp
+//         (ppmc_ramp_table).
 // Rules:  P104-INI-01/05/06/08, P104-PHS-02/05; STMC-INI-04/06, STMC-CHP-02.
 // Timing: all outputs change at the edge that ends the cycle of the input that causes the change.
 `default_nettype none
@@ -11,14 +12,14 @@ module ppmc_setup
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic       init_i,        // initialisation accepted
-    input  wire init_code_t code_i,        // initialisation code, with init_i
-    input  wire logic       phase_init_i,  // set the phases to index 0: first initialisation
-    input  wire logic       positive_i,    // 1: high = energised, with phase_init_i
-    input  wire logic       ready_i,       // the initialisation is complete
-    input  wire logic       off_i,         // return to the state before an initialisation
-    output setup_t          setup_o,       // active settings
-    output logic            initialised_o  // operations may start
+    input  wire logic       init_i,        // strobe: an initialisation is accepted
+    input  wire init_code_t code_i,        // initialisation code; valid with init_i
+    input  wire logic       phase_init_i,  // strobe: set the phases to index 0; first initialisation only
+    input  wire logic       positive_i,    // 1: high = energised; valid with phase_init_i
+    input  wire logic       ready_i,       // strobe: the initialisation is complete
+    input  wire logic       off_i,         // strobe: return to the state before an initialisation
+    output setup_t          setup_o,       // current settings
+    output logic            initialised_o  // 1: operations may start
 );
 
   logic chop_next_q, first;
@@ -27,7 +28,7 @@ module ppmc_setup
   assign unused_bits = &{1'b0, code_i};
   assign first = init_i && !initialised_o;
 
-  // Settings that are frozen until Excitation OFF are loaded only by the first initialisation.
+  // Only the first initialisation loads these settings. They then keep their values until Excitation OFF.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       setup_o.external <= 1'b0;

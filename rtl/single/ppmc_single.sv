@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_single: common core of the single-axis devices (PPMC-104BFP, J105 STMC), from host port to motor pins.
-//         The devices differ in their parameters and in the meaning of the bytes, which they decode
-//         outside this block.
-// Rules:  those of its blocks.
-// Timing: a command acts 4 cycles after the rising edge of clk_i that first samples the end of its write;
-//         motor pins follow one cycle later.
+// ppmc_single: core that the single-axis devices (PPMC-104BFP, J105 STMC) share, from host port to motor
+//         pins. The devices differ in the parameters of this block and in the decoding of the bytes, which
+//         is outside this block.
+// Rules:  see the instantiated blocks.
+// Timing: a command takes effect 4 cycles after the rising edge of clk_i at which the end of its write is
+//         first sampled. The motor pins follow one cycle later.
 // Assumes: decoded_byte_i and check_result_i are combinational functions of rx_byte_o and command_req_o.
 `default_nettype none
 
@@ -16,7 +16,7 @@ module ppmc_single
 #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
-    parameter bit          Datasheet = 1'b0,        // 1: with the processing times of the old chip
+    parameter bit          Datasheet = 1'b0,        // 1: processing times of the old chip
     parameter bit          PhaseIdle = 1'b1,        // level of the phases until the first initialisation
     parameter part_cfg_t   PartCfg                  // configuration of the device
 ) (
@@ -26,31 +26,31 @@ module ppmc_single
     input wire logic cs_ni,  // chip select
     input wire logic rd_ni,  // read strobe
     input wire logic wr_ni,  // write strobe
-    input wire logic a0_i,  // 0 data, 1 status or command
+    input wire logic a0_i,  // 0: data, 1: status or command
     input wire logic [7:0] d_i,  // data written by the host
     output logic [7:0] d_o,  // data read by the host
-    output logic d_oe_o,  // the host is reading: drive d_o
-    output logic int_no,  // L: a motion has ended
-    // meaning of the bytes, decoded by the device
-    output rx_byte_t rx_byte_o,  // current byte of the host
-    input wire decoded_byte_t decoded_byte_i,  // meaning of the current byte
-    output command_req_t command_req_o,  // command requested with the current byte
+    output logic d_oe_o,  // 1: drive d_o, because the host reads
+    output logic int_no,  // low: a motion has ended
+    // decoding of the bytes by the device
+    output rx_byte_t rx_byte_o,  // current byte from the host
+    input wire decoded_byte_t decoded_byte_i,  // decoded byte
+    output command_req_t command_req_o,  // command that the host requests with the current byte
     input wire check_result_t check_result_i,  // result of the check of command_req_o
-    input wire logic stops_only_i,  // only stop commands may be accepted
+    input wire logic stops_only_i,  // 1: only stop commands may be accepted
     // actions
-    output action_t act_o,  // actions that take effect at the next edge
+    output action_t act_o,  // actions, effective at the next edge
     output logic [31:0] params_late_o,  // parameters of act_o
     input wire base_clock_t base_i,  // base clock of the next operation
     output setup_t setup_o,  // settings of the initialisation
     // motion
     input wire logic clock_pin_i,  // external base clock, asynchronous
-    input wire switches_t switches_i,  // synchronous levels
-    input wire logic slow_i,  // act on the slow-down limit: slow_seen_o, possibly delayed
-    output logic slow_seen_o,  // an effective slow-down limit is active
+    input wire switches_t switches_i,  // switches, synchronised
+    input wire logic slow_i,  // 1: act on a slow-down limit; slow_seen_o, possibly delayed
+    output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     output motion_t motion_o,  // state of the motion
     output logic [7:0] rate_o,  // rate of the running interval
     // read data
-    input wire logic [7:0] inputs_i,  // levels of the inputs as the host reads them
+    input wire logic [7:0] inputs_i,  // levels of the inputs, in the format of SEL_INPUTS
     input wire logic [3:0] auxi_i,  // auxiliary inputs
     // motor
     input wire chop_time_t chop_i,  // times of the chopper at standstill
@@ -63,7 +63,7 @@ module ppmc_single
   logic [7:0] code_late;
   logic [3:0] status;
   logic [23:0] answer, remaining;
-  action_t act_req;  // act_req: actions requested at the C-event; act_o: these actions when they take effect
+  action_t act_req;  // act_req: actions requested at the C-event; act_o: actions that take effect
 
   assign rx_byte_o.params_left = status[2:0];
 
@@ -121,8 +121,8 @@ module ppmc_single
   logic [PartCfg.step_bits-1:0] steps, lut_data;
   logic [7:0] slow, fast, lut_addr;
 
-  assign op_code     = op_code_t'(code_late);  // code_late as the code of an operation
-  assign init_late   = init_code_t'(code_late);  // code_late as the code of an initialisation
+  assign op_code     = op_code_t'(code_late);  // code_late as an operation code
+  assign init_late   = init_code_t'(code_late);  // code_late as an initialisation code
   assign unused_bits = &{1'b0, op_code, init_late, chop_i, check_result_i};
 
   ppmc_setup #(

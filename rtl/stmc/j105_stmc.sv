@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// j105_stmc: PC/104 board J105 STMC: one stmc on an 8-bit ISA bus, the step clock of the board (the external
-// step clock of stmc) and the outputs to the driver on the board.
+// j105_stmc: PC/104 board J105 STMC: one stmc on an 8-bit ISA bus, the step clock of the board (the
+//         external step clock of stmc), and the outputs to the driver on the board.
 // Rules:  J105-01..08; all STMC rules apply to the controller. Manual: docs/stmc/README.md.
-// Timing: that of stmc at its pins. irq follows int_n by one cycle; drv has no delay from s.
+// Timing: as stmc. irq follows int_n by one cycle. drv has no delay from s.
 `default_nettype none
 
 module j105_stmc #(
@@ -36,7 +36,7 @@ module j105_stmc #(
     input  wire logic       mon,
     // motor
     output logic      [5:1] s,
-    output logic      [4:1] drv,    // high: winding on
+    output logic      [4:1] drv,    // high: the winding is energised
     output logic            hold
 );
 
@@ -53,7 +53,7 @@ module j105_stmc #(
       .rst_no(rst_core_n)
   );
 
-  // ppmc_square counts half a period of the wave as one cycle of a virtual crystal.
+  // ppmc_square counts each half period of the wave as one cycle of a virtual crystal.
   ppmc_square #(
       .ClkHz   (CLK_HZ),
       .XtalHz  (2 * EXT_HZ),

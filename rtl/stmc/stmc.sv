@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc: single-axis stepper controller without pulse output; replaces the controller of the J105 STMC.
-// Rules:  docs/stmc/README.md, 2.1 (pins) and 3 (parameters); the blocks of stmc implement the STMC rules.
-// Timing: a command takes effect 4 cycles after the rising edge that first samples the end of its write.
-//         Motor pins follow one cycle later.
+// Rules:  docs/stmc/README.md, 2.1 (pins) and 3 (parameters); the instantiated blocks implement the STMC
+//         rules.
+// Timing: a command takes effect 4 cycles after the rising edge at which the end of its write is first
+//         sampled. The motor pins follow one cycle later.
 `default_nettype none
 
 module stmc
@@ -33,10 +34,10 @@ module stmc
     output logic            d_oe,
     output logic            int_n,    // low: a motion has ended
     // switches, active low
-    input  wire logic       l1_n,     // cw limit
-    input  wire logic       l2_n,     // ccw limit
-    input  wire logic       l3_n,     // cw deceleration limit
-    input  wire logic       l4_n,     // ccw deceleration limit
+    input  wire logic       l1_n,     // CW limit
+    input  wire logic       l2_n,     // CCW limit
+    input  wire logic       l3_n,     // CW deceleration limit
+    input  wire logic       l4_n,     // CCW deceleration limit
     input  wire logic       cnp_n,    // reference point
     input  wire logic       mon,      // low: the motor must not run
     // motor
@@ -61,7 +62,7 @@ module stmc
   end
 
   localparam bit SheetMap = 128'(READ_MAP) == "SHEET";
-  // A quantum lasts at least two cycles. Chopper times that are not a multiple of a quantum are rounded up.
+  // A quantum is at least two cycles. Chopper times that are not a multiple of a quantum are rounded up.
   localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
   localparam int unsigned HoldRestCycles = ppmc_pkg::cyc(

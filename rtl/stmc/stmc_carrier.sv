@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// stmc_carrier: board with the controller of the J105 STMC, without clock generator and pads: stmc, its
-//         external step clock, and as host interface either the UART bridge or the bus pins of stmc.
+// stmc_carrier: board with the controller of the J105 STMC, without clock generator and pads. Contains
+//         stmc, its external step clock, and one host interface: the UART bridge or the bus pins of stmc.
 // Rules:  HOST = "UART": docs/uart_bridge.md, no straps, alarm = MON; HOST = "BUS": STMC-BUS-01..22; step
 //         clock: J105-06. Wiring: docs/boards.md.
-// Timing: that of stmc; with RECORD != 0 switches act 2 cycles later. Inputs need no external synchroniser.
+// Timing: as stmc. With RECORD != 0, switches act 2 cycles later. No input needs an external synchroniser.
 `default_nettype none
 
 module stmc_carrier #(
@@ -15,14 +15,14 @@ module stmc_carrier #(
     parameter int unsigned EXT_HZ     = 48_675,      // external step clock in Hz
     parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; with HOST = "UART", d_oe = 0, because reads then remain inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       rd_n,
@@ -52,7 +52,7 @@ module stmc_carrier #(
   logic part_oe;
   logic [7:0] part_d, straps;
 
-  // Input pins as the device receives them, and all recorded levels; the first pin is in the low bits.
+  // in_…: input pins as stmc receives them. watch: all recorded levels; the first pin is bit 0.
   localparam int unsigned Watch = 36;
   logic in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_mon;
   logic [Watch-1:0] watch;
@@ -73,14 +73,14 @@ module stmc_carrier #(
     {part_d, part_wr_n, part_rd_n, part_a0, part_cs_n, ext_clk, part_rst_n}
   };
 
-  // The step clock keeps running when only the device is reset.
+  // A reset of only the device does not stop the step clock.
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
       .rst_no(ext_rst_n)
   );
 
-  // ppmc_square counts half a period of the wave as one cycle of a virtual crystal.
+  // ppmc_square counts each half period of the wave as one cycle of a virtual crystal.
   ppmc_square #(
       .ClkHz   (CLK_HZ),
       .XtalHz  (2 * EXT_HZ),
@@ -91,7 +91,7 @@ module stmc_carrier #(
       .wave_o(ext_wave)
   );
 
-  // With a recorder, strap 0 can stop the step clock, because its edges would fill the memory.
+  // With a recorder, strap 0 can stop the step clock, whose edges would otherwise fill the memory.
   assign ext_clk = ext_wave && (straps[0] || RECORD == 0);
 
   stmc #(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// stmc_pkg: codes, limits and functions specific to the J105 STMC.
+// stmc_pkg: codes, limits and functions that only the J105 STMC has.
 // Rules:  docs/stmc/README.md, 6.1 (codes); STMC-INI-02, STMC-MOT-03, STMC-MOV-04, STMC-BAD-05/07.
-// Rates:  hosts of this device send a divisor; the core counts rate + 1 base clocks. Therefore a divisor is
-//         stored minus 1: 0 .. 254; a divisor of 0 is stored as 255.
+// Note:   hosts of this device send a divisor, but the core counts rate + 1 base clocks. Therefore a
+//         divisor is stored minus 1 (0 .. 254); a divisor of 0 is stored as 255.
 `default_nettype none
 
 package stmc_pkg;
@@ -16,13 +16,13 @@ package stmc_pkg;
   localparam int unsigned RATE_BITS = 8;
   localparam int unsigned STEP_BITS = 32'd16;
 
-  localparam int unsigned STEPS_MAX = 32'd65_535;  // acceleration steps PA
+  localparam int unsigned STEPS_MAX = 32'd65_535;  // largest number of acceleration steps PA
   localparam logic [RATE_BITS-1:0] RATE_NONE = '1;  // stored form of divisor 0
 
-  localparam int unsigned STEP_XTAL = 1_280;  // crystal periods in a period of the internal step clock
+  localparam int unsigned STEP_XTAL = 1_280;  // period of the internal step clock in crystal cycles
 
-  // Data that a read command selects. The headings of the data sheet number them 0, 2, 3, 4; related devices
-  // use 0, 1, 2, 3.
+  // Data that a read command selects. The headings of the data sheet number the data 0, 2, 3, 4; related
+  // devices use 0, 1, 2, 3.
   function automatic logic [2:0] read_select(logic sheet_map, logic [2:0] number);
     return (sheet_map && number != 3'd0) ? number - 3'd1 : number;
   endfunction
@@ -44,14 +44,15 @@ package stmc_pkg;
     return d;
   endfunction
 
-  // Returns 1 if a data byte is a divisor. operation: the data belong to operation number op, otherwise to an
-  // initialisation; left: outstanding data bytes, including this byte.
+  // Returns 1 if a data byte is a divisor. operation = 1: the data belong to operation number op, 0: to an
+  // initialisation. left: missing data bytes, including this byte.
   function automatic logic is_divisor(logic operation, logic [2:0] op, logic [2:0] left);
     if (operation) return op inside {OP_CONT_CONSTANT, OP_ORIGIN} || (op == OP_CONSTANT && left == 3'd4);
     return left inside {3'd3, 3'd4};
   endfunction
 
-  // Returns the error number of complete data. The first, second and last byte may be divisors.
+  // Checks the complete data of a code; returns the error number. The first, second and last byte may be
+  // divisors.
   function automatic cmd_error_e check_params(logic operation, logic [2:0] op, logic [7:0] first,
                                               logic [7:0] second, logic [7:0] last_byte);
     logic is_bad;
@@ -64,7 +65,8 @@ package stmc_pkg;
     return is_bad ? ErrRates : ErrUndefined;
   endfunction
 
-  // Data of an initialisation for the core: without a ramp there are one rate and no acceleration steps.
+  // Converts the data of an initialisation for the core: without a ramp, there is one rate and there are no
+  // acceleration steps.
   function automatic logic [31:0] normalise_rates(logic [31:0] data);
     logic [31:0] out;
     out = data;

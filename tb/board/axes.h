@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for the pins.h of several parts. The pins.h of a part (tb/<part>/) connects the virtual board
-// to the ports of its carrier, axis by axis. The ports of two axes are one number; bit 0 is axis 1. Each
+// to the ports of its carrier, axis by axis. Ports of two axes are one number, in which bit 0 is axis 1. Each
 // pins.h defines kAxes and kAllAxes, motion_pins, Motors, idle_inputs, set_switches, phases, encoder_low,
 // encoder_pulse and interrupt.
 #pragma once
@@ -10,12 +10,12 @@
 #include "Vboard.h"
 #include "plant.h"
 
-using AxisBits = uint64_t;  // one bit per axis, bit 0 = axis 1
+using AxisBits = uint64_t;  // one bit per axis; bit 0 is axis 1
 
-// Motors that step with the falling edges of POUT*, one per axis.
+// Motors that step at the falling edges of POUT*, one motor per axis.
 class PulseMotors {
    public:
-    // Return the axes whose motors step between two motion_pins(); ccw() returns the direction.
+    // Return the axes whose motors step between two values of motion_pins(). ccw() returns the direction.
     AxisBits steps(AxisBits before, AxisBits now) { return before & ~now; }
     template <class Top>
     bool ccw(const Top& top, unsigned axis) const {
@@ -23,7 +23,7 @@ class PulseMotors {
     }
 };
 
-// The five switches of the parts with one axis on a byte bus; the part sets the alarm.
+// The five switches of a part with one axis on a byte bus. The pins.h of the part sets the alarm.
 template <class Top>
 void set_limits(Top& top, const Plant& plant) {
     top.l1_n = !plant.l1;

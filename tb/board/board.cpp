@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 namespace {
-constexpr size_t kQueue = 256;      // bytes accepted from the host ahead of the line, as in a USB adapter
-constexpr uint64_t kSlices = 8000;  // per second
+constexpr size_t kQueue = 256;      // bytes accepted from the host before they are sent, as in a USB adapter
+constexpr uint64_t kSlices = 8000;  // slices per second
 constexpr uint64_t kRestSeconds = 2;  // longer than any timer that runs while part and bridge are idle
 }  // namespace
 
@@ -74,8 +74,8 @@ void Board::simulate(uint64_t end) {
     now_ = now;
 }
 
-// Between two clock edges the board does only this work in addition to the DUT: it handles a change at the
-// UART or at the pins that the motors follow.
+// Between two clock edges, the board does only this work in addition to the DUT: it handles a change of the
+// UART, or of the pins that the motors follow.
 void Board::change() {
     Vboard& top = dut_.top;
     txd_ = top.uart_txd;
@@ -100,7 +100,7 @@ void Board::change() {
     set_switches(top, plants_);
 }
 
-// Between two slices: transfer bytes from and to the host, and check whether there is any activity.
+// Between two slices, transfer bytes from and to the host, and check whether there is any activity.
 void Board::serve() {
     const Vboard& top = dut_.top;
     bytes_.clear();
@@ -122,21 +122,21 @@ void Board::serve() {
     }
 }
 
-// The part is idle, its timers have ended and the link is silent: simulating more cycles would change no
+// The part is idle, its timers have ended, and the link is silent. Therefore further cycles would change no
 // relevant output.
 void Board::doze(int wake_fd) {
     if (!dozing_ && log_) std::fflush(log_);
     dozing_ = true;
     const int64_t begin = Pace::wall();
-    // With a closed pseudo-terminal, poll() would return immediately; therefore poll again after a short
-    // time.
+    // If the pseudo-terminal is closed, poll() would return immediately. Therefore only poll again after a
+    // short time.
     pollfd fds[2] = {{pty_.open() ? pty_.fd() : -1, POLLIN, 0}, {wake_fd, POLLIN, 0}};
     poll(fds, 2, pty_.open() ? 250 : 20);
     now_ += pace_.clk_in(Pace::wall() - begin);
     busy_until_ = now_;
 }
 
-// Open and close the waveform file at the ends of its window.
+// Open and close the waveform file at the beginning and end of its window.
 void Board::trace_window() {
 #if VM_TRACE
     const bool wanted = now_ >= trace_from_ && now_ < trace_end_;
@@ -158,7 +158,7 @@ std::string Board::status() const {
     for (unsigned n = 0; n < kAxes; ++n) {
         const Plant& plant = plants_[n];
         const unsigned s = phases(top, n);
-        // Names of axis 2 end in 2, as in the options.
+        // The names of axis 2 end in 2, as in the options.
         const std::string suffix = n ? std::to_string(n + 1) : "";
         const char* of = suffix.c_str();
         std::snprintf(line, sizeof line,

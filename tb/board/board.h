@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board: connects DUT, UART, plant and pace.
+// The virtual board. It connects DUT, UART, plant and pace.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ class Board {
 
     const std::string& port() const { return pty_.path(); }
 
-    // Simulate a slice of board time (1/8 ms), serve the host, and sleep to keep the pace. While only a
-    // character from the host can cause a change, wait for the host, for `wake_fd` (-1: not used), or for 1/4
-    // s.
+    // Simulate a slice of board time (1/8 ms), serve the host, and sleep to keep the pace. If only a
+    // character from the host can cause a change, wait until the host sends, `wake_fd` is readable (-1: not
+    // used), or 1/4 s has passed.
     void run(int wake_fd);
 
     // Return the state as "name=value name=value …" (docs/virtual_board.md).
@@ -46,10 +46,10 @@ class Board {
     Pace pace_;
 
     uint64_t now_ = 0;       // number of the next clock edge
-    uint64_t wake_ = 0;      // next() of the UART
-    uint64_t busy_until_ = 0;  // the board does not wait for the host before this cycle
+    uint64_t wake_ = 0;      // value of next() of the UART
+    uint64_t busy_until_ = 0;  // until this cycle, the board does not wait for the host
     bool txd_ = true;
-    AxisBits motion_ = 0;  // motion_pins() at the last change
+    AxisBits motion_ = 0;  // value of motion_pins() at the last change
     Motors motors_;
     bool dozing_ = false;
     uint64_t trace_from_ = 0, trace_end_ = 0;

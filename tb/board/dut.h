@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Verilated board, simulated one cycle at a time, and its waveforms in the build that can record them.
+// The Verilated board, simulated one cycle at a time. A special build can also record waveforms.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class Dut {
         top.clk = 0;
         top.uart_rxd = 1;
         idle(top);
-        // A reset needs a falling edge of rst_n: without this edge, flip-flops would keep their initial
+        // A reset needs a falling edge of rst_n. Without this edge, flip-flops would keep their initial
         // values.
         top.rst_n = 1;
         top.eval();
@@ -34,7 +34,7 @@ class Dut {
         top.rst_n = 1;
     }
 
-    // Simulate one rising edge of the clock; outputs are those after the edge.
+    // Simulate one rising edge of the clock. Afterwards, the outputs are those after the edge.
     void tick() {
         top.clk = 1;
         top.eval();
@@ -42,14 +42,14 @@ class Dut {
     }
 
 #if VM_TRACE
-    // Record into `path` with each following tick_traced().
+    // Record into file `path`, by each following call of tick_traced().
     void open_trace(const std::string& path) {
         trace_ = std::make_unique<VerilatedVcdC>();
         top.trace(trace_.get(), 99);
         trace_->open(path.c_str());
         if (!trace_->isOpen()) throw std::runtime_error("cannot write " + path);
     }
-    // Simulate one cycle like tick() and record both edges; times in ps.
+    // Simulate one cycle like tick(), and record both edges. Times are in ps.
     void tick_traced(uint64_t at, uint64_t fall) {
         top.clk = 1;
         top.eval();
@@ -75,9 +75,10 @@ class Dut {
     std::unique_ptr<VerilatedVcdC> trace_;
 #endif
 
-    // All flip-flops use the rising edge, so a falling edge only has to store in a variable of Verilator that the
-    // clock was low. Writing this variable directly saves the evaluation (a sixth of the run time). If a version
-    // of Verilator uses another name for the variable, the falling edge is evaluated.
+    // All flip-flops use the rising edge. Therefore a falling edge only has to store in a variable of
+    // Verilator that the clock was low. Writing this variable directly saves the evaluation, which is a sixth
+    // of the run time. If a version of Verilator uses another name for the variable, the falling edge is
+    // evaluated.
     template <class Root>
     auto rearm(Root& root, int) -> decltype(root.__Vtrigprevexpr___TOP__clk__0, void()) {
         root.__Vtrigprevexpr___TOP__clk__0 = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board as a program. It first prints "port PATH" on standard output, or it prints "error TEXT"
+// The virtual board as a program. It first prints "port PATH" on standard output; or it prints "error TEXT"
 // and ends. Then it answers each line "status" on standard input. The program ends when its standard input
 // ends, so it never outlives its parent process.
 #include <csignal>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments name=value of the virtual board. openppmc.sim checks the arguments for the user; here an error
+// Arguments name=value of the virtual board. openppmc.sim checks the arguments for the user. Here, an error
 // only ends the program.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 struct Options {
     PlantText plants[kAxes];
-    double speed = 1.0;     // factor of real time; 0: as fast as possible
+    double speed = 1.0;     // board time / real time; 0: as fast as possible
     std::string vcd;        // file name; empty: no waveforms
-    double vcd_from = 0;    // ms of board time
-    double vcd_for = 20;    // ms
-    std::string log;        // file of pulses; empty: no log
+    double vcd_from = 0;    // begin in ms of board time
+    double vcd_for = 20;    // duration in ms
+    std::string log;        // file for the pulses; empty: no log
 };
 
 // Throws std::runtime_error with a message of one line.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Couples board time to wall time: never faster than `speed` times real time, without catching up lost time.
+// Couples board time to wall time: never faster than `speed` times real time. Lost time is not caught up.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 class Pace {
    public:
-    // speed: board seconds per second; 0: as fast as possible.
+    // speed: board seconds per real second; 0: as fast as possible.
     Pace(uint64_t clk_hz, double speed) : per_clk_(1e9 / static_cast<double>(clk_hz)), speed_(speed) { rebase(0); }
 
-    // Nanoseconds of wall time, from any origin.
+    // Return the wall time in nanoseconds, from an arbitrary origin.
     static int64_t wall() {
         timespec t;
         clock_gettime(CLOCK_MONOTONIC, &t);
@@ -36,14 +36,14 @@ class Pace {
         }
     }
 
-    // Restart at cycle `now`, after time that was not simulated.
+    // Restart at cycle `now`, after a time that was not simulated.
     void rebase(uint64_t now) {
         base_clk_ = now;
         base_wall_ = wall();
         mark(now, base_wall_);
     }
 
-    // Return the cycles that pass in `ns` of wall time; 0 without a pace.
+    // Return the number of cycles that pass in `ns` of wall time; 0 without a pace.
     uint64_t clk_in(int64_t ns) const {
         return static_cast<uint64_t>(static_cast<double>(ns) * speed_ / per_clk_);
     }
@@ -53,7 +53,7 @@ class Pace {
 
    private:
     static constexpr int64_t kGrain = 100'000;      // shorter sleeps are not worth a system call
-    static constexpr int64_t kLag = 2'000'000;      // lost time above this is not caught up
+    static constexpr int64_t kLag = 2'000'000;      // more lost time than this is not caught up
     static constexpr int64_t kWindow = 500'000'000;
 
     void mark(uint64_t now, int64_t wall_now) {

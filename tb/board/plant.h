@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plant model of the board: a motor that follows every pulse, limit and origin switches, a drive with an
+// Plant model of the board: a motor that follows every pulse, limit and origin switches, and a drive with an
 // alarm. Positions are in pulses, CW positive.
 #pragma once
 
@@ -8,22 +8,22 @@
 
 struct PlantText {
     int64_t start = 4000;
-    int64_t cw = 40000;        // L1 active at and above
-    int64_t ccw = -400;        // L2 active at and below
-    int64_t slow_cw = 38000;   // L3 active at and above
-    int64_t slow_ccw = 600;    // L4 active at and below
-    int64_t origin = 0;        // CNP active at and below this position,
-    int64_t origin_from = INT64_MIN;  // and at and above this position: a cam
-    int64_t index = 0;         // the index is active once per this number of pulses, at kIndexAt; 0: never
-    std::optional<int64_t> block;  // CW end stop of the shaft
-    std::optional<int64_t> alarm_from, alarm_to;  // ALM active between these positions
+    int64_t cw = 40000;        // L1 is active at this position and above
+    int64_t ccw = -400;        // L2 is active at this position and below
+    int64_t slow_cw = 38000;   // L3 is active at this position and above
+    int64_t slow_ccw = 600;    // L4 is active at this position and below
+    int64_t origin = 0;        // CNP is active at this position and below,
+    int64_t origin_from = INT64_MIN;  // and at this position and above (cam)
+    int64_t index = 0;         // pulses between two active positions of the index, see kIndexAt; 0: never
+    std::optional<int64_t> block;  // end stop of the shaft in CW direction
+    std::optional<int64_t> alarm_from, alarm_to;  // ALM is active between these positions
 };
 
 class Plant {
    public:
     explicit Plant(const PlantText& text = {}) : text_(text), position_(text.start) { look(); }
 
-    // Make a pulse, or a step of the phases; `dir` = 0 turns CW. Return false if the shaft cannot follow.
+    // Make one pulse, or one step of the phases; `dir` = 0 is CW. Return false if the shaft cannot follow.
     bool pulse(bool dir) {
         ++pulses_;
         if (!dir && text_.block && position_ >= *text_.block) return false;
@@ -35,7 +35,7 @@ class Plant {
     int64_t position() const { return position_; }
     uint64_t pulses() const { return pulses_; }
 
-    // Switches, true = active (pin low).
+    // Switches, true: active (pin low).
     bool l1, l2, l3, l4, cnp, alm, index;
 
    private:

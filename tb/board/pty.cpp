@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pty.h"
 
-// The termios2 of the kernel has line rates as plain numbers. Its header excludes <termios.h>.
+// The kernel's termios2 has line rates as plain numbers. Its header cannot be used together with <termios.h>.
 #include <asm/termbits.h>
 #include <cerrno>
 #include <cstdlib>
@@ -18,7 +18,7 @@ Pty::Pty() {
         throw std::runtime_error(std::string("no pseudo-terminal to be had: ") + std::strerror(errno));
     path_ = ptsname(fd_);
     fcntl(fd_, F_SETFL, fcntl(fd_, F_GETFL) | O_NONBLOCK);
-    // Raw mode from the beginning: no character may be echoed to the board before the host has set its own
+    // Raw mode from the beginning, so that no character is echoed to the board before the host has set its
     // mode.
     termios2 mode;
     ioctl(fd_, TCGETS2, &mode);
@@ -28,7 +28,7 @@ Pty::Pty() {
     mode.c_cflag = CS8 | CREAD | CLOCAL | BOTHER;
     mode.c_ispeed = mode.c_ospeed = 115200;
     ioctl(fd_, TCSETS2, &mode);
-    // A pseudo-terminal that was never opened does not report a hang-up: open and close it once.
+    // A pseudo-terminal that was never opened does not report a hang-up. Therefore open and close it once.
     ::close(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
 }
 
@@ -39,7 +39,7 @@ void Pty::read(std::vector<uint8_t>& to, size_t room) {
     while (room) {
         const ssize_t n = ::read(fd_, bytes, room < sizeof bytes ? room : sizeof bytes);
         if (n <= 0) {
-            // EIO: no process has the port open. This is no error; the port works again after the next
+            // EIO: no process has opened the port. This is not an error; the port works again after the next
             // open().
             open_ = !(n < 0 && errno == EIO);
             return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PC side of the serial line: a pseudo-terminal. Its slave may be opened, closed and opened again at any
+// The PC side of the serial line: a pseudo-terminal. Its slave may be opened, closed and opened again at any
 // time.
 #pragma once
 
@@ -19,21 +19,21 @@ class Pty {
     const std::string& path() const { return path_; }
     int fd() const { return fd_; }
 
-    // Read the bytes that the host has written, at most `room`, and detect whether the host has the port
-    // open. Never blocks.
+    // Read at most `room` of the bytes that the host has written, and detect whether the host has opened the
+    // port. Never blocks.
     void read(std::vector<uint8_t>& to, size_t room);
 
-    // Send bytes to the host. Bytes that do not fit into the receive buffer of the host are discarded. All
-    // bytes are discarded while the port is closed.
+    // Send bytes to the host. Bytes that do not fit into the receive buffer of the host are discarded. While
+    // the port is closed, all bytes are discarded.
     void write(const std::vector<uint8_t>& bytes);
 
-    // Return true if a process had the port open at the last read().
+    // Return true if a process had opened the port at the last read().
     bool open() const { return open_; }
 
-    // Return the line rate in bit/s that the host has set; 0 after a hang-up.
+    // Return the line rate that the host has set, in bit/s; 0 after a hang-up.
     unsigned rate() const;
 
-    // Return the number of bytes discarded because the host did not read them.
+    // Return the number of bytes that were discarded because the host did not read them.
     uint64_t lost() const { return lost_; }
 
    private:

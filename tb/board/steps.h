@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of a motor from the levels of its phases S5..S1: 3, 4 or 5 phases, full or half steps, either
-// polarity. The sequences of all motors are defined here independently of the board's step counter.
+// Determines the steps of a motor from the levels of its phases S5..S1: 3, 4 or 5 phases, full or half steps,
+// both polarities. The sequences of all motors are defined here, independently of the step counter of the
+// board.
 #pragma once
 
 #include <array>
@@ -27,8 +28,8 @@ class PhaseSteps {
         }
     }
 
-    // Update the phase levels. Return 1 for a step CW, -1 for a step CCW, 0 for no step. While all levels are
-    // equal (chopper, or no excitation yet), the motor does not move.
+    // Update the levels of the phases. Return 1 for a CW step, -1 for a CCW step, 0 for no step. While all
+    // levels are equal (chopper, or no excitation yet), the motor does not move.
     int step(unsigned levels) {
         levels &= kAll;
         if (levels == 0 || levels == kAll) return 0;

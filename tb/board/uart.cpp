@@ -25,8 +25,8 @@ void Uart::step(uint64_t now, bool txd) {
 void Uart::send_step(uint64_t now) {
     if (tx_bit_ == 10) {
         tx_bit_ = 0;
-        // Consecutive characters keep their fractions of a cycle. The base advances, so that the numbers
-        // stay small.
+        // Consecutive characters keep their fractions of a cycle. The base is advanced, so that the numbers
+        // remain small.
         const uint64_t whole = tx_time_ >> kFraction;
         tx_base_ += whole;
         tx_time_ -= whole << kFraction;
@@ -66,14 +66,14 @@ void Uart::receive_step(uint64_t now, bool txd) {
         rx_at_ = now + ceil_clk(rx_bit_len_ / 2);
     }
     if (now < rx_at_) return;
-    if (rx_bit_ == 0 && txd) {  // too short for a start bit
+    if (rx_bit_ == 0 && txd) {  // the low level was too short for a start bit
         rx_bit_ = -1;
         rx_at_ = kNever;
         return;
     }
     if (rx_bit_ >= 1 && rx_bit_ <= 8) rx_byte_ |= unsigned{txd} << (rx_bit_ - 1);
     if (rx_bit_ == 9) {
-        // Like the driver of a PC without parity marking: a character with a low stop bit is passed on like
+        // As in the driver of a PC without parity marking, a character with a low stop bit is passed on like
         // any other.
         received_.push_back(static_cast<uint8_t>(rx_byte_));
         rx_wait_high_ = !txd;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // UART of the PC, bit by bit: 8 data bits, no parity, 1 stop bit. All times are cycle numbers of the board.
-// Fractions of a cycle are kept, so that any rate is exact on average.
+// Fractions of a cycle are kept, so any rate is exact on average.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +14,27 @@ class Uart {
 
     explicit Uart(uint64_t clk_hz) : clk_hz_(clk_hz) { set_rate(115200); }
 
-    // Rate in bit/s of the characters that begin from now on; 0: hung up, the line is high and no character
-    // is received.
+    // Set the rate in bit/s of the characters that begin from now on. 0: hung up; the line is high, and no
+    // character is received.
     void set_rate(unsigned baud);
 
-    // Queue bytes for the board; `now` is the current cycle.
+    // Queue bytes for the board. `now` is the current cycle.
     void send(const std::vector<uint8_t>& bytes, uint64_t now);
     size_t queued() const { return queue_.size(); }
 
-    // Discard the queued bytes: the board was reset or the host has closed the port.
+    // Discard the queued bytes, because the board was reset or the host has closed the port.
     void drop() { queue_.clear(); }
 
     bool idle() const { return tx_at_ == kNever && rx_bit_ < 0; }
 
-    // Level of uart_rxd, to be applied before edge next().
+    // Return the level of uart_rxd; apply it before edge next().
     bool level() const { return level_; }
     uint64_t next() const { return tx_at_ < rx_at_ ? tx_at_ : rx_at_; }
 
-    // Call before clock edge `now` if now == next() or if uart_txd has changed to `txd`.
+    // Call this before clock edge `now` if now == next(), or if uart_txd has changed to `txd`.
     void step(uint64_t now, bool txd);
 
-    // Bytes received from the board.
+    // Return the bytes that were received from the board.
     std::vector<uint8_t>& received() { return received_; }
 
    private:
@@ -46,15 +46,15 @@ class Uart {
 
     std::deque<uint8_t> queue_;
     bool level_ = true;
-    unsigned tx_shift_ = 0;   // bits still to be sent, least significant first
-    int tx_bit_ = 0;          // bits of the character already begun; 0: between two characters
+    unsigned tx_shift_ = 0;   // remaining bits, least significant first
+    int tx_bit_ = 0;          // number of bits of the character that have begun; 0: between two characters
     uint64_t tx_bit_len_ = 0;
-    uint64_t tx_time_ = 0;    // end of the current bit, in 2^-24 cycles after tx_base_
+    uint64_t tx_time_ = 0;    // end of the current bit in 2^-24 cycles after tx_base_
     uint64_t tx_base_ = 0;
     uint64_t tx_at_ = kNever;
 
     bool rx_wait_high_ = false;
-    int rx_bit_ = -1;  // next bit to sample: 0 start, 1..8 data, 9 stop; -1: waiting for a start bit
+    int rx_bit_ = -1;  // next bit to be sampled, 0: start, 1..8: data, 9: stop; -1: waiting for a start bit
     unsigned rx_byte_ = 0;
     uint64_t rx_begin_ = 0;
     uint64_t rx_bit_len_ = 0;

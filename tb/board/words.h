@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protocol of a virtual board or line with its parent process: lines of words on standard output, and lines
-// on standard input, which are answered in order.
+// Protocol between a virtual board or line and its parent process: lines of words on standard output, and
+// lines on standard input, which are answered in order.
 #pragma once
 
 #include <cstdio>
@@ -13,8 +13,8 @@ inline void say(const std::string& line) {
     std::fflush(stdout);
 }
 
-// Pass each complete line of standard input to `answer`; `rest` stores an incomplete line. Return false at
-// end of file.
+// Pass each complete line of standard input to `answer`. `rest` stores an incomplete line. Return false at
+// the end of the file.
 template <typename Answer>
 bool obey(std::string& rest, Answer answer) {
     pollfd in{STDIN_FILENO, POLLIN, 0};

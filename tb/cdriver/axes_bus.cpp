@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bus for the test of the PPMC-2104's C driver: drives ppmc2104 cycle by cycle, records the pulses.
+// Bus for the test of the PPMC-2104 C driver: drives ppmc2104 cycle by cycle, and records the pulses.
 #include "axes_bus.h"
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace {
 
-constexpr unsigned kStrobe = 4, kPause = 3;  // cycles
+constexpr unsigned kStrobe = 4, kPause = 3;  // in cycles
 
 class Bus : public Clocked<Bus, Vppmc2104> {
   public:

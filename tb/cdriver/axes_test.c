@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the C driver of the PPMC-2104 on the simulated bus and prints the results, one per line; pytest
- * checks the lines. */
+/* Runs the C driver of the PPMC-2104 on the simulated bus, and prints one result per line. pytest checks
+ * the lines. */
 #include <stdio.h>
 
 #include "../../drivers/c/ppmc2104.h"
@@ -136,8 +136,8 @@ static void errors(ppmc2104_t *dev)
     axes_reset(false);
     show("E open", ppmc2104_open(dev));
     show("E uninitialised", ppmc2104_move(dev, 2, 10));
-    /* The data bytes of this command are rejected, too (P2104-BAD-06); opening clears the remaining
-     * errors. */
+    /* The data bytes of this command are also rejected (P2104-BAD-06). ppmc2104_open() clears the
+     * remaining errors. */
     show("E open", ppmc2104_open(dev));
     show("E unknown", ppmc2104_command(dev, 0x87, byte, 0));
     show("E ramp", ppmc2104_command(dev, 0x22, ramp, 4));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the C driver of the bank on the simulated window and prints the results, one per line; pytest
- * checks the lines. */
+/* Runs the C driver of the bank on the simulated window, and prints one result per line. pytest checks the
+ * lines. */
 #include <stdio.h>
 
 #include "../../drivers/c/ppmc_bank.h"
@@ -113,7 +113,7 @@ static void stops(void)
     ending("stopped", 4);
 }
 
-/* A reset of the bank during a motion. */
+/* Reset the bank during a motion. */
 static void reset(void)
 {
     uint32_t left = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bus and line for the test of the PPMC-312's C driver: drives ppmc312 cycle by cycle.
+// Bus and line for the test of the PPMC-312 C driver: drives ppmc312 cycle by cycle.
 #include "block_bus.h"
 
 #include <vector>
@@ -12,7 +12,7 @@
 namespace {
 
 constexpr unsigned kHz = 8'000'000, kBaud = 83'333, kStation = 5;
-constexpr unsigned kWrite = 3, kRead = 5, kPause = 3;  // cycles
+constexpr unsigned kWrite = 3, kRead = 5, kPause = 3;  // in cycles
 
 class Bus : public Clocked<Bus, Vppmc312> {
   public:
@@ -102,7 +102,7 @@ bool block_receive(void*, uint8_t* byte, unsigned milliseconds) {
 void block_reset(bool held, bool line) {
     bus().mode(line);
     bus().reset(held);
-    bus().run(15'000);  // longer than the reset with DATASHEET, 1.6 ms
+    bus().run(15'000);  // longer than a reset with DATASHEET timing (1.6 ms)
 }
 
 void block_run(unsigned cycles) { bus().run(cycles); }

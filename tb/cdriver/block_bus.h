@@ -17,12 +17,12 @@ void block_write(void *ctx, unsigned reg, uint8_t value);
 void block_send(void *ctx, const uint8_t *bytes, unsigned count);
 bool block_receive(void *ctx, uint8_t *byte, unsigned milliseconds);
 
-void block_reset(bool held, bool line);          /* line: serial mode, else the parallel bus */
+void block_reset(bool held, bool line);          /* line: true: serial mode, false: parallel bus */
 void block_run(unsigned cycles);
-void block_run_pulses(unsigned count);           /* ends the program after 1 s */
+void block_run_pulses(unsigned count);           /* after 1 s, the program ends */
 void block_pin(block_pin_t which, bool high);
-void block_damage(unsigned at, uint8_t flip);    /* invert bits of received byte `at` of the line */
-unsigned block_outputs(void);                    /* pins auxo_n */
+void block_damage(unsigned at, uint8_t flip);    /* invert bits of received byte number `at` of the line */
+unsigned block_outputs(void);                    /* levels of the pins auxo_n */
 void block_print_pulses(const char *name);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Runs the C driver of the PPMC-312 on the simulated part, first on its bus ("bus ..."), then on a line
- * ("line ..."), and prints the results, one per line; pytest checks the lines. */
+ * ("line ..."), and prints one result per line. pytest checks the lines. */
 #include <stdio.h>
 #include <string.h>
 
@@ -53,7 +53,8 @@ static void report(const char *name)
     }
 }
 
-/* A falling edge; the pin stays low until the report has arrived, because DATASHEET needs 25 ms. */
+/* Make a falling edge. The pin remains low until the report has arrived, because DATASHEET timing needs 25
+ * ms. */
 static void edge(const char *name, block_pin_t pin)
 {
     unsigned n;
@@ -313,7 +314,7 @@ static void line_faults(void)
     block_damage(1, 0x01);
     show("L digit", ppmc312_position(&dev, false, &position));
     printf("%s L digit position=%lx\n", way, (unsigned long)position);
-    block_damage(8, 0x08); /* bit 7 of a byte: the checksum does not cover it */
+    block_damage(8, 0x08); /* inverts bit 7 of a byte, which the checksum does not cover */
     show("L blind", ppmc312_position(&dev, false, &position));
     printf("%s L blind position=%lx\n", way, (unsigned long)position);
     block_damage(0, 0x02);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Verilated top with clk and rst_n, driven cycle by cycle; after each cycle the derived class samples its
-// bus in seen().
+// A Verilated top with clk and rst_n, driven cycle by cycle. After each cycle, seen() of the derived class
+// samples the bus.
 #ifndef CLOCKED_H
 #define CLOCKED_H
 
@@ -29,7 +29,7 @@ class Clocked {
 
     uint64_t now() const { return now_; }
 
-    // rst_n is low for four cycles, or, with `held`, permanently.
+    // Drive rst_n low for four cycles or, with `held`, permanently.
     void reset(bool held) {
         top_->rst_n = 1;
         clk();
@@ -46,7 +46,7 @@ class Clocked {
 
     VerilatedContext context_;
     std::unique_ptr<Top> top_;
-    uint64_t now_ = 0;  // cycles
+    uint64_t now_ = 0;  // number of the current cycle
 };
 
 #endif

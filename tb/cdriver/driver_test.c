@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the C driver on the simulated bus and prints the results, one per line; pytest checks the lines. */
+/* Runs the C driver on the simulated bus, and prints one result per line. pytest checks the lines. */
 #include <stdio.h>
 
 #include "../../drivers/c/ppmc104.h"
 #include "sim_bus.h"
 
-/* Slow enough for the old chip, which accepts no bytes during a faster motion (P104-DS-12). */
+/* The motions are slow enough for the old chip, which accepts no bytes during faster motions (P104-DS-12). */
 static const ppmc104_config_t CONFIG = {4, false, true, false, false, 59, 39, 6};
 #define FAST_RATE 9 /* too fast for the old chip */
 
-/* A separate print for each result, so that arguments are evaluated in order. */
+/* Each result has a separate call, so that the arguments are evaluated in order. */
 static void show(const char *name, ppmc104_result_t result)
 {
     printf("%s result=%d text=%s\n", name, (int)result, ppmc104_strerror(result));
@@ -70,7 +70,7 @@ static void ends(ppmc104_t *dev)
         printf("%s inputs=%02x\n", cases[n].name, inputs);
         sim_switch(cases[n].which, false);
     }
-    /* With one pulse left, the part reports 0, as with no pulse left. */
+    /* With one pulse left, the part returns 0, as with no pulse left. */
     show("late", ppmc104_move(dev, PPMC104_CW, 25));
     sim_run_pulses(24);
     sim_switch(SIM_L1, true);
@@ -106,7 +106,7 @@ static void errors(ppmc104_t *dev)
     show("E long ramp", ppmc104_command(dev, 0x0A, long_ramp, 4));
     show("E bad ramp", ppmc104_command(dev, 0x0A, bad_ramp, 4));
     show("E init", ppmc104_init(dev, &CONFIG));
-    /* The ramp table is being built: the byte waits, and the driver must wait before it reads ERR. */
+    /* While the ramp table is being built, the byte waits. The driver must wait before it reads ERR. */
     show("E late", ppmc104_command(dev, 0x87, &byte, 0));
     show("E start", ppmc104_move(dev, PPMC104_CW, 60));
     show("E busy", ppmc104_inputs(dev, &byte));
@@ -129,8 +129,8 @@ static void errors(ppmc104_t *dev)
     show("E rates", ppmc104_init(dev, &bad));
 }
 
-/* Status reads and commands immediately after the last byte of an operation: with DATASHEET timing BUSY is
- * still 0. */
+/* Read the status and send commands immediately after the last byte of an operation. With DATASHEET
+ * timing, BUSY is then still 0. */
 static void gap(ppmc104_t *dev)
 {
     uint8_t levels = 0;
@@ -160,7 +160,7 @@ static void gap(ppmc104_t *dev)
     ending(dev, "G wait");
 }
 
-/* A part simulated by a table: finish status, then three bytes of remaining pulses. */
+/* A simulated part that returns a finish status and three bytes of remaining pulses. */
 static struct {
     uint8_t finish, left;
     unsigned bytes;
@@ -179,7 +179,7 @@ static void fake_write(void *ctx, unsigned reg, uint8_t value)
     if (reg == PPMC104_REG_STATUS) fake.bytes = value == 0x83 ? 1 : 0;
 }
 
-/* Ends that the part does not confirm: it was reset, it made another motion, its count disagrees. */
+/* Ends that the part does not confirm: it was reset, it made another motion, or its count disagrees. */
 static void unconfirmed(ppmc104_t *dev)
 {
     static const struct {
@@ -208,7 +208,7 @@ static void unconfirmed(ppmc104_t *dev)
     show("U replaced", ppmc104_wait(dev, (ppmc104_finish_t *)0));
     show("U move", ppmc104_move(dev, PPMC104_CW, 5));
     while (ppmc104_busy(dev)) {}
-    show("U routine", ppmc104_finish(dev, &f)); /* an interrupt routine has read the status before */
+    show("U routine", ppmc104_finish(dev, &f)); /* an interrupt routine has already read the status */
     show("U after it", ppmc104_wait(dev, &f));
     printf("U after it raw=%02x\n", f.raw);
     for (n = 0; n < sizeof cases / sizeof cases[0]; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Line for the test of the PMC006B4's C driver: drives pmc006_line cycle by cycle, records the steps.
+// Line for the test of the PMC006B4 C driver: drives pmc006_line cycle by cycle, and records the steps.
 #include "frame_bus.h"
 
 #include <vector>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the C driver of the PMC006B4 on the simulated line and prints the results, one per line; pytest
- * checks the lines. */
+/* Runs the C driver of the PMC006B4 on the simulated line, and prints one result per line. pytest checks
+ * the lines. */
 #include <stdio.h>
 
 #include "../../drivers/c/pmc006.h"
@@ -150,7 +150,7 @@ static void memory(void)
     value("M kept", PMC006_CURRENT);
     frame_eeprom(false);
     show("M missing", pmc006_save(&dev));
-    frame_eeprom(true); /* the memory is blank after a power loss */
+    frame_eeprom(true); /* the memory is blank after a loss of power */
     show("M save again", pmc006_save(&dev));
     show("M speed", pmc006_set(&dev, PMC006_MAX_SPEED, 8000));
     show("M outputs", pmc006_outputs(&dev, 0));
@@ -183,8 +183,8 @@ static void faults(void)
     frame_damage(7, 0x80);
     show("F start", pmc006_set(&dev, PMC006_START_SPEED, 3000));
     show("F stop", pmc006_set(&dev, PMC006_STOP_SPEED, 3000));
-    /* The reply to a start is damaged, so pmc006_wait() determines the state of the motor. Seven replies
-     * precede this reply: status twice, q, j, O, d, c. */
+    /* The reply to a start is damaged, so pmc006_wait() must determine whether the motor moves. Seven
+     * replies precede it: status twice, q, j, O, d, c. */
     frame_damage(8 * 7 + 4, 0x01);
     show("F lost", pmc006_move(&dev, 60));
     ending("F lost");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Feeds the C drivers with broken replies. Usage: fuzz SEED COUNT. The program is built with sanitizers. A
- * call that does not return, a value from a damaged frame or an access out of bounds ends it with an error.
- * Otherwise it prints how often each result occurred. */
+/* Feeds the C drivers with damaged replies. Usage: fuzz SEED COUNT. The program is built with sanitizers.
+ * A call that does not return, a value from a damaged frame, or an access out of bounds ends it with an
+ * error. Otherwise it prints how often each result occurred. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "../../drivers/c/ppmc312.h"
 
 #define STREAM_MAX 200u
-#define READS_MAX 4000000ul /* per call */
+#define READS_MAX 4000000ul /* reads per call */
 
 static uint32_t state;
 static unsigned long reads, results[128];
@@ -46,15 +46,15 @@ static void count(ppmc104_result_t result)
 
 static uint8_t stream[STREAM_MAX];
 static unsigned length, at;
-static bool talks; /* 1: a request is followed by a reply; 0: the line is silent */
+static bool talks; /* 1: each request gets a reply, 0: the line is silent */
 
 static void put(uint8_t byte)
 {
     if (length < STREAM_MAX) stream[length++] = byte;
 }
 
-/* Damage the reply. kind: 1 flips a bit, 2 removes bytes at the end, 3 inserts a byte at the beginning, 4
- * appends random bytes, 5 overwrites a byte, 6 removes the first byte; other values change nothing. */
+/* Damage the reply. kind: 1 inverts a bit, 2 removes bytes at the end, 3 inserts a byte at the beginning,
+ * 4 appends random bytes, 5 overwrites a byte, 6 removes the first byte. Other values change nothing. */
 static void damage(unsigned kind)
 {
     if (length == 0u) return;
@@ -225,7 +225,7 @@ static uint8_t noise(void *ctx, unsigned reg)
     return reg == 0u ? (uint8_t)below(16) : (uint8_t)(below(4) | below(2) << 7);
 }
 
-/* Well-formed blocks with any content, in sequence. */
+/* Valid blocks with arbitrary contents, one after the other. */
 static struct {
     uint8_t bytes[32];
     unsigned left;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// I/O accesses for the test of the STMC driver: drives j105_stmc cycle by cycle, records the steps of its
+// I/O accesses for the test of the STMC driver: drives j105_stmc cycle by cycle, and records the steps of its
 // phases.
 #include "isa_bus.h"
 
@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr unsigned kStrobe = 9;          // cycles: 560 ns at 16 MHz, the length of an 8-bit access
+constexpr unsigned kStrobe = 9;          // in cycles: 560 ns at 16 MHz, the length of an 8-bit access
 constexpr unsigned kPause = 4;
 
 class Bus : public Clocked<Bus, Vj105_stmc> {

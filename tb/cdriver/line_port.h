@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Master of a line at the pins of a simulated station. Included by one C++ file, with the UART.
+// Master of a line at the pins of a simulated station. Only one C++ file includes it, together with the UART.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class LinePort {
   public:
     LinePort(uint64_t clk_hz, unsigned baud) : uart_(clk_hz) { uart_.set_rate(baud); }
 
-    // After each cycle: accept the level of the station's txd, and return the level of its rxd.
+    // After each cycle, sample the txd level of the station, and return the level of its rxd.
     bool seen(uint64_t now, bool txd) {
         if (uart_.next() <= now || txd != txd_) uart_.step(now, txd);
         txd_ = txd;

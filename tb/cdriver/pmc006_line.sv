@@ -10,7 +10,7 @@ module pmc006_line #(
     input  wire logic       clk,
     input  wire logic       rst_n,
     input  wire logic       rxd,
-    output logic            line,       // level of the line, 1 while the driver is off
+    output logic            line,       // level of the line; 1 while the driver is off
     input  wire logic       ext1,
     input  wire logic       ext2,
     input  wire logic       eeprom_on,

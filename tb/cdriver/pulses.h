@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulses (or steps) of a simulated motor: wait for them, print them.
+// Waits for the pulses (or steps) of a simulated motor, and prints them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct Pulse {
     bool ccw;
 };
 
-// Run the bus cycle by cycle until `count` pulses are recorded; ends the program after 1 s at 16 MHz.
+// Run the bus cycle by cycle until `count` pulses are recorded. After 1 s at 16 MHz, the program ends.
 template <class Bus>
 void run_pulses(Bus& bus, unsigned count) {
     constexpr uint64_t kLimit = 16'000'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bus for the test of the C driver: drives ppmc104_example_wishbone cycle by cycle, records the pulses.
+// Bus for the test of the C driver: drives ppmc104_example_wishbone cycle by cycle, and records the pulses.
 #include "sim_bus.h"
 
 #include <vector>

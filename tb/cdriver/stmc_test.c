@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the STMC driver and its port accessors on the simulated ISA bus and prints the results, one per
- * line; pytest checks the lines. The external clock of the board is 1 MHz here: 16 cycles per tick. */
+/* Runs the STMC driver and its port functions on the simulated ISA bus, and prints one result per line.
+ * pytest checks the lines. The external clock of the board is 1 MHz here: 16 cycles per tick. */
 #include <stdio.h>
 
 #include "isa_bus.h" /* before the driver: STMC_INB, STMC_OUTB */
@@ -54,7 +54,7 @@ static void moves(stmc_t *dev)
     show("init", stmc_init(dev, &CONFIG));
 }
 
-/* Work of an interrupt routine: read the finish status, which clears the request. */
+/* What an interrupt routine does: read the finish status, which clears the interrupt. */
 static void interrupt(stmc_t *dev)
 {
     ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
@@ -71,8 +71,8 @@ static void interrupt(stmc_t *dev)
     show("service", stmc_finish(dev, &f));
     printf("irq running=%u steps=%u raw=%02x lifted=%d\n", before, after, f.raw, !isa_irq());
     isa_print_steps("loud");
-    /* A routine that runs after the next motion has begun: its calls are rejected, and the request is
-     * served at the end of that motion. */
+    /* The interrupt routine runs after the next motion has begun. Its calls are rejected, and the
+     * interrupt is served at the end of that motion. */
     show("late", stmc_move(dev, PPMC104_CW, 6));
     while (!isa_irq()) isa_run(1);
     show("late again", stmc_move(dev, PPMC104_CCW, 4));
@@ -160,7 +160,7 @@ static void errors(stmc_t *dev)
     isa_print_steps("A");
 }
 
-/* A reset during a motion: the finish status after a reset has bit 7 set (STMC-FIN-01). */
+/* Reset during a motion. After a reset, bit 7 of the finish status is set (STMC-FIN-01). */
 static void unconfirmed(stmc_t *dev)
 {
     ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
@@ -175,7 +175,7 @@ static void unconfirmed(stmc_t *dev)
     isa_print_steps("U");
 }
 
-/* No device at these ports; a motion longer than the wait. */
+/* First there is no device at these ports. Then a motion takes longer than the limit of the wait. */
 static void dead(stmc_t *dev)
 {
     stmc_t other;
@@ -195,7 +195,8 @@ static void dead(stmc_t *dev)
     isa_print_steps("again");
 }
 
-/* Registers of a part with the read codes of the related devices: an answer is the low half of its code. */
+/* Registers of a part that has the read codes of the related devices. An answer is the low half of its
+ * code. */
 typedef struct {
     uint8_t status, answer;
     unsigned left;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Window accesses for the test of the bank's C driver: drives ppmc_bank cycle by cycle, records the pulses of
-// each axis.
+// Window accesses for the test of the bank's C driver: drives ppmc_bank cycle by cycle, and records the
+// pulses of each axis.
 #include "window_bus.h"
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace {
 
 constexpr unsigned kAxes = 8;
-constexpr unsigned kWrite = 2, kRead = 6, kPause = 3;  // cycles
+constexpr unsigned kWrite = 2, kRead = 6, kPause = 3;  // in cycles
 
 class Bus : public Clocked<Bus, Vppmc_bank> {
   public:
@@ -75,7 +75,7 @@ Bus& bus() {
     return one;
 }
 
-// One axis of the bank, in the form that run_pulses() uses.
+// One axis of the bank, in the form that run_pulses() needs.
 struct Axis {
     std::vector<Pulse>& pulses;
     void clk() { bus().clk(); }

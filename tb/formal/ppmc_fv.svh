@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macros of the proofs (docs/proofs.md): Boolean properties that use at most $past.
-// A wrapper has the clock clk_i. FV_RESET defines rst_ni, which is low in the first cycle only.
-// A cover property requires a witness trace from reset on. With FV_COVERS defined, FV_COVER becomes an
-// assertion that has to fail, and FV_ASSERT is empty.
+// Macros for proofs (docs/proofs.md) of Boolean properties whose only temporal operator is $past.
+// A wrapper has the clock clk_i. FV_RESET defines rst_ni, which is low only in the first cycle.
+// A cover property requires a witness trace that begins with a reset. If FV_COVERS is defined, FV_COVER is
+// an assertion that must fail, and FV_ASSERT is empty.
 `ifndef PPMC_FV_SVH
 `define PPMC_FV_SVH
 

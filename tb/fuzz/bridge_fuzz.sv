@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bridge_fuzz: the deframer of the UART bridge for tb/fuzz/main.cpp.
-// what_o of a request: 1, SEQ, length and digest of the script. what_o of a NAK: 2 and its code.
+// bridge_fuzz: the deframer of the UART bridge, for tb/fuzz/main.cpp.
+// what_o: 1, SEQ, length and digest of the script for a request; 2 and the code for a NAK.
 `default_nettype none
 
 module bridge_fuzz
@@ -8,12 +8,12 @@ module bridge_fuzz
 (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic  [7:0] byte_i,     // a character
-    input  wire logic        valid_i,    // strobe: byte_i was received
-    input  wire logic        error_i,    // strobe: byte_i has no stop bit
-    input  wire logic        silence_i,  // 1 during a silence; each cycle counts as 1 ms
-    output logic             event_o,    // strobe
-    output logic      [63:0] what_o      // event
+    input  wire logic  [7:0] byte_i,     // character
+    input  wire logic        valid_i,    // strobe: byte_i was received with a stop bit
+    input  wire logic        error_i,    // strobe: byte_i was received without a stop bit
+    input  wire logic        silence_i,  // 1 during silence; each cycle counts as 1 ms
+    output logic             event_o,    // strobe: an event
+    output logic      [63:0] what_o      // description of the event
 );
 
   logic we, good, request, dropped;

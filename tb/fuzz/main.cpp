@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds a deframer with the characters of a line and prints the events that it reports, for scripts/measure/fuzz.
-//
-// Standard input: words of 16 bits, lowest byte first. Bits 7:0: a character; bit 8: the character has no
-// stop bit; bit 9: a silence instead of a character.
-// Standard output: for each event the number of the word (32 bits) and the event (64 bits).
+// Feeds a deframer with the characters of a line, and prints the events that it reports, for
+// scripts/measure/fuzz.
+// Standard input: words of 16 bits, lowest byte first. Bits 7:0: a character. Bit 8: the character has no
+// stop bit. Bit 9: a silence instead of a character.
+// Standard output: for each event, the number of the word (32 bits) and the event (64 bits).
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -12,7 +12,7 @@
 #include "Vfuzz.h"
 
 namespace {
-constexpr unsigned kBetween = 12, kSilence = 160;  // cycles from one character to the next; cycles of a silence
+constexpr unsigned kBetween = 12, kSilence = 160;  // cycles between two characters; cycles of a silence
 
 class Bench {
   public:
@@ -36,7 +36,7 @@ class Bench {
     }
 
   private:
-    // These are the outputs before the edge, for the current inputs.
+    // These are the outputs before the edge, with the current inputs.
     void clk() {
         dut_.clk_i = 0;
         dut_.eval();

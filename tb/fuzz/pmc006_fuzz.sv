@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_fuzz: the deframer of the PMC006B4 for tb/fuzz/main.cpp, address 3.
+// pmc006_fuzz: the deframer of the PMC006B4 with address 3, for tb/fuzz/main.cpp.
 // what_o: 1, code and data of an instruction.
 `default_nettype none
 
 module pmc006_fuzz (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic [ 7:0] byte_i,     // a character
-    input  wire logic        valid_i,    // strobe: byte_i was received
-    input  wire logic        error_i,    // strobe: byte_i has no stop bit
-    input  wire logic        silence_i,  // 1 during a silence
-    output logic             event_o,    // strobe
-    output logic      [63:0] what_o      // event
+    input  wire logic [ 7:0] byte_i,     // character
+    input  wire logic        valid_i,    // strobe: byte_i was received with a stop bit
+    input  wire logic        error_i,    // strobe: byte_i was received without a stop bit
+    input  wire logic        silence_i,  // 1 during silence
+    output logic             event_o,    // strobe: an event
+    output logic      [63:0] what_o      // description of the event
 );
 
   pmc006_pkg::frame_t frame;

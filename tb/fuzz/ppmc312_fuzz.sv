@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_fuzz: the deframer of the PPMC-312's serial mode with its table of codes for tb/fuzz/main.cpp, address 5.
+// ppmc312_fuzz: the deframer of the PPMC-312 in serial mode, with the table of its codes and address 5, for
+// tb/fuzz/main.cpp.
 // what_o: 1 for a poll; 2, code, number and digest of the data for an instruction; 3 for a wrong checksum;
 // 4 and the code for an unknown code.
 `default_nettype none
@@ -11,12 +12,12 @@ module ppmc312_fuzz
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic [ 7:0] byte_i,     // a character
-    input  wire logic        valid_i,    // strobe: byte_i was received
-    input  wire logic        error_i,    // strobe: byte_i has no stop bit
-    input  wire logic        silence_i,  // 1 during a silence
-    output logic             event_o,    // strobe
-    output logic      [63:0] what_o      // event
+    input  wire logic [ 7:0] byte_i,     // character
+    input  wire logic        valid_i,    // strobe: byte_i was received with a stop bit
+    input  wire logic        error_i,    // strobe: byte_i was received without a stop bit
+    input  wire logic        silence_i,  // 1 during silence
+    output logic             event_o,    // strobe: an event
+    output logic      [63:0] what_o      // description of the event
 );
 
   serial_code_t info;
@@ -26,7 +27,7 @@ module ppmc312_fuzz
   logic [15:0] count_q;
   logic [31:0] digest_q;
 
-  // 20 cycles are 20 ms.
+  // At this clock rate, 20 cycles are 20 ms.
   ppmc312_serial_rx #(
       .ClkHz   (1_000),
       .CharsSum(CharsSum)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments name=value of the virtual line. The name of a station's argument ends in the number of the
-// station on the line, from 0. openppmc.sim checks the arguments for the user; here an error only ends the
+// Arguments name=value of the virtual line. The name of an argument of a station ends in the number of the
+// station on the line, from 0. openppmc.sim checks the arguments for the user. Here, an error only ends the
 // program.
 #pragma once
 

@@ -9,8 +9,8 @@
 #include <thread>
 
 namespace {
-constexpr size_t kQueue = 256;      // bytes accepted from the host ahead of the line
-constexpr uint64_t kSlices = 8000;  // per second
+constexpr size_t kQueue = 256;      // bytes accepted from the host before the line sends them
+constexpr uint64_t kSlices = 8000;  // slices per second
 }  // namespace
 
 Line::Line(const Arguments& arguments, uint64_t clk_hz)
@@ -48,7 +48,7 @@ bool Line::run(int wake_fd) {
     return true;
 }
 
-// Transfer bytes from and to the host. If a byte may concern a station, wake this station.
+// Transfer bytes from and to the host. If a byte may be for a station, wake this station.
 void Line::serve() {
     bytes_.clear();
     if (sends_.queued() < kQueue) pty_.read(bytes_, kQueue - sends_.queued());
@@ -69,7 +69,7 @@ void Line::serve() {
     }
 }
 
-// Damage some characters: invert one bit, or drop the character.
+// Damage some characters: invert one bit, or discard the character.
 void Line::spoil(std::vector<uint8_t>& bytes) {
     for (auto byte = bytes.begin(); byte != bytes.end();) {
         const unsigned bit = spoiled() ? random_() % 9 : 9;
@@ -97,7 +97,7 @@ void Line::simulate(uint64_t end) {
     now_ = end;
 }
 
-// Run each station separately, distributed over the processors.
+// Run the stations separately, distributed over the processors.
 void Line::run_stations(uint64_t end) {
     const unsigned shares = std::min<unsigned>(threads_, static_cast<unsigned>(awake_.size()));
     const auto work = [this, end, shares](unsigned share) {
@@ -115,8 +115,8 @@ void Line::run_stations(uint64_t end) {
     }
 }
 
-// Run the receiver of the master up to `end`; it samples the drivers that pull the line low, in order of
-// time.
+// Run the receiver of the master up to `end`. It samples the changes of the drivers that pull the line low,
+// in order of time.
 void Line::hear(std::vector<Change>& changes, uint64_t end) {
     const auto before = [](const Change& a, const Change& b) { return a.at < b.at; };
     std::stable_sort(changes.begin(), changes.end(), before);
@@ -128,7 +128,7 @@ void Line::hear(std::vector<Change>& changes, uint64_t end) {
     while (hears_.next() < end) hears_.step(hears_.next(), low_ == 0);
 }
 
-// Every station is idle and the line is silent: further cycles would not change any state.
+// All stations are idle and the line is silent, so further cycles would not change any state.
 void Line::doze(int wake_fd) {
     dozing_ = true;
     const int64_t begin = Pace::wall();

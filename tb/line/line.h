@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual line: stations, each of them the RTL of its board, and a master at a pseudo-terminal. The line
-// has four wires: a station receives only the bytes of the master. The drivers of the stations are wired
-// together and pull a second pair of wires low, which the master receives. Therefore each station can be
-// simulated separately for a slice of time in which the levels of the master are known.
+// The virtual line: stations, each of which is the RTL of its board, and a master at a pseudo-terminal. The
+// line has four wires. On one pair, the stations receive only the bytes of the master. On the other pair, the
+// drivers of all stations are wired together and pull the line low; the master receives this pair. Therefore
+// each station can be simulated separately for a slice of time in which the levels of the master are known.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ class Line {
 
     const std::string& port() const { return pty_.path(); }
 
-    // Simulate a slice of time (1/8 ms); while all stations are idle, sleep until the host sends. Return
-    // false when the line has to be disconnected.
+    // Simulate a slice of time (1/8 ms). While all stations are idle, sleep until the host sends. Return
+    // false when the line must be disconnected.
     bool run(int wake_fd);
 
     // Return "name=value …": see LineStatus in openppmc/sim.
@@ -52,7 +52,7 @@ class Line {
     const bool echo_;
 
     uint64_t now_ = 0;
-    int low_ = 0;  // drivers that pull the line low
+    int low_ = 0;  // number of drivers that pull the line low
     bool sent_ = true, dozing_ = false;
     std::vector<uint8_t> bytes_;
     std::vector<Change> going_, coming_;

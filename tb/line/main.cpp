@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual line as a program. It first prints "port PATH" on standard output, or it prints "error TEXT"
+// The virtual line as a program. It first prints "port PATH" on standard output; or it prints "error TEXT"
 // and ends. Then it answers the lines "status" and "inputs NUMBER LEVELS" on standard input. The program ends
 // when its standard input ends, so it never outlives its parent process.
 #include <csignal>

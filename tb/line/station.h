@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A station of the virtual line: the Verilated node, its time, and whether it has to be simulated at all. The
-// node.h of the part defines the plant at the pins of the node. This is a class Node with Node(arguments,
-// clk_hz), set_up(top), look(top) (pins to observe), follow(top) (called after a change), named(byte),
+// A station of the virtual line: the Verilated node, its time, and the decision whether it must be simulated.
+// The node.h of the part defines the plant at the pins of the node. This is a class Node with Node(arguments,
+// clk_hz), set_up(top), look(top) (pins to be observed), follow(top) (called after a change), named(byte),
 // inputs(top, levels), booted(top), words(top) and linger(clk_hz). linger() returns the time for which the
 // node may still act after a character.
 #pragma once
@@ -28,27 +28,29 @@ class Station {
           linger_(node_.linger(clk_hz)),
           after_reply_(clk_hz / 1000) {
         seen_ = node_.look(dut_.top);
-        // A blank EEPROM takes 60 ms, a reset 2 ms. The limit also ends the wait for a node that never boots.
+        // A blank EEPROM takes 60 ms, and a reset 2 ms. The limit also ends the wait for a node that never
+        // boots.
         for (uint64_t clk = 0; clk < clk_hz && !node_.booted(dut_.top); clk += kSlice) {
             std::vector<Change> nothing;
             run(0, kSlice, {}, nothing);
         }
     }
 
-    // The master sends a byte; return true if it may concern this station, which then receives it.
+    // The master sends a byte. If it may be for this station, return true; the station then receives it.
     bool hear(uint8_t byte, uint64_t now) {
         addressed_ = node_.named(byte, addressed_);
         wait(now);
         return addressed_;
     }
 
-    // A byte sent to this station is still being received.
+    // A byte to this station is still being received.
     void wait(uint64_t now) {
         if (addressed_) until_ = now + linger_;
     }
 
-    // Return true if the station need not be simulated from edge `now` on: it is idle and was not addressed
-    // for some time. It does not fall asleep during a character (quiet: the master is silent).
+    // Return true if the station need not be simulated from edge `now` on, because it is idle and was not
+    // addressed for some time. quiet: the master is silent; the station does not fall asleep during a
+    // character.
     bool asleep(uint64_t now, bool quiet) {
         if (now < until_ || dut_.top.busy || !dut_.top.line)
             asleep_ = false;
@@ -57,7 +59,8 @@ class Station {
         return asleep_;
     }
 
-    // Simulate edges `from` to `to` - 1: receive `sent`, and append the changes of the station's driver.
+    // Simulate the edges `from` to `to` - 1: receive `sent`, and append the changes of the driver of the
+    // station.
     void run(uint64_t from, uint64_t to, const std::vector<Change>& sent, std::vector<Change>& driven) {
         Vboard& top = dut_.top;
         auto next = sent.begin();
@@ -67,7 +70,7 @@ class Station {
             if (top.line != line_) {
                 line_ = top.line;
                 driven.push_back({now + 1, line_});
-                // A reply is being sent; after it there is no activity.
+                // A reply is being sent. There is no activity after it.
                 until_ = now + after_reply_;
             }
             if (const auto pins = node_.look(top); pins != seen_) {
@@ -80,7 +83,7 @@ class Station {
 
     void inputs(unsigned levels, uint64_t now) {
         node_.inputs(dut_.top, levels);
-        // Long enough for the key filters of a PMC006B4.
+        // This time is long enough for the key filters of a PMC006B4.
         until_ = now + 100 * linger_;
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test bench of the LiteX SoC: clock, UART on the terminal, a pulse counter for each motor, a limit switch.
+// Test bench of the LiteX SoC: clock, UART on the terminal, a pulse counter per motor, a limit switch.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -10,10 +10,10 @@
 
 namespace {
 
-constexpr uint64_t kClks = 8'000'000;  // 0.5 s at 16 MHz
-constexpr unsigned kToSwitch = 50;      // pulses after the line "switch"
+constexpr uint64_t kClks = 8'000'000;  // number of cycles; 0.5 s at 16 MHz
+constexpr unsigned kToSwitch = 50;      // number of pulses after the line "switch"
 
-// Falling edges of pout_n, counted by the level of dir.
+// Counts the falling edges of pout_n, by the level of dir.
 struct Motor {
     unsigned cw = 0, ccw = 0;
     bool last = true;

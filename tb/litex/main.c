@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Program of a LiteX SoC with a PPMC-104 ("stepper") and, optionally, a bank ("bank"): makes moves with
- * the C drivers of the project and prints their results on the UART, one per line. pytest checks the lines
- * and the pulses counted by the test bench. */
+ * the C drivers of this project, and prints one result per line on the UART. pytest checks the lines, and
+ * the pulses that the test bench counts. */
 #include <generated/csr.h>
 #include <generated/mem.h>
 #include <generated/soc.h>
@@ -17,7 +17,7 @@ static const ppmc104_speed_t speed = {CONFIG_CLOCK_FREQUENCY, PPMC104_BASE_500K,
 static ppmc104_t stepper;
 static volatile unsigned interrupts;
 
-/* The compiler copies structures with these functions, and there is no C library. */
+/* The compiler uses these functions to copy structures, and there is no C library. */
 void *memcpy(void *to, const void *from, unsigned long size)
 {
     char *d = to;
@@ -33,8 +33,8 @@ void *memset(void *to, int value, unsigned long size)
     return to;
 }
 
-/* Called by crt0.S. The interrupt is a level that is cleared by reading the finish status; until then it
- * is masked. */
+/* crt0.S calls this function. The interrupt is a level that a read of the finish status clears. Until
+ * then, it is masked. */
 void isr(void)
 {
     if (irq_pending() & irq_getmask() & (1u << STEPPER_INTERRUPT)) {
@@ -74,7 +74,7 @@ static ppmc104_config_t config(void)
     return c;
 }
 
-/* A move whose end is reported by an interrupt. */
+/* Make a move whose end is reported by an interrupt. */
 static void move(const char *name, uint8_t flags, uint32_t pulses)
 {
     ppmc104_finish_t finish = {false, false, false, false, false, 0, 0};
@@ -138,7 +138,7 @@ int main(void)
     put("\n");
     move("cw", PPMC104_CW, 300);
     move("ccw", PPMC104_CCW, 120);
-    put("switch\n"); /* the test bench closes L1 after 50 more pulses */
+    put("switch\n"); /* after 50 more pulses, the test bench activates L1 */
     move("limited", PPMC104_CW, 200);
 #ifdef BANK_BASE
     axes();

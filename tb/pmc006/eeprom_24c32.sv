@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// eeprom_24c32: model of a serial EEPROM of the 24C32 class: 4096 bytes, pages of 32, write time, acknowledge
-// polling.
-// Rules:  same device as openppmc/model/carrier/eeprom.py; a test compares both.
-// Timing: both lines are sampled on every rising edge of clk_i; the outputs change on the same edge.
-// How:    a test loads and reads `memory` by its name, sets the options declared below it, and reads the log
-//         of page writes. Without power (on_i = 0) the device drives no line. The memory becomes blank when
-//         the power is removed.
+// eeprom_24c32: model of a serial EEPROM of the 24C32 class: 4096 bytes, pages of 32 bytes, write time,
+//         acknowledge polling.
+// Rules:  the same device as openppmc/model/carrier/eeprom.py; a test compares both.
+// Timing: both lines are sampled at every rising edge of clk_i. The outputs change at the same edge.
+// Usage:  a test accesses `memory` by its name, sets the options that are declared below it, and reads the
+//         log of page writes. Without power (on_i = 0), the device drives no line. When the power is
+//         removed, the memory becomes blank.
 `default_nettype none
 
 module eeprom_24c32 #(
     parameter bit [6:0] Device = 7'h50,
-    parameter int unsigned WriteCycles = 80_000,  // cycles of a write
-    parameter int unsigned StretchCycles = 0,  // cycles with SCL held low after each acknowledge
+    parameter int unsigned WriteCycles = 80_000,  // duration of a write in cycles
+    parameter int unsigned StretchCycles = 0,  // cycles for which SCL is held low after each acknowledge
     parameter bit Missing = 1'b0
 ) (
     input  wire logic clk_i,
-    input  wire logic on_i,      // power
+    input  wire logic on_i,      // 1: power is on
     input  wire logic scl_i,     // level of the clock line, regardless of the driver
     input  wire logic sda_i,     // level of the data line, regardless of the driver
     output logic      scl_oe_o,  // 1: the device pulls the clock line low
@@ -30,35 +30,35 @@ module eeprom_24c32 #(
     StHigh,
     StLow,
     StData,
-    StSend,    // acknowledges a device byte with the read bit
+    StSend,    // acknowledges a device byte that has the read bit
     StRead
   } state_e;
 
   logic [7:0] memory[4096]  /* verilator public_flat_rw */;
 
-  // Options of this device.
+  // Options of this model.
   logic [6:0] device  /* verilator public_flat_rw */ = Device;
   int unsigned write_cycles  /* verilator public_flat_rw */ = WriteCycles;
   int unsigned stretch_cycles  /* verilator public_flat_rw */ = StretchCycles;
   logic missing  /* verilator public_flat_rw */ = Missing;
   logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // 1: the clock line is held low
   logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;  // 1: the data line is held low
-  int unsigned writing  /* verilator public_flat_rw */ = 0;  // cycles left of a write
+  int unsigned writing  /* verilator public_flat_rw */ = 0;  // remaining cycles of a write
 
-  // Page writes since power-on: first address, number of bytes, and bytes, 32 words of log_data each.
+  // Page writes since power-on: first address, number of bytes, and the bytes (32 words of log_data each).
   int unsigned writes  /* verilator public_flat_rw */ = 0;
   logic [11:0] log_address[Log]  /* verilator public_flat_rw */;
   logic [5:0] log_count[Log]  /* verilator public_flat_rw */;
   logic [7:0] log_data[32*Log]  /* verilator public_flat_rw */;
 
   logic [7:0] page[32];
-  logic [31:0] filled;  // bytes of the page that were received
+  logic [31:0] filled;  // [n]: byte n of the page was received
   state_e state;
   logic scl_was, sda_was;
   logic [3:0] bits;
   logic [7:0] shift, sent;
   logic [11:0] address;
-  int unsigned count;  // bytes received in this write
+  int unsigned count;  // number of bytes received in this write
   int unsigned holding;
   logic scl_pull, sda_pull, was_on;
 
@@ -86,8 +86,8 @@ module eeprom_24c32 #(
     filled = '0;
   endfunction
 
-  // STOP: a write begins only if all received bytes are complete. The rise of SCL before STOP was counted as
-  // a bit.
+  // STOP: a write begins only if all received bytes are complete. The rise of SCL before STOP has been
+  // counted as a bit.
   function automatic void stop();
     if (state == StData && count != 0 && bits <= 4'd1) begin
       for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];
@@ -101,7 +101,7 @@ module eeprom_24c32 #(
     rest();
   endfunction
 
-  // After the eighth bit: acknowledge until the next falling edge.
+  // Acknowledges after the eighth bit, until the next falling edge.
   function automatic void take();
     unique case (state)
       StDevice: begin
@@ -152,7 +152,8 @@ module eeprom_24c32 #(
     end
   endfunction
 
-  // Blocking assignments: the order of the steps is that of the model, and no block reads the internal state.
+  // Blocking assignments, because the steps have the order of the model. No other block reads the internal
+  // state.
   /* verilator lint_off BLKSEQ */
   always @(posedge clk_i) begin
     if (was_on && !on_i) power_off();

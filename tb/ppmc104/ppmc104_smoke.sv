@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_smoke: minimal test of an imported PPMC-104: initialise, 14 pulses CW, read the finish status.
-// Timing: prints "ppmc104_smoke: PASS" or "ppmc104_smoke: FAIL …" and ends; only this line is checked.
+// ppmc104_smoke: minimal test of an imported PPMC-104: initialise, output 14 pulses CW, read the finish
+//         status.
+// Timing: prints "ppmc104_smoke: PASS" or "ppmc104_smoke: FAIL …", and ends. Only this line is checked.
 `default_nettype none
 
 module ppmc104_smoke;
@@ -85,7 +86,7 @@ module ppmc104_smoke;
     rst_n = 1'b1;
     repeat (4) @(negedge clk);
     count = 0;
-    // 4 phases, full step, positive logic (high = on); RL 9, RH 4, ramp of 4 pulses.
+    // 4 phases, full step, positive logic (high = energised); RL = 9, RH = 4, ramp of 4 pulses.
     put(1'b1, 8'h0A);
     put(1'b0, 8'd9);
     put(1'b0, 8'd4);

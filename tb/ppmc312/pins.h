@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pins of ppmc312_carrier for the virtual board. Its drive has an encoder.
+// Pins of ppmc312_carrier for the virtual board. The drive has an encoder.
 #pragma once
 
 #include "axes.h"
@@ -11,7 +11,7 @@ inline unsigned motion_pins(const Vboard& top) { return top.pout; }
 
 class Motors {
    public:
-    // The motor steps with the rising edges of POUT.
+    // The motor steps at the rising edges of POUT.
     unsigned steps(unsigned before, unsigned now) { return now & ~before; }
     bool ccw(const Vboard& top, unsigned) const { return top.dir; }
 };
@@ -20,7 +20,7 @@ inline void idle_inputs(Vboard& top) {
     top.cs_n = top.oe_n = top.we_n = 1;
     top.run = top.evt0_n = top.evt1_n = 1;
     top.auxi = 0xFF;
-    top.end_n = 0;  // the drive reports "in position" immediately
+    top.end_n = 0;  // the drive always reports "in position"
 }
 
 inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {

@@ -8,12 +8,12 @@
 constexpr unsigned kAxes = 1;
 constexpr unsigned kAllAxes = 1;
 
-// No pulse output: the motor follows the phases.
+// There is no pulse output, so the motor follows the phases.
 inline unsigned motion_pins(const Vboard& top) { return top.s; }
 
 class Motors {
    public:
-    // Return whether the motor steps between two motion_pins(); ccw() returns the direction.
+    // Return whether the motor steps between two values of motion_pins(). ccw() returns the direction.
     unsigned steps(unsigned, unsigned now) {
         step_ = phases_.step(now);
         return step_ != 0;

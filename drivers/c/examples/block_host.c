@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A PPMC-312 on a memory-mapped bus, register n at byte address 4 n: ramps, origin, a move to a position. */
+/* A PPMC-312 on a memory-mapped bus (register n at byte address 4 n): ramps, origin, move to a position. */
 #include <stdint.h>
 
 #include "../ppmc312.h"
@@ -28,12 +28,12 @@ int main(void)
     ppmc104_result_t result;
 
     ppmc312_setup(&part, bus_read, bus_write, (void *)(uintptr_t)PPMC312_BASE);
-    part.bus.limit = 100000000ul; /* polls; motions take some time */
+    part.bus.limit = 100000000ul; /* number of polls; a motion may take long */
     result = ppmc312_open(&part, 0);
     if (result == PPMC104_OK) result = ppmc312_table(&part, &table);
     if (result == PPMC104_OK) result = ppmc312_start(&part, &home);
     if (result == PPMC104_OK) result = ppmc312_wait(&part, &end);
-    if (result == PPMC104_OK && end.cause != PPMC312_CAUSE_ORIGIN) return 100; /* ended by a switch */
+    if (result == PPMC104_OK && end.cause != PPMC312_CAUSE_ORIGIN) return 100; /* a switch ended the search */
     if (result == PPMC104_OK) result = ppmc312_set_position(&part, false, 0);
     if (result == PPMC104_OK) result = ppmc312_move_to(&part, 5000);
     if (result == PPMC104_OK) result = ppmc312_wait(&part, &end);

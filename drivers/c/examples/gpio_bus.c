@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A PPMC-104 on the pins of a microcontroller, strobes by software. A sketch: insert your pin functions.
- * The part requires (docs/ppmc104/README.md, chapter 4, at CLK_HZ = 16 MHz): a read strobe of 250 ns
- * before its data are valid, a write strobe of 73 ns, 73 ns between strobes. A function call per pin is
- * slow enough on most controllers; call bus_delay() if yours is faster. The port must be 5 V tolerant, or
- * the part must run at 3.3 V.
- */
+/* A PPMC-104 on the pins of a microcontroller; the software generates the strobes. A sketch: insert your
+ * pin functions. The part requires (docs/ppmc104/README.md, chapter 4, at CLK_HZ = 16 MHz): read data are
+ * valid 250 ns after the start of the read strobe, a write strobe lasts 73 ns, and 73 ns pass between
+ * strobes. On most controllers, a function call per pin is slow enough; on a faster one, call bus_delay().
+ * The port must be 5 V tolerant, or the part must run at 3.3 V. */
 #include "../ppmc104.h"
 
 #include <stdio.h>
 
-/* ---- to be written for your controller ---- */
+/* ---- write these functions for your controller ---- */
 static void pin_a0(bool level) { (void)level; }
 static void pin_cs_n(bool level) { (void)level; }
 static void pin_rd_n(bool level) { (void)level; }
 static void pin_wr_n(bool level) { (void)level; }
-static void port_drive(bool on) { (void)on; } /* direction of D7..D0; off after reset */
+static void port_drive(bool on) { (void)on; } /* 1: drive D7..D0; off after reset */
 static void port_put(uint8_t value) { (void)value; }
-static uint8_t port_get(void) { return 0xFFu; } /* not connected yet */
+static uint8_t port_get(void) { return 0xFFu; } /* insert the read of D7..D0 */
 static void bus_delay(void) {} /* 250 ns */
 
 static uint8_t bus_read(void *ctx, unsigned reg)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A soft CPU with a PPMC-104 accessed through ppmc_wishbone or ppmc_axil: initialise, find the origin,
+/* A PPMC-104 on the bus of a soft CPU, through ppmc_wishbone or ppmc_axil: initialise, find the origin,
  * move. */
 #include <stdint.h>
 
@@ -39,8 +39,8 @@ int main(void)
     if (result == PPMC104_OK) result = ppmc104_init(&axis, &config);
     if (result == PPMC104_OK) result = ppmc104_home(&axis, PPMC104_CCW, search);
     if (result == PPMC104_OK) result = ppmc104_wait(&axis, &finish);
-    if (result == PPMC104_OK && finish.limit) return 100; /* the limit was reached before the origin */
+    if (result == PPMC104_OK && finish.limit) return 100; /* the limit was active before the origin */
     if (result == PPMC104_OK) result = ppmc104_move(&axis, PPMC104_CW, 1000u);
     if (result == PPMC104_OK) result = ppmc104_wait(&axis, &finish);
-    return (int)result; /* ppmc104_strerror(result) if there is a console */
+    return (int)result; /* on a console, print ppmc104_strerror(result) */
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A PC with a J105 STMC at 3B0h, Linux (as root) or DOS: probe, initialise, find the reference point, move. */
+/* A J105 STMC in a PC, at 3B0h; Linux (as root) or DOS: probe, initialise, find the reference point, move. */
 #include "../stmc_ports.h"
 
 #include <stdio.h>
@@ -22,13 +22,14 @@ int main(void)
     }
 #endif
     stmc_setup_ports(&axis, STMC_BASE);
-    axis.bus.limit = 100000000ul; /* polls, about 1 us each on a real bus; motions take some time */
+    axis.bus.limit = 100000000ul; /* number of polls, about 1 us each on a real bus; a motion may take long */
     result = stmc_divisor(STMC_CLOCK_BOARD, SEARCH_SPEED, &config.divisor_start);
     if (result == PPMC104_OK) result = stmc_divisor(STMC_CLOCK_BOARD, TOP_SPEED, &config.divisor_high);
     search = config.divisor_start;
     if (result == PPMC104_OK) result = stmc_probe(&axis);
     if (result == PPMC104_OK) result = stmc_init(&axis, &config);
-    /* Start-up sequence of the data sheet: to the end of the travel, then back to the reference point. */
+    /* Start-up sequence of the data sheet: move to the end of the travel, then back to the reference
+     * point. */
     if (result == PPMC104_OK) result = stmc_jog(&axis, PPMC104_CCW, search);
     if (result == PPMC104_OK) result = stmc_wait(&axis, NULL);
     if (result == PPMC104_OK) result = stmc_home(&axis, PPMC104_CW, search);

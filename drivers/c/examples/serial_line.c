@@ -6,10 +6,10 @@
 
 #include <stdio.h>
 
-/* ---- to be written for your controller; ctx is the number of the UART ---- */
+/* ---- write these functions for your controller; ctx is the number of the UART ---- */
 static void uart_driver(const void *ctx, bool on) { (void)ctx; (void)on; } /* driver enable of the RS-485 transceiver */
 static void uart_put(const void *ctx, uint8_t byte) { (void)ctx; (void)byte; }
-static void uart_flush(const void *ctx) { (void)ctx; } /* until the last stop bit was sent */
+static void uart_flush(const void *ctx) { (void)ctx; } /* waits until the last stop bit was sent */
 static bool uart_get(const void *ctx, uint8_t *byte) { (void)ctx; (void)byte; return false; }
 static void delay_ms(void) {}
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A soft CPU with a PPMC-2104 in its address space: both axes start on one clock edge. A sketch: insert
- * your RUN pins. */
+/* A PPMC-2104 on the bus of a soft CPU: both axes start on the same clock edge. A sketch: insert your RUN
+ * pins. */
 #include <stdint.h>
 
 #include "../ppmc2104.h"
 
-/* Output of your address decoder: data at +0, status and instruction code at +4, RUN pins at +16. */
+/* Addresses in your address decoder: data at +0, status and instruction code at +4, RUN pins at +16. */
 #ifndef PPMC2104_BASE
 #define PPMC2104_BASE 0x40000000u
 #endif
@@ -40,5 +40,5 @@ int main(void)
     if (result == PPMC104_OK) result = ppmc2104_start_both(&part, &x, &y);
     if (result == PPMC104_OK) result = ppmc2104_wait(&part, 1u, 0);
     if (result == PPMC104_OK) result = ppmc2104_wait(&part, 2u, 0);
-    return (int)result; /* ppmc104_strerror(result) if there is a console */
+    return (int)result; /* on a console, print ppmc104_strerror(result) */
 }

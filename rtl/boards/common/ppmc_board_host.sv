@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_host: host interface of a board: the UART bridge with its counters, or the bus pins of the old
-// chip.
+// ppmc_board_host: host interface of a board. It is either the UART bridge with its pulse counters, or the
+//         bus pins of the old chip.
 // Rules:  Host = "UART": docs/uart_bridge.md. Host = "BUS": the bus pins are connected directly to the
 //         device, and all straps are 1.
-// Timing: see ppmc_uart_host; with "BUS" combinational.
+// Timing: see ppmc_uart_host. With "BUS", all paths are combinational.
 `default_nettype none
 
 module ppmc_board_host #(
@@ -12,12 +12,12 @@ module ppmc_board_host #(
     parameter bit          Datasheet = 1'b0,
     parameter              Host      = "UART",      // or "BUS"
     parameter int unsigned Baud      = 115_200,
-    parameter int unsigned Part      = 104,         // number in IDENT
-    parameter int unsigned Axes      = 1,           // axis 1 in the low bits
+    parameter int unsigned Part      = 104,         // number of the device in IDENT
+    parameter int unsigned Axes      = 1,           // number of axes; axis 1 uses the low bits
     parameter int unsigned AddrBits  = 1,           // address lines of the device, 1 .. 4
-    parameter bit          Counter   = 1'b1,        // 1: pulses are counted
+    parameter bit          Counter   = 1'b1,        // 1: the pulses are counted
     parameter int unsigned Watch     = 1,           // number of recorded levels
-    parameter int unsigned Record    = 0            // 2**Record records; 0: no recorder
+    parameter int unsigned Record    = 0            // the recorder stores 2**Record records; 0: no recorder
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -45,7 +45,7 @@ module ppmc_board_host #(
     input  wire logic [    Axes-1:0] hold_i,
     input  wire logic [    Axes-1:0] pout_ni,
     input  wire logic [    Axes-1:0] dir_i,
-    input  wire logic [   Watch-1:0] watch_i,      // all pins of the device, in the clock domain
+    input  wire logic [   Watch-1:0] watch_i,      // all pins of the device, synchronous to clk_i
     output logic                     link_o        // 1: a script is running or an answer is pending
 );
 

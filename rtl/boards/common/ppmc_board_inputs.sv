@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_inputs: input pins of the device. With a recorder, the pins are synchronised here, so that the
-//         recorder and the device sample the same levels in the same cycle. Without a recorder, the pins pass
-//         unchanged.
+// ppmc_board_inputs: connects the input pins to the device. With a recorder, this block synchronises the
+//         pins, so that the recorder and the device sample the same levels in the same cycle. Without a
+//         recorder, it passes the pins unchanged.
 // Rules:  UB-REC-05.
-// Timing: latency 2 cycles with Sync = 1, else combinational.
+// Timing: latency 2 cycles with Sync = 1, otherwise combinational.
 `default_nettype none
 
 module ppmc_board_inputs #(
@@ -11,9 +11,9 @@ module ppmc_board_inputs #(
     parameter bit          Sync  = 1'b0
 ) (
     input  wire logic             clk_i,
-    input  wire logic             rst_ni,  // asynchronous
-    input  wire logic [Width-1:0] d_i,     // raw pins
-    output logic      [Width-1:0] q_o      // to the device
+    input  wire logic             rst_ni,  // reset, asynchronous
+    input  wire logic [Width-1:0] d_i,     // pins, asynchronous
+    output logic      [Width-1:0] q_o      // pins of the device
 );
 
   if (Sync) begin : g_sync

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_leds: reset and LEDs of a board.
+// ppmc_board_leds: generates the reset of a board and drives its LEDs.
 // Rules:  docs/boards.md, LEDs.
 // Timing: see ppmc_board_reset and ppmc_board_led_stretch.
 `default_nettype none
@@ -14,7 +14,7 @@ module ppmc_board_leds #(
     input  wire logic       link_i,
     input  wire logic       moving_i,
     input  wire logic       switch_i,  // 1: at least one switch is active
-    output logic      [3:0] leds_o     // 1 = on; bits 3..0: out of reset, switch, motor moves, link
+    output logic      [3:0] leds_o     // 1: on; [3]: out of reset, [2]: switch, [1]: motor moves, [0]: link
 );
 
   logic led_link;

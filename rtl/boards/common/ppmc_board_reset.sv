@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_reset: reset generator of a board, from power-on, PLL lock, button and the reset line of a host.
-// Rules:  drives rst_n of P104-PORT-03. Without a PLL, lock_i is 1 and the initial register values provide
-//         the power-on reset.
-// Timing: rst_no falls with lock_i immediately, and at the third rising edge of clk_i that samples req_ni
-//         low. rst_no rises when lock_i and req_ni have been high without interruption for HoldUs to
-//         2 * HoldUs, so the button may bounce.
+// ppmc_board_reset: generates the reset of a board from power-on, PLL lock, the button, and the reset line
+//         of a host.
+// Rules:  drives rst_n of P104-PORT-03. Without a PLL, lock_i is 1; then the initial values of the
+//         registers provide the power-on reset.
+// Timing: rst_no falls immediately when lock_i falls, and at the third rising edge of clk_i at which req_ni
+//         is sampled low. rst_no rises when lock_i and req_ni have been high without interruption for
+//         HoldUs to 2 * HoldUs, so the button may bounce.
 `default_nettype none
 
 module ppmc_board_reset #(
     parameter int unsigned ClkHz  = 24_000_000,
-    parameter int unsigned HoldUs = 1000         // 1 .. 1000
+    parameter int unsigned HoldUs = 1000         // hold time in us, 1 .. 1000
 ) (
     input  wire logic clk_i,
     input  wire logic lock_i,  // asynchronous; 1: clk_i is stable
@@ -23,7 +24,7 @@ module ppmc_board_reset #(
 
   localparam int unsigned Bits = $clog2(ClkHz / 1_000_000 * HoldUs);
 
-  // The initial value is needed where no PLL holds lock_i low after configuration.
+  // Without a PLL, lock_i is never low after configuration, so the counter needs an initial value.
   logic [Bits:0] count_q = '0;
   logic unused_meta, req_n;
 

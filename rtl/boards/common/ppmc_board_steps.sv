@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_steps: derives pulse and direction from the phase pins of a device without such outputs, for the
-// pulse counter.
-// Rules:  docs/stmc/README.md, 11.1: 3, 4 or 5 phases, full or half steps and both polarities are recognised
-//         without a setting. Patterns with all phases at one level (chopper, before the first initialisation)
-//         are ignored.
-// Timing: pout_no is low for one cycle, two cycles after a step; dir_o changes in the same cycle.
-// Assumes: all bits of s_i change on one edge.
+// ppmc_board_steps: derives pulse and direction for the pulse counter from the phase pins of a device that
+//         has no pulse output.
+// Rules:  docs/stmc/README.md, 11.1: the block recognises 3, 4 or 5 phases, full or half steps, and both
+//         polarities without a setting. It ignores patterns with all phases at one level (chopper, before
+//         the first initialisation).
+// Timing: pout_no is low for one cycle, two cycles after a step. dir_o changes in the same cycle.
+// Assumes: all bits of s_i change at the same edge.
 `default_nettype none
 
 module ppmc_board_steps (
     input  wire logic       clk_i,
-    input  wire logic       rst_ni,   // reset of the device: the next pattern is the first pattern
+    input  wire logic       rst_ni,   // reset of the device; after it, the next pattern is the first
     input  wire logic [5:1] s_i,
     output logic            pout_no,
-    output logic            dir_o     // 0 = CW
+    output logic            dir_o     // 0: CW, 1: CCW
 );
 
   logic [5:1] now_q, last_q;
@@ -25,9 +25,9 @@ module ppmc_board_steps (
     return count <= 3'd2;
   endfunction
 
-  // The smaller group of equal pins is taken as the energised phases. Then adjacent patterns of 3, 4 or 5
-  // phases share exactly one energised phase. Only 5-phase motors have half steps between 2 and 3 energised
-  // phases. For such a step either group can be taken.
+  // The smaller group of equal pins is assumed to be the energised phases. Then, for 3, 4 or 5 phases,
+  // adjacent patterns share exactly one energised phase. Only 5-phase motors have half steps between 2 and
+  // 3 energised phases. For such a step, either group gives the correct direction.
   function automatic logic is_clockwise(logic [5:1] prev, logic [5:1] next);
     logic [5:1] a, b, from, to, changed;
     changed = prev ^ next;
@@ -43,8 +43,8 @@ module ppmc_board_steps (
       to   = a & b;
       from = a & ~b;
     end
-    // 1 if the step goes to the next higher phase, or from the last phase to the first. The expression holds
-    // for any number of phases.
+    // 1 if the step goes to the next higher phase, or from the last phase to the first. The expression is
+    // correct for any number of phases.
     return to == {from[4:1], 1'b0} || (to < from && to != {1'b0, from[5:2]});
   endfunction
 

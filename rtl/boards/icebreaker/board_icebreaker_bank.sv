@@ -11,15 +11,15 @@
 module board_icebreaker_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned BAUD       = 115_200,     // line rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of pins, 4 .. 16; 0: no recorder
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // switches, 0 = active
+    // switches, active low
     input  wire logic [7:0] l2_n,
     // motors
     output logic      [7:0] pout_n,

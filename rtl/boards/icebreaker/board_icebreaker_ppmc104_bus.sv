@@ -16,7 +16,7 @@ module board_icebreaker_ppmc104_bus #(
     input  wire logic       clk_12m,     // 12 MHz
     input  wire logic       btn_n,       // 0: reset
     input  wire logic       host_rst_n,  // 0: reset, from the host
-    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; with HOST = "UART", d_oe = 0, because reads then remain inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,

@@ -11,9 +11,9 @@
 module board_icebreaker_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0: as on the old chip
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 of an energised winding
     parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD   = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset

@@ -12,7 +12,7 @@ module board_icebreaker_stmc #(
     parameter              READ_MAP   = "FAMILY",    // or "SHEET"
     parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset

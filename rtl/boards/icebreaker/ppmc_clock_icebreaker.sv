@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_clock_icebreaker: PLL of an iCEBreaker at its clock pad: 24 MHz or less from the 12 MHz oscillator.
-// Rules:  PLL settings from icepll for 12 MHz in; the VCO (32 times clk_o) runs at 533 .. 1066 MHz.
+// ppmc_clock_icebreaker: PLL at the clock pad of an iCEBreaker. Generates at most 24 MHz from the 12 MHz
+//         oscillator.
+// Rules:  PLL settings from icepll for 12 MHz; the VCO has 32 times the frequency of clk_o, 533 .. 1066
+//         MHz.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 
 module ppmc_clock_icebreaker #(
-    parameter bit [6:0] Divf = 7'd63  // clk_o = 12 MHz * (Divf + 1) / 32; 44 .. 87
+    parameter bit [6:0] Divf = 7'd63  // clk_o = 12 MHz * (Divf + 1) / 32; Divf = 44 .. 87
 ) (
-    input  wire logic clk_12m_i,  // package pin of the oscillator
-    output logic      clk_o,      // on a global net
+    input  wire logic clk_12m_i,  // oscillator, at its package pin
+    output logic      clk_o,      // clock on a global net
     output logic      lock_o
 );
 

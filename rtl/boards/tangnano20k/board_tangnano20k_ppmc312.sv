@@ -11,7 +11,7 @@ module board_tangnano20k_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter              TIMING  = "FAST",
     parameter int unsigned BAUD    = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD  = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_27m,   // 27 MHz
     input  wire logic       btn,       // 1: reset

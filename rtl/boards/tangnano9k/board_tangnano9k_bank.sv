@@ -11,8 +11,8 @@
 module board_tangnano9k_bank #(
     parameter bit          PHASE_IDLE = 1'b0,     // level of s before the first initialisation
     parameter              HOST       = "UART",   // or "SPI"
-    parameter int unsigned BAUD       = 115_200,  // line rate of the bridge after reset
-    parameter int unsigned RECORD     = 0         // 2**RECORD records of pins, 4 .. 16; 0: no recorder
+    parameter int unsigned BAUD       = 115_200,  // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0         // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic        clk_27m,   // 27 MHz
     input  wire logic        btn_n,     // 0: reset
@@ -24,7 +24,7 @@ module board_tangnano9k_bank #(
     input  wire logic        sck,
     input  wire logic        mosi,
     output logic             miso,
-    output logic             int_n,     // at least one axis has a pending interrupt
+    output logic             int_n,     // low: at least one axis has a pending interrupt
     // motors
     output logic      [15:0] pout_n,
     output logic      [15:0] dir,

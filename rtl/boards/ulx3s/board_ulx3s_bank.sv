@@ -12,8 +12,8 @@ module board_ulx3s_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter              HOST       = "UART",      // or "SPI"
-    parameter int unsigned BAUD       = 115_200,     // line rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of pins, 4 .. 16; 0: no recorder
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic        clk_25m,    // 25 MHz
     input  wire logic        btn_f1,     // 1: reset
@@ -25,7 +25,7 @@ module board_ulx3s_bank #(
     input  wire logic        sck,
     input  wire logic        mosi,
     output logic             miso,
-    output logic             int_n,      // at least one axis has a pending interrupt
+    output logic             int_n,      // low: at least one axis has a pending interrupt
     // motors
     output logic      [24:0] pout_n,
     output logic      [24:0] dir,

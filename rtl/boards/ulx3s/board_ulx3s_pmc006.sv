@@ -19,9 +19,9 @@ module board_ulx3s_pmc006 #(
     input  wire logic       uart_rxd,
     output logic            uart_txd,
     // host: RS-485 transceiver
-    input  wire logic       rs485_rxd,    // RO
-    output logic            rs485_txd,    // DI
-    output logic            rs485_de,     // DE
+    input  wire logic       rs485_rxd,    // receiver output RO of the transceiver
+    output logic            rs485_txd,    // driver input DI
+    output logic            rs485_de,     // driver enable DE
     // H-bridges of the motor
     output logic            m10,
     output logic            m11,
@@ -29,7 +29,7 @@ module board_ulx3s_pmc006 #(
     output logic            m20,
     output logic            m21,
     output logic            bridge_b_en,
-    output logic            pwm_a_ref,    // to the comparator through a low-pass filter
+    output logic            pwm_a_ref,    // low-pass filtered, it is the reference of the comparator
     output logic            pwm_b_ref,
     input  wire logic       cmp_a,        // 1: the current has reached the reference
     input  wire logic       cmp_b,
@@ -41,11 +41,11 @@ module board_ulx3s_pmc006 #(
     input  wire logic       fset_n,
     input  wire logic [4:0] gpi,
     output logic      [4:0] gpo,
-    // converter: one bus, two strobes
+    // A/D converter: one bus, two strobes
     input  wire logic [9:0] conv,
     input  wire logic       adc_stb,      // rising edge: conv is the voltage of GPI1
-    input  wire logic       bemf_stb,     // rising edge: conv is the back-EMF
-    // EEPROM: 1 pulls low
+    input  wire logic       bemf_stb,     // rising edge: conv is the back EMF
+    // EEPROM bus; *_oe = 1 drives the line low
     inout  wire logic       scl,
     inout  wire logic       sda,
     // monitor

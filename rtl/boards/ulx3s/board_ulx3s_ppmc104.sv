@@ -12,7 +12,7 @@ module board_ulx3s_ppmc104 #(
     parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -20,7 +20,7 @@ module board_ulx3s_ppmc104 #(
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; with HOST = "UART", d_oe = 0, because reads then remain inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -28,7 +28,7 @@ module board_ulx3s_ppmc104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", the straps can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,

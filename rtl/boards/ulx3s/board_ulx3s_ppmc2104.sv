@@ -9,10 +9,10 @@
 module board_ulx3s_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0: as on the old chip
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 of an energised winding
     parameter              HOST     = "UART",      // or "BUS"
     parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD   = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -20,7 +20,7 @@ module board_ulx3s_ppmc2104 #(
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; with HOST = "UART", d_oe = 0, because reads then remain inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       busc,
@@ -29,7 +29,7 @@ module board_ulx3s_ppmc2104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // with HOST = "UART" the straps can also set errint_n, run and csel to 0
+    // with HOST = "UART", the straps can also set errint_n, run and csel to 0
     input  wire logic       errint_n,
     input  wire logic [2:1] run,
     input  wire logic [2:1] csel,

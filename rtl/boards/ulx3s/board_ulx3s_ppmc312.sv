@@ -11,7 +11,7 @@ module board_ulx3s_ppmc312 #(
     parameter              TIMING  = "FAST",
     parameter              HOST    = "UART",      // or "BUS", "SERIAL"
     parameter int unsigned BAUD    = 115_200,     // baud rate of the bridge after reset
-    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
+    parameter int unsigned RECORD  = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -19,7 +19,7 @@ module board_ulx3s_ppmc312 #(
     // UART host, or a master of the serial line
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; unless HOST = "BUS" d_oe stays 0, because reads of the device stay inside the FPGA
+    // bus host; d_oe = 0 unless HOST = "BUS", because reads then remain inside the FPGA
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
     input  wire logic       oe_n,

@@ -11,8 +11,8 @@ module board_ulx3s_ppmc312_serial #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
     parameter              SUM_MODE = "BINARY",    // checksum of the serial line; or "CHARS"
-    parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
-    parameter int unsigned SND_WAIT = 0            // bits of wait before rs485_de in addition to 0.5, 0 .. 8
+    parameter int unsigned SND_LEAD = 1,           // bit times from rs485_de to the start bit, 1 .. 16
+    parameter int unsigned SND_WAIT = 0            // rs485_de rises SND_WAIT + 0.5 bits after a stop bit
 ) (
     input  wire logic       clk_25m,    // 25 MHz
     input  wire logic       btn_f1,     // 1: reset

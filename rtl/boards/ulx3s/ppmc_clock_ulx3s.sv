@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_clock_ulx3s: PLL (ECP5) of a ULX3S: 100, 75 or 50 MHz from the 25 MHz oscillator.
-// Rules:  divisors from ecppll for 25 MHz in, VCO 600 MHz; feedback from CLKOP.
+// ppmc_clock_ulx3s: PLL (ECP5) of a ULX3S. Generates 100, 75 or 50 MHz from the 25 MHz oscillator.
+// Rules:  divisors from ecppll for 25 MHz in; VCO 600 MHz, feedback from CLKOP.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 
 module ppmc_clock_ulx3s #(
-    parameter int unsigned Divisor = 6  // divides 600 MHz: 6, 8 or 12
+    parameter int unsigned Divisor = 6  // divisor of 600 MHz, 6, 8 or 12
 ) (
     input  wire logic clk_25m_i,
     output logic      clk_o,      // 600 MHz / Divisor
@@ -16,7 +16,8 @@ module ppmc_clock_ulx3s #(
     $fatal(1, "ppmc_clock_ulx3s: Divisor must be 6, 8 or 12");
   end
 
-  // The attributes set currents and filter of the loop, which the vendor's tool would calculate.
+  // The attributes set the currents and the filter of the loop, which the tool of the vendor would
+  // calculate.
   (* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8",
      MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
   EHXPLLL #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_base_rom: table of the base code RB: (416 + 153 * k) / 16 with k = (current - 325 mA) / 150 mA, both
-// rounded down.
+// pmc006_base_rom: look-up table of the base code RB = (416 + 153 * k) / 16, with k = (current - 325 mA) /
+//         150 mA. Both divisions round down.
 // Rules:  P006-EXC-20.
 // Timing: base_o follows current_i by one cycle.
 `default_nettype none
@@ -27,7 +27,7 @@ module pmc006_base_rom (
   (* rom_style = "block" *)
   logic [7:0] rom[4096];
 
-  // Some tools unroll at most 4000 iterations in a block.
+  // Two blocks, because some tools unroll at most 4000 iterations in a block.
   for (genvar half = 0; half < 2; half++) begin : g_half
     initial for (int unsigned i = 0; i < 2048; i++) rom[2048*half+i] = BaseTable[12'(2048*half+i)];
   end

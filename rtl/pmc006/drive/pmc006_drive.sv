@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_drive: electrical angle, standstill timer, current references and both H-bridges.
-// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; others in pmc006_refs and pmc006_hbridge.
+// pmc006_drive: electrical angle, standstill timer, current references and H-bridges of both motor phases.
+// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; pmc006_refs and pmc006_hbridge implement others.
 // Timing: the angle changes at the edge that ends the cycle of step_i. The references follow 25 to 56 cycles
 //         later (pmc006_refs). The bridge enables follow boot_i and settings_i.free by one cycle.
 `default_nettype none
@@ -15,16 +15,16 @@ module pmc006_drive
     input  wire logic                   clk_i,
     input  wire logic                   rst_ni,
     input  wire logic                   us_i,            // strobe every microsecond
-    input  wire logic                   boot_i,          // the device is booting: no current
+    input  wire logic                   boot_i,          // 1: the device is booting, no current
     input  wire motor_settings_t        settings_i,      // parameter registers
-    input  wire logic            [ 7:0] base_i,          // base code RB, one cycle after settings_i
+    input  wire logic            [ 7:0] base_i,          // base code RB; valid one cycle after settings_i
     // motion
     input  wire logic                   busy_i,          // a motion is in progress
     input  wire logic                   step_i,          // a step is made at the next rising edge
-    input  wire logic                   forward_i,       // direction of the step
-    input  wire logic            [ 7:0] increment_i,     // angle of a step
-    input  wire logic            [10:0] current_comp_i,  // B
-    input  wire logic            [ 6:0] lead_angle_i,    // W
+    input  wire logic                   forward_i,       // 1: the step is forward
+    input  wire logic            [ 7:0] increment_i,     // angle of a step, 512 per electrical turn
+    input  wire logic            [10:0] current_comp_i,  // B, current compensation
+    input  wire logic            [ 6:0] lead_angle_i,    // W, lead angle
     // pins
     input  wire logic                   cmp_a_i,         // comparator of phase A, raw pin
     input  wire logic                   cmp_b_i,         // comparator of phase B, raw pin
@@ -34,12 +34,12 @@ module pmc006_drive
     output logic                        phase_b_sign_o,  // sign of phase_b_ref_o
     output logic                        pwm_a_ref_o,     // bit stream of phase_a_ref_o
     output logic                        pwm_b_ref_o,     // bit stream of phase_b_ref_o
-    output logic                        bridge_a_en_o,   // the bridge of phase A is enabled
-    output logic                        bridge_b_en_o,   // the bridge of phase B is enabled
-    output logic                        m10_o,           // phase A, one half bridge: 1 = high side
-    output logic                        m11_o,           // phase A, other half bridge
-    output logic                        m20_o,           // phase B, one half bridge
-    output logic                        m21_o            // phase B, other half bridge
+    output logic                        bridge_a_en_o,   // 1: the bridge of phase A is enabled
+    output logic                        bridge_b_en_o,   // 1: the bridge of phase B is enabled
+    output logic                        m10_o,           // phase A, first half bridge; 1: high side
+    output logic                        m11_o,           // phase A, second half bridge; 1: high side
+    output logic                        m20_o,           // phase B, first half bridge; 1: high side
+    output logic                        m21_o            // phase B, second half bridge; 1: high side
 );
 
   localparam int unsigned IdleUs = 100_000;

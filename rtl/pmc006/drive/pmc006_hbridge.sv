@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_hbridge: H-bridge of one motor phase: reference bit stream, chopper with fixed off time, slow and
-// fast decay.
+// pmc006_hbridge: controls the H-bridge of one motor phase. Contains the bit stream of the current
+//         reference, and a chopper with fixed off time and slow or fast decay.
 // Rules:  P006-EXC-40, P006-CHP-01..06.
-// Timing: when on_i changes, en_o follows at the next rising edge. on_i = 0 or a change of sign_i switches
-//         both high sides off at the next rising edge, and the off time restarts. A comparator level sampled
-//         at edge t takes effect at edge t + 2. With a reference of 0 and the comparator low, OFF is
+// Timing: en_o follows on_i by one cycle. If on_i is 0 or sign_i changes, both high sides are switched off
+//         at the next rising edge, and the off time restarts. A comparator level that is sampled at edge t
+//         takes effect at edge t + 2. While the reference is 0 and the comparator is low, the off time is
 //         repeated.
 `include "ppmc_assert.svh"
 `default_nettype none

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_refs: current references of both phases from angle, current setting, compensation and decay.
+// pmc006_refs: computes the current references of both phases from angle, current setting, compensation and
+//         decay.
 // Rules:  P006-EXC-10..13, P006-EXC-20, P006-EXC-30, P006-STA-12.
-// Timing: every 32 cycles, the first time in the first cycle after reset, all inputs except base_i are
-//         sampled at one edge, and base_i one cycle later. The four outputs change together 24 cycles later.
-// How:    the peak code is shifted right by the attenuation. Then a serial multiplier computes the two
-//         products with the sine, 8 cycles each. The first cycle also adds the rounding constant.
+// Timing: a computation takes 32 cycles; the first begins in the first cycle after reset. All inputs except
+//         base_i are sampled at the same edge, base_i one cycle later. The four outputs change together 24
+//         cycles after that edge.
+// How:    the peak code is shifted right by the attenuation. A serial multiplier then computes its two
+//         products with the sine, 8 cycles each. The first of these 8 cycles also adds the rounding
+//         constant.
 `default_nettype none
 
 module pmc006_refs (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        off_i,           // BOOT or FREE
+    input  wire logic        off_i,           // 1: no current (boot, or motor released)
     input  wire logic        decay_i,         // 1: reduce the current (standstill)
     input  wire logic [ 2:0] att_i,           // attenuation coefficient, 1 .. 4
-    input  wire logic [ 7:0] base_i,          // RB, valid one cycle after the other inputs
-    input  wire logic [10:0] current_comp_i,  // B
-    input  wire logic [ 6:0] lead_angle_i,    // W
+    input  wire logic [ 7:0] base_i,          // RB; valid one cycle after the other inputs
+    input  wire logic [10:0] current_comp_i,  // B, current compensation
+    input  wire logic [ 6:0] lead_angle_i,    // W, lead angle
     input  wire logic        forward_i,       // direction of the motion
     input  wire logic [ 8:0] angle_i,         // TH, 512 per electrical turn
     output logic      [ 7:0] a_ref_o,         // current reference of phase A
@@ -42,7 +45,8 @@ module pmc006_refs (
 
   // ---- sine and product -----------------------------------------------------------------------------------
 
-  // Phase A leads by a quarter turn. Cycles 8 to 15 compute the product of phase A, 16 to 23 that of phase B.
+  // Phase A leads by a quarter turn. Its product is computed in cycles 8 to 15, that of phase B in cycles
+  // 16 to 23.
   assign angle_a = {angle_q[8:7] + 2'd1, angle_q[6:0]};
   assign angle = cycle_d[4] ? angle_q[7:0] : angle_a[7:0];
   assign index = angle[7] ? 8'd128 - 8'(angle[6:0]) : 8'(angle[6:0]);
@@ -60,7 +64,7 @@ module pmc006_refs (
     else cycle_q <= cycle_d;
   end
 
-  // No reset: cycle 0 sets the following registers.
+  // No reset: cycle 0 starts a computation, which sets these registers before use.
   always_ff @(posedge clk_i) begin
     if (cycle_q == '0) begin
       off_q <= off_i;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_sine_rom: table of a quarter wave, floor(256 * sin(pi * i / 256) + 0.5) for i = index_i.
-// Rules:  P006-EXC-10 (the values are binding).
+// pmc006_sine_rom: table of a quarter sine wave: floor(256 * sin(pi * i / 256) + 0.5), with i = index_i.
+// Rules:  P006-EXC-10, which lists these values.
 // Timing: sine_o follows index_i by one cycle.
 `default_nettype none
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_stall: detects a stall: length_i consecutive samples of the back EMF at constant speed are below
-// limit_i.
+// pmc006_stall: detects a stall. A stall is detected if, at constant speed, length_i consecutive samples of
+//         the back EMF are below limit_i.
 // Rules:  P006-STA-03/14, P006-STL-01..06.
-// Timing: a sample is compared at the edge that ends the cycle of sample_i.valid and counted in the next
-//         cycle c. stall_o is set at the end of c. stop_o is combinational and already asserted in c, so that
-//         no step follows the stored position of the stall.
+// Timing: a sample is compared at the edge that ends the cycle of sample_i.valid. It is counted in the next
+//         cycle c. stall_o is set at the end of c. stop_o is combinational and already asserted in c, so
+//         that no step is made after the position of the stall is stored.
 `default_nettype none
 
 module pmc006_stall
@@ -13,14 +13,14 @@ module pmc006_stall
     input  wire logic          clk_i,
     input  wire logic          rst_ni,
     input  wire sample_t       sample_i,  // sample of the back EMF
-    input  wire logic    [2:0] config_i,  // STCFG: detect, stop, drive GPO5
-    input  wire logic    [6:0] length_i,  // STLEN, samples; 0 acts as 1
+    input  wire logic    [2:0] config_i,  // STCFG, 0: detect, 1: stop, 2: drive GPO5
+    input  wire logic    [6:0] length_i,  // STLEN in samples; 0 has the effect of 1
     input  wire logic    [8:0] limit_i,   // STLVL: a sample below it is low
     input  wire logic          busy_i,    // a motion is in progress
-    input  wire logic          steady_i,  // constant speed above 0
+    input  wire logic          steady_i,  // 1: constant speed above 0
     input  wire logic          start_i,   // strobe: a motion starts
     input  wire logic          clear_i,   // strobe: clear STALL
-    output logic               stop_o,    // stop the motion immediately
+    output logic               stop_o,    // 1: stop the motion immediately
     output logic               mark_o,    // strobe: store the position of the stall
     output logic               stall_o    // register STALL
 );
@@ -46,7 +46,7 @@ module pmc006_stall
 
   always_ff @(posedge clk_i) begin
     if (sample_i.valid) low_q <= sample_i.level < {1'b0, limit_i};
-    if (!busy_i) count_q <= '0;  // each motion begins with 0
+    if (!busy_i) count_q <= '0;  // each motion begins with a count of 0
     else if (sample_q) count_q <= low_counted ? count_next[6:0] : '0;
   end
 

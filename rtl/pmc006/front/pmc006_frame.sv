@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_frame: assembles bytes from the line into frames of eight bytes and checks address and sum.
+// pmc006_frame: assembles received bytes into frames of eight bytes, and checks address and sum.
 // Rules:  P006-FRM-01/02/04/06/08, P006-UART-03, P006-BAD-01..05.
-// Timing: frame_o.go is combinational, in the cycle of valid_i of the last byte. code and data are valid in
-//         this cycle and stable until a byte of the next frame.
+// Timing: frame_o.go is combinational: it is high in the cycle of valid_i of the last byte. frame_o.code
+//         and frame_o.data are valid from this cycle until a byte of the next frame is received.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -12,8 +12,8 @@ module pmc006_frame
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
     input  wire logic [7:0] addr_i,     // address of the device
-    input  wire logic [7:0] byte_i,     // byte from the line
-    input  wire logic       valid_i,    // strobe: byte_i is a received byte
+    input  wire logic [7:0] byte_i,     // received byte; valid with valid_i
+    input  wire logic       valid_i,    // strobe: a byte has been received
     input  wire logic       error_i,    // strobe: framing error
     input  wire logic       timeout_i,  // 1: the next byte begins a new frame (silence on the line)
     output frame_t          frame_o     // valid frame for this device

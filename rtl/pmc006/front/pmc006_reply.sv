@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_reply: data of a reply: the values that are active after the instruction.
+// pmc006_reply: selects the data of a reply. The data are the values that are active after the instruction.
 // Rules:  P006-CMD-01..57, P006-FRM-09; reply data: docs/pmc006/README.md, 4; status words: 5, 12.
-// Timing: reply_o follows sample_i by one cycle. The instruction takes effect one cycle before sample_i.
+// Timing: reply_o follows sample_i by one cycle. sample_i is one cycle after the instruction takes effect.
 `default_nettype none
 
 module pmc006_reply
   import pmc006_pkg::*;
 #(
-    parameter bit          Echo    = 1'b0,          // 1: s replies its data
+    parameter bit          Echo    = 1'b0,          // 1: the reply to s contains its data
     parameter logic [31:0] Version = 32'h0000_0123
 ) (
     input wire logic clk_i,
     input wire logic sample_i,  // strobe: sample the reply data
     input wire exec_cmd_t cmd_i,  // the instruction
-    input wire logic accepted_i,  // the instruction (s, t, B, E, W, G, z) was accepted
-    input wire logic [13:0] value_i,  // register of cmd_i, else 0; valid after sample_i
+    input wire logic accepted_i,  // 1: the instruction (s, t, B, E, W, G, z) was accepted
+    input wire logic [13:0] value_i,  // register of cmd_i, or 0; valid after sample_i
     input wire motor_settings_t settings_i,  // parameter registers
-    input wire control_settings_t control_i,  // registers of the control
+    input wire control_settings_t control_i,  // settings used only by the control
     input wire logic speed_mode_i,  // SPEED_MODE
-    input wire logic busy_i,  // a motion is in progress
+    input wire logic busy_i,  // 1: a motion is in progress
     input wire logic stall_i,  // register STALL
-    input wire logic [1:0] flags_i,  // EXT flags; bit 0 EXT1
+    input wire logic [1:0] flags_i,  // EXT flags, [0]: EXT1
     input wire logic [1:0] ext_i,  // pins EXT1, EXT2, synchronised
     input wire logic [4:0] gpi_i,  // general inputs, synchronised
     input wire logic [4:0] gpo_i,  // pins of the general outputs
@@ -28,9 +28,9 @@ module pmc006_reply
     input wire logic [7:0] pp_i,  // pointer PP of the user program
     input wire logic [31:0] pos_i,  // position
     input wire logic [31:0] stpos_i,  // position of the last stall
-    input wire logic [31:0] word_i,  // word of the program
-    input wire logic ee_idle_i,  // EEPROM: no operation in progress
-    input wire logic ee_failed_i,  // EEPROM: the last operation failed
+    input wire logic [31:0] word_i,  // word of the user program
+    input wire logic ee_idle_i,  // EEPROM, 1: no operation in progress
+    input wire logic ee_failed_i,  // EEPROM, 1: the last operation failed
     output logic [31:0] reply_o  // data of the reply
 );
 
@@ -40,7 +40,7 @@ module pmc006_reply
 
   assign unused_bits = &{1'b0, cmd_i, settings_i, control_i};
 
-  // Few replies have more than 14 bits.
+  // wide: replies that may have more than 14 bits; narrow: all other replies
   always_comb begin
     unique case (cmd_i.op)
       I_ABORT, I_POS_SET: wide = cmd_i.data;
@@ -71,7 +71,7 @@ module pmc006_reply
 
   always_ff @(posedge clk_i) if (sample_i) reply_q <= wide | 32'(narrow);
 
-  // A reply uses either reply_q or value_i; the other value is 0.
+  // The reply is either reply_q or value_i. The other one is 0.
   assign reply_o = reply_q | 32'(value_i);
 
 endmodule

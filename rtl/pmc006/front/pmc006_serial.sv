@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_serial: serial line to the host: receives frames, sends one reply for each valid frame.
+// pmc006_serial: serial interface to the host. Receives frames, and sends one reply to each valid frame.
 // Rules:  P006-UART-01..05, P006-FRM-03/04/07/10, P006-BAD-05/06.
-// Timing: e = edge of the sample of the last stop bit of a frame. frame_o.go is high in the cycle after e.
-//         de_o rises ceil(1 bit) after e; bit edge n occurs ceil((2 + n) bits) after e; de_o falls ceil(82
-//         bits) after e. The receiver is off from e + 1 until ceil(81.5 bits) after e: this is the middle of
-//         the last stop bit, when a host has received the complete reply.
-// How:    a bit is one full turn of an accumulator with an exact modulus, so bit edges have no drift.
+// Timing: e is the edge at which the last stop bit of a frame is sampled. frame_o.go is high in the cycle
+//         after e. de_o rises ceil(1 bit) after e. Bit edge n occurs ceil((2 + n) bits) after e. de_o falls
+//         ceil(82 bits) after e. The receiver is off from e + 1 until ceil(81.5 bits) after e. This is the
+//         middle of the last stop bit, when a host has received the complete reply.
+// How:    a bit is one full turn of an accumulator with an exact modulus, so the bit edges do not drift.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -23,11 +23,11 @@ module pmc006_serial
     output logic             txd_o,    // to the host, idle high
     output logic             de_o,     // 1: the line driver is on
     output frame_t           frame_o,  // valid frame for this device
-    input  wire logic [31:0] reply_i   // stable from half a bit after frame_o.go
+    input  wire logic [31:0] reply_i   // data of the reply; stable from half a bit after frame_o.go
 );
 
   localparam longint unsigned ClkBaudGcd = ppmc_pkg::gcd(64'(ClkHz), 64'(Baud));
-  // Factor that makes the modulus even, so that the middle of a bit is exact.
+  // Makes the modulus even, so that the middle of a bit is exact.
   localparam longint unsigned EvenFactor = ((64'(ClkHz) / ClkBaudGcd) % 2 == 0) ? 64'd1 : 64'd2;
   localparam longint unsigned Modulus = EvenFactor * 64'(ClkHz) / ClkBaudGcd;
   localparam longint unsigned BitUnits = EvenFactor * 64'(Baud) / ClkBaudGcd;
@@ -36,11 +36,11 @@ module pmc006_serial
   localparam logic [Width-1:0] Step = Width'(BitUnits);
   localparam logic [Width-1:0] Wrap = Width'(BitUnits + WrapOffset);
   localparam logic [Width-1:0] WrapHalf = Width'(BitUnits + WrapOffset + Modulus / 64'd2);
-  // Initial phases in the cycle of valid, two cycles after the sample: a bit ends one bit after the sample
-  // (PhaseZero) or half a bit after it (PhaseHalf).
+  // Initial phases for the cycle of valid, which is two cycles after the sample. With PhaseZero, a bit ends
+  // one bit after the sample, with PhaseHalf half a bit after it.
   localparam logic [Width-1:0] PhaseZero = Width'(WrapOffset + 64'd2 * BitUnits);
   localparam logic [Width-1:0] PhaseHalf = Width'(WrapOffset + 64'd2 * BitUnits + Modulus / 64'd2);
-  // 192 bits to the next start bit, then 9.5 bits to the middle of the stop bit of this byte.
+  // 192 bits until the next start bit, and 9.5 bits to the middle of the stop bit of this byte; rounded up.
   localparam int unsigned SilenceBits = 202;
 
   logic [7:0] char, next_byte, sum_q, bits_q;
@@ -51,8 +51,8 @@ module pmc006_serial
 
   // ---- receiver -------------------------------------------------------------------------------------------
 
-  // After the receiver was off, it ignores the line until the line is high. Otherwise the rest of a byte
-  // could be mistaken for a start bit.
+  // When the receiver is switched on, it ignores the line until the line is high. Otherwise it could
+  // mistake the rest of a byte for a start bit.
   ppmc_sync u_line (
       .clk_i,
       .rst_ni,
@@ -113,7 +113,7 @@ module pmc006_serial
 
   // ---- reply ----------------------------------------------------------------------------------------------
 
-  // The last stop bit consists of two halves; the receiver is switched on between them.
+  // The last stop bit is divided into two halves, because the receiver is switched on in the middle.
   assign in_stop_bit = de_o && byte_index_q[3] && bits_left_q <= 4'd1;
 
   always_comb begin

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_control: logic between the serial line and the motion: executor, registers, user program, EEPROM,
-// stop conditions.
-// Rules:  P006-CMD, P006-STA, P006-EXT, P006-STL, P006-IO, P006-PRG, P006-EEP, through its blocks.
-// Timing: motion_start_o and halt_o are combinational, in the cycle before the edge on which BUSY changes.
+// pmc006_control: logic between the serial line and the motion. Contains executor, registers, user program,
+//         EEPROM interface and stop conditions.
+// Rules:  P006-CMD, P006-STA, P006-EXT, P006-STL, P006-IO, P006-PRG, P006-EEP: see the instantiated blocks.
+// Timing: motion_start_o and halt_o are combinational. They are asserted in the cycle before the edge at
+//         which BUSY changes.
 `default_nettype none
 
 module pmc006_control
@@ -17,16 +18,16 @@ module pmc006_control
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
     input  wire logic                  us_i,            // strobe every microsecond
-    output logic                       boot_o,          // the device is booting
+    output logic                       boot_o,          // 1: the device is booting
     // host
     input  wire frame_t                frame_i,         // valid frame from the host
     output logic                [31:0] reply_o,         // data of the reply
     output logic                [ 7:0] addr_o,          // address of the device
-    // pins, inputs synchronised
-    input  wire logic                  fset_ni,         // pin FSET, low: factory settings
-    input  wire logic           [ 1:0] ext_i,           // bit 0 EXT1, bit 1 EXT2
+    // pins; the inputs are synchronised
+    input  wire logic                  fset_ni,         // pin FSET; low: factory settings
+    input  wire logic           [ 1:0] ext_i,           // [0]: EXT1, [1]: EXT2
     input  wire logic           [ 4:0] gpi_i,           // general inputs
-    output logic                [ 1:0] pull_up_o,       // pull-ups of EXT1, EXT2
+    output logic                [ 1:0] pull_up_o,       // 1: pull-up enabled, [0]: EXT1, [1]: EXT2
     output logic                [ 4:0] gpo_o,           // general outputs
     input  wire sample_t               bemf_i,          // sample of the back EMF
     input  wire logic                  scl_i,           // SCL of the EEPROM bus
@@ -36,9 +37,9 @@ module pmc006_control
     // motion
     output motor_settings_t            settings_o,      // settings used by motion and drive
     output motion_start_t              motion_start_o,  // start of a motion
-    output logic                       halt_o,          // stop immediately
+    output logic                       halt_o,          // 1: stop the motion immediately
     input  wire motion_status_t        motion_i,        // state of the motion
-    input  wire logic                  step_i           // a step is made at the next rising edge
+    input  wire logic                  step_i           // 1: a step is made at the next rising edge
 );
 
   exec_cmd_t cmd;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_data_check: checks the data of an instruction against its limits, regardless of the state of the
-// motor, and selects its register.
+//         motor. Also selects the register of the instruction.
 // Rules:  P006-CMD-51/57, P006-BAD-08/09/14/17; accepted data: docs/pmc006/README.md, 4 and 13.
-// Timing: access_o is valid one cycle after read_i, from a block RAM. ok_o is registered: it refers to cmd_i
-//         and the limits of the cycle before.
+// Timing: access_o is read from a block RAM and valid one cycle after read_i. ok_o is registered: it
+//         belongs to cmd_i and the limits of the previous cycle.
 `default_nettype none
 
 module pmc006_data_check
@@ -11,15 +11,15 @@ module pmc006_data_check
 (
     input  wire logic            clk_i,
     input  wire logic            read_i,     // 1: read limits and register of op_i
-    input  wire logic            program_i,  // with read_i: 1: instruction of the user program
+    input  wire logic            program_i,  // with read_i; 1: opcode of the user program, 0: of a frame
     input  wire logic      [7:0] op_i,       // with read_i: instruction code
-    input  wire exec_cmd_t       cmd_i,      // instruction op_i, from the cycle after read_i on
-    output reg_access_t          access_o,   // register of the instruction read last
+    input  wire exec_cmd_t       cmd_i,      // instruction with code op_i, from the cycle after read_i on
+    output reg_access_t          access_o,   // register of the instruction that was read last
     output logic                 ok_o        // 1: the data of cmd_i are accepted
 );
 
   typedef struct packed {
-    logic                has_limits;  // the instruction has limits
+    logic                has_limits;  // 1: low and high are the limits of the instruction
     logic [8:0]          low;
     logic [13:0]         high;
     reg_access_t access;
@@ -109,8 +109,8 @@ module pmc006_data_check
     return lim;
   endfunction
 
-  // The words are one constant, because synthesis evaluates the branches of data_limits wrongly in an initial
-  // block.
+  // The table is one constant, because synthesis evaluates the branches of data_limits wrongly in an
+  // initial block.
   function automatic data_limits_t [511:0] limits_table();
     data_limits_t [511:0] words;
     for (int unsigned i = 0; i < 512; i++) words[9'(i)] = data_limits(i >= 256, 8'(i));
@@ -124,8 +124,8 @@ module pmc006_data_check
   data_limits_t limits_q;
   logic [31:0] data;
   logic other_ok, always_ok;
-  // above_q: data >= low; below_q: data <= high; other_ok_q: the other conditions are met; always_ok_q:
-  // accepted regardless of these three
+  // above_q: data >= low; below_q: data <= high; other_ok_q: the other conditions are true; always_ok_q:
+  // the data are accepted regardless of these three
   logic above_q, below_q, other_ok_q, always_ok_q;
 
   initial for (int unsigned i = 0; i < 512; i++) rom[i] = LimitsTable[9'(i)];
@@ -135,13 +135,13 @@ module pmc006_data_check
   assign access_o = limits_q.access;
   assign data = cmd_i.data;
 
-  // The limits of an instruction without limits accept any value of the lowest 14 bits.
+  // An instruction without limits has the limits 0 and 3FFFh, which accept any value of bits 13:0.
   always_comb begin
     other_ok  = !limits_q.has_limits || data[31:14] == '0;
     always_ok = 1'b0;
     unique case (cmd_i.op)
       I_STEP: other_ok = !data[31] && data[30:0] != '0;
-      // At most one bit of the byte is set, and not bit 0.
+      // At most one bit of the byte is set, and bit 0 is not set.
       I_MSTEP: if (data[0] || (data[7:0] & (data[7:0] - 1'b1)) != '0) other_ok = 1'b0;
       I_ADDR: always_ok = cmd_i.source == FromBoot && data[15:0] == 16'h00ff;
       I_VMAX, P_RESET_EN, P_PAUSE_EN: if (cmd_i.option > 4'd1) other_ok = 1'b0;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_debounce: debounce filter of one input: asserts hit_o when the input has been low for LowTicks, and
-// re-arms when it has been high for HighTicks (0: immediately).
+// pmc006_debounce: debounce filter of one input. Asserts hit_o when the input has been low for LowTicks,
+//         and re-arms when it has been high for HighTicks (0: immediately).
 // Rules:  P006-PRG-30, P006-EEP-20.
-// Timing: hit_o and rearm_o are combinational strobes, in the cycle of the µs tick that completes the number
-//         of consecutive ticks. With HighTicks = 0, rearm_o is high in the first cycle in which the input is
-//         high.
+// Timing: hit_o and rearm_o are combinational strobes. They are high in the cycle of the µs tick that
+//         completes the number of consecutive ticks. With HighTicks = 0, rearm_o is high in the first cycle
+//         in which the input is high.
 `default_nettype none
 
 module pmc006_debounce #(
     parameter int unsigned LowTicks     = 1001,
-    parameter int unsigned HighTicks    = 1001,  // LowTicks, or 0: re-arm immediately
-    parameter bit          ArmedAtReset = 1'b0   // 1: armed after reset
+    parameter int unsigned HighTicks    = 1001,  // LowTicks, or 0: the filter re-arms immediately
+    parameter bit          ArmedAtReset = 1'b0   // 1: the filter is armed after reset
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
     input  wire logic us_i,    // strobe every microsecond
-    input  wire logic pin_i,   // synchronised
+    input  wire logic pin_i,   // input, synchronised
     output logic      hit_o,   // strobe: the input was low for LowTicks
     output logic      rearm_o  // strobe: the input is re-armed
 );
@@ -26,7 +26,7 @@ module pmc006_debounce #(
 
   logic armed_q, running_q, last_tick, done;
 
-  // All ticks except the last.
+  // Counts all ticks except the last one.
   ppmc_delay #(
       .Ticks(LowTicks - 1)
   ) u_nearly (

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_exec: sequencer that executes one instruction at a time, from a frame, from the user program, or
-// from the EEPROM during the boot.
+// pmc006_exec: executes one instruction at a time. The instruction comes from a frame, from the user
+//         program, or (during the boot) from the EEPROM.
 // Rules:  P006-FRM-03, P006-CMD-52/53, P006-PRG-15/16, P006-STA-15.
-// Timing: an instruction takes effect on the edge that ends the cycle of exec_o. This edge is 4 cycles after
-//         the last sample of a frame if no instruction is in progress, and 5 cycles after the edge that
-//         ends the cycle of instr_ack_o. For a frame, reply_sample_o is high in the next cycle.
+// Timing: an instruction takes effect at the edge that ends the cycle of exec_o. For a frame, this edge is
+//         4 cycles after the last sample of the frame if no instruction is in progress, and reply_sample_o
+//         is high in the next cycle. For a program instruction, this edge is 5 cycles after the edge that
+//         ends the cycle of instr_ack_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,33 +17,33 @@ module pmc006_exec
     // frames
     input  wire frame_t        frame_i,         // valid frame from the host
     // user program
-    input  wire logic          instr_req_i,     // request: execute the next program instruction
-    input  wire logic          cancel_i,        // discard the program instruction in progress
-    output logic               instr_ack_o,     // strobe: the program instruction begins
-    output logic               claim_o,         // the executor drives the address of the buffer
-    output logic               word1_o,         // word that the address selects: 1: W1; 0: W0
-    output logic               use_pp_o,        // 1: the address is that of the instruction at PP
+    input  wire logic          instr_req_i,     // level: execute the next program instruction
+    input  wire logic          cancel_i,        // 1: discard the program instruction in progress
+    output logic               instr_ack_o,     // strobe: execution of the program instruction begins
+    output logic               claim_o,         // 1: the executor addresses the buffer
+    output logic               word1_o,         // word to be addressed, 1: W1, 0: W0
+    output logic               use_pp_o,        // 1: address the instruction at PP
     input  wire logic   [31:0] word_i,          // word of the buffer, two cycles after the address
     // EEPROM
-    input  wire logic          load_i,          // strobe: execute or check load_op_i (boot)
+    input  wire logic          load_i,          // strobe: execute or check load_op_i; only during the boot
     input  wire logic   [ 7:0] load_op_i,       // instruction that loads the parameter
     input  wire logic   [15:0] load_data_i,     // data of the parameter
-    input  wire logic          store_i,         // with load_i: 1: execute; 0: only check the data
+    input  wire logic          store_i,         // with load_i; 1: execute, 0: only check the data
     // instruction in progress
     output exec_cmd_t          cmd_o,           // instruction
     output reg_access_t        access_o,        // register of cmd_o
     output logic               legal_o,         // 1: the data of cmd_o are accepted
-    output logic               exec_o,          // strobe: cmd_o is executed in this cycle
+    output logic               exec_o,          // strobe: cmd_o is executed
     output logic               set_position_o,  // strobe: set the position
-    input  wire logic          step_i,          // a step is counted in this cycle
-    input  wire logic          try_accept_i,    // E is accepted in this cycle of exec_o
+    input  wire logic          step_i,          // 1: a step is counted in this cycle
+    input  wire logic          try_accept_i,    // 1: E is accepted; valid with exec_o
     output logic               reply_sample_o   // strobe: sample the reply data
 );
 
   typedef enum logic [2:0] {
     StIdle,
-    StFirst,   // address of W0
-    StSecond,  // address of W1
+    StFirst,   // outputs the address of W0
+    StSecond,  // outputs the address of W1
     StDecode,  // W0 is valid
     StCheck,
     StExec,
@@ -56,8 +57,8 @@ module pmc006_exec
   logic [3:0] option_q;
 
   assign is_program = source_q == FromProgram || source_q == FromTry;
-  // The position is set in a cycle in which no step is counted. exec_o stays low for this instruction: step_i
-  // depends on exec_o, because an executed instruction can stop the motor and so suppress the step.
+  // The position is set in a cycle in which no step is counted. For this instruction exec_o stays low,
+  // because step_i depends on exec_o: an executed instruction can stop the motor and so suppress the step.
   assign set_position = state_q == StExec && op_q == I_POS_SET;
   assign set_position_o = set_position && !step_i;
 

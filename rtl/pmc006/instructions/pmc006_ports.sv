@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_ports: register and pins of the general outputs.
+// pmc006_ports: contains the register of the general outputs, and drives their pins.
 // Rules:  P006-CMD-46, P006-IO-02/03, P006-STL-03; instruction OUT: docs/pmc006/README.md, 13.
-// Timing: gpo_reg_o changes at the edge that ends the cycle of write_i; gpo_o follows one cycle later.
+// Timing: gpo_reg_o changes at the edge that ends the cycle of write_i. gpo_o follows gpo_reg_o by one
+//         cycle.
 `default_nettype none
 
 module pmc006_ports
@@ -10,7 +11,7 @@ module pmc006_ports
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
     input  wire exec_cmd_t       cmd_i,        // instruction in progress
-    input  wire logic            write_i,      // strobe: cmd_i is executed, its data are accepted
+    input  wire logic            write_i,      // strobe: execute cmd_i; its data are accepted
     input  wire logic            stall_pin_i,  // 1: drive GPO5 high (stall)
     output logic           [4:0] gpo_reg_o,    // register GPO
     output logic           [4:0] gpo_o         // pins of the general outputs

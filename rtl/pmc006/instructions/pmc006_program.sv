@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_program: sequencer of the user program: line, counter and compare flag, WAIT, RESET and PAUSE keys.
+// pmc006_program: executes the user program. Contains the current line, the counter, the compare flag,
+//         WAIT, and the RESET and PAUSE keys.
 // Rules:  P006-PRG-02/10..17/20/30..33, P006-CMD-01..05/18/47, P006-BAD-11/16..19/23.
-// Timing: instructions start at least 48 cycles apart. WAIT ends on the edge that ends the cycle in which the
-//         source has the requested level.
+// Timing: instructions start at least 48 cycles apart. WAIT ends at the edge that ends the cycle in which
+//         the source has the requested level.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,23 +16,23 @@ module pmc006_program
     // executor
     input  wire exec_cmd_t       cmd_i,         // instruction in progress
     input  wire logic            legal_i,       // 1: the data of cmd_i are accepted
-    input  wire logic            exec_i,        // cmd_i is executed in this cycle
-    input  wire logic            instr_ack_i,   // strobe: the requested instruction begins
-    output logic                 instr_req_o,   // request: execute the instruction of the current line
-    output logic                 cancel_o,      // discard the program instruction in progress
-    input  wire logic            word1_i,       // word that word_addr_o selects: 1: W1; 0: W0
-    input  wire logic            use_pp_i,      // 1: word_addr_o selects a word of the instruction at PP
+    input  wire logic            exec_i,        // strobe: cmd_i is executed
+    input  wire logic            instr_ack_i,   // strobe: execution of the requested instruction begins
+    output logic                 instr_req_o,   // level: execute the instruction of the current line
+    output logic                 cancel_o,      // 1: discard the program instruction in progress
+    input  wire logic            word1_i,       // word to be addressed, 1: W1, 0: W0
+    input  wire logic            use_pp_i,      // 1: address the instruction at PP
     output logic           [7:0] word_addr_o,   // address of a word in the buffer
     output logic                 try_accept_o,  // strobe: E is accepted
-    output logic                 put_o,         // strobe: write a word of the buffer
+    output logic                 put_o,         // strobe: write a word into the buffer
     output logic                 accepted_o,    // strobe: W, G, z or E is accepted
-    input  wire logic            burning_i,     // the program is written to the EEPROM: no word may change
+    input  wire logic            burning_i,     // 1: program being written, words must not change
     output logic           [7:0] pp_o,          // pointer PP, word address 0 .. 200
     // sources
     input  wire logic            us_i,          // strobe every microsecond
     input  wire logic      [4:0] gpi_i,         // general inputs, synchronised
-    input  wire logic      [1:0] flags_i,       // EXT flags; bit 0 EXT1
-    input  wire logic            busy_i,        // a motion is in progress
+    input  wire logic      [1:0] flags_i,       // EXT flags, [0]: EXT1
+    input  wire logic            busy_i,        // 1: a motion is in progress
     input  wire logic            stall_i,       // register STALL
     output logic                 stop_o         // strobe: the RESET key stops the motion
 );
@@ -62,7 +63,7 @@ module pmc006_program
 
   // ---- sources --------------------------------------------------------------------------------------------
 
-  // During WAIT the stored option is used, because cmd_i may be an instruction of a frame.
+  // During WAIT, the stored option is used, because cmd_i may then be an instruction of a frame.
   assign option = (state_q == StWait) ? option_q : cmd_i.option;
   assign bits = {stall_i, busy_i, flags_i, gpi_i};
 

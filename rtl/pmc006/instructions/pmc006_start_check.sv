@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_start_check: decides whether a motion is started, resumed or stopped by an instruction or another
-// cause.
+// pmc006_start_check: decides whether an instruction or another event starts, resumes or stops a motion.
 // Rules:  P006-STA-01..04/10/11/13/14/16/18/19, P006-CMD-55, P006-EXT-11.
-// Timing: start_o, run_o and halt_o are combinational, in the cycle before the edge on which BUSY changes. At
-//         most one of them is high in a cycle. speed_o is combinational: during a speed run, it is 1 in
-//         the cycle of an "N 1", which therefore resumes a run that would end on the next edge.
+// Timing: start_o, run_o and halt_o are combinational. They are asserted in the cycle before the edge at
+//         which BUSY changes, and at most one of them is high in a cycle. speed_o is also combinational:
+//         during a speed run, it is 1 in the cycle of "N 1". Therefore "N 1" resumes a run that would end
+//         at the next edge.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,23 +15,23 @@ module pmc006_start_check
     input  wire logic            rst_ni,
     input  wire exec_cmd_t       cmd_i,         // instruction in progress
     input  wire logic            legal_i,       // 1: the data of cmd_i are accepted
-    input  wire logic            exec_i,        // cmd_i is executed in this cycle
+    input  wire logic            exec_i,        // strobe: cmd_i is executed
     input  wire motor_settings_t settings_i,    // parameter registers
-    input  wire logic            busy_i,        // a motion is in progress
-    input  wire logic            locked_i,      // an EXT flag is set
+    input  wire logic            busy_i,        // 1: a motion is in progress
+    input  wire logic            locked_i,      // 1: an EXT flag is set
     input  wire logic            ext_event_i,   // strobe: an EXT flag is set at the next edge
-    input  wire logic            stall_stop_i,  // a stall stops the motion
+    input  wire logic            stall_stop_i,  // 1: a stall stops the motion
     input  wire logic            key_stop_i,    // strobe: the RESET key stops the motion
-    output logic                 start_o,       // strobe: start a motion of counted steps
+    output logic                 start_o,       // strobe: start a motion with a number of steps
     output logic                 run_o,         // strobe: start a speed run
-    output logic                 halt_o,        // stop immediately
+    output logic                 halt_o,        // 1: stop the motion immediately
     output logic                 speed_o,       // 0: decelerate and end a speed run
     output logic                 speed_mode_o   // register SPEED_MODE
 );
 
   logic limits_q, endless_q, exec_ok, can_start, run_req;
 
-  // A stall stops only a motion in progress, so it does not prevent a start.
+  // stall_stop_i is omitted here: a stall only stops a motion in progress, so it does not prevent a start.
   assign exec_ok = exec_i && legal_i && !ext_event_i && !key_stop_i;
   assign can_start = !busy_i && !settings_i.free && !locked_i;
 
@@ -49,8 +49,8 @@ module pmc006_start_check
     else speed_mode_o <= run_o || speed_o;
   end
 
-  // limits_q: VSTART and VSTOP are at most VMAX. The comparison is registered: instructions are several
-  // cycles apart, so the settings are stable before start_o depends on it.
+  // limits_q = 1: VSTART and VSTOP are at most VMAX. This comparison is registered. Instructions are
+  // several cycles apart, so limits_q is up to date when start_o uses it.
   always_ff @(posedge clk_i) begin
     limits_q <= {2'b00, settings_i.vstart} <= settings_i.vmax && {2'b00, settings_i.vstop} <= settings_i.vmax;
     if (start_o || run_o) endless_q <= run_o;

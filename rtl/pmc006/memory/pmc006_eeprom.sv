@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_eeprom: boot, save, burn and factory restore: transfers over the EEPROM bus and into the registers.
+// pmc006_eeprom: executes boot, save, burn and factory restore. Transfers data over the EEPROM bus, and
+//         loads the registers.
 // Rules:  P006-EEP-01/10/11/20..23, P006-CMD-02/41, P006-BAD-12..15/22/24.
-// Timing: the bus runs on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte to be written is sampled on the
-//         tick that begins its first bit. During the boot the parameter page is checked, then executed, each
-//         with eight cycles per byte. If the page is invalid, the copy is read and used instead.
+// Timing: the bus uses ticks with the frequency 4 * I2C_HZ, see ppmc_i2c_master. A byte to be written is
+//         sampled at the tick at which its first bit begins. During the boot, the parameter page is first
+//         checked and then executed; each pass takes eight cycles per byte. If the page is invalid, its
+//         copy is read and used instead.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,24 +19,24 @@ module pmc006_eeprom
 ) (
     input  wire logic                    clk_i,
     input  wire logic                    rst_ni,
-    input  wire logic                    fset_ni,          // synchronised
-    input  wire logic                    restore_i,        // strobe: fset_ni was low for its filter time
+    input  wire logic                    fset_ni,          // pin FSET, synchronised; low: factory settings
+    input  wire logic                    restore_i,        // strobe: fset_ni was low for the filter time
     // requests
     input  wire logic                    save_i,           // strobe: write the parameters
     input  wire logic                    burn_i,           // strobe: write the program
-    output logic                         idle_o,           // save_i or burn_i is accepted in this cycle
-    output logic                         failed_o,         // save, burn or restore failed; valid with idle_o
-    output logic                         burning_o,        // the program is being written
+    output logic                         idle_o,           // 1: save_i or burn_i is accepted in this cycle
+    output logic                         failed_o,         // 1: last operation failed; valid with idle_o
+    output logic                         burning_o,        // 1: the program is being written
     output logic                         boot_o,           // 1: boot in progress
     output logic                         autostart_o,      // strobe: start the user program
-    output logic                         rst_settings_no,  // 0: reset the registers (restore at boot)
+    output logic                         rst_settings_no,  // reset of the registers (restore at boot)
     // registers
     input  wire motor_settings_t         settings_i,       // parameter registers
-    input  wire control_settings_t       control_i,        // registers of the control
+    input  wire control_settings_t       control_i,        // settings used only by the control
     output logic                         load_o,           // strobe: check or execute load_op_o
     output logic                   [7:0] load_op_o,        // instruction that loads a parameter
-    output logic                         load_wide_o,      // 1: load_op_o uses a pair; 0: a byte
-    output logic                         store_o,          // 1: execute load_op_o; 0: check the data
+    output logic                         load_wide_o,      // width of load_op_o, 1: pair, 0: byte
+    output logic                         store_o,          // 1: execute load_op_o, 0: check its data
     input  wire logic                    legal_i,          // 1: the data of load_op_o are accepted
     // buffer
     input  wire logic                    claim_i,          // 1: the executor addresses the buffer
@@ -56,18 +58,18 @@ module pmc006_eeprom
   localparam logic [4:0] LastFieldAddr = 5'h15;
 
   typedef enum logic [3:0] {
-    StReset,   // wait until FSET is high or a restore is requested
+    StReset,   // waits until FSET is high or a restore is requested
     StFree,
     StStart,
     StDevice,
     StHigh,    // high byte of the address
     StLow,
-    StAgain,   // repeated START of a read
-    StSource,  // device address for the read
+    StAgain,   // repeated START before a read
+    StSource,  // device address of the read
     StData,
     StStop,
-    StWipe,    // clear the program
-    StLoad,    // load the registers from the page
+    StWipe,    // clears the program
+    StLoad,    // loads the registers from the page
     StSettle,
     StIdle
   } state_e;
@@ -156,8 +158,8 @@ module pmc006_eeprom
   assign we_o = byte_received || (state_q == StWipe && program_bad_q);
   assign byte_o = (state_q == StWipe) ? 8'd0 : received;
 
-  // The executor has priority for the buffer. The time between two bytes is long enough for both, so
-  // prefetch_q is valid before it is sent.
+  // The executor has priority in accessing the buffer. The time between two bytes is long enough for both
+  // accesses, so prefetch_q is valid before it is sent.
   always_ff @(posedge clk_i) begin
     prefetch_valid_q <= {prefetch_valid_q[0], !claim_i};
     if (prefetch_valid_q[1]) prefetch_q <= byte_i;
@@ -166,8 +168,8 @@ module pmc006_eeprom
 
   // ---- factory restore ------------------------------------------------------------------------------------
 
-  // A restore at boot resets the parameter registers, because their reset values are the factory values. The
-  // reset lasts until the boot is over.
+  // A restore at boot resets the parameter registers, because their reset values are the factory values.
+  // This reset lasts until the end of the boot.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) rst_settings_no <= 1'b0;
     else rst_settings_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));
@@ -175,7 +177,7 @@ module pmc006_eeprom
 
   // ---- sequence -------------------------------------------------------------------------------------------
 
-  // If the page is invalid during the boot, the copy is read once.
+  // If the page is invalid during the boot, its copy is read once.
   assign try_copy = boot_q && page_bad_q && !copy_q && !restore_q && !factory_q;
   assign idle_o = state_q == StIdle && !restore_q;
   assign failed_o = fail_q;

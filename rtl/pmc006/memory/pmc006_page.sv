@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_page: memory map of the EEPROM: outputs the byte to be sent or expected, the check sum, and the
-// instruction that loads a parameter.
+// pmc006_page: memory map of the EEPROM. For an address, it returns the byte to be sent or expected, and
+//         the instruction that loads the parameter. Also computes the check sum.
 // Rules:  P006-EEP-10/11/22, P006-BAD-14/15; memory map, factory page: docs/pmc006/README.md, 14.
-// Timing: byte_o and mismatch_o are combinational. The high byte of a pair is stored when the low byte is
-//         sent, so that both bytes are of the same register value.
+// Timing: byte_o and mismatch_o are combinational. When the low byte of a pair is sent, the high byte is
+//         stored, so that both bytes are from the same value of the register.
 `default_nettype none
 
 module pmc006_page
@@ -15,25 +15,25 @@ module pmc006_page
     input wire logic byte_sent_i,  // strobe: byte_o is sent
     input wire logic byte_received_i,  // strobe: received_i is valid
     input wire logic [7:0] received_i,  // received byte
-    input wire logic clear_i,  // clear the check sum
-    input wire logic burn_i,  // 1: the program is written; 0: the parameters
-    input wire logic mark_i,  // 1: byte_o of the program mark is 00 (invalid)
-    input wire logic [7:0] prefetch_i,  // prefetched byte of the program
-    input wire logic factory_i,  // 1: factory values instead of the registers
+    input wire logic clear_i,  // 1: clear the check sum
+    input wire logic burn_i,  // 1: the program is being written, 0: the parameters
+    input wire logic mark_i,  // 1: write the program mark as 00 (invalid)
+    input wire logic [7:0] prefetch_i,  // byte of the program, prefetched from the buffer
+    input wire logic factory_i,  // 1: factory values, 0: values of the registers
     input wire motor_settings_t settings_i,  // parameter registers
-    input wire control_settings_t control_i,  // registers of the control
-    output logic [7:0] byte_o,  // byte to be sent, or expected
-    output logic mismatch_o,  // strobe: received_i differs from byte_o, at a checked address
-    output logic [7:0] op_o,  // instruction that loads the byte or pair, or I_NONE
-    output logic wide_o  // data of op_o: 1: pair; 0: byte
+    input wire control_settings_t control_i,  // settings used only by the control
+    output logic [7:0] byte_o,  // byte to be sent or expected
+    output logic mismatch_o,  // strobe: received_i differs from byte_o at a checked address
+    output logic [7:0] op_o,  // instruction that loads the byte or pair; I_NONE: no instruction
+    output logic wide_o  // data of op_o, 1: pair, 0: byte
 );
 
   typedef struct packed {
-    logic [15:0] pair;    // pair that contains the byte
-    logic [7:0]  single;  // the byte, if it is not part of a pair
+    logic [15:0] pair;    // pair at this offset
+    logic [7:0]  single;  // byte at this offset, if not part of a pair
   } page_field_t;
 
-  // Content of the parameter page at this offset.
+  // Contents of the parameter page at an offset.
   function automatic page_field_t page_field(motor_settings_t set, control_settings_t ctl,
                                              logic [4:0] offset);
     page_field_t f;
@@ -68,7 +68,7 @@ module pmc006_page
   logic in_trailer, is_checked;
 
   assign offset = addr_i[4:0];
-  assign in_trailer = addr_i[9:8] == 2'b11 && addr_i[6];  // after the program
+  assign in_trailer = addr_i[9:8] == 2'b11 && addr_i[6];  // addresses after the program
   assign field = factory_i ? page_field(
       SETTINGS_RESET, CONTROL_RESET, offset
   ) : page_field(

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_reply_ram: copy of the parameter registers in a block RAM, for the replies.
+// pmc006_reply_ram: copy of the parameter registers in a block RAM, which supplies the data of replies.
 // Rules:  P006-CMD-50/52, P006-BAD-08; factory values: docs/pmc006/README.md, 4.
-// Timing: a written value can be read in the next cycle. value_o follows sample_i by one cycle and is stable
-//         until the next sample_i. In the 32 cycles after a reset, the RAM is filled with the factory values.
+// Timing: a written value can be read in the next cycle. value_o follows sample_i by one cycle and is
+//         stable until the next sample_i. A reset fills the RAM with the factory values, which takes 32
+//         cycles.
 // Assumes: write_i and sample_i are low during these 32 cycles.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -14,9 +15,9 @@ module pmc006_reply_ram
     input  wire logic             rst_ni,
     input  wire logic             write_i,   // strobe: write data_i to reg_id_i
     input  wire register_e        reg_id_i,  // register to be written or read
-    input  wire logic      [13:0] data_i,    // data of write_i
+    input  wire logic      [13:0] data_i,    // value; valid with write_i
     input  wire logic             sample_i,  // strobe: read reg_id_i into value_o
-    output logic           [13:0] value_o    // value of reg_id_i at sample_i; 0 for RegNone
+    output logic           [13:0] value_o    // value of reg_id_i at the last sample_i; RegNone: 0
 );
 
   function automatic logic [13:0] factory_value(logic [4:0] reg_id);
@@ -45,8 +46,9 @@ module pmc006_reply_ram
     endcase
   endfunction
 
-  // The upper half is never written; it stores the factory values. The value of register n is stored at
-  // address 32 + n - 1, because it is written to the lower half one cycle after it was read.
+  // The upper half stores the factory values and is never written. A reset copies it to the lower half;
+  // each value is written one cycle after it is read. Therefore the value of register n is stored at
+  // address 32 + n - 1.
   function automatic logic [63:0][13:0] init_words();
     logic [63:0][13:0] table_words;
     table_words = '0;
@@ -65,7 +67,8 @@ module pmc006_reply_ram
 
   assign filling = !count_q[5];
 
-  // A reset fills entries 2 and up, regardless of the previous RAM contents. Entries 0 and 1 are never read.
+  // A reset fills the entries from 2 on, regardless of the previous RAM contents. Entries 0 and 1 are never
+  // read.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) count_q <= 6'd1;
     else if (filling) count_q <= count_q + 1'b1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_settings: parameter registers.
+// pmc006_settings: stores the parameter registers.
 // Rules:  P006-CMD-04..50, P006-MOT-52; EXTEN, VSET and ACC of the user program: docs/pmc006/README.md, 13.
-// Timing: the registers change on the edge that ends the cycle of write_i.
+// Timing: the registers change at the edge that ends the cycle of write_i.
 `default_nettype none
 
 module pmc006_settings
@@ -11,11 +11,11 @@ module pmc006_settings
     input  wire logic                rst_ni,
     input  wire exec_cmd_t           cmd_i,       // instruction in progress
     input  wire reg_access_t         access_i,    // register of cmd_i
-    input  wire logic                write_i,     // strobe: cmd_i is executed, its data are accepted
+    input  wire logic                write_i,     // strobe: execute cmd_i; its data are accepted
     input  wire logic                sample_i,    // strobe: sample the value for the reply
     output motor_settings_t          settings_o,  // settings used by motion and drive
     output control_settings_t        control_o,   // settings used only by the control
-    output logic              [13:0] value_o      // register of access_i at sample_i, or 0
+    output logic              [13:0] value_o      // register of access_i at the last sample_i, or 0
 );
 
   logic [13:0] data;
@@ -26,9 +26,9 @@ module pmc006_settings
 
   always_comb begin
     data = cmd_i.data[13:0];
-    // The value 6, which only the user program can set, is equivalent to 5.
+    // The value 6 has the effect of 5. Only the user program can set it.
     if (cmd_i.op == I_ACC && data[2:1] == 2'b11) data[1:0] = 2'b01;
-    // Except in a frame, bit 0 of EXTEN enables or disables both inputs.
+    // If the instruction is not from a frame, bit 0 of EXTEN enables or disables both inputs.
     if (cmd_i.op == I_EXTEN && cmd_i.source != FromFrame) data[1] = data[0];
   end
 

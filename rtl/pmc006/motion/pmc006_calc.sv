@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc: sequential processor of the motion planner: one adder, which multiplies and divides one bit
-// per cycle, a small memory, and the program of pmc006_calc_rom (pmc006_calc.asm).
+// pmc006_calc: sequential processor of the motion planner. It has one adder, which multiplies and divides
+//         one bit per cycle, a small memory, and the program in pmc006_calc_rom (source: pmc006_calc.asm).
 // Rules:  P006-MOT-10..23, P006-EXC-20..23; docs/pmc006/README.md, 6.1.
-// Timing: an instruction takes 2 cycles without operand, 3 with an operand, n + 2 with n steps. A run ends
-//         within 785 cycles of plan_i and within 590 cycles of advance_i. plan_i during a run aborts this
-//         run: a motion can be halted and the next motion started while a run is in progress.
+// Timing: an instruction takes 2 cycles without an operand, 3 cycles with an operand, n + 2 cycles with n
+//         steps. A run ends within 785 cycles of plan_i, and within 590 cycles of advance_i. plan_i aborts
+//         a run in progress: a motion can be halted, and the next motion started, during a run.
 // Assumes: advance_i is low while busy_o is high (two update ticks are at least 800 cycles apart).
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -14,19 +14,19 @@ module pmc006_calc
 (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        plan_i,          // strobe: start a run that plans a motion
+    input  wire logic        plan_i,          // strobe: start the run that plans a motion
     input  wire logic        advance_i,       // strobe: start the run of an update tick
-    output logic             busy_o,          // a run is in progress
-    // motion; stable while busy_o is high, except left_i
-    input  wire logic        short_i,         // kind L
-    input  wire logic        speed_i,         // kind V
-    input  wire logic        stop_i,          // stop request
-    input  wire logic        analog_i,        // the target is analog
+    output logic             busy_o,          // 1: a run is in progress
+    // motion; all except left_i are stable while busy_o is high
+    input  wire logic        short_i,         // 1: motion of kind L
+    input  wire logic        speed_i,         // 1: motion of kind V
+    input  wire logic        stop_i,          // 1: stop requested
+    input  wire logic        analog_i,        // 1: the target speed is analog
     input  wire logic [ 2:0] acc_i,           // acceleration coefficient, sampled with plan_i
     input  wire logic [ 2:0] dec_i,           // deceleration coefficient, sampled with plan_i
     input  wire logic [13:0] v_i,             // V
     input  wire logic [11:0] ve_i,            // VSTOP
-    input  wire logic [30:0] left_i,          // R; stable only until 6 cycles after the strobe
+    input  wire logic [30:0] left_i,          // R; stable until 6 cycles after the strobe
     input  wire logic [ 7:0] mstep_i,         // 1, 2, 4, .. 128
     // sampled settings; stable while busy_o is high
     input  wire logic [13:0] vmax_i,          // VMAX
@@ -37,13 +37,13 @@ module pmc006_calc
     // results
     output phase_e           phase_o,         // phase of the motion
     output logic      [13:0] next_v_o,        // Vn
-    output logic             load_v_o,        // strobe: V is set to Vn
+    output logic             load_v_o,        // strobe: load V with Vn
     output logic      [10:0] current_comp_o,  // Bn
     output logic      [ 6:0] lead_angle_o     // Wn
 );
 
 
-  instr_t instr, ir_q;  // instr: fetched; ir_q: one cycle later, for operand and execution
+  instr_t instr, ir_q;  // instr: fetched instruction; ir_q: one cycle later, for execution
   logic run_q, read_q, no_operand, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] steps_left_q, steps;
@@ -62,7 +62,7 @@ module pmc006_calc
   assign last = exec_q && steps_left_q == '0;
   assign done = last && run_q;
   assign fetch = plan_i || advance_i || done;
-  assign no_operand = instr.op[3] || instr.op[1:0] == '0;  // no operand
+  assign no_operand = instr.op[3] || instr.op[1:0] == '0;  // the instruction has no operand
 
   always_comb begin
     unique case (cond_e'(ir_q.aux))
@@ -115,7 +115,7 @@ module pmc006_calc
     else if (done && ir_q.op == OpHalt) run_q <= 1'b0;
   end
 
-  // No reset: plan_i or advance_i sets the following registers.
+  // No reset: plan_i and advance_i start a run, which sets these registers before use.
   always_ff @(posedge clk_i) begin
     if (fetch) pc_q <= pc_d;
     ir_q   <= instr;
@@ -130,7 +130,7 @@ module pmc006_calc
 
   assign coefficient = (instr.low[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
 
-  // The word is 0 if the operand is a register.
+  // The output of the memory is 0 if the operand is a register.
   pmc006_calc_words u_words (
       .clk_i,
       .we_i(done && ir_q.op == OpStore),
@@ -167,7 +167,7 @@ module pmc006_calc
   assign mul = ir_q.op == OpMul;
   assign root = ir_q.op == OpRoot;
   assign div = ir_q.op == OpDiv || root;
-  assign shift_only = root && steps_left_q[0];  // one bit of the root consumes two bits of the square
+  assign shift_only = root && steps_left_q[0];  // one bit of the root consumes two bits of the radicand
   assign zero = hi_q == '0;
 
   always_comb begin

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_pkg: instruction set of the motion planner: operations of pmc006_calc, operands, conditions.
-// Rules:  P006-MOT-10..23, P006-EXC-20..23 (computed by the program in pmc006_calc.asm).
+// pmc006_calc_pkg: operations, operands and conditions of the instruction set of the motion planner
+//         pmc006_calc.
+// Rules:  P006-MOT-10..23, P006-EXC-20..23, which the program in pmc006_calc.asm implements.
 // How:    an instruction is {operation, aux, operand} or {jump, condition, target}. {hi, lo} is the 64-bit
-//         accumulator of the only adder; load, add and sub use only hi as input.
+//         accumulator; the adder has 32 bits, and load, add and sub use only hi.
 `default_nettype none
 
 package pmc006_calc_pkg;
@@ -18,17 +19,17 @@ package pmc006_calc_pkg;
     OpStore,  // word = hi
     OpMul,    // {hi, lo} = ((hi + operand * (lowest n bits of lo)) << (32 - n)) + (lo >> n)
     OpDiv,    // lo = {hi, lo} / operand, hi = remainder
-    OpRoot,   // Vn = square root of lo; hi and Vn must be 0 before
-    OpOut,    // an output = hi, or increment a coefficient
-    OpSet,    // set phase and shape of the ramp, see instr_t
+    OpRoot,   // Vn = square root of lo; requires hi = 0 and Vn = 0
+    OpOut,    // output = hi, or increment a coefficient
+    OpSet,    // set phase and shape of the ramp, see instr_t.low
     OpJump
   } calc_op_e;
 
-  // aux of a load, sum or division.
+  // aux of a load, addition, subtraction or division.
   typedef enum logic [3:0] {
     OperandPlain,
-    OperandDec,    // RWay uses nd instead of na
-    OperandLow,    // result in lo, hi = 0
+    OperandDec,    // RWay uses nd, not na
+    OperandLow,    // result in lo; then hi = 0
     OperandLowDec
   } operand_mode_e;
 
@@ -50,15 +51,15 @@ package pmc006_calc_pkg;
     OutDec     // nd = nd + 1
   } output_sel_e;
 
-  // Bits 6..5: 00 word of pmc006_calc_words, 01 table of pmc006_calc_words, 10 register.
+  // Bits 6:5 select 00: a word of pmc006_calc_words, 01: a table of pmc006_calc_words, 10: a register.
   typedef enum logic [6:0] {
-    // writable words
-    MLt     = 7'h00,  // live target used last
+    // words that the program writes
+    MLt     = 7'h00,  // last live target
     MU      = 7'h01,  // progress of the ramp
     MDu     = 7'h02,  // increment of MU; 0 represents 2^32
     MV1     = 7'h03,  // first speed of the ramp
     MDv     = 7'h04,  // height of the ramp
-    MLeft   = 7'h05,  // R of this update tick
+    MLeft   = 7'h05,  // R at this update tick
     MT      = 7'h06,
     MX      = 7'h07,
     MWay1   = 7'h08,  // acceleration distance, steps
@@ -74,10 +75,10 @@ package pmc006_calc_pkg;
     K54400  = 7'h16,
     K3x2p16 = 7'h17,  // 196608
     K2p31   = 7'h18,
-    // tables, indexed by a coefficient in the lowest three bits
-    RRate   = 7'h20,  // 17 << na; for a falling ramp 17 << nd
-    RWay    = 7'h28,  // 3400 << na; with OperandDec 3400 << nd
-    // registers of the motion and sampled settings
+    // tables; bits 2:0 of the address are the coefficient
+    RRate   = 7'h20,  // 17 << na; if the ramp falls: 17 << nd
+    RWay    = 7'h28,  // 3400 << na; with OperandDec: 3400 << nd
+    // registers of the motion, and sampled settings
     RV      = 7'h40,
     RVe     = 7'h41,
     RLeft   = 7'h42,  // R
@@ -104,17 +105,17 @@ package pmc006_calc_pkg;
     CondSpeed,     // kind V
     CondStop,      // kind V, and the stop request is active
     CondAnalog,
-    CondPlan,      // run of plan_i, before t = 0
+    CondPlan,      // run that was started by plan_i, before t = 0
     CondEnding,    // phase STOP or END
     CondRamp,      // phase RAMP, DEC or STOP
     CondLive,      // phase CRUISE or RAMP
     CondUp,        // the ramp rises
-    CondSmooth,    // the ramp is an S
+    CondSmooth,    // the ramp is an S-curve
     CondAcc5,      // na = 5
     CondDec5       // nd = 5
   } cond_e;
 
-  // Bit 2: a ramp; without bit 2: the phase after the ramp.
+  // Bit 2 = 1 is a ramp; bit 2 = 0 is the phase that follows this ramp.
   typedef enum logic [2:0] {
     PhCruise = 3'b000,
     PhCreep  = 3'b001,
@@ -124,12 +125,12 @@ package pmc006_calc_pkg;
     PhStop   = 3'b110
   } phase_e;
 
-  // OpSet: aux bit 3 ends the ramp (phase bit 2 = 0). Otherwise aux bits 2, 1, 0 enable the setting of phase,
-  // up, smooth.
+  // aux of OpSet: bit 3 ends the ramp (it clears bit 2 of the phase). Otherwise bits 2, 1, 0 enable the
+  // setting of phase, up and smooth.
   typedef struct packed {
     calc_op_e   op;
     logic [3:0] aux;  // operand_mode_e, mul_steps_e, output_sel_e or cond_e
-    logic [8:0] low;  // operand, jump target or {phase_e, up, smooth}
+    logic [8:0] low;  // operand, jump target, or {phase_e, up, smooth}
   } instr_t;
 
   // ---- written by `make rom` from pmc006_calc.asm: entry points and length of the program -----------------

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_words: memory of pmc006_calc: words written by the program, constants, tables.
-// Rules:  P006-MOT-10..23 (the constants are binding).
+// pmc006_calc_words: memory of pmc006_calc. Contains words that the program writes, constants and tables.
+// Rules:  P006-MOT-10..23, which define the constants.
 // Timing: word_o follows raddr_i by one cycle.
-// Assumes: the address that is being written is not read in the same cycle.
+// Assumes: no address is read in the cycle in which it is written.
 `default_nettype none
 
 module pmc006_calc_words
   import pmc006_calc_pkg::*;
 (
     input  wire logic        clk_i,
-    input  wire logic        we_i,     // write data_i to waddr_i
-    input  wire logic [ 3:0] waddr_i,  // address of a writable word, M… of operand_e
-    input  wire logic [31:0] data_i,   // data of we_i
-    input  wire logic [ 6:0] raddr_i,  // operand_e; table: bits 2..0 are the coefficient
-    output logic      [31:0] word_o    // 0 if raddr_i is a register
+    input  wire logic        we_i,     // strobe: write data_i
+    input  wire logic [ 3:0] waddr_i,  // address of a writable word (M… of operand_e)
+    input  wire logic [31:0] data_i,   // word; valid with we_i
+    input  wire logic [ 6:0] raddr_i,  // operand_e; for a table, bits 2:0 are the coefficient
+    output logic      [31:0] word_o    // word at raddr_i; 0 if raddr_i is a register
 );
 
   function automatic logic [31:0] init_word(logic [6:0] addr);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_motion: executes a motion from its acceptance to its end: latches the settings, plans the ramps,
-// generates the steps, follows changes of the target speed, computes the current compensation.
+// pmc006_motion: executes a motion from its acceptance to its end. Latches the settings, plans the ramps,
+//         generates the steps, follows changes of the target speed, and computes the current compensation.
 // Rules:  P006-STA-10, P006-CMD-54, P006-MOT-01..05, P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42,
 //         P006-MOT-50..52, P006-EXC-21..24.
-// Timing: motion_o.busy rises at the edge s that ends the cycle of start or run. t = 0 is the first µs tick
-//         at or after s + 800. A step scheduled at t is made two cycles after the µs tick t. step_o is
-//         combinational: it is high in the cycle before the edge at which the step is made.
+// Timing: motion_o.busy rises at edge s, which ends the cycle of motion_start_i.start or .run. t = 0 is the
+//         first µs tick at or after s + 800 cycles. A step that is scheduled at time t is made two cycles
+//         after µs tick t. step_o is combinational: it is high in the cycle before the edge at which the
+//         step is made.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,13 +18,13 @@ module pmc006_motion
     input  wire logic                  rst_ni,
     input  wire logic                  us_i,            // strobe every microsecond
     input  wire motor_settings_t       settings_i,      // parameter registers
-    input  wire logic            [7:0] base_i,          // base code RB, one cycle after settings_i
+    input  wire logic            [7:0] base_i,          // base code RB; valid one cycle after settings_i
     // accepted instructions
     input  wire motion_start_t         motion_start_i,  // start of a motion
-    input  wire logic                  halt_i,          // stop immediately; step_o is low
-    input  wire sample_t               adc_i,           // sample h of the analog speed
+    input  wire logic                  halt_i,          // 1: stop immediately; then step_o is low
+    input  wire sample_t               adc_i,           // sample h of the analog speed input
     output motion_status_t             motion_o,        // state of the motion
-    output logic                       step_o,          // a step is made at the next rising edge
+    output logic                       step_o,          // 1: a step is made at the next rising edge
     output drive_cmd_t                 drive_cmd_o      // values for the drive
 );
 
@@ -43,7 +44,8 @@ module pmc006_motion
   phase_e phase;
 
   assign start = motion_start_i.start || motion_start_i.run;
-  // While no motion is in progress, the registers follow the inputs, because start is timing-critical.
+  // While no motion is in progress, the registers follow the inputs every cycle, because start is
+  // timing-critical.
   assign load_settings = !busy_q || t0 || update;
   assign end_run = speed_q && phase == PhEnd && !motion_start_i.speed;
   assign drive_cmd_o = '{
@@ -72,7 +74,7 @@ module pmc006_motion
     end
   end
 
-  // No reset: the following registers are set before a motion.
+  // No reset: these registers are set before a motion begins.
   always_ff @(posedge clk_i) begin
     if (!busy_q) begin
       speed_q <= motion_start_i.run;
@@ -91,7 +93,7 @@ module pmc006_motion
       stop_q   <= !motion_start_i.speed;
       ccomp_q  <= settings_i.ccomp;
       scomp_q  <= settings_i.scomp;
-      steady_q <= busy_q && phase == PhCruise && next_v != '0;  // at t = 0, Vn holds the planned V
+      steady_q <= busy_q && phase == PhCruise && next_v != '0;  // at t = 0, Vn is the planned V
     end
   end
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_position: position counter and register of the position of the last stall.
+// pmc006_position: position counter, and register with the position of the last stall.
 // Rules:  P006-MOT-05, P006-CMD-19/24/30, P006-STA-15, P006-STL-02/04.
 // Timing: pos_o and stall_o change at the edge that ends the cycle of step_i, set_i or mark_i.
 // Assumes: set_i and step_i are not high in the same cycle.
@@ -10,10 +10,10 @@ module pmc006_position (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic        step_i,     // strobe: count a step
-    input  wire logic        forward_i,  // 1: count up
+    input  wire logic        forward_i,  // 1: count up, 0: count down
     input  wire logic        set_i,      // strobe: write data_i to pos_o
-    input  wire logic [31:0] data_i,     // data of set_i
-    input  wire logic        mark_i,     // strobe: a stall, copy pos_o to stall_o
+    input  wire logic [31:0] data_i,     // new position; valid with set_i
+    input  wire logic        mark_i,     // strobe: a stall; copy pos_o to stall_o
     output logic      [31:0] pos_o,      // position
     output logic      [31:0] stall_o     // position of the last stall
 );

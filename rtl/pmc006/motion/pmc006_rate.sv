@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_rate: step generator of the motion in progress: update ticks, current speed, rate accumulator,
-// counter of the steps left.
+// pmc006_rate: generates the steps of a motion. Contains the update ticks, the current speed, the rate
+//         accumulator and the counter of the remaining steps.
 // Rules:  P006-MOT-01..05.
-// Timing: E = edge that ends the cycle of a µs tick. At E, the tick counter, V, B and W change, or the motion
-//         ends. A scheduled step is made at E + 2: step_o is high in the cycle before this edge. advance_o is
-//         high in the cycle after this edge. busy_i falls on the edge that ends the cycle of motion_end_o.
+// Timing: E is the edge that ends the cycle of a µs tick. At E, the tick counter, V, B and W change, or the
+//         motion ends. A scheduled step is made at E + 2; step_o is high in the cycle before E + 2, and
+//         advance_o in the cycle after E + 2. busy_i falls at the edge that ends the cycle of motion_end_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -12,42 +12,43 @@ module pmc006_rate (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic        us_i,            // strobe every microsecond
-    input  wire logic [30:0] count_i,         // steps, sampled in the cycle before busy_i rises
-    input  wire logic [11:0] vstart_i,        // VSTART, the first V, sampled with count_i
-    input  wire logic        endless_i,       // kind V: left_o does not end the motion
+    input  wire logic [30:0] count_i,         // number of steps, sampled in the cycle before busy_i rises
+    input  wire logic [11:0] vstart_i,        // VSTART, the first V; sampled with count_i
+    input  wire logic        endless_i,       // 1: kind V, left_o does not end the motion
     input  wire logic        busy_i,          // the motion is in progress
-    input  wire logic        halt_i,          // stop immediately
-    input  wire logic        end_run_i,       // end the motion at the next update tick
+    input  wire logic        halt_i,          // 1: stop the motion immediately
+    input  wire logic        end_run_i,       // 1: end the motion at the next update tick
     input  wire logic        load_v_i,        // strobe: load Vn into V
     input  wire logic [13:0] next_v_i,        // Vn
     input  wire logic [10:0] current_comp_i,  // Bn
     input  wire logic [ 6:0] lead_angle_i,    // Wn
     output logic             t0_o,            // strobe: t = 0
     output logic             update_o,        // strobe: update tick, every 100 µs
-    output logic             sample_o,        // strobe: every 100th update tick
-    output logic             advance_o,       // strobe: start the computation of an update tick
-    output logic             step_o,          // combinational: a step is made
-    output logic             motion_end_o,    // combinational: the motion ends, halted or complete
+    output logic             sample_o,        // strobe: in every 100th update tick
+    output logic             advance_o,       // strobe: begin the computation for the next update tick
+    output logic             step_o,          // combinational; 1: a step is made at the next edge
+    output logic             motion_end_o,    // combinational; 1: the motion ends (halted or complete)
     output logic      [13:0] v_o,             // V
     output logic      [30:0] left_o,          // R
     output logic      [10:0] current_comp_o,  // B
     output logic      [ 6:0] lead_angle_o     // W
 );
 
-  // Minimum time from the acceptance to t = 0, in cycles. The planner needs less, see pmc006_calc.
+  // Minimum time from acceptance to t = 0, in cycles. The planner needs fewer cycles, see pmc006_calc.
   localparam int unsigned PlanCycles = 800;
-  localparam logic [6:0] UpdateTicks = 7'd100;  // µs ticks from one update tick to the next
+  localparam logic [6:0] UpdateTicks = 7'd100;  // µs ticks between two update ticks
   localparam logic [6:0] SampleUpdates = 7'd100;  // update ticks between two samples
 
-  // The register stores the accumulator of the rules + 2^20 - 10^6, so that a carry is a step.
+  // The register stores the accumulator of the rules plus 2^20 - 10^6, so that a carry of the sum schedules
+  // a step.
   localparam logic [19:0] AccuStart = 20'd48_576;
 
   logic [6:0] ticks_q, updates_q;
   logic [19:0] accu_q;
   logic [20:0] sum;
   logic planned, run_q, tick, last_tick, last_step_q;
-  logic accumulate_q;  // accumulate in this cycle
-  logic step_pending_q;  // a step is scheduled
+  logic accumulate_q;  // 1: add V to the accumulator in this cycle
+  logic step_pending_q;  // 1: a step is scheduled
   logic [1:0] update_dly_q;
   logic [10:0] current_comp_q;
   logic [6:0] lead_angle_q;
@@ -78,7 +79,7 @@ module pmc006_rate (
       step_pending_q <= 1'b0;
       advance_o      <= 1'b0;
     end else begin
-      // busy_i clears run_q one cycle after motion_end_o, because motion_end_o is timing-critical.
+      // run_q is cleared by busy_i, one cycle after motion_end_o, because motion_end_o is timing-critical.
       run_q          <= busy_i && (run_q || t0_o);
       accumulate_q   <= tick;
       update_dly_q   <= {2{busy_i}} & {update_dly_q[0], t0_o || update_o};
@@ -87,7 +88,7 @@ module pmc006_rate (
     end
   end
 
-  // No reset: the following registers are set before a motion.
+  // No reset: these registers are set before a motion begins.
   always_ff @(posedge clk_i) begin
     if (!run_q) {ticks_q, updates_q} <= '0;
     else if (tick) begin
@@ -98,7 +99,8 @@ module pmc006_rate (
     if (!run_q) accu_q <= AccuStart;
     else if (accumulate_q || step_pending_q) accu_q <= sum[19:0];
 
-    // V follows VSTART until a motion is accepted, because the start of a motion is timing-critical.
+    // V follows VSTART every cycle until a motion is accepted, because the start of a motion is
+    // timing-critical.
     if (!busy_i) v_o <= 14'(vstart_i);
     else if (update_o || load_v_i) v_o <= next_v_i;
 

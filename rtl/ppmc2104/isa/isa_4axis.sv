@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// isa_4axis: four axes on an 8-bit ISA or PC/104 bus: two PPMC-2104 at one base address with one interrupt.
+// isa_4axis: four axes on an 8-bit ISA or PC/104 bus. Contains two PPMC-2104 at one base address with one
+//         interrupt.
 // Rules:  ISA-01..11; all P2104 rules apply to each device. Manual: docs/ppmc2104/isa.md.
-// Timing: that of ppmc2104 at its pins; irq follows int_n by one cycle.
-// Axes:   device A has axes 1 and 2; device B has axes 3 and 4, which its host addresses as 1 and 2.
+// Timing: the bus and motor pins have the timing of ppmc2104. irq follows int_n by one cycle.
+// Note:   device A has axes 1 and 2. Device B has axes 3 and 4; its host addresses them as axes 1 and 2.
 `default_nettype none
 
 module isa_4axis #(
     parameter int unsigned CLK_HZ    = 16_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ   = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter              TIMING    = "FAST",      // or "DATASHEET": processing times of the old chip
-    parameter int unsigned BASE_ADDR = 'h300        // first register, 000h .. 3F8h, multiple of 8
+    parameter int unsigned BASE_ADDR = 'h300        // first address, 000h .. 3F8h, multiple of 8
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,      // power-on reset of the board
     // ISA
-    input  wire logic       reset_drv,  // active high
+    input  wire logic       reset_drv,  // reset of the bus, active high
     input  wire logic [9:0] sa,
     input  wire logic       aen,
     input  wire logic       ior_n,
@@ -25,7 +26,7 @@ module isa_4axis #(
     output logic            irq,        // high: device A or B requests an interrupt
     // both devices
     input  wire logic       errint_n,   // low: an instruction error also requests an interrupt
-    input  wire logic [3:0] auxi,       // bits 1..0: device A, bits 3..2: device B
+    input  wire logic [3:0] auxi,       // [1:0]: device A, [3:2]: device B
     output logic      [3:0] auxo,
     output logic            clk_o,      // 4 MHz output of device A
     // axes
@@ -53,7 +54,7 @@ module isa_4axis #(
   logic a0;
   logic [Parts-1:0] cs_n, d_oe, int_n;
   logic [Parts-1:0][7:0] d;
-  logic [3:0][4:0] s_n;  // of axes 4 .. 1
+  logic [3:0][4:0] s_n;  // phases of axes 4 .. 1
   logic unused_clk;
 
   assign rst_both_n = rst_n && !reset_drv;
@@ -100,7 +101,7 @@ module isa_4axis #(
         .rst_n   (rst_both_n),
         .cs_n    (cs_n[p]),
         .a0,
-        .busc    (1'b0),              // separate read and write strobes
+        .busc    (1'b0),              // bus style: separate read and write strobes
         .ds_wrs_n(iow_n),
         .rw_rds_n(ior_n),
         .d_i     (sd_i),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_bus: converts strobes of the 8-bit parallel bus to register writes and reads; drives the wait
-//         request.
+// ppmc312_bus: converts the strobes of the 8-bit parallel bus to register writes and reads, and drives the
+//         wait request.
 // Rules:  P312-PAR-09..12, P312-GEN-01.
-// Timing: if the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge 2. If a
-//         read is first sampled at edge 0, the bus is driven from edge 3 until 2 edges after the end of the
-//         read; rd_done_o is high in the cycle before edge 2 after that end. d_o does not change during a
-//         strobe.
+// Timing: when the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge 2. When
+//         a read is first sampled at edge 0, the bus is driven from edge 3 until 2 edges after the end of
+//         the read. rd_done_o is high in the cycle before edge 2 after that end. d_o does not change during
+//         a strobe.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,7 +14,7 @@ module ppmc312_bus #(
 ) (
     input  wire logic       clk_i,        // clock
     input  wire logic       rst_ni,       // reset, asynchronous
-    input  wire logic       rst_wait_ni,  // reset of the wait request only; strobes continue
+    input  wire logic       rst_wait_ni,  // asynchronous reset of the wait request only
     input  wire logic       off_i,        // 1: accesses are ignored
     // pins
     input  wire logic [2:0] rs_i,         // register
@@ -23,10 +23,10 @@ module ppmc312_bus #(
     input  wire logic       oe_ni,        // read strobe
     input  wire logic [7:0] d_i,          // bus, from the host
     output logic      [7:0] d_o,          // bus, to the host
-    output logic            d_oe_o,       // 1: drive d_o
+    output logic            d_oe_o,       // 1: drive the bus with d_o
     output logic            wrq_no,       // wait request
     // registers
-    input  wire logic       wait_i,       // EWRQ, 1: the wait request is used
+    input  wire logic       wait_i,       // EWRQ, 1: the wait request is enabled
     output logic            wr_o,         // strobe: a write is complete
     output logic      [2:0] wr_rs_o,      // register; valid with wr_o
     output logic      [7:0] wr_data_o,    // written byte; valid with wr_o
@@ -78,7 +78,8 @@ module ppmc312_bus #(
         wr_rs_o   <= rs_s2;
         wr_data_o <= d_s2;
       end
-      // The address lines may still change at the first sample, so the second sample is used.
+      // The address lines may still change at the first sample, so the address is taken from the second
+      // sample.
       d_oe_o <= rd_s2 && rd_s3_q;
       if (rd_show_o) begin
         rs_q <= rs_s2;
@@ -87,8 +88,8 @@ module ppmc312_bus #(
     end
   end
 
-  // Wait request: a data access that begins less than T_WRQ after the previous access waits for the remaining
-  // time.
+  // A data access that begins less than T_WRQ after the end of the previous data access is stretched by the
+  // wait request for the remaining time.
   logic [Width-1:0] age_q;  // cycles since the end of the last data access
   logic [Width-1:0] wait_q;  // remaining cycles of the wait
   logic early;

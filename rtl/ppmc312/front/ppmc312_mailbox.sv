@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_mailbox: parallel front end: CSR, write window (WCR, WAR, DWR), read window (RCR, RAR, DRR),
-//         interrupt.
+// ppmc312_mailbox: parallel front end with CSR, write window (WCR, WAR, DWR), read window (RCR, RAR, DRR)
+//         and interrupt.
 // Rules:  P312-PAR-01..08, P312-PRT-01/02, P312-BAD-01..03/07/08.
-// Timing: a block is offered one cycle after the write of its header; irq_no follows CSR by one cycle.
-//         A report can be read 6 cycles after rd_load_o, which is asserted at least 8 cycles after the last
-//         byte of the previous report.
-// Note:   between this module and the core, blocks and reports have the logical order (header first); on the
-//         bus the order is reversed.
+// Timing: host_block_o is valid one cycle after the write of the header. irq_no follows CSR by one cycle. A
+//         report can be read 6 cycles after rd_load_o. rd_load_o is asserted at least 8 cycles after the
+//         read of the last byte of the previous report.
+// Note:   the core uses blocks and reports in logical order (header first). The bus transfers them in
+//         reverse order.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -19,7 +19,7 @@ module ppmc312_mailbox
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic rst_bus_ni,  // reset of the bus strobes
+    input wire logic rst_bus_ni,  // asynchronous reset of the bus strobes
     input wire logic ready_i,  // 0: instructions cannot be written yet
     input wire logic off_i,  // 1: serial mode, the bus is off
     // pins
@@ -29,19 +29,19 @@ module ppmc312_mailbox
     input wire logic oe_ni,  // read strobe
     input wire logic [7:0] d_i,  // bus, from the host
     output logic [7:0] d_o,  // bus, to the host
-    output logic d_oe_o,  // 1: drive d_o
+    output logic d_oe_o,  // 1: drive the bus with d_o
     output logic wrq_no,  // wait request
     output logic irq_no,  // interrupt
     // blocks from the host
     output host_block_t host_block_o,  // block for the core
     input wire logic [BLOCK_BITS-1:0] blk_addr_i,  // byte of the block, 0 = header
     output logic [7:0] blk_data_o,  // byte at blk_addr_i, two cycles later
-    input wire logic blk_done_i,  // strobe: the block is processed, its response stored
+    input wire logic blk_done_i,  // strobe: the block is processed and its response is stored
     input wire block_write_t block_write_i,  // byte of a block from the serial station
     // reports to the host
     input wire logic rd_any_i,  // a report is pending
     output logic rd_load_o,  // strobe: load the next report
-    input wire logic [BLOCK_BITS:0] rd_size_i,  // bytes of the loaded report; valid 2 cycles after rd_load_o
+    input wire logic [BLOCK_BITS:0] rd_size_i,  // bytes of the report; valid 2 cycles after rd_load_o
     output logic [BLOCK_BITS-1:0] rd_addr_o,  // byte of the report, 0 = header
     input wire logic [7:0] rd_data_i,  // byte at rd_addr_o, at most three cycles later
     output logic rd_done_o  // strobe: the report has been read
@@ -129,7 +129,7 @@ module ppmc312_mailbox
 
   // ---- read window --------------------------------------------------------------------------------
 
-  logic [3:0] pause_q;  // cycles until the next step
+  logic [3:0] pause_q;  // cycles until the next action of the read window
   logic loaded_q, shown_q, last;
 
   // A read that began before the report was available has not returned any of its bytes.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_report_queue: stores reports until the host has read them: eight classes, each with a separate
-//         queue.
+// ppmc312_report_queue: stores reports until the host has read them. Each of the eight classes has a
+//         separate queue.
 // Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30.
 // Timing: an event is stored one cycle later. rd_size_o and the bytes are valid 2 cycles after rd_load_i.
-// Note:   the queue of class 2 has two entries: the host reads one while the next response is written to the
-//         other. A complete response (response_done_i) becomes readable as soon as the previous response has
-//         been read. In serial mode the station reads the response to the host from the entry that is
-//         written; class 2 reports the result of triggered instructions. rd_load_i then consumes a report,
-//         and a newer report replaces a pending report.
+// Note:   parallel mode: the queue of class 2 has two entries. The host reads one entry while the next
+//         response is written to the other. A complete response (response_done_i) becomes readable when the
+//         previous response has been read.
+// Note:   serial mode: the station reads a response to the host from the entry to which it was written.
+//         Class 2 reports the result of triggered instructions. rd_load_i then consumes a report, and a
+//         newer report replaces a pending report.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -25,14 +26,14 @@ module ppmc312_report_queue
     output alarm_event_t discarded_o,  // multiple occurrence: a report of class 3, 4 or 5 is discarded
     input wire response_write_t response_write_i,  // class 2: byte of a response
     input wire response_done_t response_done_i,  // class 2: a response is complete
-    output response_queue_t response_queue_o,  // class 2: state of the queue
-    input wire logic aux_clear_i,  // class 6, strobe: discard waiting reports
+    output response_queue_t response_queue_o,  // class 2: status of the queue
+    input wire logic aux_clear_i,  // class 6, strobe: discard pending reports
     input wire logic aux_i,  // strobe: the generalized input has changed
     input wire logic [7:0] aux_data_i,  // changed bits; valid with aux_i
     input wire monitor_req_t monitor_req_i,  // classes 7 and 8
-    output monitor_ack_t monitor_ack_o,  // classes 7 and 8: report is loaded, has been read
+    output monitor_ack_t monitor_ack_o,  // classes 7 and 8: a report is being loaded, has been read
     // front end
-    input wire logic hold_i,  // 1: a response follows soon; only classes 1, 2 are offered
+    input wire logic hold_i,  // 1: a response follows soon; only classes 1 and 2 are offered
     output logic rd_any_o,  // a report is pending
     input wire logic rd_load_i,  // strobe: load the next report
     output poll_result_t poll_result_o,  // serial mode: report that rd_load_i consumes
@@ -71,7 +72,7 @@ module ppmc312_report_queue
     full_q || class2_pending_q,
     alarm_full_q
   };
-  // Reports that an instruction causes follow its response.
+  // Reports that are caused by an instruction are offered after the response to this instruction.
   assign hold = !serial_i && (hold_i || (pending_q && !full_q));
   assign offered = hold ? {6'd0, pending[2:1]} : pending;
   assign rd_any_o = offered != '0 && !loaded_q;
@@ -212,7 +213,7 @@ module ppmc312_report_queue
     end
   end
 
-  // The flag belongs to the data of the second entry and moves with these data to the first entry.
+  // The flag belongs to the data of the second entry, and moves with them to the first entry.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) aux_flag_q <= 1'b0;
     else if (shift) aux_flag_q <= aux_discarded_q && aux_count_q == 2'd2;
@@ -254,7 +255,7 @@ module ppmc312_report_queue
     endcase
   end
 
-  // Two registers, so that these bytes have the same latency as the RAM.
+  // Two registers give these bytes the latency of the RAM.
   always_ff @(posedge clk_i) begin
     local_at_q <= rd_addr_i[2:0];
     local_q <= local_byte;

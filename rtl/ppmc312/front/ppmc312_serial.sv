@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial: serial front end: a station on a line with a host. It receives frames, passes blocks to the
-//         core and sends replies.
+// ppmc312_serial: serial front end, a station on a line with one host. It receives frames, passes blocks to
+//         the core and sends replies.
 // Rules:  P312-SER-01..22, P312-PRT-01..03, P312-BAD-16/17.
-// Timing: a character is received in the middle of its stop bit. See ppmc312_serial_reply, ppmc312_serial_tx.
-// Rate:   bits are timed by a phase accumulator with an exact modulus: XTAL * {3/2500, 6/2500, 1/192} baud. A
-//         bit lasts a whole number of phases.
+// Timing: a character is received in the middle of its stop bit. See also ppmc312_serial_reply and
+//         ppmc312_serial_tx.
+// Rate:   a phase accumulator with an exact modulus times the bits: XTAL * {3/2500, 6/2500, 1/192} baud.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,7 +17,7 @@ module ppmc312_serial
     parameter int unsigned XtalHz   = 16_000_000,
     parameter bit          CharsSum = 1'b0,
     parameter int unsigned SndLead  = 1,           // bits from the rise of snd_o to the start bit, 1 .. 16
-    parameter int unsigned SndWait  = 0            // bits of wait before snd_o in addition to 0.5, 0 .. 8
+    parameter int unsigned SndWait  = 0            // snd_o rises SndWait + 0.5 bits after a stop bit, 0 .. 8
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
@@ -39,14 +39,14 @@ module ppmc312_serial
     // state and reports
     input wire status_e status_i,  // status of the device
     output logic report_take_o,  // strobe: the report in poll_result_i is consumed
-    input wire poll_result_t poll_result_i  // report that a poll finds
+    input wire poll_result_t poll_result_i  // report for the next poll
 );
 
   // A bit lasts Modulus / step cycles.
   localparam longint unsigned Clk = 64'(ClkHz) * 64'd480_000;
   localparam longint unsigned Xtal = 64'(XtalHz) * 64'd4;
   localparam longint unsigned Common = ppmc_pkg::gcd(Clk, Xtal);
-  // Even, so that the middle of a bit is exact.
+  // The modulus is even, so that the middle of a bit is exact.
   localparam longint unsigned Twice = ((Clk / Common) % 2 == 0) ? 64'd1 : 64'd2;
   localparam longint unsigned Modulus = Twice * Clk / Common;
   localparam longint unsigned Unit = Twice * Xtal / Common;
@@ -165,8 +165,8 @@ module ppmc312_serial
       .sent_i        (sent)
   );
 
-  // The response to I_POS names the selected position in an extra byte before the value; a reply omits this
-  // byte.
+  // The response to I_POS contains the selected position as an extra byte before the value. The reply omits
+  // this byte.
   assign rd_addr_o = BLOCK_BITS'(index) + ((info.code == I_POS) ? 5'd4 : 5'd3);
 
   ppmc312_serial_tx #(

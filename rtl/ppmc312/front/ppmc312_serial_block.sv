@@ -2,7 +2,7 @@
 // ppmc312_serial_block: converts an instruction received in serial mode to the equivalent block of the
 //         parallel bus.
 // Rules:  P312-SER-40..43, P312-GEN-04.
-// Timing: data_o is combinational; size_o is valid from the last data byte on.
+// Timing: data_o is combinational. size_o is valid from the last data byte on.
 `default_nettype none
 
 module ppmc312_serial_block
@@ -13,7 +13,7 @@ module ppmc312_serial_block
     input wire serial_code_t info_i,  // meaning of the received code, stable
     // bytes for the write window
     input wire logic we_i,  // strobe: a byte
-    input wire logic generated_i,  // the byte is generated: header, length, code, flags
+    input wire logic generated_i,  // 1: the byte is generated (header, length, code, flags), 0: received
     input wire logic [3:0] addr_i,  // position of the byte, 0 = header
     input wire logic [7:0] data_i,  // received byte
     output logic [7:0] data_o,  // byte for the window
@@ -22,7 +22,7 @@ module ppmc312_serial_block
 
   localparam logic [3:0] FlagsAt = 4'd3;  // position of the first parameter
   localparam logic [3:0] InnerLenAt = 4'd5;  // position of the length byte of the embedded block
-  localparam logic [BLOCK_BITS:0] InnerOverhead = 6'd6;  // bytes before those that the inner length counts
+  localparam logic [BLOCK_BITS:0] InnerOverhead = 6'd6;  // bytes that the inner length excludes
   localparam logic [BLOCK_BITS:0] InvalidSize = 6'd2;  // causes the error "size abnormality"
 
   logic [3:0] inner_q;
@@ -31,7 +31,7 @@ module ppmc312_serial_block
   always_ff @(posedge clk_i) begin
     if (we_i && !generated_i && addr_i == InnerLenAt) begin
       inner_q <= data_i[3:0];
-      too_long_q <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // the received length is above 8
+      too_long_q <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // length above 8
     end
   end
 
@@ -40,7 +40,7 @@ module ppmc312_serial_block
     if (info_i.has_inner) size_o = too_long_q ? InvalidSize : (BLOCK_BITS + 1)'(inner_q) + InnerOverhead;
   end
 
-  // The serial mode has no split tables, and its monitors always repeat.
+  // The serial mode has no split tables, and its monitors always continue after a report.
   always_comb begin
     data_o = data_i;
     if (generated_i) begin

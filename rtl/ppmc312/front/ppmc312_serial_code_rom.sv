@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_code_rom: translates an instruction code of the serial mode to the parallel bus.
+// ppmc312_serial_code_rom: translates an instruction code of the serial mode to the code of the parallel
+//         bus.
 // Rules:  P312-SER-40..44.
-// Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
-// How:    look-up table in a block RAM; the function meaning computes its words.
+// Timing: latency 2 cycles, because the slow block RAM has an output register.
+// How:    look-up table in a block RAM. The function `meaning` computes its contents.
 `default_nettype none
 
 module ppmc312_serial_code_rom
@@ -10,7 +11,7 @@ module ppmc312_serial_code_rom
   import ppmc312_serial_pkg::*;
 (
     input  wire logic          clk_i,   // clock
-    input  wire logic    [7:0] code_i,  // code as received
+    input  wire logic    [7:0] code_i,  // received code
     output serial_code_t       info_o   // meaning of code_i, two cycles later
 );
 
@@ -106,7 +107,7 @@ module ppmc312_serial_code_rom
     return info;
   endfunction
 
-  // The words are a constant, because synthesis evaluates the branches of meaning wrongly in an initial
+  // The table is a constant, because synthesis evaluates the branches of `meaning` wrongly in an initial
   // block.
   function automatic serial_code_t [255:0] every_code();
     serial_code_t [255:0] words;

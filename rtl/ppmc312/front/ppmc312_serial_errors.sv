@@ -10,9 +10,9 @@
 module ppmc312_serial_errors (
     input  wire logic            clk_i,    // clock
     input  wire logic            rst_ni,   // reset, asynchronous
-    input  wire logic [2:0]      error_i,  // strobes: framing, overrun, checksum error
+    input  wire logic [2:0]      error_i,  // strobes, [0]: framing, [1]: overrun, [2]: checksum error
     input  wire logic            read_i,   // strobe: the counts are read and set to 0
-    output logic      [2:0][7:0] count_o   // counts in the order of error_i, 0 .. 255
+    output logic      [2:0][7:0] count_o   // counts, indexed as error_i, 0 .. 255
 );
 
   logic [7:0] old, more;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_pkg: types of the serial station: instruction codes, polled reports, replies.
+// ppmc312_serial_pkg: types of the serial station for instruction codes, polled reports and replies.
 // Rules:  P312-SER-20, P312-SER-30 (END codes), P312-SER-40..44.
 `default_nettype none
 
@@ -8,16 +8,16 @@ package ppmc312_serial_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- an instruction code of the serial mode -----------------------------------------------------
+  // ---- instruction code of the serial mode ---------------------------------------------------------
 
   typedef struct packed {
     logic       is_known;
-    logic       local_read;   // answered by the station: 40, 4E, 4F
-    logic       has_inner;    // event registration; the embedded block has its own length byte
+    logic       local_read;   // 40, 4E, 4F: the station itself sends the reply
+    logic       has_inner;    // event registration: the block contains an embedded block
     logic [7:0] code;         // code of the same instruction on the parallel bus
-    logic [3:0] size;         // bytes of the parallel block, header to last parameter
-    logic       has_flags;    // the first parameter is generated, not received
-    logic [7:0] flags;        // generated first parameter
+    logic [3:0] size;         // bytes of the parallel block, from header to last parameter
+    logic       has_flags;    // 1: the first parameter is generated, 0: it is received
+    logic [7:0] flags;        // first parameter; valid with has_flags
     logic [2:0] reply_bytes;  // data bytes of the reply; 0: acknowledgement only
   } serial_code_t;
 
@@ -30,10 +30,10 @@ package ppmc312_serial_pkg;
   typedef struct packed {
     logic [3:0]                        report_class;    // class of the first pending report; 0: no report
     ppmc312_link_pkg::trigger_result_e trigger_result;  // class 2
-    ppmc312_pkg::end_cause_t           cause;           // class 5; stored for the END code
+    ppmc312_pkg::end_cause_t           cause;           // class 5; also stored for the END code
     logic                              discarded;       // class 6: a change was discarded
     logic [7:0]                        data;            // class 6: changed bits of the input
-    logic                              outside;         // classes 7, 8: 1: outside, 0: inside
+    logic                              outside;         // classes 7, 8; 1: outside, 0: inside
   } poll_result_t;
 
   function automatic logic [7:0] end_code(ppmc312_pkg::end_cause_t c);
@@ -47,7 +47,7 @@ package ppmc312_serial_pkg;
     };
   endfunction
 
-  // ---- a byte for the write window ----------------------------------------------------------------
+  // ---- byte for the write window ------------------------------------------------------------------
 
   typedef struct packed {
     logic       we;
@@ -55,9 +55,9 @@ package ppmc312_serial_pkg;
     logic [7:0] data;
   } block_write_t;
 
-  // ---- a reply ------------------------------------------------------------------------------------
+  // ---- reply --------------------------------------------------------------------------------------
 
-  // Coded as bits 5:4 of the control code of the reply.
+  // The values are bits 5:4 of the control code of the reply.
   typedef enum logic [1:0] {
     ReplyBusy     = 2'b00,
     ReplyReady    = 2'b01,
@@ -68,8 +68,8 @@ package ppmc312_serial_pkg;
   typedef struct packed {
     reply_kind_e     kind;
     logic [2:0]      count;          // data bytes
-    logic            from_response;  // the data bytes are in the response queue
-    logic [2:0][7:0] data;           // otherwise: data bytes, data[0] first
+    logic            from_response;  // 1: the response queue contains the data bytes
+    logic [2:0][7:0] data;           // from_response = 0: data bytes, data[0] first
   } reply_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_poll: selects the reply to a poll: the first pending report, otherwise busy or ready.
+// ppmc312_serial_poll: selects the reply to a poll. This is the first pending report, or busy or ready if
+//         no report is pending.
 // Rules:  P312-SER-20, P312-SER-30.
 // Timing: combinational.
 `default_nettype none
@@ -9,7 +10,7 @@ module ppmc312_serial_poll
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire poll_result_t poll_result_i,  // report that the poll finds
+    input  wire poll_result_t poll_result_i,  // report for this poll
     input  wire status_e      status_i,       // status of the device
     output reply_t            reply_o         // reply to the poll
 );

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_reply: generates one reply to each frame: immediately for polls, local reads and faults,
-//         otherwise after the core has executed the instruction.
+// ppmc312_serial_reply: generates one reply to each frame. Polls, local reads and faults are answered
+//         immediately, other instructions after the core has executed them.
 // Rules:  P312-SER-14, P312-SER-17..20, P312-SER-30, P312-SER-45/46, P312-STA-01 (4E, 4F).
-// Timing: a frame that ends in cycle n is offered to the core in cycle n + 2, or its reply is valid in cycle
-//         n + 2.
+// Timing: a frame ends in cycle n. In cycle n + 2, either it is offered to the core, or its reply is valid.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -19,15 +18,15 @@ module ppmc312_serial_reply
     input  wire logic               run_i,           // an instruction with a correct checksum
     input  wire logic               fault_i,         // wrong checksum or invalid character
     input  wire logic               unknown_code_i,  // unknown code
-    input  wire logic         [7:0] code_i,          // code as received
+    input  wire logic         [7:0] code_i,          // received code
     input  wire serial_code_t       info_i,          // meaning of code_i
     input  wire logic               framing_i,       // a character without a stop bit
-    input  wire logic               overrun_i,       // a frame while busy
+    input  wire logic               overrun_i,       // a frame was received while busy_o = 1
     output logic                    busy_o,          // a reply is pending or being sent
     // core
     input  wire status_e            status_i,        // status of the device
     output logic                    report_take_o,   // strobe: the report in poll_result_i is consumed
-    input  wire poll_result_t       poll_result_i,   // report that a poll finds
+    input  wire poll_result_t       poll_result_i,   // report for the next poll
     output logic                    blk_valid_o,     // a block is pending for the core
     input  wire host_result_t       host_result_i,   // result of the executed block
     // sender
@@ -63,8 +62,8 @@ module ppmc312_serial_reply
       .count_o(counts)
   );
 
-  // The counters follow by one cycle, because errors and reads of the counters belong to different
-  // characters.
+  // The registers delay the counters by one cycle. This has no effect, because an error and a read of the
+  // counters never belong to the same character.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) errors_q <= '0;
     else errors_q <= {fault_i, overrun_i, framing_i};
@@ -135,7 +134,7 @@ module ppmc312_serial_reply
     end else begin
       {poll_q, run_q, fault_q, unknown_code_q} <= {poll_i, run_i, fault_i, unknown_code_i};
       done_q <= state_q == StRun && host_result_i.valid;
-      // 1 in state StRun until the block is executed; a separate register because of its fan-out.
+      // 1 in state StRun until the block is executed. A separate register, because of its fan-out.
       blk_valid_o <= !reply_we && (run_q || (state_q == StRun && !host_result_i.valid));
       if (reply_we) state_q <= StSend;
       else if (run_q) state_q <= StRun;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_rx: parses the frames of the host: control code, hexadecimal data, checksum, silence.
+// ppmc312_serial_rx: parses the frames of the host, which consist of control code, hexadecimal data and
+//         checksum. Also detects silence.
 // Rules:  P312-SER-02, P312-SER-10..17, P312-BAD-16.
-// Timing: poll_o, run_o, fault_o, unknown_code_o and overrun_o are asserted in the cycle of the deciding
-//         character, or of the end of the silence.
+// Timing: poll_o, run_o, fault_o, unknown_code_o and overrun_o are asserted in the cycle of the character
+//         that decides, or in the cycle in which 20 ms of silence are complete.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,7 +12,7 @@ module ppmc312_serial_rx
 #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter bit          CharsSum = 1'b0         // 1: checksum of the characters, 0: of their values
+    parameter bit          CharsSum = 1'b0         // checksum over 1: characters, 0: their values
 ) (
     input  wire logic               clk_i,           // clock
     input  wire logic               rst_ni,          // reset, asynchronous
@@ -22,11 +23,11 @@ module ppmc312_serial_rx
     input  wire logic               error_i,         // strobe: character without a stop bit
     input  wire logic               busy_i,          // a reply is pending or being sent
     // code table
-    output logic              [7:0] code_o,          // code as received
+    output logic              [7:0] code_o,          // received code
     input  wire serial_code_t       info_i,          // meaning of code_o, two cycles later
     // equivalent block of the parallel bus: first the data bytes, then header, length, code and flags
     output logic                    we_o,            // strobe: a byte of the block
-    output logic                    generated_o,     // the byte is header, length, code or flags
+    output logic                    generated_o,     // 1: header, length, code or flags, 0: a received byte
     output logic              [3:0] addr_o,          // position of the byte, 0 = header
     output logic              [7:0] data_o,          // received byte; valid with we_o and generated_o = 0
     // result
@@ -34,7 +35,7 @@ module ppmc312_serial_rx
     output logic                    run_o,           // strobe: an instruction with a correct checksum
     output logic                    fault_o,         // strobe: wrong checksum or invalid character
     output logic                    unknown_code_o,  // strobe: unknown code
-    output logic                    overrun_o        // strobe: a frame while busy
+    output logic                    overrun_o        // strobe: a frame was received while busy_i = 1
 );
 
   localparam int unsigned SilenceXtal = 320_000;  // 20 ms
@@ -43,9 +44,9 @@ module ppmc312_serial_rx
     StSkip,    // waits for the next control code
     StCode,
     StWait,
-    StCheck,   // checks whether the code is known
+    StCheck,   // checks whether code_o is known
     StData,
-    StHead,    // header, length, code, flags
+    StHead,    // outputs header, length, code, flags
     StSum,
     StInvalid  // unknown or invalid code: waits for silence
   } state_e;

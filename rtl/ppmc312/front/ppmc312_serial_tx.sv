@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_tx: sends a reply when the line is free: gate, control code, hexadecimal data, checksum.
+// ppmc312_serial_tx: sends a reply when the line is free. Raises snd_o, then sends control code,
+//         hexadecimal data and checksum.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
 // Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after
-//         rx_char_i. rx_char_i marks the middle of a stop bit, so this is SndWait + 0.5 bits after its end.
-//         Edge n of the frame occurs ceil(n * bit time) after the rise of snd_o; the first start bit is edge
-//         SndLead, the fall of snd_o is the last edge.
-// Rate:   the phase increases by step_i per cycle. When it overflows (Width bits), a bit has ended, and the
-//         next cycle adds wrap_i instead, which is step_i minus the modulus.
+//         rx_char_i. rx_char_i marks the middle of a stop bit, so the line was idle for SndWait + 0.5 bit
+//         times. Edge n of the frame occurs ceil(n * bit time) after the rise of snd_o. The first start bit
+//         begins at edge SndLead. snd_o falls at the last edge.
+// Rate:   the phase has Width bits and increases by step_i per cycle. An overflow ends a bit. The next
+//         cycle then adds wrap_i (step_i minus the modulus) instead of step_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,15 +16,15 @@ module ppmc312_serial_tx
 #(
     parameter int unsigned Width    = 20,
     parameter bit          CharsSum = 1'b0,
-    parameter int unsigned SndLead  = 1,     // bits from the rise of snd_o to the start bit, 1 .. 16
-    parameter int unsigned SndWait  = 0      // bits of wait before snd_o in addition to 0.5, 0 .. 8
+    parameter int unsigned SndLead  = 1,     // bit times from the rise of snd_o to the start bit, 1 .. 16
+    parameter int unsigned SndWait  = 0      // snd_o rises SndWait + 0.5 bit times after a stop bit, 0 .. 8
 ) (
     input  wire logic               clk_i,            // clock
     input  wire logic               rst_ni,           // reset, asynchronous
     input  wire logic   [      3:0] adr_i,            // station number
     input  wire logic   [Width-1:0] step_i,           // phase increment per cycle
-    input  wire logic   [Width-1:0] wrap_i,           // step_i minus the modulus
-    input  wire logic               rx_char_i,        // strobe: a character has been received
+    input  wire logic   [Width-1:0] wrap_i,           // step_i minus the modulus, modulo 2**Width
+    input  wire logic               rx_char_i,        // strobe: middle of a received stop bit
     input  wire logic               send_i,           // send reply_i; high until sent_o
     input  wire reply_t             reply_i,          // reply, stable while send_i = 1
     output logic        [      1:0] index_o,          // index of the data byte
@@ -44,7 +45,7 @@ module ppmc312_serial_tx
   localparam int unsigned GapBits = $clog2(SndWait + 2);
 
   logic bit_end, last_q;
-  logic [GapBits-1:0] gap_q;  // bits until the line is free
+  logic [GapBits-1:0] gap_q;  // bit times until the line is free
   logic [Width-1:0] phase_q;
   logic [2:0] at_q;  // data bytes sent
   logic [3:0] left_q;  // remaining bits of the character
@@ -77,8 +78,8 @@ module ppmc312_serial_tx
 
   assign sent_o = snd_o && bit_end && left_q == '0 && last_q;
 
-  // The phase starts one step ahead, which compensates the registers of the pins. It also times the gap: at
-  // most 9 bits, so the gap ends before the next stop bit can be received.
+  // The phase starts one step ahead, to compensate for the registers of the pins. It also times the gap.
+  // The gap has at most 9 bits, so it ends before the next stop bit can be received.
   always_ff @(posedge clk_i) begin
     if (!snd_o && gap_q == '0) {bit_end, phase_q} <= {1'b0, wrap_i};
     else {bit_end, phase_q} <= {1'b0, phase_q} + {1'b0, bit_end ? wrap_i : step_i};

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_arbiter: selects the next instruction: a triggered one or that of the host.
+// ppmc312_arbiter: selects whether the next instruction is from a trigger or from the host.
 // Rules:  P312-OVR-10, P312-RSP-20.
 // Timing: combinational.
-// How:    triggered instructions have priority, but after one of them a waiting instruction of the host is
-//         next. Among triggered instructions, position precedes event 0, and event 0 precedes event 1.
+// How:    triggered instructions have priority. However, after a triggered instruction, a pending
+//         instruction of the host is next. Among triggered instructions, the order is position, event 0,
+//         event 1.
 `default_nettype none
 
 module ppmc312_arbiter
@@ -14,13 +15,13 @@ module ppmc312_arbiter
     input  wire logic          clk_i,           // clock
     input  wire logic          rst_ni,          // reset, asynchronous
     input  wire logic          idle_i,          // 1: the next instruction can be accepted
-    input  wire logic          occupied_i,      // a response waits to be read or stored
+    input  wire logic          occupied_i,      // 1: a response is unread or not yet stored
     input  wire logic          host_i,          // an instruction of the host is pending
-    input  wire queue_status_t queue_status_i,  // stored instructions
+    input  wire queue_status_t queue_status_i,  // contents of the instruction queue
     output logic               start_o,         // strobe: an instruction is accepted
     output source_e            source_o,        // source of this instruction
     output logic               n_o,             // event buffer of this instruction
-    output logic               missed_o         // a triggered instruction cannot be executed
+    output logic               missed_o         // strobe: a triggered instruction cannot be executed
 );
 
   logic any, host_turn_q, fifo, n;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_exec: processes one instruction at a time, from the host or triggered: fetch, check, execution,
-//         response.
+// ppmc312_exec: processes one instruction at a time, from the host or triggered, in four steps: fetch,
+//         check, execution, response.
 // Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06;
 //         docs/ppmc312/README.md, Instruction blocks.
-// Timing: execute_o follows host_block_i.valid by 24 cycles; the response is complete 5 + bytes cycles later.
-//         Set-ups, starts and rate changes add a wait in between. blk_done_o is asserted when the response is
-//         stored.
-// Note:   execute_o is the command to the other blocks to execute block_o.
+// Timing: execute_o follows host_block_i.valid by 24 cycles. The response is complete 5 + bytes cycles
+//         after execute_o. Set-ups, starts and rate changes extend this time. blk_done_o is asserted when
+//         the response is stored.
+// Note:   execute_o commands the other blocks to execute block_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -18,17 +18,17 @@ module ppmc312_exec
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic serial_i,  // 1: responses never wait to be read
-    input wire logic boot_i,  // 1: the core is leaving a reset by an instruction, which must be reported
+    input wire logic serial_i,  // 1: serial mode, in which no response waits to be read
+    input wire logic boot_i,  // 1: a reset instruction caused this reset, which must be reported
     output logic reset_o,  // strobe: reset the device
     // sources of instructions
     input wire host_block_t host_block_i,  // block from the host
-    output logic blk_done_o,  // strobe: the block is processed, its response stored
+    output logic blk_done_o,  // strobe: the block is processed and its response is stored
     output logic [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
     input wire logic [7:0] byte_i,  // byte at byte_addr_o, two cycles later
-    input wire queue_status_t queue_status_i,  // stored instructions
-    output dequeue_t dequeue_o,  // removal from the store
-    output enqueue_t enqueue_o,  // write port of the store
+    input wire queue_status_t queue_status_i,  // contents of the instruction queue
+    output dequeue_t dequeue_o,  // removal of entries from the queue
+    output enqueue_t enqueue_o,  // write port of the queue
     // state of the device
     input wire axis_state_t state_i,  // state of the motor side
     input wire table_t table_i,  // active table
@@ -36,32 +36,32 @@ module ppmc312_exec
     input wire logic elapsed_i,  // the processing time of block_o has passed
     output logic idle_o,  // 1: no instruction is being processed
     // execution
-    output block_t block_o,  // instruction in progress
+    output block_t block_o,  // current instruction
     output logic execute_o,  // strobe: execute block_o
-    output logic multi_o,  // strobe, registered: multiple occurrence
+    output logic multi_o,  // strobe, registered: multiple-occurrence alarm
     output setup_cmd_t setup_cmd_o,  // commands to the set-up: initial setting, free curve
-    input wire setup_status_t setup_status_i,  // state of the set-up
-    output logic move_o,  // strobe: a start or a rate change
+    input wire setup_status_t setup_status_i,  // status of the set-up
+    output logic move_o,  // strobe: begin a start or a rate change
     input wire move_status_t move_status_i,  // result of move_o
     // responses
     output response_t response_o,  // stable until response_done_o
     output response_cmd_t response_cmd_o,  // write commands
-    input wire response_status_t response_status_i,  // state of the writing
+    input wire response_status_t response_status_i,  // status of the response writer
     output logic hold_o,  // 1: a response follows soon
     output logic response_done_o,  // strobe: the response is complete
-    input wire response_queue_t response_queue_i  // responses that wait to be read
+    input wire response_queue_t response_queue_i  // responses that the host has not read
 );
 
   typedef enum logic [3:0] {
     StBoot,
     StIdle,
     StFetch,
-    StFirst,    // checks for reset and unread responses; comparisons settle
+    StFirst,    // checks for a reset and for unread responses
     StSettle,
     StAct,
-    StWait,     // processing time of 26 and 80; check is stable
+    StWait,     // waits for the processing time of 26 and 80; the check is held
     StSetup,
-    StProcTime,     // remaining processing time
+    StProcTime,     // waits for the remaining processing time
     StCopy,
     StMove,
     StWrite,
@@ -152,7 +152,7 @@ module ppmc312_exec
   assign hold_o = act || state_q inside {StWrite, StReadback} || response_status_i.table_more;
   assign idle_o = state_q == StIdle;
 
-  // A reset is always executed. No other instruction of the host is executed while the last response is
+  // A reset is always executed. Any other instruction of the host is rejected while the last response is
   // unread.
   assign reset_o = state_q == StFirst && reset_q;
   assign unread = state_q == StFirst && host && response_queue_i.full_host && !reset_o;
@@ -166,7 +166,7 @@ module ppmc312_exec
   assign evt_n = inner ? flags[0] : flags[1];
   assign evt_count = queue_status_i.event_count[evt_n];
   assign empty = evt_count == '0;
-  // The event pin is in use by the other kind of trigger (command FIFO or event buffer).
+  // The event pin is already used by the other kind of trigger (command FIFO or event buffer).
   assign used = inner ? queue_status_i.fifo_uses_event[evt_n] : flags[0] && !empty;
   assign full = inner ? evt_count == 3'd4 : queue_status_i.fifo_count == 4'd8;
   assign registers = act && check == CheckOk && (inner ? !flags[1] : ov) && !used && !full;
@@ -178,7 +178,7 @@ module ppmc312_exec
   assign setup_cmd_o.build = go && code == I_INIT;
   assign setup_cmd_o.open = go && code == I_FREE;
   assign setup_cmd_o.data = act && check == CheckData;
-  // After a failed set-up, and after anything that disturbs a transfer, there is no valid table.
+  // A failed set-up, and any event that disturbs a transfer, invalidate the table.
   assign setup_cmd_o.fail = (setup_status_i.transfer && state_i.status == StatusAbn) ||
       (act && setup_status_i.transfer && check != CheckData) ||
       (act && check == CheckParam && error != '0 && code == I_FREE && block_o.source != SrcEvent) ||
@@ -200,7 +200,7 @@ module ppmc312_exec
     dequeue_o.n = n;
     dequeue_o.all        = setup_cmd_o.fail || setup_cmd_o.build || setup_cmd_o.open ||
                            (setup_ends && setup_status_i.failed);
-    // If an entry cannot be executed, all entries that wait in the same FIFO or buffer are removed.
+    // When an entry cannot be executed, all waiting entries of the same FIFO or buffer are removed.
     if (missed && source == SrcOverride) dequeue_o.fifo = 1'b1;
     if (missed && source == SrcEvent) dequeue_o.events[n] = 1'b1;
     if (fails && block_o.source == SrcOverride) dequeue_o.fifo = 1'b1;
@@ -238,7 +238,8 @@ module ppmc312_exec
 
   always_ff @(posedge clk_i) begin
     if (!(state_q inside {StWrite, StProcTime})) response_o <= next;
-    // Header, length and code are stable long before their use.
+    // reset_q and plain_q are registered: header, length and code are stable long before these registers
+    // are used.
     reset_q <= code == I_RESET && block_o.len == 8'd1 &&
         (!host || (block_o.size == 6'd3 && block_o.head == 8'h03));
     plain_q <= !(info.starts_motion || code inside {I_INIT, I_FREE, I_TABLE, I_EVT_SET, I_RAMP, I_SPEED});
@@ -300,7 +301,7 @@ module ppmc312_exec
       state_q  <= state_d;
       multi_o  <= missed || unread;  // registered: the path to the pulses is timing-critical
       settle_q <= state_q == StSettle;
-      write_q  <= state_d == StWrite && state_q != StWrite;  // strobe at the start of StWrite
+      write_q  <= state_d == StWrite && state_q != StWrite;  // strobe: first cycle of StWrite
       if (start) n_q <= n;
       if (setup_cmd_o.build || setup_cmd_o.data) build_q <= setup_cmd_o.build;
       if (blk_done_o) host_wait_q <= 1'b0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fetch: reads an instruction into block_o, or copies it into the instruction queue.
 // Rules:  P312-GEN-04, P312-CMD-00 and P312-CMD-82 (short forms), P312-OVR-01, P312-CMD-49.
-// Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length. data_i is expected two
-//         cycles after addr_o.
+// Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length. Assumes that data_i is
+//         valid two cycles after addr_o.
 `default_nettype none
 
 module ppmc312_fetch
@@ -13,19 +13,19 @@ module ppmc312_fetch
     input  wire logic                     rst_ni,       // reset, asynchronous
     input  wire logic                     start_i,      // strobe: read an instruction
     input  wire source_e                  source_i,     // with start_i: source of the instruction
-    input  wire logic    [  BLOCK_BITS:0] size_i,       // with start_i: bytes of the host's block
+    input  wire logic    [  BLOCK_BITS:0] size_i,       // with start_i: bytes that the host has written
     input  wire logic                     copy_i,       // strobe: copy an instruction
-    input  wire logic                     inner_i,      // 1: copy the block inside an event setting
+    input  wire logic                     inner_i,      // 1: copy only the embedded block
     output logic                          busy_o,       // from the cycle after the start to that of done_o
-    output logic                          done_o,       // strobe
-    output block_t                        block_o,      // the instruction; valid from done_o on
+    output logic                          done_o,       // strobe: the instruction is read or copied
+    output block_t                        block_o,      // instruction; valid from done_o on
     // source of the instruction
     output logic         [BLOCK_BITS-1:0] addr_o,       // byte number, 0 = header
     input  wire logic    [           7:0] data_i,       // byte at addr_o, two cycles later
     // destination of the copy
     output logic                          copy_we_o,    // strobe
-    output logic         [           3:0] copy_addr_o,  // byte number, 0 = header
-    output logic         [           7:0] copy_data_o   // with copy_we_o
+    output logic         [           3:0] copy_addr_o,  // byte number, 0 = header; valid with copy_we_o
+    output logic         [           7:0] copy_data_o   // byte; valid with copy_we_o
 );
 
   localparam logic [4:0] Bytes = 5'd16;
@@ -38,7 +38,7 @@ module ppmc312_fetch
   logic shifted, one_side;
   logic [PARAMS-1:0] par_we;
 
-  // The block inside an event setting begins at byte 4.
+  // The block embedded in an event setting begins at byte 4.
   assign addr_o = {(copy_q && inner_i) ? 3'(ppmc_pkg::inc(32'(sent_q[4:2]))) : sent_q[4:2], sent_q[1:0]};
   assign busy_o = run_q;
   assign done_o = run_q && at_q == Bytes;
@@ -46,14 +46,14 @@ module ppmc312_fetch
   assign copy_addr_o = at_q[3:0];
   assign copy_data_o = data_i;
 
-  // Parameters are written to their places in the long form. The position parameter of the instructions 80
-  // and 81 is written to the place that it has in 87 and 88.
+  // Each parameter is stored at its position in the long form of the instruction. The position parameter of
+  // instructions 80 and 81 is stored at its position in 87 and 88.
   assign shifted = (block_o.code == I_INIT && block_o.len == 8'd9 && at_q >= 5'd6) ||
       (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);
 
-  // Without a separate deceleration side, the stop rate and the pulses of the deceleration are those of
-  // the acceleration.
+  // Without a separate deceleration side, the deceleration uses the stop rate and the pulses of the
+  // acceleration.
   assign one_side = block_o.code == I_INIT && !block_o.par[0][4];
 
   always_comb begin
@@ -85,13 +85,13 @@ module ppmc312_fetch
     end
   end
 
-  // The current byte was requested two cycles before.
+  // at_q is the number of the byte on data_i, which was requested two cycles before.
   always_ff @(posedge clk_i) begin
     if (start_i || copy_i) {at_q, sent_s1_q} <= '0;
     else {at_q, sent_s1_q} <= {sent_s1_q, sent_q};
   end
 
-  // A stored instruction is as long as its length byte indicates, which has been checked.
+  // The length byte of a stored instruction was checked before, so it determines the number of bytes.
   always_ff @(posedge clk_i) begin
     if (start_i) left_q <= (source_i == SrcHost) ? size_i : 6'd2;
     else if (valid_q[1]) begin

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_free_curve: receives a free-curve transfer: writes blocks of rates and pulse numbers into the stage
-//         table.
+// ppmc312_free_curve: receives a free-curve transfer. Writes blocks of rates and pulse numbers into the
+//         stage table.
 // Rules:  P312-CMD-FC-1..10.
-// Timing: open_i latches split_i, acc_i and dec_i. done_o follows data_i by bytes_i + 4 cycles; the results
+// Timing: open_i latches split_i, acc_i and dec_i. done_o follows data_i by bytes_i + 4 cycles. The results
 //         of a block are valid until the next block.
-// Note:   an invalid block may write into the table. This does no harm, because any error ends the transfer
-//         without a table.
+// Note:   an invalid block may write into the table. This has no effect, because any error ends the
+//         transfer without a table.
 `default_nettype none
 
 module ppmc312_free_curve
@@ -15,25 +15,25 @@ module ppmc312_free_curve
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic open_i,  // strobe: a transfer begins
-    input wire logic split_i,  // with open_i: LE
+    input wire logic split_i,  // with open_i: LE, 1: separate deceleration side
     input wire logic [6:0] acc_i,  // with open_i: stages of the acceleration, 2 .. 127
-    input wire logic [6:0] dec_i,  // with split_i: stages of the deceleration
+    input wire logic [6:0] dec_i,  // with open_i and split_i: stages of the deceleration
     input wire logic abort_i,  // strobe: end the transfer without a table
     output logic transfer_o,  // 1: a transfer is open
     // a data block
     input wire logic data_i,  // strobe: process a block
     input wire logic [4:0] bytes_i,  // bytes of the block, 1 .. 30
     input wire logic last_i,  // the block is marked as the last block
-    output logic busy_o,  // from the cycle after data_i to that of done_o
+    output logic busy_o,  // from the cycle after data_i to the cycle of done_o
     output logic done_o,  // strobe: the block is processed
-    output logic [BLOCK_BITS-1:0] addr_o,  // byte of the block, two cycles before byte_i
-    input wire logic [7:0] byte_i,  // byte at addr_o
+    output logic [BLOCK_BITS-1:0] addr_o,  // byte of the block; byte_i follows two cycles later
+    input wire logic [7:0] byte_i,  // byte at addr_o, two cycles later
     output logic bad_o,  // with done_o: the block is invalid
-    output logic [7:0] error_o,  // with bad_o: error number of F0
+    output logic [7:0] error_o,  // with bad_o: error number of response F0
     // progress
     output logic complete_o,  // the curve is complete
     output logic [1:0] next_list_o,  // 0: rates, 1: acceleration, 2: deceleration
-    output logic [6:0] left_o,  // remaining stages of this list
+    output logic [6:0] left_o,  // remaining stages of list next_list_o
     output logic [23:0] acc_sum_o,  // acceleration pulses; valid with complete_o
     output logic [23:0] dec_sum_o,  // deceleration pulses; valid with complete_o
     output table_write_t table_write_o  // word for the table
@@ -97,9 +97,9 @@ module ppmc312_free_curve
     end
   end
 
-  // No reset: open_i initialises a transfer, data_i a block.
+  // No reset: open_i initialises the registers of a transfer, data_i those of a block.
   always_ff @(posedge clk_i) begin
-    // Without a separate side, the deceleration has the pulses of the acceleration.
+    // Without a separate deceleration side, the deceleration has the pulses of the acceleration.
     if (open_i || (list_done && next_list_o == 2'd1 && split_q)) dec_sum_o <= '0;
     else if (whole && !rates) dec_sum_o <= sum[23:0];
     if (open_i) begin
@@ -113,7 +113,7 @@ module ppmc312_free_curve
     else if (!data_i && whole) stage_q <= 7'(ppmc_pkg::dec(32'(stage_q)));
     if (open_i) left_o <= (split_i && ppmc_pkg::less(32'(acc_i), 32'(dec_i))) ? dec_i : acc_i;
     else if (!data_i && whole) left_o <= !list_done ? 7'(ppmc_pkg::dec(32'(left_o))) : rates ? acc_q : dec_q;
-    // The current byte was requested two cycles before.
+    // received_q is the number of the byte on byte_i, which was requested two cycles before.
     if (data_i) {received_q, sent_s1_q} <= '0;
     else {received_q, sent_s1_q} <= {sent_s1_q, sent_q};
     if (data_i) begin
@@ -125,7 +125,7 @@ module ppmc312_free_curve
       if (valid_q[1]) begin
         high_q <= {high_q[7:0], byte_i};
         byte_q <= whole ? '0 : byte_q + 1'b1;
-        // A block holds whole stages of one list.
+        // A block must contain complete stages of only one list.
         if (last_byte ? !whole : list_done) size_bad_q <= 1'b1;
         if (complete_o) size_bad_q <= 1'b1;
       end

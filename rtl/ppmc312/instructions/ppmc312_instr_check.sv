@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_check: checks whether a block may be executed: size, header, code, status, length, values, in
-//         this order.
+// ppmc312_instr_check: checks whether a block may be executed. The order of the checks is size, header,
+//         code, status, length, values.
 // Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03; docs/ppmc312/README.md, 6.1 (error numbers).
 // Timing: check_o is valid three cycles after the block.
 `default_nettype none
@@ -15,14 +15,14 @@ module ppmc312_instr_check
     input  wire logic              rst_ni,      // reset, asynchronous
     input  wire block_t            block_i,     // the instruction
     input  wire instr_info_t       info_i,      // properties of block_i.code
-    input  wire logic              hold_i,      // 1: check_o does not change
+    input  wire logic              hold_i,      // 1: check_o keeps its value
     input  wire status_e           status_i,    // status of the device
     input  wire logic              end_wait_i,  // a motion waits for END
     input  wire logic              transfer_i,  // a free-curve transfer is open
     input  wire table_t            table_i,     // active table
     output check_e                 check_o,     // result of the check
-    output logic             [7:0] error_o,     // error number of F0; byte s of F1
-    output logic                   ov_o         // 1: register the instruction in the command FIFO
+    output logic             [7:0] error_o,     // error number of response F0; byte s of response F1
+    output logic                   ov_o         // 1: store the instruction in the command FIFO
 );
 
   logic host, ov, le, trig_pos, size_bad, len_bad, len_is_long, huge, accepted, is_table_read, table_q;
@@ -31,8 +31,7 @@ module ppmc312_instr_check
   logic [7:0] flags, inner, value_error, size_error;
   logic [15:0] rate, range, start_rate, stop_rate, high_rate, bound;
   logic [16:0] above_q;  // a rate minus its bound
-  // turn_q: current comparison; above_turn_q: comparison that above_q belongs to
-  logic [1:0] turn_q, above_turn_q;
+  logic [1:0] turn_q, above_turn_q;  // current comparison; comparison to which above_q belongs
   logic above, near, slow_bad_q, fast_bad_q, given_q, acc_slowest_q;
   logic [1:0] order_q, near_q;
   logic [31:0] count;
@@ -43,7 +42,7 @@ module ppmc312_instr_check
 
   assign host = block_i.source == SrcHost;
   assign flags = block_i.par[0];
-  assign ov = info_i.has_ov && flags[2] && host;  // triggered instructions are executed, not registered
+  assign ov = info_i.has_ov && flags[2] && host;  // a triggered instruction is executed, not stored
   assign le = flags[4];
   assign trig_pos = !flags[0];
   assign rate = {block_i.par[1], block_i.par[2]};
@@ -51,9 +50,9 @@ module ppmc312_instr_check
   assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
   assign is_table_read = block_i.code == I_TABLE;
 
-  // One subtractor makes four comparisons in turn. Two compare the start-up rate and the stop rate of an
-  // initialisation with its high-speed rate; a difference below 128 is near. Two compare a rate with the
-  // fastest and with the slowest rate of the table. All results are valid long before the block is complete.
+  // One subtractor makes four comparisons one after the other: start-up rate and stop rate of an
+  // initialisation with its high-speed rate (a difference below 128 is near), and a rate with the fastest
+  // and the slowest rate of the table. All results are valid long before the block is complete.
   assign start_rate = rate;
   assign stop_rate = {block_i.par[3], block_i.par[4]};
   assign high_rate = {block_i.par[5], block_i.par[6]};
@@ -91,17 +90,17 @@ module ppmc312_instr_check
 
   // ---- size and length ----------------------------------------------------------------------------
 
-  // Bit patterns, because a comparison with a constant would be a carry chain.
+  // Bit patterns are used, because a comparison with a constant would be a carry chain.
   assign few = block_i.size[5:1];
   assign huge = block_i.len[7:5] != '0 || block_i.len[4:0] == '1;  // 31 or more
-  // Size - 2; a size of 1 or less is an error anyway.
+  // fits = size - 2. A size of 0 or 1 is an error regardless of this result.
   assign fits = {
     few[3] ^ (few[2:0] == '0), few[2] ^ (few[1:0] == '0), few[1] ^ !few[0], !few[0], block_i.size[0]
   };
   assign size_bad = host && (few == '0 || block_i.len == '0 || huge || block_i.len[4:0] != fits);
   assign size_error = (few != '0 && huge) ? E_FREE_LONG : E_FREE_SIZE;
   assign len_is_long = block_i.len == 8'(info_i.len_long);
-  // Length of the embedded block: 1 .. 14; the length of the outer block is greater by 4.
+  // The length of the embedded block is 1 .. 14. The length of the outer block is greater by 4.
   assign inner = block_i.par[2];
   assign embedded_bad = block_i.par[1] != 8'h03 || inner == '0 || inner[7:4] != '0 || inner[3:0] == '1 ||
       block_i.len != {3'd0, inner[3] && inner[2], inner[3] ^ inner[2], !inner[2], inner[1:0]};
@@ -155,7 +154,7 @@ module ppmc312_instr_check
       default: begin
         value_bad = 1'b0;
         if (ov && trig_pos) begin
-          // Only stops and rate changes can wait for a position, and only with a position in the block.
+          // Only stops and rate changes can wait for a position, and only if the block contains a position.
           value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_is_long;
           value_error = (block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) ? E_OPERAND : E_TRIGGER;
         end else if (!ov && info_i.has_count && count_bad_q) begin
@@ -168,7 +167,7 @@ module ppmc312_instr_check
     endcase
   end
 
-  function automatic logic stages_bad(logic [7:1] n);  // n without its lowest bit
+  function automatic logic stages_bad(logic [7:1] n);  // n: number of stages without its lowest bit
     return n[7] || n[6:1] == '0;  // below 2 or above 127
   endfunction
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_pkg: types of the signals between the blocks that process instructions: check, response,
-//         stored instructions, set-up, moves.
+// ppmc312_instr_pkg: types of the signals between the blocks that process instructions. These blocks are
+//         check, response, instruction queue, set-up and moves.
 // Rules:  docs/ppmc312/README.md, Instruction blocks, Answers and reports; P312-OVR-01/10, P312-EVT-01/04,
 //         P312-CMD-FC-1..10.
 // Note:   a strobe is high for one cycle.
@@ -32,14 +32,14 @@ package ppmc312_instr_pkg;
     TailSums    // 6 bytes: pulses of both sides of the table
   } response_tail_e;
 
-  // Data that an executed instruction returns: the bytes after the code of its response.
+  // Data that an executed instruction returns: the bytes after the code in its response.
   typedef struct packed {
     logic [3:0]      extra;  // number of bytes, 0 .. 9
     logic [2:0][7:0] data;   // first bytes, data[0] first
     response_tail_e  tail;   // source of the last bytes
   } result_data_t;
 
-  // A response. Its length byte is computed when it is written.
+  // A response without its length byte, which is computed when the response is written.
   typedef struct packed {
     logic [7:0]      head;
     logic [7:0]      code;
@@ -49,25 +49,25 @@ package ppmc312_instr_pkg;
     logic            echo;   // 1: append the instruction as received
   } response_t;
 
-  // Commands to the blocks that write responses and the data blocks of a table read. All except hold_data are
-  // strobes.
+  // Commands to the blocks that write responses and the data blocks of a table read. All fields except
+  // hold_data are strobes.
   typedef struct packed {
     logic write;       // write the response
-    logic hold_data;   // level: hold the data that the instruction returns
-    logic table_open;  // a table read begins; its data blocks follow
+    logic hold_data;   // level: hold the data of the executed instruction
+    logic table_open;  // begin a table read, which sends data blocks
     logic table_next;  // write the next data block
   } response_cmd_t;
 
   typedef struct packed {
     logic                  written;     // strobe: the response is written
-    logic [BLOCK_BITS-1:0] echo_addr;   // byte of the instruction for the echo, two cycles ahead
+    logic [BLOCK_BITS-1:0] echo_addr;   // byte of the instruction that the echo needs two cycles later
     logic                  table_more;  // more data blocks follow
     logic                  table_done;  // strobe: a data block is written
   } response_status_t;
 
-  // ---- stored instructions, which wait for a trigger ----------------------------------------------
+  // ---- instruction queue: instructions that wait for a trigger ------------------------------------
 
-  // Write port of the instruction queue: first the bytes of an entry, then entry_done.
+  // Write port of the instruction queue. All bytes of an entry precede entry_done.
   typedef struct packed {
     logic        we;          // strobe: write data at addr
     logic        to_event;    // 1: event buffer n, 0: command FIFO
@@ -76,13 +76,13 @@ package ppmc312_instr_pkg;
     logic [7:0]  data;        // byte to be written
     logic        entry_done;  // strobe: the entry is complete
     logic [7:0]  code;        // instruction code
-    logic [1:0]  trig;        // bits 1:0 of the flags, x0: position, 01: event 0, 11: event 1
+    logic [1:0]  trig;        // bits 1:0 of the flags; x0: position, 01: event 0, 11: event 1
     logic [31:0] pos;         // trigger position in pulses
   } enqueue_t;
 
-  // Removal from the instruction queue. All except from_event and n are strobes.
+  // Removal from the instruction queue. All fields except from_event and n are strobes.
   typedef struct packed {
-    logic       take;        // take the triggered entry
+    logic       take;        // remove the triggered entry, which is executed now
     logic       from_event;  // with take, 1: event buffer n, 0: command FIFO
     logic       n;
     logic       all;         // remove all entries
@@ -116,18 +116,18 @@ package ppmc312_instr_pkg;
   typedef struct packed {
     logic        complete;     // the curve is complete
     logic [1:0]  next_list;    // 0: rates, 1: acceleration, 2: deceleration
-    logic [6:0]  stages_left;  // remaining stages of this list
+    logic [6:0]  stages_left;  // remaining stages of list next_list
     logic [23:0] acc_sum;      // acceleration pulses; valid with complete
     logic [23:0] dec_sum;      // deceleration pulses; valid with complete
   } curve_progress_t;
 
   typedef struct packed {
     logic                  transfer;  // a free-curve transfer is open
-    logic                  done;      // strobe, after build or data
+    logic                  done;      // strobe: build or data has ended
     logic                  failed;    // with done: the set-up has failed
-    logic [7:0]            error;     // with failed: error number of F0
+    logic [7:0]            error;     // with failed: error number of response F0
     curve_progress_t       progress;  // with done
-    logic [BLOCK_BITS-1:0] addr;      // byte of the block to be read, two cycles ahead
+    logic [BLOCK_BITS-1:0] addr;      // byte of the block, two cycles before it is used
   } setup_status_t;
 
   // ---- moves and rate changes ---------------------------------------------------------------------
@@ -135,7 +135,7 @@ package ppmc312_instr_pkg;
   typedef struct packed {
     logic       done;         // strobe: finished
     logic       at_limit;     // with done: a limit prevents the start
-    logic       rejected;     // with done: the status no longer allows the start
+    logic       rejected;     // with done: the current status does not allow the start
     logic [7:0] status_byte;  // with done: status byte of the response
   } move_status_t;
 

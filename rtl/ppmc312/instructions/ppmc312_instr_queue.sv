@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_queue: stores instructions that wait for a trigger: a command FIFO of eight entries and two
-//         event buffers of four.
+// ppmc312_instr_queue: stores instructions that wait for a trigger. Contains a command FIFO with eight
+//         entries, and two event buffers with four entries each.
 // Rules:  P312-OVR-01/02/05/10/12, P312-EVT-01/04, P312-BAD-13.
-// Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous head. halt_o follows the
-//         count by one cycle. Bytes of an entry are valid two cycles after fetch_addr_i.
-// How:    entries are whole blocks in one RAM: 16 places for the FIFO, because triggered entries stay until
-//         they are processed, and 2 * 4 for the events. The FIFO has three pointers: written, armed,
-//         processed.
+// Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous head. halt_o follows
+//         counted_i by one cycle. The bytes of an entry are valid two cycles after fetch_addr_i.
+// How:    one RAM stores the complete blocks. The FIFO has 16 places, because triggered entries remain
+//         stored until they are processed; the event buffers have 2 * 4 places. The FIFO has three
+//         pointers: written, armed, processed.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -22,10 +22,10 @@ module ppmc312_instr_queue
     input  wire logic            counted_i,       // strobe: a pulse has been counted in pos_i
     input  wire logic     [31:0] pos_i,           // position in pulses
     output logic                 halt_o,          // strobe: the position of an immediate stop is reached
-    output queue_status_t        queue_status_o,  // contents of the store
+    output queue_status_t        queue_status_o,  // contents of the queue
     input  wire enqueue_t        enqueue_i,       // entry to be added
     input  wire dequeue_t        dequeue_i,       // entries to be removed
-    // bytes of the entry that was taken last
+    // bytes of the most recently taken entry
     input  wire logic            fetch_event_i,   // 1: the entry is from an event buffer
     input  wire logic     [ 3:0] fetch_addr_i,    // byte number, 0 = header
     input  wire logic            peek_i,          // 1: read the code of an entry instead
@@ -39,8 +39,8 @@ module ppmc312_instr_queue
     logic [1:0] trig;
   } tag_t;
 
-  // enqueue_i.code, trig and pos are stable while the bytes of an entry are written, so the head is written
-  // with each byte. No block uses data that are read from the place that is being written.
+  // enqueue_i.code, trig and pos are stable while the bytes of an entry are written, so each of these
+  // writes also writes the head. No block uses data that are read from an address while it is written.
   (* ram_style = "block", no_rw_check *)
   logic [34:0] heads[16];
   logic [34:0] ahead_q;  // head of the entry that is armed next
@@ -104,7 +104,7 @@ module ppmc312_instr_queue
     // Block RAMs are slow, so the next head is read in advance.
     ahead_q <= heads[armed_q+4'(head_valid_q)];
     if (!head_valid_q) {head_q, head_pos_q} <= ahead_q;
-    // done_trig_q is out of date for two cycles after an entry has been taken, when no block uses it.
+    // For two cycles after an entry is taken, done_trig_q is out of date; no block uses it then.
     done_word_q <= trigs[done_q];
     done_trig_q <= done_word_q;
   end
@@ -119,7 +119,7 @@ module ppmc312_instr_queue
     end else begin
       head_valid_q <= armed_q != written_q && !fire && !drop;
       halt_o       <= fire && head_q.halt && !head_q.trig[0];
-      // armed_q is equal to done_q or ahead of it, because entries are taken only while triggered_q = 1.
+      // armed_q is never behind done_q, because entries are taken only while triggered_q = 1.
       triggered_q  <= !drop && (fire || (take_fifo ? done_next != armed_q : done_q != armed_q));
       if (drop) begin
         armed_q <= written_q;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_instr_rom: look-up table of the properties of instruction codes.
 // Rules:  P312-STA-01, instr_info in ppmc312_pkg.
-// Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
+// Timing: latency 2 cycles, because the slow block RAM has an output register.
 `default_nettype none
 
 module ppmc312_instr_rom
@@ -12,7 +12,7 @@ module ppmc312_instr_rom
     output instr_info_t       info_o   // properties of code_i, two cycles later
 );
 
-  // The words are a constant, because synthesis evaluates the branches of instr_info wrongly in an initial
+  // The table is a constant, because synthesis evaluates the branches of instr_info wrongly in an initial
   // block.
   function automatic instr_info_t [255:0] every_code();
     instr_info_t [255:0] words;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_unit: processes the instructions of the host and the stored instructions that wait for a
-//         trigger: checks and executes them, and sends the responses.
-// Rules:  see its blocks. Timing: see ppmc312_exec.
+// ppmc312_instr_unit: processes instructions of the host, and stored instructions when they are triggered.
+//         Checks them, executes them and sends the responses.
+// Rules:  see the instantiated blocks.
+// Timing: see ppmc312_exec.
 `default_nettype none
 
 module ppmc312_instr_unit
@@ -18,33 +19,33 @@ module ppmc312_instr_unit
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: the front end is the serial station
-    input wire logic boot_i,  // 1: the core is leaving a reset by an instruction, which must be reported
+    input wire logic boot_i,  // 1: a reset instruction caused this reset, which must be reported
     output logic reset_o,  // strobe: an instruction requests a reset
     // blocks from the host
     input wire host_block_t host_block_i,  // block from the host
     output logic [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
     input wire logic [7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
-    output logic blk_done_o,  // strobe: the block is processed, its response stored
+    output logic blk_done_o,  // strobe: the block is processed and its response is stored
     // state of the device
     input wire inputs_t inputs_i,  // input pins, synchronised
     input wire axis_state_t state_i,  // state of the motor side
     // execution
-    output block_t block_o,  // instruction in progress
+    output block_t block_o,  // current instruction
     output logic execute_o,  // strobe: execute block_o
-    output logic multi_o,  // strobe: multiple occurrence, cause 1
+    output logic multi_o,  // strobe: multiple-occurrence alarm with code 1
     output motion_req_t motion_req_o,  // starts and rate changes
     // table
     output logic built_o,  // strobe: a new table becomes active
     output table_t table_o,  // active table
-    output target_t start_target_o,  // look-up result of table_o.rate_acc
+    output target_t start_target_o,  // look-up result of rate table_o.rate_acc
     input wire table_addr_t table_addr_i,  // read port of the motion
     output stage_t stage_o,  // stage at table_addr_i, two cycles later
     // responses, class 2
     output response_write_t response_write_o,  // byte for the queue of class 2
     output logic hold_o,  // 1: a response follows soon
-    output response_done_t response_done_o,  // the response in the queue is complete
+    output response_done_t response_done_o,  // strobe: the response in the queue is complete
     output host_result_t host_result_o,  // result for the serial station
-    input wire response_queue_t response_queue_i  // responses that wait to be read
+    input wire response_queue_t response_queue_i  // responses that the host has not read
 );
 
   queue_status_t queue_status;
@@ -121,7 +122,7 @@ module ppmc312_instr_unit
       .elapsed_o(elapsed)
   );
 
-  // ---- stored instructions ------------------------------------------------------------------------
+  // ---- instruction queue --------------------------------------------------------------------------
 
   ppmc312_instr_queue u_queue (
       .clk_i,
@@ -141,7 +142,7 @@ module ppmc312_instr_unit
       .fetch_data_o  (entry_data)
   );
 
-  // A pending alarm is reported before the end of a motion that a position has stopped.
+  // A pending alarm must be reported before the end of a motion that was stopped at a position.
   assign motion_req_o.triggers_done = !queue_status.fifo_triggered && !multi_o &&
       (idle || block_o.source != SrcOverride);
 
@@ -270,7 +271,7 @@ module ppmc312_instr_unit
       .size_o(table_size)
   );
 
-  // The last byte is written in the cycle of the commit.
+  // The register delays the bytes by one cycle, so the last byte is written in the cycle of the commit.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) response_write_o <= '0;
     else begin

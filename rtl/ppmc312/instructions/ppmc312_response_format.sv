@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_response_format: builds the response to an instruction from the result of its check or execution.
+// ppmc312_response_format: builds the response to an instruction from the result of its check or of its
+//         execution.
 // Rules:  docs/ppmc312/README.md, 6.1; docs/ppmc312/instructions.md; P312-OVR-04, P312-EVT-02,
 //         P312-CMD-FC-1..4, P312-CMD-49.
 // Timing: combinational.
@@ -12,20 +13,20 @@ module ppmc312_response_format
 (
     input  wire block_t              block_i,         // the instruction
     input  wire check_e              check_i,         // result of the check
-    input  wire logic          [7:0] error_i,         // error number of F0; byte s of F1
+    input  wire logic          [7:0] error_i,         // error number of response F0; byte s of response F1
     input  wire status_e             status_i,        // status of the device
-    // stage of the instruction; at most one is 1
-    input  wire logic                at_boot_i,       // no instruction; the device leaves a reset
-    input  wire logic                at_act_i,        // checked
-    input  wire logic                at_setup_i,      // in the set-up
-    input  wire logic                at_copy_i,       // being copied into the queue
-    input  wire logic                at_move_i,       // a start or a rate change
-    input  wire logic                fails_i,         // triggered, and cannot be executed
-    input  wire logic                registers_i,     // to be registered in the command FIFO
+    // processing step of the instruction; at most one of these inputs is 1
+    input  wire logic                at_boot_i,       // no instruction: report a reset instruction
+    input  wire logic                at_act_i,        // the check is complete
+    input  wire logic                at_setup_i,      // the set-up is in progress
+    input  wire logic                at_copy_i,       // the instruction is being copied into the queue
+    input  wire logic                at_move_i,       // a start or a rate change is in progress
+    input  wire logic                fails_i,         // the triggered instruction cannot be executed
+    input  wire logic                registers_i,     // the instruction is to be stored in the command FIFO
     input  wire logic                used_i,          // the other kind of trigger uses the event pin
     input  wire logic          [2:0] evt_count_i,     // entries of the event buffer, 0 .. 4
     // result
-    input  wire result_data_t        result_data_i,   // data of an executed instruction
+    input  wire result_data_t        result_data_i,   // data of the executed instruction
     input  wire setup_status_t       setup_status_i,  // valid with at_setup_i
     input  wire move_status_t        move_status_i,   // valid with at_move_i
     output response_t                response_o       // response to be written

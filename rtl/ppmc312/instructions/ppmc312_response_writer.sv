@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_response_writer: writes a response byte by byte into the queue of class 2.
 // Rules:  docs/ppmc312/README.md, 6.1; P312-GEN-04 (logical order), P312-RSP-10.
-// Timing: done_o follows start_i by 3 + bytes cycles. The echo reads the instruction from its source, two
-//         cycles after echo_addr_o.
+// Timing: done_o follows start_i by 3 + bytes cycles. For an echo, echo_data_i is valid two cycles after
+//         echo_addr_o.
 // Assumes: response_i is stable from start_i to done_o.
 `default_nettype none
 
@@ -15,17 +15,17 @@ module ppmc312_response_writer
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic start_i,  // strobe: write response_i
     input wire response_t response_i,  // stable from start_i to done_o
-    input wire logic [BLOCK_BITS:0] blk_size_i,  // bytes of the instruction as written, 0 .. 32
-    output logic busy_o,  // from the cycle after start_i to that of done_o
+    input wire logic [BLOCK_BITS:0] blk_size_i,  // bytes that the host has written, 0 .. 32
+    output logic busy_o,  // from the cycle after start_i to the cycle of done_o
     output logic done_o,  // strobe: the response is written
     // sources of the last bytes
     input wire logic [31:0] value_i,  // TailPos: position
-    input wire logic [5:0][7:0] sums_i,  // TailSums: pulses of both sides
+    input wire logic [5:0][7:0] sums_i,  // TailSums: pulses of both sides of the table
     input wire logic [2:0] codes_i,  // TailCodes: number of codes
-    output logic peek_o,  // TailCodes: a code is requested
+    output logic peek_o,  // TailCodes; 1: a code is requested
     output logic [1:0] peek_at_o,  // TailCodes: entry of this code
     input wire logic [7:0] code_i,  // code of entry peek_at_o, two cycles later
-    // source of the instruction
+    // bytes of the instruction
     output logic [BLOCK_BITS-1:0] echo_addr_o,  // byte number, 0 = header
     input wire logic [7:0] echo_data_i,  // byte at echo_addr_o, two cycles later
     // queue of class 2
@@ -37,7 +37,7 @@ module ppmc312_response_writer
   logic [BLOCK_BITS:0] beyond_q;  // position in the echo; negative before the echo
   logic run_q;
   logic [BLOCK_BITS:0] len_q;  // length byte: bytes of the response minus two
-  logic [3:0] rest;  // bytes after the current byte, without the echo
+  logic [3:0] rest;  // bytes after the current byte, except the echo
   logic [7:0] tail;
   logic in_tail;
 
@@ -46,8 +46,8 @@ module ppmc312_response_writer
   assign done_o = run_q && at_q == size_o;
   assign response_write_o.we = run_q && at_q != size_o;
   assign response_write_o.addr = at_q[BLOCK_BITS-1:0];
-  // The address is two bytes ahead of the byte that is written. Code and parameters begin at byte 2 of the
-  // instruction.
+  // The address is two bytes ahead of the byte that is being written. Code and parameters begin at byte 2
+  // of the instruction.
   assign echo_addr_o = {3'(ppmc_pkg::inc(32'(beyond_q[4:2]))), beyond_q[1:0]};  // beyond_q + 4
   assign rest = ~beyond_q[3:0];
   assign peek_o = run_q && response_i.tail == TailCodes;
@@ -100,9 +100,10 @@ module ppmc312_response_writer
     end
   end
 
-  // The length is valid with the first byte.
+  // The length must be valid when the first byte is written.
   always_ff @(posedge clk_i) begin
-    // An echo follows a code and one byte. It is the instruction without header and length, at most 28 bytes.
+    // An echo follows the code and one byte. It contains the instruction without header and length, at most
+    // 28 bytes.
     if (!response_i.echo) len_q <= 6'(ppmc_pkg::inc(32'(response_i.extra)));
     else if (blk_size_i[5:1] == '0) len_q <= 6'd2;
     else len_q <= (blk_size_i[5] || blk_size_i[4:0] == '1) ? 6'd30 : blk_size_i;

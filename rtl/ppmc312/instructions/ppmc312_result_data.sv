@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_result_data: data that an executed instruction returns: the bytes after the code of its response.
+// ppmc312_result_data: selects the data that an executed instruction returns. These are the bytes after the
+//         code in its response.
 // Rules:  docs/ppmc312/instructions.md, P312-CMD-25/27/40..4D.
-// Timing: outputs are registered. All bytes are from the same cycle, so a position of four bytes is a
+// Timing: outputs are registered. All bytes are sampled in the same cycle, so a position of four bytes is a
 //         snapshot.
 `default_nettype none
 
@@ -19,8 +20,8 @@ module ppmc312_result_data
     input  wire axis_state_t          state_i,         // state of the motor side
     input  wire table_t               table_i,         // active table
     input  wire logic          [ 6:0] first_i,         // first used stage of the table
-    input  wire queue_status_t        queue_status_i,  // stored instructions
-    input  wire logic                 hold_i,          // 1: value_o does not change
+    input  wire queue_status_t        queue_status_i,  // contents of the instruction queue
+    input  wire logic                 hold_i,          // 1: value_o keeps its value
     output result_data_t              result_data_o,   // data of block_i, one cycle later
     output logic               [31:0] value_o          // position for TailPos, one cycle after block_i
 );
@@ -32,7 +33,7 @@ module ppmc312_result_data
   response_tail_e tail;
 
   assign n = block_i.par[0][0];
-  // 127 - n is n with all bits inverted.
+  // Inverting all 7 bits of n computes 127 - n.
   assign counts[0] = {1'b0, ~first_i};
   assign counts[1] = {1'b0, ~table_i.first_acc};
   assign counts[2] = table_i.split ? {1'b0, ~table_i.first_dec} : 8'd0;

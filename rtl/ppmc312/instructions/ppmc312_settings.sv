@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_settings: settings for motions, made by instructions: high-speed limit, END and RUN monitoring.
+// ppmc312_settings: stores the settings that instructions make for motions: high-speed limit, END and RUN
+//         monitoring.
 // Rules:  P312-CMD-05/06/45, P312-CMD-00, P312-GEN-12.
 // Timing: outputs follow execute_i and built_i by one cycle.
 `default_nettype none
@@ -9,7 +10,7 @@ module ppmc312_settings
 (
     input  wire logic        clk_i,            // clock
     input  wire logic        rst_ni,           // reset, asynchronous
-    input  wire logic        execute_i,        // strobe: the instruction is executed
+    input  wire logic        execute_i,        // strobe: execute the instruction
     input  wire logic [ 7:0] code_i,           // instruction code
     input  wire logic [15:0] value_i,          // first two parameters
     input  wire logic        built_i,          // strobe: a new table is active

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_setup: converts the blocks of an initial setting or a free curve to the active table.
+// ppmc312_setup: builds the active table from the block of an initial setting or the blocks of a free
+//         curve.
 // Rules:  P312-CMD-00, P312-CMD-01, P312-CMD-FC-1..10, P312-INP-31.
-// Timing: status_o.done is high for one cycle when the work requested by cmd_i.build or cmd_i.data has
+// Timing: status_o.done is high for one cycle when the action requested by cmd_i.build or cmd_i.data has
 //         ended. status_o.failed, error and progress are valid in this cycle.
 `default_nettype none
 
@@ -20,7 +21,7 @@ module ppmc312_setup
     input  wire logic       [7:0] byte_i,           // byte at status_o.addr, two cycles later
     // table unit
     output logic                  drop_o,           // strobe: the table becomes invalid
-    output curve_t                curve_o,          // curve to be built, or description of a free curve
+    output curve_t                curve_o,          // curve to be built, or parameters of a free curve
     output logic            [6:0] open_acc_o,       // free curve: first stage of the acceleration side
     output logic            [6:0] open_dec_o,       // free curve: first stage of the deceleration side
     output table_write_t          table_write_o,    // word of a free curve

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_table_read: writes the data blocks of a table read: rates, acceleration and deceleration pulses,
-//         fastest stage first.
+// ppmc312_table_read: writes the data blocks of a table read. They contain rates, acceleration pulses and
+//         deceleration pulses. Each list begins with the fastest stage.
 // Rules:  P312-CMD-41.
-// Timing: next_i starts the next block. A block of n stages takes 5 n + 1 cycles if it contains rates, and
-//         6 n + 1 if it contains pulses; done_o is asserted in its last cycle.
+// Timing: next_i starts the next block. A block of n stages takes 5 n + 1 cycles for rates, 6 n + 1 cycles
+//         for pulses. done_o is asserted in the last cycle.
 `default_nettype none
 
 module ppmc312_table_read
@@ -32,14 +32,14 @@ module ppmc312_table_read
   localparam logic [6:0] Fastest = 7'd126;
   localparam logic [7:0][3:0] Lengths = {
     12'd0, 4'd13, 4'd10, 4'd7, 4'd4, 4'd1
-  };  // lengths of blocks of 4 .. 0 stages: 3 * n + 1
+  };  // 3 * n + 1 bytes for n = 4 .. 0 stages
 
   logic run_q, rates, last_item, ends, stage_ends, in_words;
   logic [1:0] item_q, part_q, wait_q;
-  logic [2:0] left_q;  // remaining stages of this block
+  logic [2:0] left_q;  // remaining stages of the block
   logic [6:0] stage_q, first;
   logic [ 2:0] room;
-  logic [ 6:0] rest_q;  // remaining stages of this item
+  logic [ 6:0] rest_q;  // remaining stages of the list
   logic [ 5:0] at_q;
   logic [23:0] word;
 
@@ -120,11 +120,11 @@ module ppmc312_table_read
     end
   end
 
-  // These registers are used long after their inputs change.
+  // These registers are used long after their inputs change, so the delay has no effect.
   always_ff @(posedge clk_i) begin
     if (!run_q && stage_q == Fastest) rest_q <= ~first;  // 127 - first
     else if (stage_ends) rest_q <= 7'(ppmc_pkg::dec(32'(rest_q)));
-    // ends: the rest of the item fits into this block, at most 6 rates or 4 pulse numbers.
+    // ends = 1: the remaining stages fit into this block, which has at most 6 rates or 4 numbers of pulses.
     ends <= rest_q[6:3] == '0 && (rates ? rest_q[2:0] != '1 : !rest_q[2] || rest_q[1:0] == '0);
   end
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_aux_monitor: reports changes of the masked bits of the generalized input.
+// ppmc312_aux_monitor: reports changes of the monitored bits of the generalized input.
 // Rules:  P312-MON-10, P312-CMD-28.
-// Timing: auxi_i is sampled every 50 us, counted from set_i; report_o is high in the cycle of the sample.
+// Timing: auxi_i is sampled every 50 us, counted from set_i. report_o is high in the cycle of the sample.
 `default_nettype none
 
 module ppmc312_aux_monitor #(
@@ -10,9 +10,9 @@ module ppmc312_aux_monitor #(
 ) (
     input  wire logic       clk_i,     // clock
     input  wire logic       rst_ni,    // reset, asynchronous
-    input  wire logic       set_i,     // strobe: latch repeat_i, mask_i; restart
-    input  wire logic       repeat_i,  // 0: monitoring ends after one report
-    input  wire logic [7:0] mask_i,    // bits to be monitored
+    input  wire logic       set_i,     // strobe: latch repeat_i and mask_i; restart
+    input  wire logic       repeat_i,  // 1: continue after a report, 0: end after one report
+    input  wire logic [7:0] mask_i,    // 1: bit is monitored
     input  wire logic [7:0] auxi_i,    // generalized input, synchronised
     output logic            report_o,  // strobe: monitored bits have changed
     output logic      [7:0] data_o     // changed bits; valid with report_o

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_axis: motor side: settings, motion, positions, outputs.
-// Rules:  see its blocks.
-// Timing: block_i is executed at the edge that ends the cycle of execute_i, an immediate stop a cycle later.
+// ppmc312_axis: motor side of the PPMC-312. Contains settings, motion, positions and outputs.
+// Rules:  see the instantiated blocks.
+// Timing: block_i takes effect at the edge that ends the cycle of execute_i; an immediate stop takes effect
+//         one cycle later.
 `default_nettype none
 
 module ppmc312_axis
@@ -20,9 +21,9 @@ module ppmc312_axis
     input  wire motion_req_t  motion_req_i,    // starts and rate changes
     input  wire alarm_event_t multi_i,         // multiple occurrence
     // active table
-    input  wire logic         built_i,         // strobe: the table is new
+    input  wire logic         built_i,         // strobe: a new table is active
     input  wire table_t       table_i,         // description of the table
-    input  wire target_t      start_target_i,  // look-up result of table_i.rate_acc
+    input  wire target_t      start_target_i,  // look-up result of rate table_i.rate_acc
     output table_addr_t       table_addr_o,    // read port of the table
     input  wire stage_t       stage_i,         // stage at table_addr_o, two cycles later
     // pins
@@ -33,7 +34,7 @@ module ppmc312_axis
     output axis_state_t       state_o,         // state of the motor side
     output axis_event_t       axis_event_o,    // events to be reported
     output monitor_req_t      monitor_req_o,   // reports of the monitors
-    input  wire monitor_ack_t monitor_ack_i    // reports of the monitors are loaded, read
+    input  wire monitor_ack_t monitor_ack_i    // reports of the monitors: being loaded, read
 );
 
   logic [7:0] code;
@@ -41,8 +42,8 @@ module ppmc312_axis
 
   assign code = block_i.code;
 
-  // The path of an immediate stop to the pulses is timing-critical, so it has a register. The code is stable
-  // long before execute_i.
+  // The path from an immediate stop to the pulses is timing-critical, so it contains a register. The
+  // instruction code is stable long before execute_i.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {halt_q, decel_q} <= '0;
     else begin

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_motion: controls an operation from its acceptance to the report of its end: statuses, start gate,
-//         pulses, causes, both phases of a zero return.
+// ppmc312_motion: controls an operation from its acceptance to the report of its end. Contains the start
+//         gate, the pulses, both phases of a zero return, the cause of the end and the status of the
+//         device.
 // Rules:  P312-MOT-01/06/30/34/35, P312-MOT-40..43, P312-STA-01..04, P312-INP-10/12/20/30/32, P312-OVR-12.
-// Timing: t0 is the edge that ends the cycle of motion_req_i.start, or of the end of the start gate. Pins and
-//         stops act in the cycle in which they are sampled: no pulse begins in this cycle. pout_o and dir_o
-//         are registered; counted_o is high in the first cycle after the rise of pout_o.
+// Timing: t0 is the edge that ends the cycle of motion_req_i.start, or of the end of the start gate. A pin
+//         or a stop acts in the cycle in which it is sampled: no pulse begins in this cycle. pout_o and
+//         dir_o are registered. counted_o is high in the first cycle after the rise of pout_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -20,24 +21,24 @@ module ppmc312_motion
     input  wire logic             rst_ni,          // reset, asynchronous
     // active table
     input  wire table_t           table_i,         // description of the table
-    input  wire target_t          start_target_i,  // look-up result of table_i.rate_acc
+    input  wire target_t          start_target_i,  // look-up result of rate table_i.rate_acc
     output table_addr_t           table_addr_o,    // read port of the table
     input  wire stage_t           stage_i,         // stage at table_addr_o, two cycles later
     // instructions
     input  wire motion_req_t      motion_req_i,    // starts and rate changes
-    input  wire logic             change_ramp_i,   // with motion_req_i.change: change along the table
+    input  wire logic             change_ramp_i,   // with motion_req_i.change; 1: change along the table
     input  wire logic             halt_i,          // strobe: immediate stop
     input  wire logic             decel_i,         // strobe: decelerate to the end
     input  wire motion_settings_t settings_i,      // high-speed limit, monitoring
     // pins
     input  wire motor_inputs_t    levels_i,        // switches and drive inputs, filtered
-    input  wire logic             run_i,           // 1: starts are not held
+    input  wire logic             run_i,           // 0: RUN holds starts
     input  wire logic             extck_i,         // external clock, asynchronous
     output logic                  pout_o,          // 1: a pulse is active
     output logic                  dir_o,           // 0: CW, 1: CCW
     // alarm
     input  wire alarm_event_t     multi_i,         // multiple occurrence
-    input  wire logic             abn_end_i,       // strobe: alarm clear, and no alarm is active
+    input  wire logic             abn_end_i,       // strobe: the alarm has been cleared
     output alarm_event_t          alarm_o,         // alarm to be reported
     // state
     output status_e               status_o,        // status of the device
@@ -53,9 +54,9 @@ module ppmc312_motion
 
   typedef enum logic [2:0] {
     StIdle,
-    StHold,   // start gate
+    StHold,   // waits for the start gate
     StPulses,
-    StLastPulse,  // no further pulse begins; the last pulse ends
+    StLastPulse,  // no further pulse begins; waits for the end of the last pulse
     StWaitEnd     // waits for END
   } state_e;
 
@@ -66,7 +67,7 @@ module ppmc312_motion
   logic immediate, fire, ready, ends, output_end, decel_q, org_q, slow_q, at_origin, slow, gate;
   logic limit, high_limit, origin;
   logic too_fast, fast_q, complete_q;
-  // by_…_q: requests that led to the decision in next_…
+  // by_…_q: requests that were active when the current decision (next_…) was made
   logic by_slow_q;
   logic [1:0] by_decel_q, by_origin_q;
   logic [5:0] start_delay_q;  // bit 5: the rate of pulse 1 is not valid yet
@@ -89,7 +90,7 @@ module ppmc312_motion
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {fast_q, slow_q, complete_q} <= '0;
     else begin
-      complete_q <= complete;  // delayed, because position comparisons are later
+      complete_q <= complete;  // delayed, because the results of position comparisons are also delayed
       fast_q <= rate <= settings_i.limit_rate;
       slow_q <= too_fast;
     end
@@ -109,7 +110,7 @@ module ppmc312_motion
 
   // ---- stop and deceleration requests -------------------------------------------------------------
 
-  assign at_origin = org_q || (op_q.zero && origin);  // zero return, phase 1
+  assign at_origin = org_q || (op_q.zero && origin);  // zero return, phase 1: at the origin
   assign slow = slow_q || decel_q || at_origin;
 
   always_comb begin
@@ -117,14 +118,14 @@ module ppmc312_motion
     request.als = enter || abn_q;
     request.stl = limit;
     request.org = op_q.origin && origin;
-    request.stp = halt_i || (motion_req_i.pos_halt && !complete_q);  // the last pulse needs no stop
+    request.stp = halt_i || (motion_req_i.pos_halt && !complete_q);  // ignored after the last pulse
     immediate   = state_q == StPulses && request != '0;
   end
 
   assign fire = state_q == StPulses && ready && !next_end && !immediate && !(first && slow);
   assign ends = state_q == StPulses && (immediate || (ready && next_end && !first) || (first && slow));
-  // After the deceleration at the origin, or if no deceleration was necessary, phase 2 of the zero return
-  // follows.
+  // Phase 2 of the zero return follows the deceleration at the origin. It also follows if no deceleration
+  // was necessary.
   assign low_phase2 = first ? at_origin && !slow_q && !decel_q :
       by_origin_q[1] && !by_slow_q && !by_decel_q[1];
 
@@ -193,7 +194,7 @@ module ppmc312_motion
           if (enter && (phase2_next_q || (wait_pos_q && cause_q.stp))) begin
             cause_q <= '{als: 1'b1, default: 1'b0};
             phase2_next_q <= 1'b0;
-          end else if (stop_between) begin  // a stop between the two phases
+          end else if (stop_between) begin  // stop between the two phases
             cause_q <= '{stp: halt_i, low: !halt_i, default: 1'b0};
             phase2_next_q <= 1'b0;
           end else if (output_end) state_q <= stop_o ? StIdle : StWaitEnd;
@@ -215,7 +216,7 @@ module ppmc312_motion
           op_q.origin <= 1'b1;
         end
       end else begin
-        // Requests that have been evaluated at a boundary are cleared.
+        // A request is cleared when it has been evaluated at a boundary.
         decel_q <= (decel_i && state_q == StPulses) || (decel_q && !(fire && next_slow && by_decel_q[1]));
         org_q   <= at_origin && !(fire && next_slow && by_origin_q[1]);
         if (fire && next_final_decel)
@@ -303,7 +304,7 @@ module ppmc312_motion
   `PPMC_ASSERT(p312_mot_35, !stop_o || $onehot(cause_o))
   `PPMC_ASSERT(p312_mot_06, !(ends && next_end && !immediate && !first) || !pout_o)
   `PPMC_ASSERT(p312_blk_01_8, !motion_req_i.start || (state_q == StIdle && !abn_q))
-  // Without a pulse nothing is counted; after a load next_count is not valid yet.
+  // Without a pulse, nothing is counted. Between a load and pulse 1, next_count is not valid.
   `PPMC_ASSERT(p312_mot_07_count, !(ends && !immediate && !first && next_count) || complete)
 `endif
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_move: executes a checked motion or rate change: limits, look-up or plan, then the start or the
-//         change.
+// ppmc312_move: executes a motion or a rate change that has passed the check. First checks the limits, then
+//         makes a look-up or plan, then starts or changes the motion.
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (check 8), P312-STA-04.
-// Timing: result_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o or change_o is
-//         asserted together with result_o.done. Rate and number of pulses are held until t0, regardless of
-//         other instructions that are executed before t0.
+// Timing: result_o.done follows begin_i by 4 cycles for a single step, which needs no look-up. Otherwise
+//         the time of the planner is added. start_o or change_o is asserted together with result_o.done.
+//         Rate and number of pulses are held until t0, even if other instructions are executed before t0.
 `default_nettype none
 
 module ppmc312_move
@@ -15,13 +15,13 @@ module ppmc312_move
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic begin_i,  // strobe: begin with block_i
+    input wire logic begin_i,  // strobe: begin block_i
     input wire block_t block_i,  // the instruction; stable until result_o.done
     input wire status_e status_i,  // status of the device
     input wire table_t table_i,  // active table
     input wire motor_inputs_t levels_i,  // input pins, filtered
     input wire logic [15:0] limit_rate_i,  // HSL, base clocks
-    input wire logic gate_i,  // 1: a start is not held
+    input wire logic gate_i,  // 0: the start gate holds a start
     input wire logic elapsed_i,  // the processing time has passed
     output move_status_t result_o,  // result
     // motion
@@ -29,7 +29,7 @@ module ppmc312_move
     output logic change_o,  // strobe: change the rate to profile_o.target
     output operation_t op_o,  // valid with start_o
     output profile_t profile_o,  // stable until t0
-    output logic single_pulse_o,  // with start_o: start-up rate instead of profile_o.target
+    output logic single_pulse_o,  // with start_o; 1: use the start-up rate instead of profile_o.target
     // planner
     output profile_req_t profile_req_o,  // command to the planner
     input wire logic plan_busy_i,  // the planner is busy
@@ -40,7 +40,7 @@ module ppmc312_move
   typedef enum logic [2:0] {
     StIdle,
     StLimit,
-    StPlan,   // the planner is started
+    StPlan,   // starts the planner
     StWait,
     StGo
   } state_e;
@@ -96,7 +96,7 @@ module ppmc312_move
     end
   end
 
-  // No reset: begin_i sets all of these registers.
+  // No reset: begin_i sets all these registers.
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
       starts_motion_q  <= info.starts_motion;
@@ -106,7 +106,7 @@ module ppmc312_move
       count_q   <= {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
       rate_q    <= (rate == '0) ? table_i.high_rate : rate;
       if (code == I_STEP) begin
-        count_q[0] <= 1'b1;  // the instruction has no number of pulses: all bits are 0
+        count_q[0] <= 1'b1;  // this instruction has no number of pulses, so all other bits are 0
         rate_q     <= table_i.rate_acc;
       end
       if (info.starts_motion) begin

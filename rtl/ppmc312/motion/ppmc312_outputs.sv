@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_outputs: pins that instructions and motions switch: interlock, excitation, counter clear, alarm
-//         clear, zero clamp, current reduction, generalized output. Also detects the end of the abnormal
-//         status.
+// ppmc312_outputs: drives the pins that instructions and motions switch: interlock, excitation, counter
+//         clear, alarm clear, zero clamp, current reduction, generalized output. Also detects the end of
+//         the abnormal status.
 // Rules:  P312-CMD-20..26, P312-OUT-01..03, P312-INP-31/33, P312-MON-06.
-// Timing: pins follow the inputs by one cycle. Clear pulses last 24.576 ms; the current is reduced 100 ms
-//         after the last motion, or immediately while alm_ni is low.
+// Timing: pins follow the inputs by one cycle. Clear pulses last 24.576 ms. The current is reduced 100 ms
+//         after the end of the last motion; while alm_ni is low, it is reduced immediately.
 `default_nettype none
 
 module ppmc312_outputs #(
@@ -20,7 +20,7 @@ module ppmc312_outputs #(
     input  wire logic       aclr_i,            // alarm clear
     input  wire logic       clamp_i,           // zero clamp
     input  wire logic       aux_i,             // generalized output
-    input  wire logic [5:0] aux_data_i,        // with aux_i; 1: low
+    input  wire logic [5:0] aux_data_i,        // with aux_i; 1: pin low
     // state of the motor side
     input  wire logic       launch_i,          // strobe: t0
     input  wire logic       output_end_i,      // strobe: pulse output has ended
@@ -76,7 +76,7 @@ module ppmc312_outputs #(
       .past_o   (current_past)
   );
 
-  // An alarm that ends during its clear pulse has been cleared by this pulse.
+  // An alarm that ends during the alarm clear pulse was cleared by this pulse.
   assign abn_end_o = clearing_q && alm_ni;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

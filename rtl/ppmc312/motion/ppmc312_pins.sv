@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_pins: synchronises the input pins of the motor side; with Datasheet = 1 also filters them.
+// ppmc312_pins: synchronises the input pins of the motor side and, with Datasheet = 1, filters them.
 // Rules:  P312-GEN-01, P312-INP-01, P312-TIM-14.
-// Timing: the levels in inputs_o follow the pins by 2 cycles; inputs_o.evt_fall is high in the cycle in which
-//         the level has become low. With Datasheet = 1, a low level is accepted after 200 us (event pins:
+// Timing: the levels in inputs_o follow the pins by 2 cycles. inputs_o.evt_fall is high in the first cycle
+//         in which the level is low. With Datasheet = 1, a low level is accepted after 200 us (event pins:
 //         25 ms); a high level is accepted immediately.
 `default_nettype none
 
@@ -18,7 +18,7 @@ module ppmc312_pins
     // pins; the names are those of inputs_t
     input  wire motor_inputs_t       pins_i,   // switches, drive, encoder index
     input  wire logic          [1:0] evt_ni,   // [n]: event pin n
-    input  wire logic                run_i,    // 1: starts are not held
+    input  wire logic                run_i,    // 0: RUN holds starts
     input  wire logic                epin_i,   // encoder, counted at its rising edge
     input  wire logic                epdir_i,  // 0: up, 1: down
     input  wire logic          [7:0] auxi_i,   // generalized input
@@ -56,7 +56,7 @@ module ppmc312_pins
       localparam int unsigned Limit = (n < $bits(motor_inputs_t)) ? LevelXtal : EventXtal;
       logic past;
 
-      // The reset of the device is long enough for a synchronous restart.
+      // The reset of the device lasts long enough to restart the timers synchronously.
       ppmc_delay #(
           .Ticks(ppmc_pkg::cyc(Limit, ClkHz, XtalHz))
       ) u_timer (

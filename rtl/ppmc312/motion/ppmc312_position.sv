@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_position: position and encoder position, interlock position, position monitors.
+// ppmc312_position: counts position and encoder position, releases the interlock at its position, and
+//         monitors positions.
 // Rules:  P312-MOT-05, P312-MON-01..06, P312-OUT-03, P312-CMD-04/43/44.
-// Timing: pos_o and counted_o follow count_i by one cycle. The monitors evaluate a position 3 cycles after it
-//         is valid on pos_o or enc_o; the in-position monitor evaluates from 4 cycles after the end of pulse
-//         output on.
+// Timing: pos_o and counted_o follow count_i by one cycle. The monitors evaluate a position 3 cycles after
+//         it is valid on pos_o or enc_o. The in-position monitor evaluates only from 4 cycles after the end
+//         of pulse output on.
 `default_nettype none
 
 module ppmc312_position
@@ -13,19 +14,19 @@ module ppmc312_position
     input wire logic rst_ni,  // reset, asynchronous
     // pulses
     input wire logic count_i,  // strobe: a pulse
-    input wire logic ccw_i,  // direction of the pulse: 1: down
+    input wire logic ccw_i,  // 1: CCW, counts down
     input wire logic output_i,  // 1: pulses are being output
     // encoder, synchronous
     input wire logic epin_i,  // counted at its rising edge
     input wire logic epdir_i,  // 0: up, 1: down
     // instructions
-    input wire logic [31:0] value_i,  // new position; pulses, two's complement
+    input wire logic [31:0] value_i,  // new position in pulses or edges, two's complement
     input wire logic [31:0] lock_value_i,  // new interlock position
     input wire logic set_pos_i,  // strobe: set the position
     input wire logic set_enc_i,  // strobe: set the encoder position
     input wire logic set_lock_i,  // strobe: set the interlock position
-    input wire logic toggle_lock_i,  // strobe: interlock control on or off
-    input wire logic [1:0] set_window_i,  // strobes: latch flags and range, [0]: in-position, [1]: encode
+    input wire logic toggle_lock_i,  // strobe: toggle interlock control
+    input wire logic [1:0] set_window_i,  // strobes: latch flags and range
     input wire logic [2:0] window_flags_i,  // FO, RES, EN
     input wire logic [15:0] window_range_i,  // range in pulses
     // positions
@@ -39,18 +40,18 @@ module ppmc312_position
     output logic [1:0] window_on_o,  // monitor is enabled
     output logic [1:0] outside_o,  // monitor is enabled, and the position is outside
     output logic [1:0] pending_o,  // a report is pending
-    output logic [1:0] value_o,  // content of the report: 1: outside
+    output logic [1:0] value_o,  // contents of the report; 1: outside, 0: inside
     input wire logic [1:0] load_i,  // strobes: the report is being loaded
     input wire logic [1:0] read_i,  // strobes: the report has been read
-    output logic coupled_inside_o,  // 1: coupled to the zero clamp, pulses ended, position inside
-    output logic coupled_o  // 1: coupled to the zero clamp, in-position evaluated
+    output logic coupled_inside_o,  // 1: coupled_o = 1, and the position is inside
+    output logic coupled_o  // 1: zero clamp coupled, in-position evaluated
 );
 
   logic epin_q, couple_q, hit, settled;
   logic [31:0] lock_pos_q, diff_q;
   logic [15:0] size_q;
   logic negative_q, large_q;
-  logic [1:0][16:0] margin;  // range - size; bit 16 = 1: not negative
+  logic [1:0][16:0] margin;  // range - magnitude of the difference; bit 16 = 1: not negative
   logic [1:0][15:0] range_q;
   logic [1:0] inside_q, evaluate;
   logic [3:0] settle_q;
@@ -66,7 +67,7 @@ module ppmc312_position
       pos_o      <= '0;
       enc_o      <= '0;
       counted_o  <= 1'b0;
-      epin_q     <= 1'b1;  // a pin that is high after reset is not an edge
+      epin_q     <= 1'b1;  // so that a pin that is high after reset is not an edge
       lock_pos_q <= '0;
       lock_o     <= 1'b0;
       unlock_o   <= 1'b0;
@@ -97,10 +98,10 @@ module ppmc312_position
     end
   end
 
-  // No reset: ranges are set before use; the other registers follow their inputs.
+  // No reset: the ranges are set before use; the other registers follow their inputs.
   always_ff @(posedge clk_i) begin
     diff_q <= pos_o - enc_o;
-    // The size of a negative difference is its inverted bits plus one.
+    // The magnitude of a negative difference is its inverted value plus one. `margin` adds this one.
     negative_q <= diff_q[31];
     size_q <= diff_q[15:0] ^ {16{diff_q[31]}};
     large_q <= diff_q[31:16] != {16{diff_q[31]}};

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_window_monitor: one of the two position monitors (in-position, encode): inside or outside its
-//         range, and its reports.
+// ppmc312_window_monitor: one of the two position monitors (in-position, encode). Reports whether the
+//         position is inside or outside the range.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
 // Timing: pending_o follows inside_i by two cycles.
-// Note:   a report is pending while the state differs from the state that the host has read last.
+// Note:   a report is pending while the state differs from the state in the report that the host has read
+//         last.
 `default_nettype none
 
 module ppmc312_window_monitor (
     input  wire logic clk_i,       // clock
     input  wire logic rst_ni,      // reset, asynchronous
     input  wire logic set_i,       // strobe: latch enable_i and repeat_i; restart
-    input  wire logic enable_i,    // with set_i: 1: enable, 0: disable the monitor
-    input  wire logic repeat_i,    // with set_i: 0: the monitor ends after one report
-    input  wire logic evaluate_i,  // 1: the state follows inside_i
+    input  wire logic enable_i,    // with set_i; 1: enable, 0: disable the monitor
+    input  wire logic repeat_i,    // with set_i; 1: continue, 0: end after one report
+    input  wire logic evaluate_i,  // 1: update the state from inside_i
     input  wire logic inside_i,    // 1: the position is within the range
     output logic      enabled_o,   // 1: the monitor is active
     output logic      outside_o,   // 1: active, and the position is outside
     output logic      pending_o,   // 1: a report is pending
-    output logic      value_o,     // content of the report: 1: outside
+    output logic      value_o,     // contents of the report; 1: outside, 0: inside
     input  wire logic load_i,      // strobe: the report is being loaded
     input  wire logic read_i       // strobe: the report has been read; may coincide with load_i
 );
@@ -38,7 +39,7 @@ module ppmc312_window_monitor (
       pending_o    <= 1'b0;
       restarted_q   <= 1'b0;
     end else begin
-      restarted_q <= set_i;  // the state of the new range is not valid yet
+      restarted_q <= set_i;  // inside_i is not valid for the new range yet
       if (load_i) begin
         loaded_q <= !read_i;
         loaded_value_q <= value_o;

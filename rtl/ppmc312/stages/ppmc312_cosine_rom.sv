@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_cosine_rom: weights of the stages of a ramp. For a sigmoid ramp the weight is a raised cosine,
-//         round(65536 * (1 - cos(pi * i / 126)) / 2); for a linear ramp it is i.
-// Rules:  P312-TBL-01 (the values are binding).
+// ppmc312_cosine_rom: weight of each stage of a ramp. Sigmoid ramp: raised cosine, round(65536 * (1 -
+//         cos(pi * i / 126)) / 2). Linear ramp: i.
+// Rules:  P312-TBL-01, which lists these values.
 // Timing: latency 2 cycles.
 `default_nettype none
 
 module ppmc312_cosine_rom (
     input  wire logic        clk_i,     // clock
-    input  wire logic        linear_i,  // 1: the weight is i
+    input  wire logic        linear_i,  // 1: linear ramp, 0: sigmoid ramp
     input  wire logic [ 6:0] index_i,   // stage i, 0 .. 126
     output logic      [16:0] weight_o   // weight of stage i, two cycles later
 );

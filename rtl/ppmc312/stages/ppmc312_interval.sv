@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_interval: determines when the next pulse of a motion begins and how long it lasts. The rate is the
-//         number of base clocks of an interval.
+// ppmc312_interval: times the beginning and the width of each pulse of a motion. The rate is the number of
+//         base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
-// Timing: ready_o is combinational. For pulse 1 it is asserted CYC(WidthXtal) cycles after arm_i. Each later
-//         pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1; with the external clock,
-//         on the tick itself. Two pulses are at least 4 cycles apart; lost time is not made up.
-// Note:   ppmc_base_clock and ppmc_rate_counter need 3 cycles per base clock; here a base clock may last one
-//         cycle.
+// Timing: ready_o is combinational. For pulse 1, it is asserted CYC(WidthXtal) cycles after arm_i. Each
+//         later pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1. With the
+//         external clock, it can fire in the cycle of its tick. Two pulses are at least 4 cycles apart. A
+//         late pulse does not shorten later intervals.
+// Note:   a base clock may last one cycle. Therefore this module cannot use ppmc_base_clock and
+//         ppmc_rate_counter, which need 3 cycles per base clock.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -19,10 +20,10 @@ module ppmc312_interval #(
     input  wire logic                clk_i,    // clock
     input  wire logic                rst_ni,   // reset, asynchronous
     input  wire logic [         2:0] base_i,   // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6: rise, 7: fall
-    input  wire logic                extck_i,  // external clock pin; base_i 6 and 7 use its edges
+    input  wire logic                extck_i,  // asynchronous; base_i = 6: rising, 7: falling edge is used
     input  wire logic                arm_i,    // strobe: start of a motion
     input  wire logic                first_i,  // 1: the next pulse is pulse 1
-    input  wire logic                fire_i,   // strobe: a pulse, in a cycle of ready_o
+    input  wire logic                fire_i,   // strobe: begin a pulse; only while ready_o = 1
     input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next pulse, at least 2
     output logic                     ready_o,  // 1: a pulse may begin
     output logic                     high_o    // 1: a pulse is active
@@ -33,10 +34,10 @@ module ppmc312_interval #(
 
   logic quantum, tick, restart, level, last_q, edge_now, external, cut, up, unused_meta;
   logic past_q, elapsed, min_gap, elapsed_now;
-  logic [2:0] age_q;  // cycles since the pulse, up to 4
+  logic [2:0] age_q;  // cycles since the pulse, 0 .. 4
   logic [PreBits-1:0] pre_q, pre_load;
-  logic rest_q;  // 1: pre_q is 0; separate because of its fan-out
-  logic [RateBits-1:0] left_q, half_q;  // left_q: base clocks left; half_q: left_q at half of the interval
+  logic rest_q;  // 1: pre_q is 0; a separate register, because of its fan-out
+  logic [RateBits-1:0] left_q, half_q;  // remaining base clocks; left_q in the middle of the interval
 
   assign external = base_i >= ExtRise;
   assign restart  = fire_i && first_i;
@@ -77,7 +78,7 @@ module ppmc312_interval #(
     tick = external ? edge_now : quantum && rest_q;
   end
 
-  // A base clock in the cycle of a pulse belongs to the previous interval.
+  // A base clock that occurs in the cycle of a pulse belongs to the previous interval.
   assign min_gap = age_q[2];
   assign elapsed_now = tick && left_q == RateBits'(1);
   assign elapsed = elapsed_now || past_q;
@@ -113,7 +114,7 @@ module ppmc312_interval #(
       end else begin
         if (elapsed_now) past_q <= 1'b1;
         if (!min_gap) age_q <= age_q + 1'b1;
-        // left_q may wrap below 0; past_q is 1 by then
+        // left_q may wrap below 0; past_q is 1 before this happens.
         if (tick) left_q <= left_q - 1'b1;
       end
     end

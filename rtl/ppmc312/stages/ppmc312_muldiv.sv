@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_muldiv: sequential multiplier and divider with one adder; the pair {hi, lo} holds operands and
-//         results.
+// ppmc312_muldiv: sequential multiplier and divider with one adder. The registers {hi, lo} hold operands
+//         and results.
 // Rules:  P312-TBL-02/04, P312-MOT-11 (exact integer products and quotients).
-// Timing: busy_o is high for steps_i cycles after start_i, for a division one cycle more; then the result is
-//         valid.
-// Assumes: for a division, h < operand < 2**(HiBits - 1); h is operand_i in the cycle of start_i.
-// How:    multiply: h + operand * (low bits of lo_i), shifted right; after n steps the low n bits of the
-//         result are on top of lo. Divide: {hi, lo} by the operand, shifted left; after n steps hi is the
-//         remainder and the low n bits of lo are the quotient. The division is non-restoring: the next step,
-//         or the additional cycle, adds the operand to a remainder below 0.
+// Timing: busy_o is high for steps_i cycles after start_i; for a division, it is high for one more cycle.
+//         The result is valid after the fall of busy_o.
+// Assumes: for a division, h < operand < 2**(HiBits - 1), where h is the value of operand_i in the cycle of
+//         start_i.
+// How:    multiplication: h + operand * (low bits of lo_i), shifted right. After n steps, the low n bits of
+//         the result are the top bits of lo.
+//         Division: {hi, lo} / operand, shifted left. After n steps, hi is the remainder and the low n
+//         bits of lo are the quotient. The division is non-restoring: if the remainder is below 0, the
+//         next step or the additional cycle adds the operand.
 `default_nettype none
 
 module ppmc312_muldiv #(
@@ -19,26 +21,26 @@ module ppmc312_muldiv #(
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic start_i,  // strobe
     input wire logic mul_i,  // 1: multiply, 0: divide
-    input wire logic keep_i,  // 1: continue with the product instead of h and lo_i
+    input wire logic keep_i,  // 1: continue with {hi, lo} instead of h and lo_i
     input wire logic [5:0] steps_i,  // number of steps, 1 .. LoBits
-    input wire logic [LoBits-1:0] lo_i,  // multiplier; lower part of the dividend
-    // With start_i: h, the summand or the upper part of the dividend. Then the operand, stable while
-    // busy_o = 1.
+    input wire logic [LoBits-1:0] lo_i,  // multiplication: multiplier; division: low part of the dividend
+    // In the cycle of start_i: h, which is the summand or the upper part of the dividend. Then the operand,
+    // which is stable while busy_o = 1.
     input wire logic [HiBits-1:0] operand_i,  // h, then the operand
     output logic busy_o,  // 1: the result is not valid yet
-    output logic [HiBits-1:0] hi_o,  // product; remainder
-    output logic [LoBits-1:0] lo_o  // top bits: low bits of the product; low bits: quotient
+    output logic [HiBits-1:0] hi_o,  // multiplication: product; division: remainder
+    output logic [LoBits-1:0] lo_o  // product: its low bits at the top; division: quotient at the bottom
 );
 
   logic [5:0] left_q;
   logic mul_q, load, last;
   logic busy_q, shift_q;  // busy_q: left_q is not 0; shift_q: a division is in progress
-  logic correct_q;  // adds the operand to a remainder below 0
+  logic correct_q;  // 1: add the operand if the remainder is below 0
   logic
       use_operand_q,
       subtract_q,
       use_operand,
-      subtract;  // take…: the operand is used; less…: the operand is subtracted
+      subtract;  // use_operand: the operand is used; subtract: it is subtracted
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;
@@ -49,7 +51,7 @@ module ppmc312_muldiv #(
   assign under = sum[HiBits-1];
   assign hi_o = hi_q;
 
-  // A load also uses the adder: h is added to 0.
+  // A load also uses the adder, which adds h to 0.
   assign use_operand = use_operand_q || load;
   assign subtract = subtract_q && !load;
 
@@ -76,7 +78,7 @@ module ppmc312_muldiv #(
     end
   end
 
-  // No reset: every use begins with a load.
+  // No reset: a load precedes every use.
   always_ff @(posedge clk_i) begin
     if (start_i) begin
       mul_q <= mul_i;

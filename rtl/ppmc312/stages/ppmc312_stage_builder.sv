@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_builder: fills the stage table from start-up, stop and high-speed rate and the pulses of both
-//         sides.
+// ppmc312_stage_builder: fills the stage table from the start-up, stop and high-speed rates and the pulses
+//         of both sides.
 // Rules:  P312-TBL-01..06, P312-CMD-00 (0x05).
-// Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table and its
+// Timing: busy_o rises at the edge that ends the cycle of start_i. It falls when the table and its
 //         description are complete, after at most 127 * 300 cycles.
 // Assumes: curve_i is stable while busy_o = 1.
-// How:    stage i has the speed D_i = K*RH + (Rs-RH)*W_i, where W_i is its weight, K the weight of the last
-//         stage, and Rs the larger of start_rate and stop_rate. First pass: R[i] = C/D_i rounded, with
-//         C = K*Rs*RH; first stages of the sides; sums of D_i. Second pass: pulses in proportion to D_i, with
-//         the remainder carried along. The multiplier computes all sums, as h + operand * lo; a small RAM
-//         stores its numbers.
+// How:    the speed of stage i is D_i = K*RH + (Rs-RH)*W_i. W_i is the weight of the stage, K the weight of
+//         the last stage, Rs the larger of start_rate and stop_rate.
+//         First pass: R[i] = C/D_i rounded, with C = K*Rs*RH; the first stage of each side; the sum of D_i.
+//         Second pass: the pulses of each stage, in proportion to D_i; the remainder is added to the next
+//         stage.
+//         The multiplier computes all sums as h + operand * lo. A small RAM stores the intermediate values.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -20,12 +21,12 @@ module ppmc312_stage_builder
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic start_i,  // strobe
     input wire curve_t curve_i,  // ramp; stable while busy_o = 1
-    output logic busy_o,  // from the cycle after start_i until all is written
+    output logic busy_o,  // from the cycle after start_i until the table is written
     output logic too_few_pulses_o,  // a stage has at most 1 pulse; valid until the next start
     output table_write_t table_write_o,  // write port of the table
-    output logic [1:0] begins_o,  // strobes: a side may begin here; the last strobe counts
-    input wire logic [6:0] first_acc_i,  // stage of the last begins_o[0], 0 .. 126
-    input wire logic [6:0] first_dec_i,  // stage of the last begins_o[1], 0 .. 126
+    output logic [1:0] begins_o,  // strobes: a side may begin at this stage; the last strobe is valid
+    input wire logic [6:0] first_acc_i,  // stage of the last strobe of begins_o[0], 0 .. 126
+    input wire logic [6:0] first_dec_i,  // stage of the last strobe of begins_o[1], 0 .. 126
     // arithmetic, shared with the planner
     output logic op_start_o,  // strobe: start an operation
     output logic op_mul_o,  // 1: multiply, 0: divide
@@ -41,17 +42,17 @@ module ppmc312_stage_builder
 
   typedef enum logic [3:0] {
     StIdle,
-    StCopy,    // RH, Rs, Rs - RH into the RAM
+    StCopy,    // writes RH, Rs, Rs - RH into the RAM
     StBase,    // K * RH; K is the weight of the last stage
     StScale,   // K * Rs
     StSpeed,   // D
     StHalf,    // D / 2
     StCurve,   // C + D / 2
-    StRate,    // / D
+    StRate,    // R = (C + D / 2) / D
     StBegin,   // checks whether a side begins here
     StSum,     // S + D
-    StProportion,   // P * D + remainder
-    StPulses,  // / S
+    StProportion,   // P * D + remainder; P: pulses of the side
+    StPulses,  // divides this by S
     StWrite,
     StNext
   } state_e;
@@ -91,7 +92,7 @@ module ppmc312_stage_builder
 
   assign rate = lo_i[15:0];
   assign limit = side_q ? curve_i.stop_rate : curve_i.start_rate;
-  // The slower side has all stages, regardless of the rounding of R[1].
+  // All stages belong to the slower side, even if the rounding of R[1] makes it equal to R[0].
   assign hit = (limit == slowest_q) ? stage_q == '0 : rate >= limit;
   assign opens = stage_q == first[side_q];
   assign last_side = side_q || !curve_i.split;
@@ -100,7 +101,7 @@ module ppmc312_stage_builder
   assign first = {first_dec_i, first_acc_i};
   assign begins_o = {side_q, !side_q} & {2{state_q == StBegin && hit}};
 
-  // ---- one operation per state: read h, read the operand, start the operation ---------------------
+  // ---- operation of a state: read h, read the operand, start --------------------------------------
 
   assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum,
                                   StProportion, StPulses};
@@ -112,7 +113,7 @@ module ppmc312_stage_builder
     h_word     = WordBase;
     x_word     = WordSpeed;
     to_word    = WordSpeed;
-    // While the builder is idle, the word is 0, because the planner's operand is combined with it.
+    // While the builder is idle, word_o must be 0, because it is ORed with the operand of the planner.
     if (state_q inside {StIdle, StBase, StScale}) h_word = WordZero;
     unique case (state_q)
       StBase: begin
@@ -193,7 +194,7 @@ module ppmc312_stage_builder
       stage_q <= Last;
       too_few_pulses_o <= 1'b0;
     end else begin
-      op_start_o <= works && phase_q == 2'd1;  // high at the start of phase 2
+      op_start_o <= works && phase_q == 2'd1;  // high in the first cycle of phase 2
       if (op_start_o) wait_q <= 1'b1;
       else if (done) wait_q <= 1'b0;
       if (op_start_o || done || !(works || state_q == StCopy)) phase_q <= '0;
@@ -255,12 +256,12 @@ module ppmc312_stage_builder
     end
   end
 
-  // No reset: all of these registers are written before use. The rates are stable long before use.
+  // No reset: these registers are written before use. The rates are stable long before use.
   always_ff @(posedge clk_i) begin
     slowest_q <= (curve_i.start_rate > curve_i.stop_rate) ? curve_i.start_rate : curve_i.stop_rate;
     diff_q <= slowest_q - curve_i.high_rate;
     if (state_q == StBegin) hit_q[side_q] <= hit;
-    // open_q: the sides that have begun in the second pass.
+    // open_q: the sides that have begun in the second pass
     for (int unsigned n = 0; n < 2; n++) begin
       if (!pass_q) open_q[n] <= 1'b0;
       else if (stage_q == first[n]) open_q[n] <= 1'b1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_pkg: types for motions along a stage table.
+// ppmc312_stage_pkg: types of motions along a stage table.
 // Rules:  P312-GEN-06 (t(x)), P312-MOT-20.
 `default_nettype none
 
@@ -11,22 +11,22 @@ package ppmc312_stage_pkg;
   // A constant rate and its look-up result in the table.
   typedef struct packed {
     logic [15:0] rate;       // base clocks of an interval
-    logic        has_decel;  // a deceleration from this rate has stages
+    logic        has_decel;  // 1: a deceleration from this rate uses at least one stage
     logic [6:0]  ge;         // last stage whose rate value is at least `rate`
-    logic [6:0]  ge1;        // ge + 1; without such a stage: the first used stage
-    logic [6:0]  gt1;        // last stage whose rate value is above `rate`, plus 1
+    logic [6:0]  ge1;        // ge + 1; if no stage qualifies for ge: the first used stage
+    logic [6:0]  gt1;        // 1 + last stage whose rate value is above `rate`
   } target_t;
 
   // Start of a deceleration along the table.
   typedef struct packed {
     logic [6:0]  stage;
-    logic        is_partial;  // 1: uses only some pulses of this stage
-    logic [23:0] pulses;      // with is_partial: number of these pulses
+    logic        is_partial;  // 1: uses only some of the pulses of this stage
+    logic [23:0] pulses;      // with is_partial: number of pulses used
   } ramp_pos_t;
 
-  // Ramp of an initialisation, or description of a free curve when its transfer begins.
+  // Ramp of an initialisation, or description of a free curve at the start of its transfer.
   typedef struct packed {
-    logic        cosine;      // 1: sigmoid; only of instruction 00
+    logic        cosine;      // 1: sigmoid ramp; only instruction 00
     logic        split;       // 1: separate acceleration and deceleration sides
     logic [2:0]  base;        // base clock, see ppmc312_interval
     logic [15:0] start_rate;  // start-up rate
@@ -52,11 +52,11 @@ package ppmc312_stage_pkg;
 
   // Write port of the table.
   typedef struct packed {
-    logic        we_rate;  // strobes: columns to be written
+    logic        we_rate;  // strobe: write the rate of the stage
     logic        we_acc;
     logic        we_dec;
     logic [6:0]  stage;    // 0 .. 126
-    logic [23:0] data;     // a rate uses the low bits
+    logic [23:0] data;     // data; a rate uses bits 15:0
   } table_write_t;
 
   // Address of a read port of the table. The data (stage_t) are valid two cycles later.
@@ -70,7 +70,7 @@ package ppmc312_stage_pkg;
     logic [23:0] pulses;
   } stage_t;
 
-  // Command to the planner. All fields except start are stable while it is busy.
+  // Command to the planner. All fields except start are stable while the planner is busy.
   typedef struct packed {
     logic        start;    // strobe
     logic        ramp;     // 1: plan acceleration and deceleration, 0: only look up the rate
@@ -82,7 +82,7 @@ package ppmc312_stage_pkg;
   // A planned operation along the table.
   typedef struct packed {
     logic        endless;            // 1: the operation runs until it is stopped
-    logic        starts_with_accel;  // begins with acceleration
+    logic        starts_with_accel;  // 1: begins with acceleration, 0: with the constant rate
     logic [31:0] count;              // pulses
     logic [23:0] dec_pulses;         // pulses of the deceleration
     ramp_pos_t   decel_start;        // start of the deceleration

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_plan: looks up a rate in the stage table, and plans an operation with acceleration and
+// ppmc312_stage_plan: looks up a rate in the stage table, and plans operations with acceleration and
 //         deceleration.
 // Rules:  P312-MOT-10..13 (kinds, pulses of the sides), P312-GEN-06 (t(x)).
-// Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles. A plan with an
-//         end takes at most 7 cycles more, a triangular plan 60. If the deceleration does not begin with a
-//         full stage, 5 cycles + the stages of the deceleration side are added. Results are valid until the
-//         next start.
-// How:    one pass reads the table upward and adds the pulses of the sides. At the last stage that is not
-//         faster than rate_i it stores the sums of the stages that both sides have and of the others. t(x)
-//         and t(x) + 1 are output. If no stage qualifies, t(x) is the stage before the first used stage.
-//         Rates need not fall with the stages.
+// Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles. A plan with
+//         an end adds at most 7 cycles, a triangular plan 60. If the deceleration does not begin with a
+//         complete stage, this adds 5 cycles + the number of stages of the deceleration side. Results are
+//         valid until the next start.
+// How:    one pass reads the table upward and adds the pulses of the sides. t(x) is the last stage that is
+//         not faster than rate_i; the outputs are t(x) and t(x) + 1. At t(x), the sums are stored: one for
+//         the stages that both sides have, one for the other stages. If no stage qualifies, t(x) is the
+//         stage before the first used stage. The rates need not decrease from stage to stage.
 `default_nettype none
 
 module ppmc312_stage_plan
@@ -20,28 +20,28 @@ module ppmc312_stage_plan
     input wire logic start_i,  // strobe: start
     input wire logic ramp_i,  // 1: look up and plan, 0: look up only
     input wire logic endless_i,  // 1: the operation runs until it is stopped
-    input wire logic [15:0] rate_i,  // base clocks; this and all inputs below stable while busy
+    input wire logic [15:0] rate_i,  // base clocks; this input and all below: stable while busy
     input wire logic [31:0] count_i,  // pulses, at least 1
     input wire logic [6:0] first_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
     output logic busy_o,  // from the cycle after start_i until the results are valid
     // table
-    output logic both_o,  // 1: the other read port is needed as well
+    output logic both_o,  // 1: the other read port of the table is also needed
     output logic [6:0] addr_o,  // stage to be read
     input wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
     input wire logic [23:0] table_acc_i,  // acceleration pulses of this stage, two cycles later
-    input wire logic [23:0] table_dec_i,  // deceleration pulses; with both_o
+    input wire logic [23:0] table_dec_i,  // deceleration pulses of this stage; valid with both_o
     output target_t target_o,  // look-up result of rate_i
     // plan
     output logic starts_with_accel_o,  // the operation begins with acceleration
-    output logic [7:0] kind_o,  // status byte: 00 trapezoidal, 10 triangular, 20, 40 right-angled
+    output logic [7:0] kind_o,  // status byte: 00: trapezoidal, 10: triangular, 20, 40: right-angled
     output logic [23:0] dec_pulses_o,  // pulses of the deceleration
     output ramp_pos_t decel_start_o,  // start of the deceleration
     // arithmetic, shared with the builder
     output logic op_start_o,  // strobe: start the operation
     output logic op_mul_o,  // 1: multiply, 0: divide
     output logic [23:0] op_lo_o,  // multiplier
-    output logic [24:0] operand_o,  // 0 at the start of a product; multiplicand, divisor
+    output logic [24:0] operand_o,  // product: 0, then multiplicand; division: divisor
     input wire logic op_busy_i,  // 1: the result is not valid yet
     input wire logic [23:0] lo_i  // low bits of the product, or quotient
 );
@@ -50,30 +50,30 @@ module ppmc312_stage_plan
 
   typedef enum logic [3:0] {
     StIdle,
-    StFind,          // look-up and sums
-    StOneSide,       // adds pulses of stages that only one side has
-    StAcc,           // adds acceleration pulses of stages that both sides have
-    StDec,           // adds deceleration pulses of these stages: total
+    StFind,          // looks up the rate, adds the pulses
+    StOneSide,       // adds the pulses of stages that only one side has
+    StAcc,           // adds the acceleration pulses of stages that both sides have
+    StDec,           // adds the deceleration pulses of these stages
     StKind,
     StDecOneSide,    // adds all pulses of the deceleration side
     StDecAll,
-    StShort,         // checks whether the deceleration is too long
+    StShort,         // checks whether the deceleration has too many pulses
     StBothAcc,       // adds the pulses of stages that both sides have
     StBothDec,
     StMultiply,
     StDivide,
-    StSplit,         // adds the acceleration of a triangular profile
+    StSplit,         // adds the acceleration pulses of a triangular profile
     StSplitOneSide,
-    StSearch         // searches the start of the deceleration
+    StSearch         // searches for the start of the deceleration
   } state_e;
 
   state_e state_q;
   logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
-  // valid_q[1]: the table outputs stage `at`. in_acc_q, in_dec_q: the side contains stage `at` ([0]) or the
-  // stage before it ([1]).
+  // valid_q[1] = 1: the table outputs stage `at`. in_acc_q, in_dec_q: the side contains [0]: stage `at`,
+  // [1]: the stage before it.
   logic [1:0] valid_q, in_acc_q, in_dec_q;
-  // In StSearch. over_none: no pulse remains; one cycle later: below_q: `ahead` is negative; begins_q: first
-  // cycle; counts_q: the stage counts.
+  // Signals of StSearch. over_none: no pulse remains. One cycle later: below_q: `ahead` is negative;
+  // begins_q: first cycle; counts_q: the stage counts.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
@@ -87,7 +87,8 @@ module ppmc312_stage_plan
 
   // ---- passes -------------------------------------------------------------------------------------
 
-  // The table outputs stage `at`. A look-up begins before stage 0, because "no such stage" may be there.
+  // The table outputs stage `at`. A look-up begins one stage before stage 0, because t(x) may be this
+  // stage.
   assign at = at_q[1];
   assign both = in_acc_q[0] && in_dec_q[0];
   assign step = valid_q[1];
@@ -148,7 +149,7 @@ module ppmc312_stage_plan
     end
   end
 
-  // ahead: pulses of the operation that remain after the pulses in sum_q.
+  // ahead: pulses of the operation minus the pulses in sum_q
   assign ahead = {1'b0, count_i[24:0]} - {1'b0, sum_q};
   assign big = count_i[31:25] != '0;
   assign full = big || !ahead[25];
@@ -156,7 +157,7 @@ module ppmc312_stage_plan
   assign over_none = !big && (below_q || over_q == '0);
 
   always_comb begin
-    // The first pass adds the deceleration pulses of stages that both sides have.
+    // The first pass adds the deceleration pulses only of stages that both sides have.
     counts = step && ((state_q == StFind) ? both : !past);
     unique case (state_q)
       StOneSide:                  x = one_side_kept_q;
@@ -171,7 +172,7 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_pulses_o: all deceleration pulses, or those that remain.
+  // dec_pulses_o: all pulses of the deceleration, or the pulses that remain for it
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 
@@ -182,7 +183,7 @@ module ppmc312_stage_plan
     begins_q <= state_q == StSearch && next_q;
     counts_q <= state_q == StSearch && counts;
     at_s2_q  <= at;
-    // The deceleration begins at the last stage before which some of its pulses remain.
+    // The deceleration begins at the last stage at which pulses remain.
     if (counts_q && !over_none) begin
       decel_start_o.stage  <= at_s2_q;
       decel_start_o.pulses <= over_q[23:0];
@@ -200,7 +201,7 @@ module ppmc312_stage_plan
 
   assign op_start_o = !wait_q && state_q inside {StMultiply, StDivide};
   assign op_mul_o = state_q == StMultiply;
-  // A product begins with 0.
+  // A product starts with h = 0, and then uses over_q as the multiplicand.
   assign operand_o = (over_q & {25{op_mul_o && wait_q}}) | (sum_q & {25{!op_mul_o}});
   assign op_lo_o = acc_kept_q;
   assign op_done = wait_q && !op_busy_i;
@@ -240,7 +241,7 @@ module ppmc312_stage_plan
         end
         StOneSide:    state_q <= StAcc;
         StAcc: begin
-          inner_q <= none;  // the motion stays where only one side has stages
+          inner_q <= none;  // the motion uses only stages that one side has
           state_q <= StDec;
         end
         StDec:        state_q <= StKind;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_seq: selects the rate of the next pulse of a motion along a stage table, or the end of the
+// ppmc312_stage_seq: for a motion along a stage table, selects the rate of the next pulse, or ends the
 //         motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
-// Timing: next_* are valid from 4 cycles after a pulse. slow_i acts at a boundary if slow_i is high 2 cycles
-//         before, change_i if it occurs 5 cycles before the boundary (constant rate) or 9 cycles before
-//         (ramp). When a stage becomes a constant rate, a search for t(rate) takes 129 cycles: a ramp begins
-//         at the earliest 136 cycles after that boundary, a deceleration to the end (only where rates do not
-//         fall) 132 cycles.
-// How:    the running interval is a stage (up or down) or a constant rate. Flags are compared in the first
-//         cycle; then the decision is made and delayed two cycles, while the stage that it needs is read.
-// Note:   a boundary is the end of an interval; with step_i = 1 a pulse begins there.
+// Timing: next_* are valid from 4 cycles after a pulse on.
+//         Requests act at a boundary if slow_i is high 2 cycles before it, and if change_i occurs 5 cycles
+//         (constant rate) or 9 cycles (ramp) before it.
+//         When a stage becomes a constant rate, a search for t(rate) begins, which takes 129 cycles. A
+//         ramp begins at the earliest 136 cycles after that boundary. A deceleration to the end begins at
+//         the earliest 132 cycles after it; this occurs only where rates do not fall.
+// How:    the running interval is a stage (up or down) or a constant rate. The flags are compared in the
+//         first cycle of an interval. The decision follows. It is delayed by two cycles, while the table
+//         reads the stage for it.
+// Note:   a boundary is the end of an interval. With step_i = 1, a pulse begins at the boundary.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -26,16 +28,16 @@ module ppmc312_stage_seq
     input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
     input wire logic load_i,  // strobe: start profile_i
-    input wire profile_t profile_i,  // with load_i; for a change, target: 2 cycles later
-    input wire logic single_i,  // with load_i: one pulse, regardless of dec_pulses
+    input wire profile_t profile_i,  // with load_i; target for a change: 2 cycles after change_i
+    input wire logic single_i,  // with load_i; 1: one pulse, regardless of dec_pulses
     // requests
-    input wire logic change_i,  // strobe: change the rate; replaces an older change
+    input wire logic change_i,  // strobe: change the rate; replaces a pending change
     input wire logic change_ramp_i,  // 1: change along the table; sampled 2 cycles after change_i
     input wire logic slow_i,  // 1: decelerate to the end
     // decision
     output logic next_end_o,  // no further pulse: the motion ends
-    output logic next_low_o,  // end, because there is nothing to decelerate
-    output logic next_count_o,  // end, because the last pulse has been output
+    output logic next_low_o,  // the end has the cause that there is nothing to decelerate
+    output logic next_count_o,  // the end has the cause that the last pulse has been output
     output logic next_slow_o,  // slow_i has been evaluated
     output logic next_final_decel_o,  // the deceleration to the end begins
     output logic [15:0] next_rate_o,  // rate of the next interval, base clocks
@@ -55,36 +57,36 @@ module ppmc312_stage_seq
     logic slow;
     logic final_decel;  // the deceleration to the end begins
     logic from_table;  // the rate is read from the table
-    logic enter;  // a stage begins, with all its pulses
-    logic is_partial;  // a stage begins, with some of its pulses
+    logic enter;  // the next stage begins, with all its pulses
+    logic is_partial;  // the next stage begins, with some of its pulses
     logic change_used;  // the pending change is consumed
     logic take_target;  // the pending rate becomes the constant rate
-    logic keep_rate;  // the rate of this stage becomes the constant rate
+    logic keep_rate;  // the rate of the running stage becomes the constant rate
   } boundary_action_t;
 
   typedef struct packed {
     logic const_rate;
     logic down;
     logic final_decel;
-    logic last;     // deceleration that ends with the count
+    logic last;     // deceleration that ends with the last pulse of the count
     logic changed;
   } interval_mode_t;
 
   boundary_action_t action, action_q, action_q2;
   interval_mode_t mode_q, next, next_q, next_q2;
   logic [1:0][6:0] addr_q;
-  logic [1:0] low_end_q, ramp_end_q;  // low_end_q: this direction ends at first_dec_i; ramp_end_q: at ramp_to
+  logic [1:0] low_end_q, ramp_end_q;  // low_end_q: the ramp ends at first_dec_i; ramp_end_q: at ramp_to
   logic low_end, ramp_end;
   target_t pending_q, target_q;
   logic pending_valid_q, pending_ramp_q, load_q, endless_q, no_decel_point_q, first_q;
   logic [1:0] change_q;
   logic [6:0] stage_q, last_stage_at_q;
   logic [15:0] rate_q;
-  logic [23:0] more_q;  // pulses of this stage after the current pulse
+  logic [23:0] more_q;  // pulses of the running stage after the current pulse
   logic [31:0] left_q;
   logic [23:0] dec_q;
   ramp_pos_t decel_start_q;
-  // flags, one cycle after the values that they compare
+  // results of comparisons, one cycle after the compared values
   logic zero_q, decel_point_q, can_decel_q, stage_done_q, last_stage_q;
   logic [6:0] addr, adjacent_q, ramp_end_at_q, current_stage, a, b, ramp_at, ramp_to;
   logic ramp_down_q, ramp_some_q, downward, drop_change;
@@ -104,7 +106,7 @@ module ppmc312_stage_seq
   assign current_stage = mode_q.const_rate ? target_q.ge : stage_q;
   assign downward = mode_q.const_rate ? ramp_down_q : mode_q.down;
 
-  // The ramp of a change lies between the constant rate and the look-up result of the new rate.
+  // For a rate change, the ramp lies between the constant rate and the look-up result of the new rate.
   assign a = ramp_down_q ? first_dec_i : first_acc_i;
   assign b = ramp_down_q ? pending_q.gt1 : adjacent_q;
   assign ramp_at = ramp_down_q ? adjacent_q : ramp_end_at_q;
@@ -113,14 +115,15 @@ module ppmc312_stage_seq
   always_ff @(posedge clk_i) begin
     zero_q <= left_q == '0 && !endless_q;
     decel_point_q <= left_q == 32'(dec_q) && !no_decel_point_q;
-    // A constant rate faster than R[first_dec_i] has a stage at first_dec_i or above.
+    // If a constant rate is faster than R[first_dec_i], the look-up has found a stage at or above
+    // first_dec_i.
     can_decel_q <= rate_q < rate_dec_i && (mode_q.const_rate || !ppmc_pkg::less(
         32'(stage_q), 32'(first_dec_i)
     ));
     stage_done_q <= more_q == '0;
     last_stage_q <= stage_q == last_stage_at_q;
-    // adjacent_q: stage next to the running stage, or next to the constant rate; for pulse 1, the running
-    // stage.
+    // adjacent_q: for pulse 1, the running stage; otherwise the next stage in the direction of the ramp,
+    // seen from the running stage or from the constant rate
     adjacent_q  <= ((mode_q.const_rate && ramp_down_q) ? target_q.gt1 : current_stage) +
         {{6{downward}}, downward || mode_q.const_rate || !first_q};
     ramp_down_q <= pending_q.rate >= rate_q;
@@ -175,7 +178,7 @@ module ppmc312_stage_seq
         if (!can_decel_q) begin
           next.const_rate = 1'b1;
           next.last = mode_q.last;
-          action.keep_rate = !mode_q.const_rate;  // the stage becomes a constant rate
+          action.keep_rate = !mode_q.const_rate;  // the running stage becomes a constant rate
         end
       end
     end else if (pending_valid_q && mode_q.const_rate && ramp_ready_q[3]) begin
@@ -241,8 +244,8 @@ module ppmc312_stage_seq
 
   // ---- search -------------------------------------------------------------------------------------
 
-  // Look-up for a constant rate that was the rate of a stage: all stages are read, upward, in cycles in which
-  // no decision needs the table. A pending change waits for the end of this search.
+  // This search serves a constant rate that was the rate of a stage. It reads all stages upward, in cycles
+  // in which no decision needs the table. A pending change waits until this search has ended.
   assign stage_ge = stage_i.rate >= rate_q;
   assign in_use = in_use_q || addr_q[1] == first_acc_i || addr_q[1] == first_dec_i;
 
@@ -266,8 +269,8 @@ module ppmc312_stage_seq
 
   // ---- state --------------------------------------------------------------------------------------
 
-  // A change is loaded when no pending decision needs the previous change any more. A deceleration to the end
-  // discards it.
+  // A change is loaded when no pending decision needs the previous change. A deceleration to the end
+  // discards the pending change.
   assign drop_change = load_i || (step_i && action_q2.final_decel);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -289,7 +292,7 @@ module ppmc312_stage_seq
     end
   end
 
-  // No reset: every motion begins with a load.
+  // No reset: a load precedes every motion.
   always_ff @(posedge clk_i) begin
     if (change_q[1] || load_i) pending_q <= profile_i.target;
     if (change_q[1]) pending_ramp_q <= change_ramp_i;
@@ -321,8 +324,8 @@ module ppmc312_stage_seq
                  (action_q2.is_partial ? decel_start_q.pulses : stage_i.pulses) : more_q) - 1'b1;
       left_q <= left_q - 1'b1;
     end
-    // Before pulse 1 a waiting change does not affect rate_q, because another change may still replace it,
-    // and because it is compared with the planned rate.
+    // Before pulse 1, a pending change does not affect rate_q: another change may still replace it, and it
+    // is compared with the planned rate.
     if (step_i || (first_q && !action_q2.take_target)) rate_q <= next_rate_o;
   end
 

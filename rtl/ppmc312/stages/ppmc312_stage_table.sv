@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_table: ramp of up to 127 stages in block RAM: rate of each stage, and its pulses for two
-//         sides.
+// ppmc312_stage_table: stores a ramp of up to 127 stages in block RAM. For each stage, it contains the
+//         rate, and the pulses for both sides.
 // Rules:  P312-TBL-01, P312-CMD-FC-10.
 // Timing: read latency 2 cycles.
-// How:    each of the two read ports has a separate copy: one for the motion, one for the planner and the
-//         read-back.
+// How:    each of the two read ports has a separate copy of the RAM. The motion uses port a, and planner
+//         and read-back use port b.
 `default_nettype none
 
 module ppmc312_stage_table #(
@@ -17,7 +17,7 @@ module ppmc312_stage_table #(
     input  wire logic                 we_pulses_i,  // strobe: write the pulses of a side
     input  wire logic                 wside_i,      // 0: acceleration, 1: deceleration
     input  wire logic [StageBits-1:0] waddr_i,      // stage, 0 .. 126
-    input  wire logic [  SumBits-1:0] wdata_i,      // data; a rate uses the low bits
+    input  wire logic [  SumBits-1:0] wdata_i,      // rate in bits 15:0, or number of pulses
     input  wire logic                 side_a_i,     // port a: side of the pulses
     input  wire logic [StageBits-1:0] addr_a_i,     // port a: stage
     output logic      [ RateBits-1:0] rate_a_o,     // port a: base clocks, two cycles later

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_unit: stage table with builder, planner, the arithmetic that they share, and the description
-//         of the active table.
+// ppmc312_stage_unit: stage table with its builder, its planner, the arithmetic that both share, and the
+//         description of the active table.
 // Rules:  P312-TBL-01..06, P312-CMD-FC-3/10, P312-MOT-10..13.
-// Timing: after build_i or close_i, busy_o is high until the table can be used. After profile_req_i.start,
-//         plan_busy_o is high until the plan is valid; the plan is valid until the next start. Read-back:
-//         read_stage_o is valid two cycles after read_addr_i, while busy_o and plan_busy_o are 0.
+// Timing: busy_o is high from build_i or close_i until the table can be used. plan_busy_o is high from
+//         profile_req_i.start until the plan is valid; the plan remains valid until the next start.
+//         Read-back: read_stage_o is valid two cycles after read_addr_i, while busy_o and plan_busy_o are
+//         0.
 `default_nettype none
 
 module ppmc312_stage_unit
@@ -14,21 +15,21 @@ module ppmc312_stage_unit
     input wire logic rst_ni,  // reset, asynchronous
     // set-up
     input wire logic drop_i,  // strobe: the table becomes invalid
-    input wire logic build_i,  // strobe: build from curve_i, which is stable while busy_o = 1
-    input wire curve_t curve_i,  // the ramp
+    input wire logic build_i,  // strobe: build the table of curve_i
+    input wire curve_t curve_i,  // ramp; stable while busy_o = 1
     output logic busy_o,  // 1: the table cannot be used yet
     output logic too_few_pulses_o,  // a stage has at most 1 pulse: no table
     // free curve
-    input wire logic open_i,  // strobe: a transfer begins; latch sides, base clock
+    input wire logic open_i,  // strobe: a transfer begins; latch the first stages, split and base clock
     input wire logic [6:0] open_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] open_dec_i,  // first stage of the deceleration side
     input wire table_write_t table_write_i,  // word of the free curve
-    input wire logic close_i,  // strobe: the transfer is complete; curve_i has the pulses of the sides
+    input wire logic close_i,  // strobe: the transfer is complete; latch curve_i.acc, .dec
     // active table
     output table_t table_o,  // description of the table
-    output target_t start_target_o,  // look-up result of table_o.rate_acc
+    output target_t start_target_o,  // look-up result of rate table_o.rate_acc
     input wire table_addr_t read_addr_i,  // read-back address
-    output stage_t read_stage_o,  // stage at read_addr_i, two cycles later; not while busy
+    output stage_t read_stage_o,  // stage at read_addr_i, two cycles later; not valid while busy
     // planning
     input wire profile_req_t profile_req_i,  // operation to be planned
     output logic plan_busy_o,  // 1: the plan is not valid yet
@@ -42,7 +43,7 @@ module ppmc312_stage_unit
   typedef enum logic [1:0] {
     StIdle,
     StBuild,
-    StStartRate  // looks up R[first_acc]
+    StStartRate  // looks up rate R[first_acc]
   } state_e;
 
   state_e state_q;
@@ -80,7 +81,7 @@ module ppmc312_stage_unit
       .steps_i  (op_steps),
       .keep_i   (!op_mul),
       .lo_i     (op_lo),
-      .operand_i(word | 40'(plan_operand)),  // the operand of an idle block is 0
+      .operand_i(word | 40'(plan_operand)),  // an idle block outputs the operand 0
       .busy_o   (op_busy),
       .hi_o     (hi),
       .lo_o     (lo)
@@ -111,8 +112,8 @@ module ppmc312_stage_unit
 
   assign table_write = build_busy ? builder_write : table_write_i;
 
-  // A plan is made at standstill, when the motion does not need its read port. The motion keeps the port
-  // while 87 or 88 look up a rate (plan_both low), and after the plan (plan_busy low).
+  // At standstill, the motion does not need its read port, so a plan may use it. While 87 or 88 look up a
+  // rate (plan_both = 0), and after a plan (plan_busy = 0), the motion uses the port.
   assign plan_owns_port = plan_busy && plan_both;
 
   ppmc312_stage_table u_table (
@@ -182,7 +183,7 @@ module ppmc312_stage_unit
   // ---- active table -------------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle;
-  // If several stages qualify, the last stage is used, because a ramp is built upward.
+  // Stages are written upward, and the last stage that qualifies is used.
   assign begins = build_busy ? build_begins :
       {2{table_write.we_rate}} &
       {table_write.stage == table_o.first_dec, table_write.stage == table_o.first_acc};

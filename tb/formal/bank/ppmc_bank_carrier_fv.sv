@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_carrier_fv: a carrier with UART host and four axes, with any bank and any host. Proves that bus
-// strobes reach the bank as ppmc_bank_axis_port passes them on, that op PINS reads the switches of the
-// selected axis, and that the LEDs indicate motion and switches.
+// ppmc_bank_carrier_fv: a carrier with UART host and four axes, an unconstrained bank and an unconstrained
+// host. Proves that the bank receives the bus strobes as ppmc_bank_axis_port passes them on, that
+// operation PINS reads the switches of the selected axis, and that the LEDs indicate motion and
+// switches.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -34,7 +35,7 @@ module ppmc_bank_carrier_fv (
       .*
   );
 
-  // Axis number that the host has written to register 3.
+  // Number of the axis that the host has selected with register 3.
   logic [7:0] axis_q;
   logic is_select, select_write;
   logic [1:0] pins_axis;
@@ -47,7 +48,7 @@ module ppmc_bank_carrier_fv (
     if (!dut.part_rst_n) axis_q <= '0;
     else if (select_write) axis_q <= dut.to_part;
 
-  logic was_reset_q;  // the host has held the bank in reset, as ppmc_uart_host does first
+  logic was_reset_q;  // 1: the host has reset the bank; ppmc_uart_host begins with this
   always_ff @(posedge clk_i) was_reset_q <= rst_ni && (was_reset_q || !dut.part_rst_n);
 
   logic accessed_q;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_engine_fv: the engine with ppmc_bank_scheduler and eight axes, for any bytes, switches and pin
-// blocks. Proves that a visit reads the state that the previous visit of the same axis has written, that it
-// issues at most one pin action, that an axis which is stopped or has no motion gets no pulse, and that a
-// byte is accepted once.
+// blocks. Proves four properties. A visit reads the state that the previous visit of the same axis
+// has written. A visit issues at most one pin action. An axis that is stopped or has no motion gets
+// no pulse. A byte is accepted once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -64,11 +64,11 @@ module ppmc_bank_engine_fv
 
   // ---- visits --------------------------------------------------------------------------------------
 
-  logic [4:0] cycles_q;  // cycles since reset, at most 31
+  logic [4:0] cycles_q;  // cycles since reset, saturates at 31
   logic [2:0] since_visit_q;  // cycles since the end of the last visit of the watched axis
-  logic visited_q;  // the watched axis has been visited
-  logic ends;  // a visit of the watched axis is in its last stage
-  logic resets;  // this visit resets the axis
+  logic visited_q;  // 1: the watched axis has been visited
+  logic ends;  // 1: a visit of the watched axis is in its last stage
+  logic resets;  // 1: this visit resets the axis
 
   assign ends = axis[5] == watched_i && cycles_q > 5'd4;
 
@@ -83,7 +83,7 @@ module ppmc_bank_engine_fv
 
   `FV_ASSERT(bank_gen_01_once_per_round, !visited_q || ends == (since_visit_q == 3'd7))
 
-  // ---- state kept from visit to visit --------------------------------------------------------------
+  // ---- state from visit to visit -------------------------------------------------------------------
 
   localparam int unsigned HoldBits = 15;
 
@@ -95,7 +95,7 @@ module ppmc_bank_engine_fv
   chop_units_t chop_units_q;
   axis_status_t status_q;
   logic [31:0] position_q;
-  logic cmd_set_q, ramp_set_q, chop_set_q;  // the host has set last_cmd_q, ramp_q, chop_units_q
+  logic cmd_set_q, ramp_set_q, chop_set_q;  // 1: the host has set last_cmd_q, ramp_q, chop_units_q
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {cmd_set_q, ramp_set_q, chop_set_q} <= '0;
@@ -112,7 +112,7 @@ module ppmc_bank_engine_fv
       end
     end
 
-  // For the induction: the words are the same in the stages before those that use them.
+  // For the induction: the words are also the same in all stages before the stage that uses them.
   for (genvar i = 1; i < 6; i++) begin : g_stage
     `FV_ASSERT(lemma_axis, cycles_q < 5'(i) || axis[i] == axis[0] - 3'(i))
     `FV_ASSERT(lemma_clear, clear[i] == (cycles_q < 5'(8 + i)))
@@ -149,7 +149,7 @@ module ppmc_bank_engine_fv
 
   // ---- effects of a visit ----------------------------------------------------------------------------
 
-  logic next_visit;  // visit of the watched axis that follows another visit
+  logic next_visit;  // 1: a visit of the watched axis that is not its first
   assign next_visit = visited_q && ends && !resets;
 
   `FV_ASSERT(
@@ -194,7 +194,7 @@ module ppmc_bank_engine_fv
       chop_units_word == chop_units_q);
   `FV_ASSERT(lemma_mem_host, lemma_mem_host_holds)
 
-  // For the induction: the stages of the watched axis, and the state implied by the last outputs.
+  // For the induction: the stages of the watched axis, and the state that follows from the last outputs.
   localparam int unsigned BusyAt = $bits(parser_t) + $bits(init_state_t) + $bits(motion_state_t) - 1;
   `FV_ASSERT(
       lemma_visit3,
@@ -210,7 +210,7 @@ module ppmc_bank_engine_fv
       (dut.pin_status_s4_q.armed && dut.state1_s4_q.motion.busy);
   `FV_ASSERT(lemma_visit_armed, lemma_visit_armed_holds)
 
-  // Assumptions of the visits, for every axis in every stage.
+  // Assumptions about the visits, for every axis in every stage.
   for (genvar n = 0; n < 8; n++) begin : g_axis
     logic [$bits(state1_q)-1:0] word;
     motion_state_t motion;

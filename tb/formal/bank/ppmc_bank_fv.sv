@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_fv: a bank of four axes with any pin commands. Proves that each command reaches only the pins of
-// its own axis, that each axis reads its own switches, and that int_n is low while any interrupt is pending.
+// ppmc_bank_fv: a bank of four axes with any pin commands. Proves that a command reaches only the pins of
+// its axis, that each axis reads only its switches, and that int_n is low while any interrupt is
+// pending.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -42,13 +43,13 @@ module ppmc_bank_fv
 
   pin_cmd_t pin_cmd_q;  // current command of the watched axis
   logic [2:0] at_cycle_q;  // cycle of the round in which pin_cmd_q is executed
-  logic [3:0] cycles_q;  // cycles since reset, at most 15
+  logic [3:0] cycles_q;  // cycles since reset, saturates at 15
   logic pending_q, pout_q, dir_q, hold_q;
   logic [4:0] s_q;
-  logic cmd_executed_q, had_pulse_q;  // pin_cmd_q was executed one cycle before; it had a pulse
+  logic cmd_executed_q, had_pulse_q;  // pin_cmd_q was executed one cycle ago; this command had a pulse
   logic [2:0] alarm_q, cw_q;  // alarm and CW limit of the watched axis in the last three cycles
-  logic irq_changed_q;  // an interrupt has begun or ended
-  logic ends, visited_q;  // ends: a visit of the watched axis is in its last stage; visited_q: one has ended
+  logic irq_changed_q;  // 1: an interrupt has begun or ended
+  logic ends, visited_q;  // ends: visit of the watched axis in its last stage; visited_q: it has ended
 
   assign ends = dut.axis[5] == {1'b0, watched_i} && cycles_q == '1;
 
@@ -67,12 +68,12 @@ module ppmc_bank_fv
     end
   end
 
-  logic state_known;  // 1: a visit has ended; before that, the state is unknown
+  logic state_known;  // 1: a visit has ended, so the state is known
   logic visited_q2;
   always_ff @(posedge clk_i) visited_q2 <= rst_ni && visited_q;
   assign state_known = visited_q2;
 
-  // The executed command of the watched axis.
+  // Actions of the executed command of the watched axis.
   logic had_set_pins_q, had_pulse_end_q;
   always_ff @(posedge clk_i) {had_set_pins_q, had_pulse_end_q} <= {pin_cmd_q.set_pins, pin_cmd_q.pulse_end};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_interval_rom_fv: proves that each word of the ROM is the rest of its interval after the low time,
-// with the times of the PPMC-104.
+// ppmc_bank_interval_rom_fv: proves that each word of the ROM is the time from the end of the low time to
+// the end of the interval, with the times of the PPMC-104.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,11 +25,11 @@ module ppmc_bank_interval_rom_fv
       .*
   );
 
-  // A base clock lasts 8 quanta (fast) or 32 (slow). With extra_time (vsel = L) an interval is 30 quanta
-  // longer. The low time is 20 quanta; with the fast base clock, without extra_time and at rates 0 to 2 it is
-  // half the interval.
+  // A base clock has 8 quanta (fast) or 32 quanta (slow). With extra_time = 1 (vsel low), an interval has
+  // 30 more quanta. The low time has 20 quanta. With the fast base clock, extra_time = 0 and a rate of 0 to
+  // 2, it is half of the interval.
   interval_t interval_q, interval_q2;
-  logic [1:0] valid_q;  // both registers of the block are filled
+  logic [1:0] valid_q;  // 1: the registers of the block are filled
   logic [TimeBits-1:0] base_clocks, interval_cycles, low_cycles;
 
   assign base_clocks = TimeBits'({1'b0, interval_q2.rate} + 9'd1);

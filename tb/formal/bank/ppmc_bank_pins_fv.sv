@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins_fv: proves that pulses occur only in the cycle of their command, and that no pulse occurs at
-// or after a cause until the axis is armed again.
+// ppmc_bank_pins_fv: proves that a pulse occurs only in the cycle of its command. Proves that after a
+// cause, no pulse occurs until the axis is armed again.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -27,8 +27,8 @@ module ppmc_bank_pins_fv
   assign load_i = cycle_i == '0;
   always_ff @(posedge clk_i) cycle_i <= rst_ni ? cycle_i + 1'b1 : '0;
 
-  logic blocked_q;  // a cause has occurred, and the axis has not been armed since
-  logic has_pulse_q;  // the current command has a pulse
+  logic blocked_q;  // 1: a cause has occurred, and the axis has not been armed since then
+  logic has_pulse_q;  // 1: the current command has a pulse
   logic [2:0] at_cycle_q;
   logic limit, switch_cause, cause;
 
@@ -46,7 +46,7 @@ module ppmc_bank_pins_fv
   `FV_ASSUME(one_pin_action, 2'(pin_cmd_i.pulse) + 2'(pin_cmd_i.pulse_end) + 2'(pin_cmd_i.set_pins) <= 2'd1)
   `FV_ASSUME(pulses_end_first, !(load_i && pin_cmd_i.pulse) || (pout_no && !dut.pulse) || dut.pulse_end)
 
-  logic pulse_seen_q;  // a pulse has been output
+  logic pulse_seen_q;  // 1: a pulse has been output
   always_ff @(posedge clk_i) pulse_seen_q <= rst_ni && (pulse_seen_q || !pout_no);
 
   `FV_ASSERT(bank_mot_02_no_pulse_at_cause, !(pout_no == 1'b0 && $past(rst_ni && pout_no)) || !$past(cause))

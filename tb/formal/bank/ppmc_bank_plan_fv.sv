@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_plan_fv: proves the limits of a visit's decisions: when a byte is accepted, which actions require
-// a byte, that GO is acted on once, and the times of a start and of GO.
+// ppmc_bank_plan_fv: proves when a byte is accepted, which actions require a byte, that GO acts once, and
+// the times of a start and of GO.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -36,7 +36,7 @@ module ppmc_bank_plan_fv
   logic [31:0] params_o;
   decision_t decision_o;
   logic [17:0] add_cycles_o;
-  logic completes_init;  // the byte is the last byte of an initialisation
+  logic completes_init;  // 1: the byte is the last byte of an initialisation
 
   `FV_RESET
 
@@ -51,8 +51,8 @@ module ppmc_bank_plan_fv
   assign completes_init =
       !in_buf_i.is_command && parser_i.code[7:6] == 2'b00 && !parser_i.error && parser_i.number == 3'd1;
 
-  logic go;  // GO acts on this axis
-  logic host_action;  // an action that a host requests with a byte
+  logic go;  // 1: GO acts on this axis
+  logic host_action;  // 1: an action that a host requests with a byte
   assign go = compare_i.go && pin_status_i.in_group;
   assign host_action =
       decision_o.start || decision_o.init || decision_o.exc_off || decision_o.switching || decision_o.read ||

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_scheduler_fv: proves that each axis is visited once per round, in all stages, that a RAM word is
-// never read while it is written, that GO lasts exactly one round and no GO is missed, and that every axis is
-// reset once.
+// ppmc_bank_scheduler_fv: proves that each axis is visited once per round in every stage, that no RAM word
+// is read while it is written, that GO lasts exactly one round and is never missed, and that every
+// axis is reset once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -30,10 +30,10 @@ module ppmc_bank_scheduler_fv (
 
   `FV_ASSUME(one_axis, watched_i == $past(watched_i))
 
-  logic [4:0] cycles_q;  // cycles since reset, at most 31
-  logic [2:0] visits_q;  // of the watched axis since GO began, at most 7
-  logic [3:0] stop_q;  // cycles since STOP, at most 15
-  logic go_pending_q;  // GO was written and its round has not begun yet
+  logic [4:0] cycles_q;  // cycles since reset, saturates at 31
+  logic [2:0] visits_q;  // visits of the watched axis since GO began, saturates at 7
+  logic [3:0] stop_q;  // cycles since STOP, saturates at 15
+  logic go_pending_q;  // 1: GO was written, and its round has not begun yet
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {cycles_q, visits_q, stop_q, go_pending_q} <= {8'd0, 4'd15, 1'b0};

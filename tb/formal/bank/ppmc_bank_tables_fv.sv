@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_tables_fv: proves that a table is written only during a build, only for the axis that requested
-// it and from its numbers, and that the build ends.
+// the build, and from the parameters of this axis. Proves that the build ends.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -30,7 +30,7 @@ module ppmc_bank_tables_fv (
 
   `FV_ASSUME(only_when_idle, !(build_start_i && build_busy_o))
 
-  logic axis_q, written_q;  // axis_q: axis of the build; written_q: its word was written
+  logic axis_q, written_q;  // axis_q: axis of the build; written_q: the word was written
   logic [7:0] slow_q;
   logic [1:0] steps_q;
   logic [3:0] age_q;

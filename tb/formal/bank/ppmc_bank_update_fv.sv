@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_update_fv: decision and update of a visit, for any state of its axis. Proves that a visit issues
-// at most one pin action, that the position changes by one per pulse, that an aborted or halted motion has no
-// pulse, and that an axis without a motion has neither a pulse nor the end of a pulse.
+// ppmc_bank_update_fv: decision and update of a visit, for any state of the axis. Proves that a visit
+// issues at most one pin action, that the position changes by one per pulse, that an aborted or
+// halted motion has no pulse, and that an axis without a motion has neither the beginning nor the
+// end of a pulse.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -61,7 +62,7 @@ module ppmc_bank_update_fv
       .*
   );
 
-  // Invariants of a motion's state.
+  // Invariants of the state of a motion.
   `FV_ASSUME(no_pulse_at_standstill, motion_i.busy || !(motion_i.more_pulses || motion_i.pulse_low))
   `FV_ASSUME(no_motion_during_build, !init_state_i.building || !motion_i.busy)
   `FV_ASSUME(valid_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_window_fv: the window, driven by the strobe master of the bridges, with an engine that accepts
-// bytes and responds to them at any time.
-// The proof is for one axis, regardless of accesses to the others. A visit reads the last byte that the host
-// has written, unchanged, and the byte is new until it was accepted. The bytes of a response are read in
-// order, each once.
+// ppmc_bank_window_fv: the window, driven by the strobe master of the bridges. The engine may accept bytes
+// and respond to them at any time.
+// The proof is for one axis, regardless of accesses to other axes. A visit reads the last byte that the
+// host has written, unchanged, and the byte is new until it has been accepted. The bytes of a response are
+// read in order, and each byte is read once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -17,11 +17,11 @@ module ppmc_bank_window_fv
     input wire logic [9:0] addr_i,
     input wire logic [7:0] wdata_i,
     // engine
-    input wire logic accept_i,  // the engine accepts a byte if one is waiting
-    input wire logic respond_i,  // the engine responds to the byte that it accepts
-    input wire logic three_bytes_i,  // the response has three bytes
+    input wire logic accept_i,  // 1: the engine accepts a byte if one is pending
+    input wire logic respond_i,  // 1: the engine responds to the byte that it accepts
+    input wire logic three_bytes_i,  // 1: the response has three bytes
     input wire logic [23:0] read_data_bytes_i,
-    input wire logic [6:0] other_status_i,  // status of other axes; of the watched axis, all except ack_seq
+    input wire logic [6:0] other_status_i,  // status of all axes, except ack_seq of the watched axis
     input wire logic [1:0] position_i,  // positions
     input wire logic [3:0] map_i  // pending interrupts
 );
@@ -55,7 +55,7 @@ module ppmc_bank_window_fv
       .d_i    (d)
   );
 
-  // ---- visits, as ppmc_bank_scheduler and ppmc_bank_engine make them --------------------------------------
+  // ---- visits, as in ppmc_bank_scheduler and ppmc_bank_engine ----------------------------------------
 
   logic [2:0] axis_q, done_axis;
   logic [3:0] clear_q;  // remaining cycles of the reset of all axes
@@ -104,7 +104,7 @@ module ppmc_bank_window_fv
       }
       : ready ? other_status_i : '0;
   assign read_data_stored = watched_s5 && respond_q;
-  // As in ppmc_bank_update.
+  // This is the logic of ppmc_bank_update.
   always_comb begin
     read_data.seq = read_data_seq_q + 2'd1;
     if (read_data.seq == read_progress_q.seq) read_data.seq = read_data_seq_q + 2'd2;
@@ -143,10 +143,10 @@ module ppmc_bank_window_fv
 
   // ---- input buffer ----------------------------------------------------------------------------------
 
-  // byte_written: a byte is written; full_q: a byte is waiting; visit_full_q: the current visit has read a
-  // waiting byte
+  // byte_written: a byte is written; full_q: a byte is pending; visit_full_q: the current visit has read a
+  // pending byte
   logic byte_written, full_q, visit_full_q;
-  logic written_late_q;  // a byte was written after the read of that visit
+  logic written_late_q;  // 1: a byte was written after this visit had read the buffer
   logic [8:0] in_buf_byte_q, visit_byte_q;
 
   assign byte_written = dut.write && dut.waddr_q[9:4] == 6'(Axis) && dut.waddr_q[3:1] == '0;
@@ -154,7 +154,7 @@ module ppmc_bank_window_fv
   always_ff @(posedge clk_i)
     if (!rst_ni) {full_q, visit_full_q, in_buf_byte_q, visit_byte_q} <= '0;
     else begin
-      // The host may replace a byte after the visit has read it. The new byte is still waiting.
+      // The host may replace a byte after the visit has read it. Then the new byte is still pending.
       if (byte_written) {full_q, in_buf_byte_q} <= {1'b1, dut.waddr_q[0], dut.wdata_q};
       else if (watched_s5 && ack_seq_q != next_ack_seq_q && !written_late_q) full_q <= 1'b0;
       if (axis_q == Axis) {visit_full_q, visit_byte_q} <= {full_q, in_buf_byte_q};
@@ -171,18 +171,18 @@ module ppmc_bank_window_fv
   // ---- responses -------------------------------------------------------------------------------------
 
   typedef struct packed {
-    logic        newest;  // no other response has been stored since
+    logic        newest;  // 1: no other response has been stored since then
     logic [1:0]  bytes;
-    logic [1:0]  read;    // bytes already read
+    logic [1:0]  read;    // number of bytes that have been read
     logic [23:0] data;
   } read_queue_t;
 
   read_queue_t
       queue_q,
       queue_s1_q,
-      queue_s2_q;  // queue_q: current state; queue_s1_q, queue_s2_q: its copies in a read
-  // data_loaded: a data byte is loaded; unread_left: an unread byte is left; current_q: the loaded byte is of
-  // the last response
+      queue_s2_q;  // queue_q: current state; queue_s1_q, queue_s2_q: copies of it during a read
+  // data_loaded: a data byte is loaded; unread_left: an unread byte is left; current_q: the loaded byte
+  // belongs to the last response
   logic data_loaded, unread_left, current_q;
   logic [7:0] byte_q;
   logic data_loaded_q, unread_left_q;
@@ -209,10 +209,10 @@ module ppmc_bank_window_fv
   `FV_ASSERT(bank_hsk_04_valid_until_all_read, !data_loaded_q || dut.data_shown_q == unread_left_q)
   `FV_ASSERT(bank_hsk_04_in_order, !(data_loaded_q && unread_left_q) || d == byte_q)
   `FV_ASSERT(bank_hsk_04_no_more_than_stored, queue_q.read <= queue_q.bytes)
-  // ---- registers as of edge 2 of the read ------------------------------------------------------------
+  // ---- registers at edge 2 of the read ---------------------------------------------------------------
 
-  // A visit writes its status one cycle before its edge, and pending interrupts change with it. A read that
-  // loads d_o two cycles later returns the registers of this cycle.
+  // A visit writes its status one cycle before its edge, and pending interrupts change in the same cycle. A
+  // read that loads d_o two cycles later returns the registers of this cycle.
   typedef struct packed {
     logic [3:0] map, mask;
     logic [4:0] status;

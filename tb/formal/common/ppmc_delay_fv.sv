@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_delay_fv: proves that past_o rises exactly with tick number Ticks and stays high until the next
+// ppmc_delay_fv: proves that past_o rises exactly with tick number Ticks, and remains high until the next
 // restart.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -28,7 +28,7 @@ module ppmc_delay_fv (
       .*
   );
 
-  // The largest number of ticks that four bits can count.
+  // 15 is the largest number of ticks that four bits can count.
   ppmc_delay #(
       .Ticks(15)
   ) u_all (
@@ -36,8 +36,8 @@ module ppmc_delay_fv (
       .*
   );
 
-  logic begun_q;  // a restart has occurred
-  logic [4:0] ticks_q;  // ticks since the restart, at most 31
+  logic begun_q;  // 1: a restart has occurred
+  logic [4:0] ticks_q;  // ticks since the restart, saturates at 31
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {begun_q, ticks_q} <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_i2c_master_fv: proves that the master keeps the rules of the I2C bus for SDA, and that every command
-// ends regardless of the other device on the bus.
+// ppmc_i2c_master_fv: proves that the master follows the rules of the I2C bus for SDA, and that every
+// command ends, regardless of the other device on the bus.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -15,7 +15,7 @@ module ppmc_i2c_master_fv
     input wire logic       sda_i
 );
 
-  localparam int unsigned Bound = 9 * (4 + 1) + 2;  // ticks: 9 bits of 4, each stretched by at most one
+  localparam int unsigned Bound = 9 * (4 + 1) + 2;  // ticks: 9 bits of 4 ticks, each stretched by at most one
 
   i2c_cmd_e cmd_i;
   logic tick_o, first_o, done_o, fail_o, nack_o, scl_oe_o, sda_oe_o;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ram_fv: proves for every word that a read returns, two cycles later, the last value written to its
-// address.
+// ppmc_ram_fv: proves for every word that a read returns the last value written to its address, two cycles
+// after the address.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -38,7 +38,7 @@ module ppmc_ram_fv (
     {word2_q, word1_q} <= {word1_q, word_q};
   end
 
-  // No write occurs before the first cycle; the watched word is zero then.
+  // No write occurs before the first cycle. Then the watched word is zero.
   `FV_ASSERT(what_was_written, !hit2_q || rdata_o == word2_q)
   `FV_COVER(seen_two_words, hit2_q && word_q != word2_q && word_q != '0 && word2_q != '0)
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_reset_fv: proves that reset is asserted immediately and ends at the second clock edge that samples the
-// pin high, for any waveform of the pin.
+// ppmc_reset_fv: for any waveform of the pin, proves that the reset is asserted immediately, and is
+// released at the second clock edge that samples the pin high.
 `include "ppmc_fv.svh"
 `default_nettype none
 
 module ppmc_reset_fv (
     input wire logic clk_i,
-    input wire logic pin_ni  // raw reset pin, unconstrained
+    input wire logic pin_ni  // reset pin, asynchronous, unconstrained
 );
 
   logic rst_no;
-  logic [1:0] high_q;  // edges that sampled the pin high since it was low, at most 2
+  logic [1:0] high_q;  // edges that sampled the pin high since it was low, saturates at 2
 
   `FV_RESET
 

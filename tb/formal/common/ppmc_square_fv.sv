@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_square_fv: proves that toggle t occurs exactly ceil(t * 7 / 3) cycles after reset, for any t: no
-// drift.
+// ppmc_square_fv: proves that toggle t occurs exactly ceil(t * 7 / 3) cycles after reset, for any t.
+// Therefore there is no drift.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -20,10 +20,10 @@ module ppmc_square_fv (
       .*
   );
 
-  // Three toggles occur in seven cycles.
+  // Three toggles occur in each group of seven cycles.
   logic [2:0] clk_q;
-  logic odd_q;  // parity of the toggles in complete groups of seven cycles
-  logic [1:0] toggles;  // toggles in the current group
+  logic odd_q;  // parity of the number of toggles in all complete groups
+  logic [1:0] toggles;  // number of toggles in the current group
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {clk_q, odd_q} <= '0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_sync_fv: proves that each pin passes through exactly two flip-flops, which are inactive in reset.
+// ppmc_sync_fv: proves that each pin passes exactly two flip-flops, which have the inactive level in reset.
 `include "ppmc_fv.svh"
 `default_nettype none
 

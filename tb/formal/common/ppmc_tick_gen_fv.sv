@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_tick_gen_fv: proves that tick n occurs exactly ceil(n * 7 / 3) cycles after the restart, for any n: no
-// drift.
+// ppmc_tick_gen_fv: proves that tick n occurs exactly ceil(n * 7 / 3) cycles after the restart, for any n.
+// Therefore there is no drift.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -21,7 +21,7 @@ module ppmc_tick_gen_fv (
       .*
   );
 
-  logic [2:0] clk_q;  // cycles since the restart, modulo 7 (three ticks in seven)
+  logic [2:0] clk_q;  // cycles since the restart, modulo 7; seven cycles have three ticks
 
   always_ff @(posedge clk_i) clk_q <= (!rst_ni || restart_i || clk_q == 3'd6) ? 3'd0 : clk_q + 1'b1;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_timer_fv: proves that past_o rises with the tick whose number last_i represents, any of 1 .. 7, and
-// stays high until the next restart.
+// ppmc_timer_fv: proves that past_o rises with the tick number that last_i selects (1 .. 7), and remains
+// high until the next restart.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -18,7 +18,7 @@ module ppmc_timer_fv (
 
   `FV_RESET
 
-  // States of the counter after 0 .. 6 ticks, in order.
+  // States of the counter after 0 .. 6 ticks, in this order.
   logic [7:0][Width-1:0] states;
   for (genvar n = 0; n < 8; n++) begin : g_state
     assign states[n] = Width'(ppmc_lfsr_pkg::after(n, Width));
@@ -27,8 +27,8 @@ module ppmc_timer_fv (
 
   ppmc_timer #(.Width(Width)) dut (.*);
 
-  logic begun_q;  // a restart has occurred
-  logic [3:0] ticks_q;  // ticks since the restart, at most 15
+  logic begun_q;  // 1: a restart has occurred
+  logic [3:0] ticks_q;  // ticks since the restart, saturates at 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {begun_q, ticks_q} <= '0;

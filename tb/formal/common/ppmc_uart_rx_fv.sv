@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_rx_fv: proves for any waveform of the line that the receiver does not hang and reports once per
-// character.
+// ppmc_uart_rx_fv: for any waveform of the line, proves that the receiver does not hang, and that it has
+// one outcome per character.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -10,7 +10,7 @@ module ppmc_uart_rx_fv (
 );
 
   localparam int unsigned Width = 4;
-  localparam int unsigned Bit = 8;  // cycles
+  localparam int unsigned Bit = 8;  // cycles per bit
   localparam int unsigned Character = 10 * Bit;
 
   logic [7:0] byte_o;
@@ -26,9 +26,9 @@ module ppmc_uart_rx_fv (
       .*
   );
 
-  // high_q: cycles with a high line; quiet_q: cycles without an outcome; both at most 127
+  // high_q: cycles with a high line; quiet_q: cycles without an outcome; both saturate at 127
   logic [6:0] high_q, quiet_q;
-  logic wait_q;  // an error has occurred, and the line has not been high since
+  logic wait_q;  // 1: an error has occurred, and the line has not been high since then
 
   always_ff @(posedge clk_i)
     if (!rst_ni) begin
@@ -40,11 +40,11 @@ module ppmc_uart_rx_fv (
       wait_q  <= (error_o || wait_q) && !dut.line;
     end
 
-  // For the induction: phase and bit are functions of the time since the receiver found the start bit. After
-  // a fault on the line, the phase at the start bit is arbitrary.
+  // For the induction: phase and bit number are functions of the time since the receiver found the start
+  // bit. After a fault on the line, the phase at the start bit is arbitrary.
   logic [6:0] age_q;
   logic [7:0] phases;
-  logic [3:0] first_q, first;  // phase at the start bit; first_q: one cycle later
+  logic [3:0] first_q, first;  // first: phase at the start bit; first_q: one cycle later
   logic busy;
 
   assign busy   = dut.state_q == 1 || dut.state_q == 2;

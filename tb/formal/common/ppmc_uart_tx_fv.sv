@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_tx_fv: proves that every accepted byte arrives in ppmc_uart_rx unchanged, once and in time, at 8
-// cycles per bit.
+// ppmc_uart_tx_fv: with 8 cycles per bit, proves that ppmc_uart_rx receives every accepted byte unchanged,
+// once and in time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -39,11 +39,11 @@ module ppmc_uart_tx_fv (
       .break_o(unused_break)
   );
 
-  logic way_q;  // a byte is being transmitted
+  logic way_q;  // 1: a byte is being transmitted
   logic [7:0] byte_q;
   logic [6:0] age_q;  // cycles since the byte was accepted
-  logic again_q;  // at least one byte has arrived before
-  logic up_q;  // the receiver has sampled the idle line
+  logic again_q;  // 1: at least one byte was received before
+  logic up_q;  // 1: the receiver has sampled the idle line
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {way_q, age_q, byte_q, up_q, again_q} <= '0;
@@ -54,13 +54,13 @@ module ppmc_uart_tx_fv (
       else if (rx_valid) {way_q, again_q} <= 2'b01;
     end
 
-  // For the induction: shift registers and phases are functions of the byte and its age. sent and seen count
-  // sixteenths of a bit: those that the transmitter has sent and those that the receiver has sampled. Their
-  // upper half counts bits.
+  // For the induction: shift registers and phases are functions of the byte and its age. sent and seen
+  // count sixteenths of a bit that the transmitter has sent and the receiver has sampled. Their upper
+  // halves count bits.
   logic [7:0] sent, seen;
-  logic [8:0] rest;  // bits still to be sent
+  logic [8:0] rest;  // bits that are still to be sent
   logic line, rx_idle;
-  logic [2:0] young_q;  // cycles since reset, at most 7
+  logic [2:0] young_q;  // cycles since reset, saturates at 7
 
   assign sent    = 8'(age_q) * 8'd3;
   assign seen    = 8'd2 + 8'(age_q) * 8'd3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_cycles_fv: proves in every cycle that the number of crystal cycles reported equals the number
-// that has passed, at 10 crystal cycles in 7 cycles.
+// ppmc_xtal_cycles_fv: with 10 crystal cycles in 7 clock cycles, proves in every cycle that the reported
+// number of crystal cycles equals the number that has passed.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -21,7 +21,7 @@ module ppmc_xtal_cycles_fv (
   );
 
   logic [2:0] clk_q;  // cycles since the restart, modulo 7
-  logic [4:0] told_q;  // crystal cycles, reduced by 10 every 7 cycles
+  logic [4:0] told_q;  // reported crystal cycles; reduced by 10 every 7 cycles
 
   always_ff @(posedge clk_i)
     if (!rst_ni || restart_i) {clk_q, told_q} <= '0;

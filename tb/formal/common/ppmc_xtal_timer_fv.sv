@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_timer_fv: proves in every cycle and for every limit that past_o is high if and only if that number
+// ppmc_xtal_timer_fv: for every limit, proves in every cycle that past_o is high if and only if this number
 // of crystal cycles has passed.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -22,7 +22,7 @@ module ppmc_xtal_timer_fv (
       .*
   );
 
-  logic [3:0] clk_q;  // cycles since the restart, at most 15 (21 crystal cycles)
+  logic [3:0] clk_q;  // cycles since the restart, saturates at 15 (21 crystal cycles)
 
   always_ff @(posedge clk_i)
     if (!rst_ni || restart_i) clk_q <= '0;

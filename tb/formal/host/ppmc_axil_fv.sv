@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axil_fv: proves the handshake rules of an AXI4-Lite subordinate for any manager that obeys the manager
-// rules. Each request gets one response in time; if a read and a write are both waiting, they alternate.
+// ppmc_axil_fv: proves the handshake rules of an AXI4-Lite subordinate for any manager that follows the
+// rules for managers. Each request gets one response in time. If a read and a write both wait, they
+// alternate.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -28,7 +29,7 @@ module ppmc_axil_fv (
 
   ppmc_axil dut (.*);
 
-  // Rules of the manager: a request is stable until it is accepted.
+  // Rules for managers: a request is stable until it is accepted.
   `FV_ASSUME(aw_stands, !$past(rst_ni && awvalid_i && !awready_o) || (awvalid_i && awaddr_i == $past
              (awaddr_i)))
   `FV_ASSUME(w_stands, !$past(rst_ni && wvalid_i && !wready_o) || (wvalid_i && {wdata_i, wstrb_i} == $past
@@ -36,8 +37,8 @@ module ppmc_axil_fv (
   `FV_ASSUME(ar_stands, !$past(rst_ni && arvalid_i && !arready_o) || (arvalid_i && araddr_i == $past
              (araddr_i)))
 
-  logic [1:0] aw_q, w_q, ar_q;  // accepted requests without a response
-  logic [5:0] write_q, read_q;  // cycles that a complete request waits for its response
+  logic [1:0] aw_q, w_q, ar_q;  // number of accepted requests without a response
+  logic [5:0] write_q, read_q;  // cycles for which a complete request has waited for its response
   logic aw, w, ar, b, r;
 
   assign {aw, w, ar} = {awvalid_i && awready_o, wvalid_i && wready_o, arvalid_i && arready_o};

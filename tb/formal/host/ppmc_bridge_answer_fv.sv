@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_answer_fv: proves that blocks end, that COUNT is one consistent value even if the counter
-// changes during the read, and that no byte is written past the end of the buffer.
+// changes while it is read, and that no byte is written past the end of the buffer.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -29,7 +29,7 @@ module ppmc_bridge_answer_fv (
       .*
   );
 
-  // The counter is near a carry through all of its bytes. Pulses are 8 cycles apart. With shorter gaps COUNT
+  // The counter is near a carry through all its bytes. Pulses are 8 cycles apart. With shorter gaps, COUNT
   // would still be consistent, but the block might not end.
   logic [3:0] low_q;
   logic high_q;
@@ -45,11 +45,11 @@ module ppmc_bridge_answer_fv (
 
   `FV_ASSUME(pulses_apart, !pulse_i || gap_q == '1)
 
-  logic [1:0] settled_q;  // cycles since the last byte, at most 2
+  logic [1:0] settled_q;  // cycles since the last byte, saturates at 2
   always_ff @(posedge clk_i)
     settled_q <= (!rst_ni || we_o || clear_i) ? '0 : (settled_q == 2'd2) ? 2'd2 : settled_q + 1'b1;
 
-  logic begun_q;  // an answer has begun
+  logic begun_q;  // 1: an answer has begun
 
   `FV_ASSUME(in_order, !(put_i && (ident_i || count_i)) && !(ident_i && count_i))
   `FV_ASSUME(room, (settled_q == 2'd2 && !busy_o) || !(put_i || ident_i || count_i))
@@ -58,9 +58,9 @@ module ppmc_bridge_answer_fv (
   `FV_ASSUME(cleared_first, begun_q || !(put_i || ident_i || count_i))
 
   logic [4:0] age_q;  // cycles of the current block
-  logic [8:0] before_q;  // length at the beginning of the block
+  logic [8:0] before_q;  // length at the beginning of the current block
   logic counting_q;
-  logic [31:0] read_q;  // bytes of the block written so far
+  logic [31:0] read_q;  // bytes of the current block that have been written
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {begun_q, age_q, before_q, counting_q, read_q} <= '0;
@@ -71,8 +71,8 @@ module ppmc_bridge_answer_fv (
       if (we_o && busy_o) read_q[8*2'(waddr_o-before_q[7:0])+:8] <= wdata_o;
     end
 
-  // For the induction: position in the block, bytes of the counter that match the current value, meaning of
-  // the flags.
+  // For the induction: the position in the block, the bytes of the counter that match the current value,
+  // and the meaning of the flags.
   logic [4:0] left;
   logic same;
   assign left = 5'(dut.left_q);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_decode_fv: proves that an op may begin exactly if the table contains it and the answer has
-// space for the bytes that the op returns immediately, and that the ops that return a block begin one.
+// ppmc_bridge_decode_fv: proves that an op may begin if and only if the table contains it and the answer
+// has space for the bytes that the op returns immediately. Proves that exactly the ops that return
+// a block begin a block.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -36,7 +37,7 @@ module ppmc_bridge_decode_fv
   assign gives4 = op_i == 8'h08;
 
   `FV_ASSERT(ub_ans_02_unknown, (fail_o == ResIllegal) == !known)
-  logic full;  // no space for the bytes that the op returns immediately
+  logic full;  // 1: no space for the bytes that the op returns immediately
   assign full = (gives16 && full16_i) || (gives4 && full4_i) || (op_i == 8'h06 && full_i);
 
   `FV_ASSERT(ub_ans_05_room, !known || (fail_o == ResOverflow) == full)

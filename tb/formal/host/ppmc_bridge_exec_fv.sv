@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_exec_fv: proves for any script that it ends, that no byte after its end is read, and that only
-// the ops that write cause a write.
+// ppmc_bridge_exec_fv: for any script, proves that it ends, that no byte after its end is read, and that
+// only ops that write cause a write.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -21,8 +21,8 @@ module ppmc_bridge_exec_fv
 );
 
   localparam int unsigned Idle = 0, Decode = 2, Arg = 3, Arg2 = 4, Loop = 6, Poll = 7, Judge = 8, Write = 9,
-      WriteEnd = 10;  // state_q
-  localparam int unsigned Longest = 40;  // bound of the cycles in a state; RESET and IDENT take longest
+      WriteEnd = 10;  // values of state_q
+  localparam int unsigned Longest = 40;  // bound of the cycles in a state; the longest are RESET and IDENT
 
   logic [7:0] raddr_o, waddr_o, wdata_o, d_o;
   logic script_o, answer_o, we_o, rec_next_o, part_rst_no, cs_no, rd_no, wr_no;
@@ -30,7 +30,7 @@ module ppmc_bridge_exec_fv
   logic [3:0] a_o;
   logic count_zero_o;
   script_result_t result_o;
-  logic [31:0] counter_q;  // constant here; ppmc_bridge_answer_fv lets it change
+  logic [31:0] counter_q;  // constant here; it changes in ppmc_bridge_answer_fv
 
   `FV_RESET
 
@@ -46,9 +46,9 @@ module ppmc_bridge_exec_fv
   assign waiting = dut.state_q == Poll || dut.state_q == Judge;
   assign sends   = dut.group inside {OpWrite, OpWriteN, OpPost, OpCall};
 
-  logic begun_q;  // a script has begun, so registers without reset have a value
+  logic begun_q;  // 1: a script has begun, so registers without a reset have a value
   logic [5:0] stay_q;  // cycles in the current state
-  logic [7:0] loop_q;  // bytes left at the last StLoop of the op
+  logic [7:0] loop_q;  // bytes that were left in the last StLoop of the op
   logic looped_q;
   logic [3:0] over_q;  // cycles since the end of a wait
 

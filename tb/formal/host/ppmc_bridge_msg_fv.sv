@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_msg_fv: proves that one message is sent at a time, that answers have priority, that no
-// unsolicited message begins while a script runs, and that each message has its length.
+// ppmc_bridge_msg_fv: proves that one message is sent at a time, that answers have priority, that no event
+// or NAK begins while a script runs, and that each message has the correct length.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -30,8 +30,8 @@ module ppmc_bridge_msg_fv
 
   ppmc_bridge_msg dut (.*);
 
-  // Model of the framer: busy from start_o until some time after the last byte; takes are at least 3 cycles
-  // apart.
+  // Model of the framer: it is busy from start_o until some time after the last byte, and accepts bytes at
+  // least 3 cycles apart.
   logic framing_q, over_q;
   logic [1:0] gap_q;
 
@@ -47,7 +47,7 @@ module ppmc_bridge_msg_fv
       if (over_q && end_i) {framing_q, over_q} <= 2'b00;
     end
 
-  // Model of the script unit: its answer is valid until it is sent.
+  // Model of the script unit: an answer is valid until it has been sent.
   logic answer_q;
   assign answer_i = answer_q;
   always_ff @(posedge clk_i) answer_q <= rst_ni && (answer_q ? !answered_o : want_i && !script_i);
@@ -57,7 +57,7 @@ module ppmc_bridge_msg_fv
   `FV_ASSUME(no_script_with_an_answer, !(script_i && answer_q))
   `FV_ASSUME(nak_stands, !$past(rst_ni && nak_i != NakNone && !nak_taken_o) || nak_i == $past(nak_i))
 
-  logic own_q, answer_prev_q;  // own_q: the frame began for the answer; answer_prev_q: answer_i one cycle ago
+  logic own_q, answer_prev_q;  // own_q: the frame is an answer; answer_prev_q: answer_i one cycle ago
   logic is_done;
   assign is_done = result_i.result == ResDone;
   logic [3:0] bytes_q;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rate_fv: proves that the rate changes only with an answer and that a break always restores the
+// ppmc_bridge_rate_fv: proves that only an answer changes the rate, and that a break always restores the
 // default rate.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -20,8 +20,8 @@ module ppmc_bridge_rate_fv (
 
   ppmc_bridge_rate dut (.*);
 
-  logic [9:0] ms_q;  // milliseconds since the answer, at most 1023
-  logic trial_q;  // no valid frame since the answer that changed the rate
+  logic [9:0] ms_q;  // milliseconds since the answer, saturates at 1023
+  logic trial_q;  // 1: no valid frame since the answer that changed the rate
 
   always_ff @(posedge clk_i)
     if (!rst_ni || answered_i) ms_q <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_rx_fv: proves that the deframer never hangs, accepts only complete frames with a correct CRC,
-// and reports a reason for each rejection. Characters are at least 4 cycles apart.
+// and reports a reason for each rejection. Assumes that characters are at least 4 cycles apart.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,7 +25,7 @@ module ppmc_bridge_rx_fv
 
   ppmc_bridge_rx dut (.*);
 
-  logic [1:0] gap_q;  // cycles since the last character, at most 3
+  logic [1:0] gap_q;  // cycles since the last character, saturates at 3
   logic [7:0] byte_q;
 
   assign byte_i = (valid_i || error_i) ? character_i : byte_q;
@@ -38,9 +38,9 @@ module ppmc_bridge_rx_fv
   `FV_ASSUME(characters_apart, !(valid_i || error_i) || gap_q == '1)
   `FV_ASSUME(one_outcome, !(valid_i && error_i))
 
-  logic flag_q, flag2_q;  // flag_q: a flag arrived one cycle ago; flag2_q: two cycles ago
-  logic fresh_q;  // only flags since the last flag
-  logic idle_q, idle2_q;  // idle_q: no script ran one cycle ago; idle2_q: two cycles ago
+  logic flag_q, flag2_q;  // flag_q: a flag was received one cycle ago; flag2_q: two cycles ago
+  logic fresh_q;  // 1: no other character since the last flag
+  logic idle_q, idle2_q;  // idle_q: no script was running one cycle ago; idle2_q: two cycles ago
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {flag_q, flag2_q, fresh_q, idle_q, idle2_q} <= '0;
@@ -56,7 +56,8 @@ module ppmc_bridge_rx_fv
   `FV_ASSERT(ub_frm_04_length, !request_o || ($past(dut.index_q) >= 9'd2 && $past(dut.index_q) <= 9'd255))
   `FV_ASSERT(ub_frm_02_never_writes_a_flag_raw, !we_o || $past(byte_i) != FLAG)
   `FV_ASSERT(ub_frm_04_within_the_buffer, !we_o || dut.index_q == 9'h1FF || dut.index_q <= 9'd255)
-  // The deframer never hangs: after a flag it receives the next frame, regardless of the characters before.
+  // The deframer never hangs: after a flag, it receives the next frame, regardless of the characters before
+  // the flag.
   `FV_ASSERT(ub_frm_05_a_flag_makes_it_listen, !(flag2_q && $past(idle2_q && !busy_i)
              ) || !dut.hunt_q || busy_i || !idle2_q)
   `FV_ASSERT(nak_stands_until_taken, !($past(rst_ni && nak_o != NakNone && !nak_taken_i)) || nak_o == $past

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_tx_fv: proves that a frame consists of flag, escaped bytes, CRC and flag, that it ends, that it
-// has no flag inside, and that each byte is sent once.
+// ppmc_bridge_tx_fv: proves that a frame consists of flag, escaped bytes, CRC and flag, that it ends, that
+// it contains no other flag, and that each byte is sent once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -15,7 +15,7 @@ module ppmc_bridge_tx_fv
 
   logic idle_o, take_o, valid_o, ready_i;
   logic [7:0] byte_i, byte_o;
-  logic valid_i;  // a character is sent
+  logic valid_i;  // strobe: a character is sent
 
   assign byte_i  = next_i;
   assign valid_i = valid_o && ready_i;
@@ -24,7 +24,7 @@ module ppmc_bridge_tx_fv
 
   ppmc_bridge_tx dut (.*);
 
-  // Model of a transmitter with ten cycles per character; the CRC takes eight.
+  // Model of a transmitter with ten cycles per character. The CRC needs eight cycles.
   logic [3:0] left_q;
   assign ready_i = left_q == '0;
   always_ff @(posedge clk_i)
@@ -36,9 +36,9 @@ module ppmc_bridge_tx_fv
   `FV_ASSUME(start_when_idle, !start_i || idle_o)
   `FV_ASSUME(more_stands, ready_i || more_i == $past(more_i))
 
-  logic open_q, escape_q, taken_q;  // in a frame; the last character was an escape; byte_q is waiting
-  logic [7:0] byte_q;  // the waiting byte
-  logic [1:0] crc_q;  // bytes sent after the last byte of the message
+  logic open_q, escape_q, taken_q;  // in a frame; the last character was an escape; byte_q is pending
+  logic [7:0] byte_q;  // pending byte
+  logic [1:0] crc_q;  // number of bytes sent after the last byte of the message
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {open_q, escape_q, taken_q, byte_q, crc_q} <= '0;
@@ -67,7 +67,7 @@ module ppmc_bridge_tx_fv
   `FV_ASSERT(two_crc_bytes, crc_q <= 2'd2)
   `FV_ASSERT(idle_between_frames, !(idle_o && open_q))
 
-  logic was_q;  // an escaped flag has been sent
+  logic was_q;  // 1: an escaped flag has been sent
   always_ff @(posedge clk_i)
     was_q <= rst_ni && (was_q || (valid_i && escape_q && byte_o == 8'h5E && taken_q));
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_wait_fv: proves that timeout_o rises with millisecond tick number limit + 1 of the wait, so
-// after more than limit and at most limit + 1 milliseconds. With limit 0, timeout_o is high immediately.
+// after more than limit and at most limit + 1 milliseconds. With a limit of 0, timeout_o is high
+// immediately.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -24,7 +25,7 @@ module ppmc_bridge_wait_fv (
 
   logic [1:0] limit_q;
   logic known_q, settled_q;
-  logic [2:0] ms_q;  // millisecond ticks in the wait, at most 7
+  logic [2:0] ms_q;  // millisecond ticks in the wait, saturates at 7
 
   `FV_ASSUME(ms_apart, !(ms_i && $past(ms_i)))
   `FV_ASSUME(set_before, !(waiting_i || $past(waiting_i)) || (!set_i && !$past(set_i)))

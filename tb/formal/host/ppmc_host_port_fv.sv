@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_host_port_fv: pins to mailbox and back. Proves that every complete write is accepted once and
-// unchanged, and that a byte is consumed by a read only if one was available.
+// ppmc_host_port_fv: from the pins to the mailbox and back. Proves that every complete write is accepted
+// once and unchanged, and that a read consumes a byte only if one was available.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -31,8 +31,8 @@ module ppmc_host_port_fv (
   assign take_i = want_i && ready_o;
   assign write  = !cs_ni && !wr_ni && rd_ni;
 
-  logic w1_q, w2_q, w3_q, full_q;  // w…_q: write was high 1, 2, 3 cycles ago; full_q: a byte is waiting
-  logic [8:0] at1_q, at2_q, last_q, held_q;  // register and data: 1, 2 cycles ago; last write; waiting byte
+  logic w1_q, w2_q, w3_q, full_q;  // w…_q: write was high 1, 2, 3 cycles ago; full_q: a byte is pending
+  logic [8:0] at1_q, at2_q, last_q, held_q;  // register, data: 1, 2 cycles ago; last write; pending byte
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {w1_q, w2_q, w3_q, full_q, at1_q, at2_q, last_q, held_q} <= '0;

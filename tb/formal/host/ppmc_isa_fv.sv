@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_isa_fv: proves that a bus access selects at most one device, that DMA and foreign addresses select no
-// device, and that the bus is driven only in reads of the card.
+// ppmc_isa_fv: proves that a bus access selects at most one device, that DMA and the addresses of other
+// cards select no device, and that the bus is driven only during reads of this card.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_mailbox_fv: proves that a byte written by the host is accepted unchanged and once, and that answers
-// are read completely, in order, and no byte twice.
+// ppmc_mailbox_fv: proves that each byte from the host is accepted once and unchanged, and that answers are
+// read completely and in order, without reading a byte twice.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -40,10 +40,10 @@ module ppmc_mailbox_fv (
   `FV_ASSERT(p104_hsk_01_ready_in_time, !ready_o || ibf_o)
   `FV_ASSERT(p104_hsk_01_ready_soon, !(full_q && $past(rst_ni && full_q && !wr_i && !take_i)) || ready_o)
 
-  // Output: bytes of the last answer, and the number of bytes already read.
+  // Output: bytes of the last answer, and the number of bytes that have been read.
   logic [23:0] answer_q;
-  logic [1:0] bytes_q, read_q;  // bytes_q: bytes of the answer; read_q: bytes already read
-  logic gap_q;  // the cycle after a read
+  logic [1:0] bytes_q, read_q;  // bytes_q: bytes of the answer; read_q: bytes that have been read
+  logic gap_q;  // 1: first cycle after a read
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {answer_q, bytes_q, read_q, gap_q} <= '0;
@@ -56,7 +56,7 @@ module ppmc_mailbox_fv (
   `FV_ASSERT(p104_hsk_05_valid_until_all_are_read, obf_o == (read_q < bytes_q && !gap_q))
   `FV_ASSERT(p104_hsk_06_in_order, !obf_o || out_o == 8'(answer_q >> {read_q, 3'd0}))
   `FV_ASSERT(p104_hsk_08_never_more_than_there_are, read_q <= bytes_q)
-  logic [1:0] behind;  // bytes after the byte that is output
+  logic [1:0] behind;  // number of bytes after the current byte
   assign behind = bytes_q - read_q - 2'(obf_o);
   `FV_ASSERT(lemma_behind, dut.more_valid_q == {behind >= 2'd2, behind != 2'd0})
   `FV_ASSERT(new_is_told, !$past(rst_ni && !new_o) || out_o == $past(out_o))

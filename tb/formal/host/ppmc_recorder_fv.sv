@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_fv: proves that a running recorder writes one record for each level change, one whenever the
-// time reaches its maximum without a level change, and no others. The recording ends when the memory is full,
-// and no record is written past the end.
+// ppmc_recorder_fv: proves that a running recorder writes one record for each change of the levels, one
+// whenever the time reaches its maximum without a change, and no other records. The recording ends
+// when the memory is full, and no record is written past the end.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -33,7 +33,7 @@ module ppmc_recorder_fv (
   `FV_ASSUME(one_order, 2'(begin_i) + 2'(end_i) + 2'(rewind_i) <= 2'd1)
 
   logic [1:0] now_q, before_q;  // levels one and two cycles ago
-  logic first_q;  // the first cycle of a recording
+  logic first_q;  // 1: first cycle of a recording
   logic [13:0] age_q;  // cycles since the last record
   logic wanted;
 
@@ -48,10 +48,10 @@ module ppmc_recorder_fv (
     end
   end
 
-  logic seen_q;  // the levels are known
+  logic seen_q;  // 1: the levels are known
   always_ff @(posedge clk_i) seen_q <= rst_ni && (seen_q || begin_i);
 
-  // With these lemmas, an induction over two cycles is sufficient.
+  // With these lemmas, an induction over two cycles succeeds.
   `FV_ASSERT(lemma_levels, !seen_q || (dut.levels_q == now_q && dut.changed_q[0] == (now_q != before_q)))
   `FV_ASSERT(lemma_time, !seen_q || (dut.time_q == age_q && dut.rest_q == (age_q == '1)))
   `FV_ASSERT(lemma_state, dut.first_q == first_q || !$past(rst_ni))

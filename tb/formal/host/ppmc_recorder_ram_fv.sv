@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_ram_fv: proves for every word that a read returns, one cycle later, the last value written to
-// its address.
+// ppmc_recorder_ram_fv: proves for every word that a read returns the last value written to its address,
+// one cycle after the address.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_spi_fv: proves for any sck within its limits that no access begins while another is in progress,
+// ppmc_spi_fv: for any sck within its limits, proves that no access begins while another is in progress,
 // that every read is complete in time, and that strobes occur only in the data of a frame.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -22,7 +22,7 @@ module ppmc_spi_fv (
   ppmc_spi #(.AddrBits(2)) dut (.*);
 
   logic last_q;  // sck one cycle ago
-  logic [1:0] same_q;  // cycles since the last change of sck, at most 3
+  logic [1:0] same_q;  // cycles since the last change of sck, saturates at 3
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {last_q, same_q} <= '0;
@@ -34,7 +34,7 @@ module ppmc_spi_fv (
   // sck is low for more than 3 cycles and high for more than 1.
   `FV_ASSUME(sck_within_its_limits, sck_i == last_q || (last_q ? same_q >= 2'd1 : same_q == 2'd3))
 
-  logic [4:0] bits_q;  // bits of this frame, at most 31
+  logic [4:0] bits_q;  // bits of this frame, saturates at 31
   always_ff @(posedge clk_i)
     if (!rst_ni || dut.cs_n) bits_q <= '0;
     else if (dut.rise && bits_q != '1) bits_q <= bits_q + 1'b1;

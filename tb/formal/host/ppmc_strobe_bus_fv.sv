@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_strobe_bus_fv: proves for both bus styles that each write strobe of the host causes one write of the
-// byte valid at its end, that a complete read of a byte is signalled once, and that the bus is driven only in
-// reads.
+// ppmc_strobe_bus_fv: for both bus styles, proves that each write strobe of the host causes one write of
+// the byte that is valid at its end, that a complete read of a byte is reported once, and that the
+// bus is driven only during reads.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -28,13 +28,13 @@ module ppmc_strobe_bus_fv (
 
   `FV_ASSUME(static_style, style_i == $past(style_i))
 
-  // Meaning of each sample of the pins.
+  // Decoded sample of the pins.
   logic read, write;
   assign read  = !cs_ni && (style_i ? !wr_ni && rd_ni : !rd_ni && wr_ni);
   assign write = !cs_ni && !wr_ni && (style_i ? !rd_ni : rd_ni);
 
-  logic w1_q, w2_q, w3_q, r1_q, r2_q;  // w…_q, r…_q: write, read sampled 1, 2, 3 cycles ago
-  logic [8:0] byte1_q, byte2_q, byte3_q;  // register and data of writes
+  logic w1_q, w2_q, w3_q, r1_q, r2_q;  // w…_q, r…_q: a write, a read was sampled 1, 2, 3 cycles ago
+  logic [8:0] byte1_q, byte2_q, byte3_q;  // register and data of the writes
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {w1_q, w2_q, w3_q, r1_q, r2_q, byte1_q, byte2_q, byte3_q} <= '0;

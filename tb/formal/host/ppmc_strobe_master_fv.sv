@@ -21,10 +21,10 @@ module ppmc_strobe_master_fv (
 
   ppmc_strobe_master #(.AddrBits(2)) dut (.*);
 
-  logic way_q, write_q;  // way_q: an access is in progress; write_q: it is a write
+  logic way_q, write_q;  // way_q: an access is in progress; write_q: the access is a write
   logic [1:0] addr_q;
   logic [7:0] data_q;
-  logic [3:0] age_q, low_q, high_q;  // cycles since the request, of the strobe, of the gap; at most 15
+  logic [3:0] age_q, low_q, high_q;  // cycles since the request, of the strobe, of the gap; saturate at 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {way_q, write_q, addr_q, data_q, age_q, low_q, high_q} <= '1;
@@ -51,7 +51,7 @@ module ppmc_strobe_master_fv (
   `FV_ASSERT(ends_in_time, !(begun_q && way_q) || age_q <= 4'd8)
   `FV_ASSERT(read_is_what_was_shown, !(done_o && !write_q) || rdata_o == $past(d_i))
 
-  logic second_q;  // a write has ended before
+  logic second_q;  // 1: a write has ended before
   always_ff @(posedge clk_i) second_q <= rst_ni && (second_q || (done_o && write_q));
 
   `FV_COVER(seen_read_behind_write, done_o && !write_q && second_q)

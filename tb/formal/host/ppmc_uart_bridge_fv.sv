@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_bridge_fv: proves that the connected blocks keep the assumptions of each other's proofs, that a
-// script begins only with a new request, and that the request buffer is not written while a script runs.
+// ppmc_uart_bridge_fv: proves that each block fulfils the assumptions in the proofs of the other blocks,
+// that only a new request begins a script, and that the request buffer is not written while a
+// script runs.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -31,10 +32,10 @@ module ppmc_uart_bridge_fv (
       .*
   );
 
-  logic begun_q;  // a script has begun
-  logic [2:0] since_ms_q;  // cycles since the last millisecond, at most 7
+  logic begun_q;  // 1: a script has begun
+  logic [2:0] since_ms_q;  // cycles since the last millisecond, saturates at 7
   logic [6:0] seq_q;  // SEQ of the request that began the last script
-  logic own_q;  // the last script has a number: SEQ is not 0
+  logic own_q;  // 1: the last script has a number (SEQ is not 0)
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {begun_q, since_ms_q, seq_q, own_q} <= {1'b0, 3'd4, 8'd0};
@@ -44,7 +45,7 @@ module ppmc_uart_bridge_fv (
       if (dut.start) {own_q, seq_q} <= {dut.seq != '0, dut.seq};
     end
 
-  // Assumptions of the proofs of exec, wait, rx, msg.
+  // Assumptions in the proofs of exec, wait, rx and msg.
   `FV_ASSERT(start_in_idle, !((dut.start || dut.resend) && active_o) && !(dut.start && dut.resend))
   `FV_ASSERT(answer_of_something, !dut.resend || begun_q)
   `FV_ASSERT(ms_apart, !dut.ms_q || since_ms_q >= 3'(MsCycles - 2))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_host_fv: the host with two axes. Proves that op PINS returns the switches of the axis that the
-// straps choose, and that each counter counts the pulses of its own axis.
+// ppmc_uart_host_fv: the host with two axes. Proves that operation PINS returns the switches of the axis
+// that the straps select, and that each counter counts the pulses of its axis.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -33,7 +33,7 @@ module ppmc_uart_host_fv (
 
   logic [11:0] first_q, seen_q;  // first_q: switches one cycle ago; seen_q: two cycles ago
   logic [1:0] before_nq;  // pulse outputs one cycle ago
-  logic [1:0][31:0] pulses_q, counts;  // net pulses of each axis since its counter was cleared
+  logic [1:0][31:0] pulses_q, counts;  // pulses of each axis (CW minus CCW) since its counter was cleared
   logic [7:0] pins;
 
   assign counts = dut.count;

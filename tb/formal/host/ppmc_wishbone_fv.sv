@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_wishbone_fv: proves the slave rules of Wishbone B4 classic cycles for any master that obeys the master
-// rules. Each access reaches the device once and receives its response in time.
+// ppmc_wishbone_fv: proves the slave rules of Wishbone B4 classic cycles for any master that follows the
+// rules for masters. Each access reaches the device once, and receives its response in time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -26,14 +26,15 @@ module ppmc_wishbone_fv (
 
   assign answer = ack_o || err_o;
 
-  // Rule 3.25: STB within CYC. Rule 3.60: a request is stable until its response. A master may abort.
+  // Rule 3.25: STB only within CYC. Rule 3.60: a request is stable until its response. However, a master
+  // may abort.
   `FV_ASSUME(strobe_in_cycle, cyc_i || !stb_i)
   `FV_ASSUME(request_stands, !$past(rst_ni && stb_i && !answer)
              || !stb_i || {we_i, adr_i, sel_i, dat_i} == $past({we_i, adr_i, sel_i, dat_i}))
 
   logic [4:0] wait_q;  // cycles since the request became valid
-  logic [1:0] cycles_q;  // strobe accesses that ended during the request, at most 3
-  logic stood_q;  // one cycle ago, the request was valid and had no response
+  logic [1:0] cycles_q;  // strobe accesses that ended during the request, saturates at 3
+  logic stood_q;  // 1: one cycle ago, the request was valid and had no response
 
   always_ff @(posedge clk_i)
     if (!rst_ni || !stb_i || answer) {wait_q, cycles_q} <= '0;
@@ -44,7 +45,7 @@ module ppmc_wishbone_fv (
 
   always_ff @(posedge clk_i) stood_q <= rst_ni && stb_i && !answer;
 
-  logic as_asked;  // the strobe matches the request
+  logic as_asked;  // 1: the strobe matches the request
   assign as_asked = a_o == adr_i[0] && !adr_i[1] && wr_no != we_i && (!we_i || d_o == dat_i[7:0]);
 
   `FV_ASSERT(wb_rule_3_35_answer_to_a_strobe, !answer || (cyc_i && stb_i))

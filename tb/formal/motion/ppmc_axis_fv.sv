@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axis_fv: a complete motion. Proves the number of pulses, their times and low times, and that no pulse
-// follows the end. Times are short: width 6 cycles, quanta at least 4 cycles apart, base clocks of 2 and 3
-// quanta. Assumes: rising edges of the clock pin at least 8 cycles apart; table entries of at most PA, and PA
-// at the high-speed rate; rates and PA stable during a motion. Stops, switches and gates are unconstrained.
+// ppmc_axis_fv: a complete motion. Proves the number of pulses, their times and low times, and that no
+// pulse follows the end. Times are short: the width is 6 cycles, quanta are at least 4 cycles
+// apart, base clocks have 2 or 3 quanta.
+// Assumes: rising edges of the clock pin are at least 8 cycles apart. Table entries are at most PA, and the
+// entry of the high-speed rate is PA. Rates and PA are stable during a motion. Stops, switches and
+// gates are unconstrained.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -56,8 +58,8 @@ module ppmc_axis_fv
 
   // ---- assumptions ---------------------------------------------------------------------------------
 
-  logic [1:0] quantum_gap_q;  // cycles since the last quantum, at most 3
-  logic [2:0] rise_gap_q;  // cycles since the last rise of the pin, at most 7
+  logic [1:0] quantum_gap_q;  // cycles since the last quantum, saturates at 3
+  logic [2:0] rise_gap_q;  // cycles since the last rise of the pin, saturates at 7
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {quantum_gap_q, rise_gap_q} <= '0;
@@ -70,7 +72,7 @@ module ppmc_axis_fv
   `FV_ASSUME(quantum_of_four_clk, !quantum_i || quantum_gap_q == '1)
   `FV_ASSUME(pin_not_too_fast, !dut.rise || rise_gap_q == '1)
   `FV_ASSUME(legal_ramp, rate_slow_i >= rate_fast_i && ramp_steps_i != '0)
-  // The builder writes no threshold above PA; the entry of the high-speed rate is PA.
+  // The builder writes no threshold above PA. The entry of the high-speed rate is PA.
   logic [1:0] addr1_q, addr2_q;
   always_ff @(posedge clk_i) {addr2_q, addr1_q} <= {addr1_q, lut_addr_o};
   `FV_ASSUME(table_up_to_pa,
@@ -78,12 +80,12 @@ module ppmc_axis_fv
   `FV_ASSUME(steady_ramp, start_i || !motion_o.busy || {rate_slow_i, rate_fast_i, ramp_steps_i} == $past
              ({rate_slow_i, rate_fast_i, ramp_steps_i}))
 
-  // ---- the motion as requested by the host ---------------------------------------------------------
+  // ---- motion as requested by the host -------------------------------------------------------------
 
   op_t op_q;
   base_clock_t base_q;
-  logic ended_q;  // an immediate cause has occurred
-  logic [4:0] total_q, pulses_q;  // total_q: requested pulses; pulses_q: pulses made
+  logic ended_q;  // 1: an immediate cause has occurred
+  logic [4:0] total_q, pulses_q;  // total_q: requested pulses; pulses_q: pulses that have been output
   logic [1:0] rate_q;
   logic immediate, limit;
 
@@ -110,8 +112,8 @@ module ppmc_axis_fv
              !(event_o.done && cause_o == '0 && !op_q.origin) || pulses_q == total_q)
   `FV_ASSERT(p104_end_05_complete_is_told, !(event_o.pulse && event_o.complete) || pulses_q + 5'd1 == total_q)
 
-  // Relates the count to the registers of the axis; with these lemmas the induction over the count succeeds.
-  logic [1:0] gap_q;  // cycles since the start or the last pulse, at most 3
+  // These lemmas relate the count to the registers of the axis. The induction over the count needs them.
+  logic [1:0] gap_q;  // cycles since the start or the last pulse, saturates at 3
 
   always_ff @(posedge clk_i)
     if (!rst_ni) gap_q <= '0;
@@ -120,7 +122,7 @@ module ppmc_axis_fv
   localparam int unsigned Age = ppmc_lfsr_pkg::width(Width - 1);
   localparam logic [Age-1:0] Second = Age'(ppmc_lfsr_pkg::after(1, Age));
 
-  logic near;  // less than three cycles after the start or a pulse
+  logic near;  // 1: less than three cycles after the start or a pulse
   assign near = gap_q inside {2'd1, 2'd2};
 
   `FV_ASSERT(lemma_count_operation, op_q == dut.op_q && base_q == dut.base_q)
@@ -148,7 +150,7 @@ module ppmc_axis_fv
 
   // ---- set-up, direction, low time -----------------------------------------------------------------
 
-  logic [2:0] setup_q, age_q;  // setup_q: cycles since start or end of gate; age_q: since pulse; at most 7
+  logic [2:0] setup_q, age_q;  // setup_q: cycles since start or end of gate; age_q: since a pulse; both <= 7
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {setup_q, age_q} <= '0;
@@ -164,7 +166,7 @@ module ppmc_axis_fv
 
   // ---- intervals of the internal base clock --------------------------------------------------------
 
-  logic [4:0] quanta_q;  // quanta since the last pulse, at most 31
+  logic [4:0] quanta_q;  // quanta since the last pulse, saturates at 31
 
   always_ff @(posedge clk_i)
     if (!rst_ni || event_o.pulse) quanta_q <= '0;
@@ -181,11 +183,11 @@ module ppmc_axis_fv
   `FV_ASSERT(p104_int_01_constant_rate,
              !(event_o.pulse && motion_o.running && !op_q.ramp) || rate_o == rate_q)
 
-  // Relates the intervals to the registers of the axis.
-  logic [3:0] since_q;  // cycles since the start or the last pulse, at most 15
+  // These lemmas relate the intervals to the registers of the axis.
+  logic [3:0] since_q;  // cycles since the start or the last pulse, saturates at 15
   logic [1:0] from_q;  // rate before the last pulse
-  logic still_q;  // no change of rate or base clock in the cycle before
-  logic between, inner;  // between: between pulses; inner: also on the internal base clock
+  logic still_q;  // 1: neither rate nor base clock changed in the previous cycle
+  logic between, inner;  // between: between two pulses; inner: the same, and with the internal base clock
 
   assign between = motion_o.running;
   assign inner   = between && !base_q.external;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_base_clock_fv: proves that base clocks are exactly one period of quanta apart, and that the first base
-// clock of an interval is later by the extra time.
+// ppmc_base_clock_fv: proves that base clocks are exactly one period apart, and that the extra time delays
+// the first base clock of an interval.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -12,7 +12,7 @@ module ppmc_base_clock_fv (
     input wire logic extra_i
 );
 
-  localparam logic [3:0] Fast = 4'd3, Slow = 4'd5, Extra = 4'd4;  // quanta
+  localparam logic [3:0] Fast = 4'd3, Slow = 4'd5, Extra = 4'd4;  // in quanta
 
   logic tick_o;
 
@@ -26,9 +26,9 @@ module ppmc_base_clock_fv (
       .*
   );
 
-  logic began_q;  // a pulse has occurred
-  logic [3:0] left_q;  // quanta to the next base clock
-  logic second_q;  // the first base clock of the interval has occurred
+  logic began_q;  // 1: a pulse has occurred
+  logic [3:0] left_q;  // quanta until the next base clock
+  logic second_q;  // 1: the first base clock of the interval has occurred
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {began_q, left_q} <= '0;

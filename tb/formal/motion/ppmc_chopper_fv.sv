@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_chopper_fv: proves that a phase lasts exactly base + unit * units quanta, with the settings at its
-// beginning, and that ON is the first phase.
+// ppmc_chopper_fv: proves that a phase lasts exactly base + unit * units quanta, with the settings at the
+// beginning of the phase, and that the first phase is ON.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -15,7 +15,7 @@ module ppmc_chopper_fv (
     input wire logic [1:0] off_units_i
 );
 
-  localparam logic [4:0] Unit = 5'd3;  // quanta
+  localparam logic [4:0] Unit = 5'd3;  // in quanta
 
   logic on_o;
 
@@ -30,7 +30,7 @@ module ppmc_chopper_fv (
   );
 
   logic on_q, began_q;
-  logic [1:0] phases_q;  // phases that have ended, at most 3
+  logic [1:0] phases_q;  // number of phases that have ended, saturates at 3
   logic [4:0] left_q;  // remaining quanta of this phase
 
   function automatic logic [4:0] whole(logic [1:0] base, logic [1:0] n);
@@ -51,7 +51,7 @@ module ppmc_chopper_fv (
     end
 
   `FV_ASSUME(base_not_zero, on_base_i != '0 && off_base_i != '0)
-  // The device keeps the chopper stopped until the device has been initialised.
+  // The chopper is stopped until the device has been initialised.
   `FV_ASSUME(begins_with_a_restart, began_q || restart_i || !run_i)
 
   `FV_ASSERT(p104_sw_01_each_phase, !began_q || on_o == (on_q || !run_i))

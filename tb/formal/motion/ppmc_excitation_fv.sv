@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_excitation_fv: proves that the phases are always a row of the manual's tables, and that a step selects
-// the next row.
+// ppmc_excitation_fv: proves that the phases are always a row of the tables in the manual, and that a step
+// selects the next row.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,11 +25,11 @@ module ppmc_excitation_fv
 
   ppmc_excitation dut (.*);
 
-  // Index of the half-step table: two entries per full step. Row 0 is S1 and S2.
+  // Index of the half-step table, which has two entries per full step. Row 0 is S1 and S2.
   logic on_q;
   logic [3:0] index_q, length, stride;
 
-  assign length = 4'd2 * (4'(motor_code_i) + 4'd2);  // 6, 8, 10
+  assign length = 4'd2 * (4'(motor_code_i) + 4'd2);  // 6, 8 or 10
   assign stride = half_i ? 4'd1 : 4'd2;
 
   always_ff @(posedge clk_i)
@@ -38,7 +38,8 @@ module ppmc_excitation_fv
     else if (step_i && ccw_i) index_q <= (index_q < stride) ? index_q + length - stride : index_q - stride;
     else if (step_i) index_q <= (index_q + stride >= length) ? index_q + stride - length : index_q + stride;
 
-  // Even rows have two adjacent phases. Odd rows have one phase of 3 or 4, or three phases of 5.
+  // Even rows have two adjacent phases. Odd rows have one phase (3- and 4-phase motors) or three phases
+  // (5-phase motors).
   logic [3:0] one, two, three;  // one, two or three adjacent phases, from the phase of the index on
 
   assign one   = {1'b0, index_q[3:1]};
@@ -54,8 +55,8 @@ module ppmc_excitation_fv
   end
 
   `FV_ASSUME(a_motor, motor_i != MotorNone)
-  // ppmc_setup loads motor_i and half_i in the first initialisation, which sets the phases to index 0, and
-  // holds them until Excitation OFF.
+  // ppmc_setup loads motor_i and half_i only in the first initialisation, which sets the phases to index 0.
+  // It keeps them until Excitation OFF.
   `FV_ASSUME(motor_stays, !on_q || $past(phase_init_i) || {motor_i, half_i} == $past({motor_i, half_i}))
 
   `FV_ASSERT(p104_phs_01_row_of_the_table, pattern_o == (on_q ? row : 5'd0))

@@ -20,8 +20,8 @@ module ppmc_ext_clock_fv (
       .*
   );
 
-  logic [2:0] pin_q;  // samples of the pin, the latest in bit 0
-  logic [4:0] age_q;  // cycles since the last rise, at most 31; 31 before the first
+  logic [2:0] pin_q;  // samples of the pin; the latest is bit 0
+  logic [4:0] age_q;  // cycles since the last rise, saturates at 31; 31 before the first rise
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {pin_q, age_q} <= '1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_extra_time_fv: proves to the cycle that two times add up to the extra time: the time before the
-// first base edge of an interval, and the time after its last base edge. If the first time alone is at least
-// as long as the extra time, the interval ends without more extra time.
+// ppmc_ext_extra_time_fv: proves, exact to the cycle, that the extra time is the sum of two times: the time
+// before the first base edge of an interval, and the time after its last base edge. If the first
+// time alone is at least as long as the extra time, no second time is added.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -29,7 +29,7 @@ module ppmc_ext_extra_time_fv (
   // run_q: an interval is running; counting_q: its first base edge has occurred; hit_q: its last base edge
   // has occurred
   logic run_q, counting_q, hit_q;
-  logic [3:0] before_q, after_q;  // cycles before the first and after the last base edge, at most 15
+  logic [3:0] before_q, after_q;  // cycles before the first and after the last base edge, saturate at 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {run_q, counting_q, hit_q, before_q, after_q} <= '0;
@@ -42,7 +42,7 @@ module ppmc_ext_extra_time_fv (
       if (fire_o) run_q <= 1'b0;
     end
 
-  // The rate counter counts the edges that count_o enables, and ends an interval once.
+  // The rate counter counts the edges that count_o enables, and ends each interval once.
   `FV_ASSUME(hit_counts, !hit_i || (run_q && edge_i && counting_q && !hit_q))
 
   `FV_ASSERT(edges_count_behind_the_first, !run_q || count_o == counting_q)

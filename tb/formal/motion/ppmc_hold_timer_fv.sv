@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_hold_timer_fv: proves that hold_o rises one cycle plus RestCycles cycles after the last quantum of the
-// hold time, and falls with a motion.
+// ppmc_hold_timer_fv: proves that hold_o rises 1 + RestCycles cycles after the last quantum of the hold
+// time, and falls when a motion begins.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -40,12 +40,12 @@ module ppmc_hold_timer_fv (
       .*
   );
 
-  logic moved_q;  // a motion has begun
+  logic moved_q;  // 1: a motion has begun
   logic [1:0] units_q;
-  logic [4:0] quanta_q;  // quanta since the end of the motion, at most 31
-  logic [1:0] behind_q;  // cycles after quantum 5, at most 3
-  logic [1:0] gap_q;  // cycles since the last quantum, at most 3
-  logic set_q;  // the number of quanta was sufficient one cycle ago
+  logic [4:0] quanta_q;  // quanta since the end of the motion, saturates at 31
+  logic [1:0] behind_q;  // cycles after quantum 5, saturates at 3
+  logic [1:0] gap_q;  // cycles since the last quantum, saturates at 3
+  logic set_q;  // 1: one cycle ago, the number of quanta was sufficient
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {moved_q, units_q, quanta_q, behind_q, gap_q, set_q} <= '0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_motor_port_fv: proves that pulse, phases and direction change on the same edge, and that the phases
+// ppmc_motor_port_fv: proves that pulse, phases and direction change at the same edge, and that the phases
 // are not chopped while the motor moves.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -43,7 +43,7 @@ module ppmc_motor_port_fv
       .*
   );
 
-  logic moved_q;  // a motion has begun
+  logic moved_q;  // 1: a motion has begun
   always_ff @(posedge clk_i) moved_q <= rst_ni && (moved_q || busy_i);
 
   logic homed_q;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_counter_fv: proves that the count changes only with a pulse, by +1 (CW) or -1 (CCW).
+// ppmc_pulse_counter_fv: proves that only a pulse changes the count, by +1 (CW) or -1 (CCW).
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -21,7 +21,7 @@ module ppmc_pulse_counter_fv (
   assign fell = last_nq && !pout_ni;
   always_ff @(posedge clk_i) last_nq <= !rst_ni || pout_ni;
 
-  logic [1:0] up_q;  // CW pulses
+  logic [1:0] up_q;  // number of CW pulses
   always_ff @(posedge clk_i)
     if (!rst_ni || clear_i) up_q <= '0;
     else if (fell && !dir_i && up_q != '1) up_q <= up_q + 1'b1;

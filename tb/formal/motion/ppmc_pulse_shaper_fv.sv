@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_shaper_fv: proves that a pulse is low for exactly WidthCycles cycles, or shorter if it is cut,
-// and that the set-up time has the same length.
+// ppmc_pulse_shaper_fv: proves that the low time of a pulse is exactly WidthCycles cycles, or less if it is
+// cut, and that the set-up time is also WidthCycles cycles.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -14,8 +14,8 @@ module ppmc_pulse_shaper_fv (
     input wire logic       cut_i
 );
 
-  localparam int unsigned Clk = 10;  // WidthCycles
-  localparam int unsigned Half = 2;  // cycles of rate 0
+  localparam int unsigned Clk = 10;  // value of WidthCycles
+  localparam int unsigned Half = 2;  // cycles of half an interval at rate 0
 
   logic low, up;
 
@@ -37,8 +37,9 @@ module ppmc_pulse_shaper_fv (
       .past_o(up)
   );
 
-  logic [3:0] since_q;  // cycles since the pulse or the arming, at most 15
-  // pulse_q: the last event was a pulse; full_q: a full pulse; may_q: cut_i or halve_i may have ended it
+  logic [3:0] since_q;  // cycles since the pulse or the arming, saturates at 15
+  // pulse_q: the last event was a pulse; full_q: it is a full pulse; may_q: cut_i or halve_i may have ended
+  // it
   logic pulse_q, full_q, may_q;
 
   always_ff @(posedge clk_i) begin
@@ -51,7 +52,7 @@ module ppmc_pulse_shaper_fv (
     end
   end
 
-  // The axis arms at the start of a motion, when no pulse is low.
+  // The axis asserts arm_i at the start of a motion, when no pulse is active.
   `FV_ASSUME(arm_at_rest, !(arm_i && (pulse_i || low)))
 
   `FV_ASSERT(low_whole, !(pulse_q && since_q < 4'(Clk) && (full_q || !may_q)) || low)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder_fv: proves that a build ends within its bound and writes each word of the table once, in
-// order, PA first. Rates have 2 bits, PA has 3. The stub shortens passes to 2 cycles; ppmc_ramp_serial_fv
-// proves their real length.
+// ppmc_ramp_builder_fv: proves that a build ends within its bound, and that it writes each word of the
+// table once and in order, with PA first. Rates have 2 bits, PA has 3 bits. The stub shortens each
+// pass to 2 cycles; ppmc_ramp_serial_fv proves the real length.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -13,9 +13,9 @@ module ppmc_ramp_builder_fv (
     input wire logic [2:0] steps_i
 );
 
-  // Passes: one to begin, two multiplications by either factor, four per rate.
+  // Passes: one at the beginning, two multiplications by each factor, four per rate.
   localparam int unsigned Passes = 1 + 2 * (2 + 1) + 2 * (2 + 2) + 4 * 3;
-  localparam int unsigned Bound = Passes * 2 + 6;  // cycles
+  localparam int unsigned Bound = Passes * 2 + 6;  // in cycles
 
   logic busy_o, we_o;
   logic [1:0] addr_o;
@@ -30,11 +30,11 @@ module ppmc_ramp_builder_fv (
       .*
   );
 
-  logic [6:0] age_q;  // cycles of the build
+  logic [6:0] age_q;  // cycles since the start of the build
   logic [1:0] next_q;  // address of the next word
-  logic any_q;  // a word was written
-  logic built_q;  // a build has ended
-  logic [1:0] slow_q;  // start-up rate of this build
+  logic any_q;  // 1: a word has been written
+  logic built_q;  // 1: a build has ended
+  logic [1:0] slow_q;  // start-up rate of the current build
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {age_q, next_q, any_q} <= '0;

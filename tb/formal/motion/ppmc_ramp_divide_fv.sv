@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_divide_fv: proves that every bit of the quotient equals that of long division, for numbers of any
-// length and all divisors.
+// ppmc_ramp_divide_fv: for numbers of any length and all divisors, proves that every bit of the quotient
+// equals that of a long division.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -24,8 +24,8 @@ module ppmc_ramp_divide_fv (
 
   logic [3:0] divisor;
   logic [4:0] next;
-  logic [3:0] rest_q;  // remainder of the bits so far, less than the divisor
-  logic bit_q, valid_q, one_q;  // bit_q: bit of the quotient; valid_q: it is valid; one_q: a bit was 1
+  logic [3:0] rest_q;  // remainder of the previous bits, less than the divisor
+  logic bit_q, valid_q, one_q;  // bit_q: bit of the quotient; valid_q: bit_q is valid; one_q: a bit was 1
 
   assign divisor = {1'b0, divisor_m1_i} + 4'd1;
   assign next    = {rest_q, bit_i};

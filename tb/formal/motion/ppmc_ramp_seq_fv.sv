@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_seq_fv: proves the number of pulses, the ramp level and its rates, for any table and any sequence
-// of events.
+// ppmc_ramp_seq_fv: for any table and any sequence of events, proves the number of pulses, the ramp level
+// and the rates.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -36,8 +36,8 @@ module ppmc_ramp_seq_fv (
 
   // loaded_q: a motion was loaded; over_q: its last pulse was made; rated_q: its rate is valid
   logic loaded_q, over_q, rated_q;
-  logic [5:0] due_q;  // pulses still to be made
-  logic [2:0] gap_q;  // cycles since load or pulse, at most 7
+  logic [5:0] due_q;  // pulses that are still to be made
+  logic [2:0] gap_q;  // cycles since a load or a pulse, saturates at 7
   logic [2:0] addr1_q, addr2_q;  // addresses of the table, one and two cycles ago
   logic [2:0] constant_q;
 
@@ -52,7 +52,7 @@ module ppmc_ramp_seq_fv (
 
   always_ff @(posedge clk_i) {addr2_q, addr1_q} <= {addr1_q, lut_addr_o};
 
-  logic first_q;  // no pulse since the load
+  logic first_q;  // 1: no pulse since the load
   always_ff @(posedge clk_i)
     if (!rst_ni || load_i) first_q <= 1'b1;
     else if (pulse_i) first_q <= 1'b0;
@@ -60,19 +60,19 @@ module ppmc_ramp_seq_fv (
   logic top_q;
   always_ff @(posedge clk_i) top_q <= rst_ni && !load_i && (top_q || top_o);
 
-  // Assumptions on the axis: pulses of a motion are at least 3 cycles apart, the first one at least 4 cycles
-  // after its start. No pulse occurs during a look-up or after the last pulse.
+  // Assumptions about the axis: the pulses of a motion are at least 3 cycles apart, and the first pulse is
+  // at least 4 cycles after the start. No pulse occurs during a look-up or after the last pulse.
   `FV_ASSUME(
       pulses_apart,
       !(pulse_i && (load_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || lookup_busy_o)))
-  // The builder writes no threshold above PA; the entry of the high-speed rate is PA.
+  // The builder writes no threshold above PA. The entry of the high-speed rate is PA.
   `FV_ASSUME(table_up_to_pa, lut_data_i <= 3'(steps_i) && (addr2_q != fast_i || lut_data_i == 3'(steps_i)))
   `FV_ASSUME(motion_steady, load_i || !loaded_q || {slow_i, fast_i, steps_i} == $past
              ({slow_i, fast_i, steps_i}))
   `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
   `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
   `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
-  // ppmc_stop_monitor deasserts forced_i only at the end of a motion, after which no pulse occurs.
+  // ppmc_stop_monitor deasserts forced_i only at the end of a motion. No pulse occurs after this.
   logic forced_q, taken_back_q;
   always_ff @(posedge clk_i)
     if (!rst_ni || load_i) {forced_q, taken_back_q} <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial_fv: proves that any pass takes two cycles more than it has words, and that the word being
-// written is never the one being read.
+// ppmc_ramp_serial_fv: proves that a pass takes two cycles more than it has words, and that no word is read
+// while it is written.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -34,8 +34,8 @@ module ppmc_ramp_serial_fv
       .*
   );
 
-  logic run_q, again_q;  // run_q: a pass is running; again_q: a pass has ended
-  logic [4:0] age_q, words;  // age_q: cycles of the pass; words: its number of words
+  logic run_q, again_q;  // run_q: a pass is running; again_q: a pass has ended before
+  logic [4:0] age_q, words;  // age_q: cycles of the pass; words: number of words of the pass
 
   always_comb begin
     unique case (pass_i)

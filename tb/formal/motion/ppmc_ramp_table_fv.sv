@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_table_fv: proves that the words written by the builder are in the table from the fall of busy_o
-// until the next build. The same holds for the numbers from which the table was built.
+// ppmc_ramp_table_fv: proves that the table contains the words of the builder from the fall of busy_o until
+// the next build, and that the outputs then are the parameters of this table.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -30,7 +30,7 @@ module ppmc_ramp_table_fv (
   `FV_ASSUME(once, !(start_i && busy_o))
 
   // The stub writes one word: PA at the start-up rate.
-  logic [1:0] at_q, fast_q, word_q, addr1_q, addr2_q, rest_q;  // rest_q: cycles since the build, at most 3
+  logic [1:0] at_q, fast_q, word_q, addr1_q, addr2_q, rest_q;  // rest_q: cycles since the build, <= 3
 
   always_ff @(posedge clk_i) begin
     {addr2_q, addr1_q} <= {addr1_q, addr_i};
@@ -43,7 +43,7 @@ module ppmc_ramp_table_fv (
     end
   end
 
-  logic some_q;  // a build has begun
+  logic some_q;  // 1: a build has begun
   always_ff @(posedge clk_i) some_q <= rst_ni && (some_q || busy_o);
 
   `FV_ASSERT(p104_ini_07_what_was_built, !(some_q && rest_q == '1 && addr2_q == at_q) || data_o == word_q)

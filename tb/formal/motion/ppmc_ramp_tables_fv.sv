@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_tables_fv: proves that both axes get their tables, each from its own numbers, and that a build
-// waits for at most one other build.
+// ppmc_ramp_tables_fv: proves that each axis gets a table from its own parameters, and that a build waits
+// for at most one other build.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -13,7 +13,7 @@ module ppmc_ramp_tables_fv (
     input wire logic [2:1][1:0] addr_i
 );
 
-  localparam int unsigned Build = 5 + 2;  // cycles of one build, with the stub
+  localparam int unsigned Build = 5 + 2;  // cycles of one build with the stub
 
   logic [2:1] busy_o;
   logic [2:1][1:0] data_o;
@@ -27,8 +27,8 @@ module ppmc_ramp_tables_fv (
       .*
   );
 
-  logic [2:1][3:0] age_q;  // cycles of the build
-  logic [2:1][1:0] words_q;  // words written, at most 3
+  logic [2:1][3:0] age_q;  // cycles since the start of the build
+  logic [2:1][1:0] words_q;  // number of written words, saturates at 3
 
   for (genvar n = 1; n <= 2; n++) begin : g_axis
     always_ff @(posedge clk_i)

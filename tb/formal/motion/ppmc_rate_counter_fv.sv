@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_rate_counter_fv: proves that only base clock number rate + 1 ends an interval, and that base clock
-// number floor((rate + 1) / 2) marks half of the interval.
+// number floor((rate + 1) / 2) marks its middle.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -19,10 +19,10 @@ module ppmc_rate_counter_fv (
 
   ppmc_rate_counter #(.RateBits(4)) dut (.*);
 
-  logic began_q, over_q;  // began_q: an interval is running; over_q: it has ended
+  logic began_q, over_q;  // began_q: an interval is running; over_q: the interval has ended
   logic [4:0] ticks_q;  // base clocks since the restart
-  logic [1:0] gap_q;  // cycles since restart or tick, at most 3
-  logic fresh_q;  // the restart was in the cycle before
+  logic [1:0] gap_q;  // cycles since a restart or a tick, saturates at 3
+  logic fresh_q;  // 1: the restart was in the previous cycle
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {began_q, over_q, ticks_q, gap_q, fresh_q} <= {2'b01, 8'd0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_hbridge_fv: proves that the two high sides are never on in the same cycle or in adjacent cycles, and
-// proves the off and blanking times.
+// pmc006_hbridge_fv: proves that the two high sides are never on in the same cycle or in adjacent cycles.
+// Also proves the off time and the blanking time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -28,7 +28,7 @@ module pmc006_hbridge_fv (
 
   assign high = high0_o || high1_o;
 
-  logic [3:0] off_q, on_q;  // off_q: cycles with both low; on_q: cycles with one high; at most 15
+  logic [3:0] off_q, on_q;  // off_q: cycles with both high sides off; on_q: with one on; saturate at 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {off_q, on_q} <= '0;
@@ -37,7 +37,7 @@ module pmc006_hbridge_fv (
       on_q  <= !high ? '0 : (on_q == '1) ? '1 : on_q + 1'b1;
     end
 
-  logic was_on_q;  // an ON phase has occurred
+  logic was_on_q;  // 1: an ON phase has occurred
   always_ff @(posedge clk_i) was_on_q <= rst_ni && (was_on_q || dut.state_q == 1);
 
   `FV_ASSERT(p006_chp_01_never_both, !(high0_o && high1_o))

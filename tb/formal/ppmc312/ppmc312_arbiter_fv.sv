@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_arbiter_fv: proves that a waiting host is served after at most one triggered instruction, and that
-// no instruction starts without a request.
+// ppmc312_arbiter_fv: proves that a pending instruction of the host starts after at most one triggered
+// instruction, and that no instruction starts without a request.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,7 +25,7 @@ module ppmc312_arbiter_fv
 
   assign triggered = queue_status_i.fifo_triggered || queue_status_i.events_triggered != '0;
 
-  logic [1:0] triggered_starts_q;  // triggered instructions begun while the host waits
+  logic [1:0] triggered_starts_q;  // triggered instructions that started while the host waits
   always_ff @(posedge clk_i)
     if (!rst_ni || !host_i || (start_o && source_o == SrcHost)) triggered_starts_q <= '0;
     else if (start_o && triggered_starts_q != '1) triggered_starts_q <= triggered_starts_q + 1'b1;

@@ -29,21 +29,21 @@ module ppmc_command_check_fv
 
   ppmc_command_check dut (.*);
 
-  // The register of the parser state, and a motion that the byte starts.
+  // Register of the parser state, and a motion that the byte starts.
   always_ff @(posedge clk_i) busy_i <= rst_ni && (act_o.start || (busy_i && !ended_i));
   always_ff @(posedge clk_i) parser_i <= rst_ni ? parser_o : '0;
 
   `FV_ASSUME(known_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)
   `FV_ASSUME(params_fit_the_kind,
              decoded_i.params == '0 || decoded_i.kind inside {CmdInit, CmdOperation, CmdSwitching, CmdAuxOut})
-  // Codes with parameters are allowed only outside a motion, except AUX OUT.
+  // During a motion, the only code with parameters is AUX OUT.
   `FV_ASSUME(codes_with_parameters,
              !(command_i && decoded_i.params != '0 && decoded_i.kind == CmdOperation) || byte_i[6])
   `FV_ASSUME(other_codes,
              !(command_i && decoded_i.params != '0 && decoded_i.kind != CmdOperation) || !byte_i[6])
   `FV_ASSUME(one_kind_in_motion, !(command_i && decoded_i.kind == CmdAuxOut) || (byte_i[7] && byte_i[1]))
 
-  logic welcome;  // the code is allowed during a motion
+  logic welcome;  // 1: the code is allowed during a motion
   assign welcome = decoded_i.kind inside {CmdHalt, CmdDecel, CmdAuxOut, CmdExcOff, CmdAuxOn, CmdAuxOff};
 
   `FV_ASSERT(p104_err_03_a_fault_does_nothing, !(take_i && parser_o.error) || act_o == '0)

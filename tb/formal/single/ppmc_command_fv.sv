@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command_fv: proves that a byte is accepted if and only if it is available and the mailbox is open, and
-// that its meaning was decoded one cycle before.
+// ppmc_command_fv: proves that a byte is accepted if and only if it is available and the mailbox is open,
+// and that it was decoded one cycle before.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -34,7 +34,7 @@ module ppmc_command_fv
 
   ppmc_command dut (.*);
 
-  // The proof includes the mailbox that this block reads, and a motion that this block starts.
+  // The proof includes the mailbox from which this block reads, and a motion that this block starts.
   ppmc_mailbox u_mailbox (
       .rd_done_i(1'b0),
       .out_o    (out),
@@ -59,7 +59,7 @@ module ppmc_command_fv
   `FV_ASSUME(decoder_stands, $past(byte_i) != byte_i || $past(command_i)
              != command_i || decoded_byte_i == $past(decoded_byte_i))
   `FV_ASSUME(known_kind, decoded_byte_i.kind <= CmdAuxOff && decoded_byte_i.params <= 3'd4)
-  logic has_params;  // a code of this kind may have parameters
+  logic has_params;  // 1: a code of this kind may have parameters
   assign has_params = decoded_byte_i.kind inside {CmdInit, CmdOperation, CmdSwitching, CmdAuxOut};
   `FV_ASSUME(params_of_rest, decoded_byte_i.params == '0 || has_params)
   `FV_ASSUME(codes_with_parameters,

@@ -41,7 +41,7 @@ module ppmc_finish_status_fv
 
   `FV_ASSUME(start_at_rest, !(start_i && done_i))
 
-  logic second_q;  // a silent motion has ended
+  logic second_q;  // 1: a silent motion has ended
   always_ff @(posedge clk_i) second_q <= rst_ni && (second_q || (done_i && silent_q));
 
   `FV_ASSERT(p104_rd_08_interrupt, int_no == !pending_q)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_proc_time_fv: with DATASHEET times, proves that each action takes effect once and in order, and that
-// the mailbox opens again. The ratio of the clocks shortens the times to 1/64.
+// the mailbox opens again. The ratio of the clocks reduces the times to 1/64.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -12,7 +12,7 @@ module ppmc_proc_time_fv
     input wire logic [7:0] code_i
 );
 
-  localparam int unsigned Longest = 200;  // limit in cycles of a command other than an initialisation
+  localparam int unsigned Longest = 200;  // limit in cycles of a command that is not an initialisation
 
   action_t act_i, act_o;
   logic [ 7:0] code_o;
@@ -43,7 +43,8 @@ module ppmc_proc_time_fv
       .*
   );
 
-  // At most one action, while the mailbox is open; no initialisation, because it takes too long.
+  // At most one action occurs, and only while the mailbox is open. There is no initialisation, because it
+  // takes too long.
   always_comb begin
     act_i = '0;
     if (open_o && rst_ni) begin
@@ -60,7 +61,7 @@ module ppmc_proc_time_fv
     end
   end
 
-  logic wait_q;  // an action was requested and has not taken effect yet
+  logic wait_q;  // 1: an action was requested and has not taken effect yet
   action_t asked_q;
   logic [7:0] age_q;  // cycles since the request
   action_t at_once;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_setup_fv: proves that settings which are frozen until Excitation OFF do not change before Excitation
-// OFF, and that operations require a complete initialisation.
+// ppmc_setup_fv: proves that the settings that must not change until Excitation OFF do not change before
+// it, and that operations require a complete initialisation.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -23,11 +23,11 @@ module ppmc_setup_fv
 
   ppmc_setup dut (.*);
 
-  logic open_q;  // an initialisation is in progress
+  logic open_q;  // 1: an initialisation is in progress
   always_ff @(posedge clk_i) open_q <= rst_ni && (init_i || (open_q && !ready_i));
 
-  // ppmc_proc_time asserts phase_init_i only in the first initialisation. An initialisation ends after it has
-  // begun.
+  // ppmc_proc_time asserts phase_init_i only in the first initialisation. An initialisation that has begun
+  // also ends.
   `FV_ASSUME(home_in_the_first, !phase_init_i || !initialised_o)
   `FV_ASSUME(ready_behind_init, !ready_i || open_q)
   `FV_ASSUME(one_at_a_time, !(off_i && (init_i || open_q)) && !(init_i && open_q))

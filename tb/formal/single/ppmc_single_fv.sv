@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_single_fv: ppmc_single in a PPMC-104 with its decoder. Proves for any bus accesses and switches that
-// its blocks keep the assumptions of each other's proofs, and that an error is valid until the next byte is
-// accepted.
+// ppmc_single_fv: ppmc_single in a PPMC-104 with its decoder. For any bus accesses and switches, proves
+// that each block fulfils the assumptions in the proofs of the other blocks, and that an error is
+// valid until the next byte is accepted.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -39,11 +39,11 @@ module ppmc_single_fv
       .*
   );
 
-  logic on;  // the device is out of reset
+  logic on;  // 1: the device is out of reset
   action_t act;
   logic busy, building, init_open_q;
-  logic [31:0] ramp_data;  // numbers of the ramp that is being built
-  logic [15:0] rates;  // rates of the active ramp
+  logic [31:0] ramp_data;  // parameters of the ramp that is being built
+  logic [15:0] rates;  // rates of the current ramp
   decoded_t decoded;
 
   assign on        = dut.rst_core_n;
@@ -56,7 +56,7 @@ module ppmc_single_fv
 
   always_ff @(posedge clk_i) init_open_q <= on && (act.init || (init_open_q && !dut.u_single.ready_init));
 
-  // Assumptions of the proofs of axis, finish status, table and builder, setup, mailbox, command and its
+  // Assumptions in the proofs of axis, finish status, table, builder, setup, mailbox, command and command
   // check.
   `FV_ASSERT(start_at_rest, !on || !act.start || !(busy || dut.u_single.event_now.done || building))
   `FV_ASSERT(table_once, !on || !(act.init && building))

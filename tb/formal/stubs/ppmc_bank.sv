@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank, stub for the proof of the block that instantiates it: any pins, any read data. Its outputs are
+// ppmc_bank, stub for the proof of the block that instantiates it: any pins, any read data. The outputs are
 // not driven.
 `default_nettype none
 
@@ -15,7 +15,7 @@ module ppmc_bank
     input  wire logic              clk,
     input  wire logic              rst_n,
     // host bus
-    input  wire logic [       9:0] a,       // 9..4 axis, 3..0 register
+    input  wire logic [       9:0] a,       // [9:4]: axis, [3:0]: register
     input  wire logic              cs_n,
     input  wire logic              rd_n,
     input  wire logic              wr_n,
@@ -23,18 +23,18 @@ module ppmc_bank
     output logic      [       7:0] d_o,
     output logic                   d_oe,
     output logic                   int_n,   // low: at least one interrupt is pending
-    // switches, active low, one bit for each axis
+    // switches, active low, one bit per axis
     input  wire logic [  AXES-1:0] l1_n,    // CW limit
     input  wire logic [  AXES-1:0] l2_n,    // CCW limit
     input  wire logic [  AXES-1:0] l3_n,    // CW slow-down limit
     input  wire logic [  AXES-1:0] l4_n,    // CCW slow-down limit
     input  wire logic [  AXES-1:0] cnp_n,   // origin
     input  wire logic [  AXES-1:0] alm_n,   // alarm
-    // motors, one bit for each axis; s: five bits S5..S1 for each axis
+    // motors, one bit per axis; s has five bits S5..S1 per axis
     output logic      [5*AXES-1:0] s,
     output logic      [  AXES-1:0] hold,
     output logic      [  AXES-1:0] pout_n,
-    output logic      [  AXES-1:0] dir      // 0 = CW
+    output logic      [  AXES-1:0] dir      // 0: CW, 1: CCW
 );
 
 endmodule

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_engine, stub for the proof of the block that instantiates it: any pin commands, interrupts and
-// responses. Its outputs are not driven.
+// responses. The outputs are not driven.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -17,10 +17,10 @@ module ppmc_bank_engine
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [5:0][RoundBits-1:0] axis_i,  // axes in stages 0 to 5
-    input wire logic [4:3] clear_i,  // the visits in stages 3 and 4 reset their axes
+    input wire logic [4:3] clear_i,  // 1: reset the axes of the visits in stages 3 and 4
     // from the window
     input wire in_buf_t in_buf_i,  // stage 1: input buffer
-    input wire read_progress_t read_progress_i,  // stage 1: response bytes read by the host
+    input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
     input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: W minus the cycles since GO
@@ -29,10 +29,10 @@ module ppmc_bank_engine
     // results of a visit, stage 5
     output axis_status_t status_o,  // status register
     output logic [31:0] position_o,  // position
-    output logic read_data_we_o,  // write read_data_o
+    output logic read_data_we_o,  // strobe: write read_data_o
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output logic [RoundBits-1:0] at_cycle_o,  // cycle of pin_cmd_o in the round
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which pin_cmd_o is executed
     output logic irq_set_o,  // set the pending interrupt of the axis
     output logic irq_clear_o  // clear the pending interrupt of the axis
 );

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_tables, stub for the proofs of the blocks that instantiate it: a builder that is busy or idle
-// at any time, any threshold. Its outputs are not driven.
+// ppmc_bank_tables, stub for the proofs of the blocks that instantiate it: a builder that may be busy or
+// idle at any time, and any threshold. The outputs are not driven.
 `default_nettype none
 
 module ppmc_bank_tables #(
@@ -10,16 +10,16 @@ module ppmc_bank_tables #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // build
-    input  wire logic                build_start_i,  // build a table from the values below
+    input  wire logic                build_start_i,  // strobe: build a table
     input  wire logic [AxisBits-1:0] build_axis_i,   // axis of the table to build
     input  wire logic [         7:0] slow_i,         // start-up rate
     input  wire logic [         7:0] fast_i,         // high-speed rate
     input  wire logic [StepBits-1:0] steps_i,        // acceleration pulses PA
-    output logic                     build_busy_o,   // a build is in progress
-    output logic      [AxisBits-1:0] build_axis_o,   // axis of the running build
+    output logic                     build_busy_o,   // 1: a build is in progress
+    output logic      [AxisBits-1:0] build_axis_o,   // axis of the current build
     // look up
     input  wire logic [AxisBits-1:0] axis_i,         // axis of the look-up
-    input  wire logic [         7:0] rate_i,         // r
+    input  wire logic [         7:0] rate_i,         // rate r
     output logic      [StepBits-1:0] threshold_o     // first index with a rate below r
 );
 

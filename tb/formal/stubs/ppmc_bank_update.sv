@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_update, stub for the proofs of the blocks that instantiate it: any result of a visit. Its outputs
-// are not driven.
+// ppmc_bank_update, stub for the proofs of the blocks that instantiate it: any result of a visit. The
+// outputs are not driven.
 `default_nettype none
 
 module ppmc_bank_update
@@ -23,7 +23,7 @@ module ppmc_bank_update
     input wire interval_t interval_i,  // interval of the motion
     input wire init_state_t init_state_i,  // progress of the initialisation
     input wire chop_units_t chop_units_i,  // units of the chopper phases
-    input wire logic chop_i,  // chopping at standstill, from the initialisation
+    input wire logic chop_i,  // 1: chop at standstill; from the initialisation
     input wire logic [7:0] slow_i,  // start-up rate
     input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
     input wire logic [HoldBits-1:0] hold_left_i,  // remaining rounds of the hold time, minus 1
@@ -37,9 +37,9 @@ module ppmc_bank_update
     output logic [31:0] position_o,  // CW pulses minus CCW pulses
     // outputs
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output read_data_t read_data_o,  // response to a read command, with decision_i.read
-    output logic irq_set_o,  // set the pending interrupt of the axis
-    output logic irq_clear_o  // clear the pending interrupt of the axis
+    output read_data_t read_data_o,  // response to a read command; valid with decision_i.read
+    output logic irq_set_o,  // 1: set the pending interrupt of the axis
+    output logic irq_clear_o  // 1: clear the pending interrupt of the axis
 );
 
 endmodule

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ram, stub for proofs that hold for any content of the RAM: rdata_o is an unconstrained word in every
-// cycle. ppmc_ram_fv proves that the real RAM returns the word written.
+// ppmc_ram, stub for proofs that hold for any RAM contents: rdata_o is an unconstrained word in every
+// cycle. ppmc_ram_fv proves that the real RAM returns the written word.
 `default_nettype none
 
 module ppmc_ram #(
@@ -14,7 +14,7 @@ module ppmc_ram #(
     input  wire logic [AddrBits-1:0] raddr_i,
     output logic      [   Width-1:0] rdata_o
 );
-  logic [Width-1:0] any;  // not driven; registered, so that all blocks read the same value
+  logic [Width-1:0] any;  // not driven; the register ensures that all blocks read the same value
   always_ff @(posedge clk_i) rdata_o <= any;
 
 endmodule

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder, stub for the proofs of the blocks that instantiate it: it is busy for five cycles and
-// writes one word in the third. ppmc_ramp_builder_fv proves that a build of the real builder ends.
+// ppmc_ramp_builder, stub for the proofs of the blocks that instantiate it: it is busy for five cycles, and
+// writes one word in the third cycle. ppmc_ramp_builder_fv proves that a build of the real builder
+// ends.
 `default_nettype none
 
 module ppmc_ramp_builder #(
@@ -32,7 +33,7 @@ module ppmc_ramp_builder #(
     else if (busy_o) left_q <= left_q - 1'b1;
     else if (start_i) left_q <= 3'd5;
 
-  // The start-up rate is kept after a build.
+  // The start-up rate remains stored after a build.
   always_ff @(posedge clk_i) if (busy_o) rate_q <= slow_i;
 
 endmodule

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_rx, stub for the proofs of the blocks that read from it: outputs any characters, valid and
-// faulty, at least six cycles apart, regardless of the line. ppmc_uart_rx_fv proves that the real receiver
-// has one outcome per character.
+// ppmc_uart_rx, stub for the proofs of the blocks that read from it: outputs any valid and faulty
+// characters at least six cycles apart, regardless of the line. ppmc_uart_rx_fv proves that the
+// real receiver has one outcome per character.
 `default_nettype none
 
 module ppmc_uart_rx #(
@@ -19,7 +19,7 @@ module ppmc_uart_rx #(
     output logic                  break_o
 );
 
-  logic [7:0] any;  // not driven; registered, so that all blocks read the same value
+  logic [7:0] any;  // not driven; the register ensures that all blocks read the same value
   logic [7:0] any_q;
   logic good, good_q, comes, comes_q;
   logic [2:0] gap_q;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_node: a PMC006B4 on the virtual line: pmc006_carrier with an EEPROM, and with ports for the motor and
-// the switches. Every line_node has the ports clk, rst_n, uart_rxd, line and busy.
-// Timing: see pmc006_carrier. While busy is 0 and the line is idle, only the line and the inputs can cause a
-//         change.
+// line_node: a PMC006B4 on the virtual line: pmc006_carrier with an EEPROM, and with ports for the motor
+//         and the switches. Each line_node has the ports clk, rst_n, uart_rxd, line and busy.
+// Timing: see pmc006_carrier. While busy is 0 and the line is idle, only the line and the inputs can cause
+//         a change.
 `default_nettype none
 
 module line_node #(
@@ -14,21 +14,21 @@ module line_node #(
     input  wire logic       rst_n,
     // line
     input  wire logic       uart_rxd,
-    output logic            line,      // output of the driver, 1 while it is off
+    output logic            line,      // output of the driver; 1 while the driver is off
     // switches, inputs, outputs
     input  wire logic       ext1,
     input  wire logic       ext2,
     input  wire logic [4:0] gpi,
     output logic      [4:0] gpo,
     // motor
-    output logic      [8:0] angle,     // 128 per full step
+    output logic      [8:0] angle,     // electrical angle, 128 per full step
     // status
     output logic            busy,
     output logic      [7:0] address,
     output logic            booting,
     output logic            moving,
-    output logic            free,      // no current
-    output logic            locked     // EXT1 or EXT2 has stopped the motor
+    output logic            free,      // 1: no current
+    output logic            locked     // 1: EXT1 or EXT2 has stopped the motor
 );
 
   logic txd, de, scl_oe, sda_oe, ee_scl, ee_sda, scl, sda, unused;

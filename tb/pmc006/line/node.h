@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plant of a PMC006B4 on the virtual line: an EEPROM that may be a file, and a carriage between two switches
-// that follows the electrical angle. Positions are in 1/16 full steps, forward positive.
+// Plant of a PMC006B4 on the virtual line: an EEPROM that may be stored in a file, and a carriage between two
+// switches that follows the electrical angle. Positions are in 1/16 full steps, forward positive.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class Node {
     void set_up(Vboard& top) {
         top.gpi = static_cast<uint8_t>(gpi_);
         set_switches(top);
-        // The model of the EEPROM is initialised at the first evaluation.
+        // The model of the EEPROM is initialised by the first evaluation.
         top.eval();
         auto& root = *top.rootp;
         root.line_node__DOT__u_eeprom__DOT__missing = missing_;
@@ -51,7 +51,7 @@ class Node {
         writes_ = writes;
     }
 
-    // The address is known only after a complete frame, so every station receives all characters.
+    // The address is known only after a complete frame. Therefore every station receives all characters.
     bool named(uint8_t, bool) const { return true; }
 
     uint64_t linger(uint64_t clk_hz) const { return clk_hz / 50; }
@@ -102,6 +102,6 @@ class Node {
     const unsigned gpi_;
     const bool missing_;
     const std::string image_, kept_;
-    int angle_ = 64;  // after the reset
+    int angle_ = 64;  // angle after the reset
     uint32_t writes_ = 0;
 };

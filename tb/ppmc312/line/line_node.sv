@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_node: a PPMC-312 in serial mode on the virtual line: ppmc312_carrier with ports for the straps and the
-// motor. Every line_node has the ports clk, rst_n, uart_rxd, line and busy.
+// line_node: a PPMC-312 in serial mode on the virtual line: ppmc312_carrier with ports for the straps and
+//         the motor. Each line_node has the ports clk, rst_n, uart_rxd, line and busy.
 // Timing: see ppmc312_carrier. While busy is 0 and the line is idle, only the line can cause a change.
 `default_nettype none
 
@@ -14,7 +14,7 @@ module line_node #(
     input  wire logic       rst_n,
     // line
     input  wire logic       uart_rxd,
-    output logic            line,      // output of the driver, 1 while it is off
+    output logic            line,      // output of the driver; 1 while the driver is off
     // straps
     input  wire logic [2:0] mod,
     input  wire logic [3:0] adr,
@@ -33,7 +33,7 @@ module line_node #(
     output logic            dir,
     // status
     output logic            busy,
-    output logic      [5:0] status     // as in the condition byte
+    output logic      [5:0] status     // status, coded as in the condition byte
 );
 
   logic txd, de, hold, unused;
@@ -75,7 +75,7 @@ module line_node #(
       .org_n,
       .index_n,
       .alm_n,
-      .end_n    (1'b0),      // the drive reports "in position" immediately
+      .end_n    (1'b0),      // the drive always reports "in position"
       .epin,
       .epdir,
       .run      (1'b1),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_station: a PPMC-312 in serial mode with packed pins, so that one compiled station is used for all.
-// Inputs that a station of the line does not use are inactive.
+// line_station: a PPMC-312 in serial mode with packed pins, so that one compiled model serves all stations.
+//         The inputs that a station on the line does not use are inactive.
 // Timing: combinational.
 `default_nettype none
 

@@ -40,10 +40,10 @@ class Node {
         set_switches(top);
     }
 
-    // A control code selects a station; the characters after the control code belong to this station.
+    // A control code selects a station. The characters after it are for this station.
     bool named(uint8_t byte, bool before) const { return byte & 0x80 ? (byte & 15) == adr_ : before; }
 
-    // A pause of 320 000 crystal cycles ends a frame; the reply follows a few cycles later.
+    // A pause of 320 000 crystal cycles ends a frame. The reply follows a few cycles later.
     uint64_t linger(uint64_t clk_hz) const { return 400'000 * clk_hz / xtal_hz_; }
 
     bool booted(const Vboard&) const { return true; }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_line: stations of the PPMC-312 in serial mode on one RS-485 line.
-// Rules:  a driver that is not enabled leaves the line high; drivers that disagree pull it low.
-// Timing: each rising edge samples the levels that master and stations drive before it. A reset takes effect
-//         at an edge.
-// Note:   the stations are compiled separately (`line_station`, station.cpp), with the same code for all.
-//         Every station receives the master. With hear_others, a station also receives the other stations;
-//         with hear_self, it also receives itself. noise inverts the level that one station receives.
+// ppmc312_line: PPMC-312 stations in serial mode on one RS-485 line.
+// Rules:  a disabled driver leaves the line high. If two drivers disagree, the line is low.
+// Timing: each rising edge samples the levels that master and stations drive before this edge. A reset
+//         takes effect at an edge.
+// Note:   the stations are compiled separately (`line_station`, station.cpp), so all use the same code.
+//         Each station receives the master. With hear_others, a station also receives the other stations;
+//         with hear_self, it also receives itself. noise inverts the level that a station receives.
 `default_nettype none
 
 module ppmc312_line #(
@@ -41,7 +41,7 @@ module ppmc312_line #(
     output logic      [  N-1:0] cd_n,
     output logic      [  N-1:0] intlk_n,
     output logic      [  N-1:0] out_oe,
-    // not changed by serial mode
+    // outputs that do not change in serial mode
     output logic      [8*N-1:0] d_o,
     output logic      [  N-1:0] d_oe,
     output logic      [  N-1:0] wrq_n,
@@ -58,7 +58,7 @@ module ppmc312_line #(
     input int pins
   );
 
-  // Output of each driver, and the level that each station receives.
+  // driven: output of each driver; rxd: level that each station receives
   logic [N-1:0] driven, rxd;
 
   assign driven = txd | ~snd;

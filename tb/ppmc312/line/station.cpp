@@ -6,7 +6,7 @@
 #include "svdpi.h"
 #include "verilated.h"
 
-// Return a station before its first clock edge, out of reset.
+// Return a new station, out of reset, before its first clock edge.
 extern "C" void* line_station_new(int number) {
     auto* const station = new Vstation{Verilated::threadContextp(), ("station" + std::to_string(number)).c_str()};
     station->rst_n = 1;
@@ -15,7 +15,7 @@ extern "C" void* line_station_new(int number) {
     return station;
 }
 
-// Simulate one rising edge, with the input pins before it; return the output pins after it.
+// Simulate one rising edge with the input pins before it. Return the output pins after it.
 extern "C" int line_station_clk(void* handle, svBit rst_n, int pins) {
     auto* const station = static_cast<Vstation*>(handle);
     station->rst_n = rst_n;
