@@ -184,7 +184,7 @@ def test_functions_that_only_elaboration_calls() -> None:
 endmodule"""
     assert only_elaborated(calls(tree(text))) == {"one", "two", "three", "four", "outer", "inner"}
     names = {function.name for function in left_out()}
-    assert {"phase_width", "every_limits"} <= names and not {"crc_next", "decode", "judge", "step"} & names
+    assert {"phase_width", "limits_table"} <= names and not {"crc_next", "decode", "step"} & names
 
 
 @pytest.mark.parametrize("part", parts.having("crosses"), ids=lambda part: part.name)
