@@ -20,9 +20,10 @@ from openppmc import parts
 from scripts.fpga.flow import gates, plain
 
 QUICK = "quick"
-# The quick subset: the tests listed by each part, in one build on all its families, and the board on this
-# family.
-QUICK_BOARD = "ice40"
+# The quick subset: the tests listed by each part, on one family; each family has some of the parts. Synthesis
+# takes most of its time.
+QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
+QUICK_DEFAULT = "ecp5"
 
 TOO_BIG = "the part does not fit in this family"
 
@@ -99,6 +100,10 @@ def left_out() -> dict[str, str]:
     return reasons
 
 
+def _is_quick(name: str, family: str) -> bool:
+    return family in (QUICK_FAMILY.get(name, QUICK_DEFAULT), plain.FAMILY)
+
+
 def _tagged(item: Item, family: str) -> Item:
     tag = f"{item.tag}-{family}" if item.tag else family
     return replace(item, tag=tag, target="test-verilog" if family == plain.FAMILY else "test-gates")
@@ -107,9 +112,9 @@ def _tagged(item: Item, family: str) -> Item:
 def _test(part: PartTests, item: Item, family: str) -> GateTest:
     pins = part.pins or common_part.PARTS[item.part]
     params = {**pins.params(item.config), **part.params}
-    sampled = part.is_quick(item), part.is_four_state(item)
+    quick = part.is_quick(item) and _is_quick(part.name, family)
     more = tuple(params.items()), part.probes
-    return GateTest(family, _tagged(item, family), sampled[0], *more, sampled[1])
+    return GateTest(family, _tagged(item, family), quick, *more, part.is_four_state(item))
 
 
 def _directed(part: PartTests, family: str) -> list[GateTest]:
@@ -122,7 +127,7 @@ def _random(part: PartTests, family: str, seed: int | None) -> list[GateTest]:
 
 
 def _board(family: str) -> list[GateTest]:
-    quick = family in (QUICK_BOARD, plain.FAMILY)
+    quick = _is_quick(board.TOP, family)
     return [GateTest(family, _tagged(item, family), quick=quick) for item in board.items()]
 
 
