@@ -79,7 +79,9 @@ def unit(dut, name: str, watch: str) -> BlockDriver:
 
 @cocotb.test()
 async def sync_two_stages(dut):
-    """A level is on q1 after the edge that samples it, on q2 one cycle later; in reset both are ResetVal."""
+    """A level appears on q1 after the edge that samples it, and on q2 one cycle later. During reset, both are
+    ResetVal.
+    """
     rand, u = rng(), unit(dut, "sync", "q1_o q2_o")
     await u.reset(d_i=0)
     past = [0b10110, 0b10110]
@@ -92,7 +94,7 @@ async def sync_two_stages(dut):
 
 @cocotb.test()
 async def reset_release(dut):
-    """rst_no falls immediately with rst_ni and rises at the second edge that samples rst_ni = 1."""
+    """rst_no falls immediately with rst_ni and rises on the second edge that samples rst_ni = 1."""
     rand, u = rng(), unit(dut, "reset", "rst_no")
     await u.reset()
     for _ in range(60):
@@ -111,9 +113,7 @@ async def reset_release(dut):
 
 @cocotb.test()
 async def ram_two_clk(dut):
-    """With random writes and reads of different addresses, read data is valid two cycles after its
-    address.
-    """
+    """If reads and writes use different addresses, read data is valid two cycles after its address."""
     rand, u = rng(), unit(dut, "ram", "rdata_o")
     u.choose()
     mem, due = [0] * 32, []
@@ -130,15 +130,13 @@ async def ram_two_clk(dut):
 
 @cocotb.test()
 async def tick_gen_exact(dut):
-    """After a restart at a random time, tick n occurs exactly ceil(n * TickXtal * ClkHz / XtalHz)
-    cycles later.
-    """
+    """After a restart at any time, tick n occurs exactly ceil(n * TickXtal * ClkHz / XtalHz) cycles later."""
     rand = rng()
     for i, (clk, xtal, step) in enumerate(TICKS):
         u = unit(dut, f"tick{i}", "tick_o")
         period = Fraction(step * clk, xtal)
         await u.reset()
-        # The longest phase cycle of the set has 1728 cycles.
+        # The longest phase cycle of these settings has 1728 cycles.
         for run in [2000] + [rand.randint(1, ceil(6 * period)) for _ in range(15)]:
             await u.clk(restart_i=1)
             n = 1
@@ -168,7 +166,7 @@ async def square_no_drift(dut):
 
 @cocotb.test()
 async def xtal_timer_exact(dut):
-    """past_o is high, and stays high, from the cycle after ceil(limit * ClkHz / XtalHz) on."""
+    """past_o rises in the cycle after ceil(limit * ClkHz / XtalHz) cycles, and then stays high."""
     rand = rng()
     for i, (clk, xtal, width) in enumerate(TIMERS):
         u = unit(dut, f"timer{i}", "past_o")
