@@ -111,9 +111,7 @@ class ExtMoves:
     async def of(
         cls, axis: AxisDriver, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
     ) -> ExtMoves:
-        """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, then the delay to the
-        pin.
-        """
+        """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, and the pin delay."""
         moves = cls(axis, slow_pin, lows, rate_of, 0)
         train = await moves._train(Move(2, (64,), 32, ramp))
         moves.delay = train.pulses[0] - max(t for t in train.edges if t < train.pulses[0] - 1)
