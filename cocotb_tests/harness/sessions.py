@@ -2,12 +2,12 @@
 
 A chapter is "## <number> title"; each line of its code blocks is one access:
 
-    c 43 st 10 code byte, then the status register
-    d E7 st 10 data byte, then the status register
-    w 42 st 1A code byte written without waiting for IBF = 0, then the status register
-    r 83 data read after OBF = 1
-            st 00 status register
-    p st 00 poll until the status register has this value
+    c 43    st 10    code byte, then the status register
+    d E7    st 10    data byte, then the status register
+    w 42    st 1A    code byte written without waiting for IBF = 0, then the status register
+    r 83             data read after OBF = 1
+            st 00    status register
+    p       st 00    poll until the status register has this value
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ IDLE = {"cs_ni": 1, "rd_ni": 1, "wr_ni": 1}
 
 
 def strobes(cs_n: int, rd_n: int, wr_n: int, style: int) -> tuple[bool, bool]:
-    """Return the (read, write) strobe of pin levels, written as the truth table of each style."""
+    """Return the (read, write) strobe for pin levels, as in the truth table of each bus style."""
     if cs_n:
         return False, False
     if style == 0:
@@ -48,8 +48,8 @@ def levels(kind: str, style: int) -> dict[str, int]:
 
 @cocotb.test()
 async def bus_write_any_pins(dut):
-    """For random pins, the end of a write sampled at edge 0 is an event at edge 2 with the byte of the
-    sample before.
+    """For random pins, a write strobe whose end is sampled at edge 0 causes a write event at edge 2, with the
+    byte that was sampled at the edge before the end.
     """
     rand = rng()
     u = BlockDriver(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o")
@@ -76,7 +76,7 @@ async def bus_write_any_pins(dut):
 
 @cocotb.test()
 async def bus_short_strobe(dut):
-    """Strobes that no clk edge samples cause no write and no read, and consume no byte."""
+    """A strobe that no rising edge of `clk` samples causes no write and no read, and consumes no byte."""
     u = BlockDriver(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o rd_busy_o rd_done_o d_o")
     for style in (0, 1):
         await u.reset(style_i=style, data_valid_i=1, data_i=0x5A, **IDLE)
@@ -88,7 +88,10 @@ async def bus_short_strobe(dut):
 
 
 async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, gap: int, early: bool) -> None:
-    """Check one read of `length` cycles and its gap. With `early`, d_o must load on edge 0, too."""
+    """Check one read of `length` cycles and the gap after it.
+
+    If `early` is set, d_o must also load on edge 0.
+    """
     a0 = rand.randrange(2)
     sampled: list[tuple[int, int, int]] = []
     shown, taken, unseen = u.get("d_o"), False, False
@@ -109,7 +112,8 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
         same(f"{where}: rd_done", done, taken and n == length + 2)
         if n < 2 and n < length:
             shown = status if a0 else data
-        # A byte that arrives on edge 0 is output by the refresh on edge 1; a later byte was not read.
+        # A byte that arrives on edge 0 is output on edge 1, because d_o loads again; a later byte is not
+        # read.
         unseen = unseen or bool(new and (n or length == 1))
         if n == 1:
             taken = bool(valid and not a0)
@@ -118,8 +122,8 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
 
 @cocotb.test()
 async def bus_read(dut):
-    """In a read, d_o loads on edges 0 and 1 and is then stable; a byte is consumed if it was valid and
-    was output.
+    """In a read, d_o loads on edges 0 and 1 and is then stable. A byte is consumed if it was valid and was
+    output.
     """
     rand = rng()
     u = BlockDriver(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
@@ -131,8 +135,8 @@ async def bus_read(dut):
 
 @cocotb.test()
 async def bus_read_after_gap_of_one(dut):
-    """If only one edge samples the gap between two reads, the second read outputs its register from
-    edge 0 on.
+    """If only one edge samples the gap between two reads, the second read outputs its register from edge 0
+    on.
     """
     u = BlockDriver(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
     for style in (0, 1):
@@ -152,7 +156,9 @@ async def bus_read_after_gap_of_one(dut):
 
 @cocotb.test()
 async def mailbox_random(dut):
-    """Under random traffic, input, queue, overwriting, taking and loading equal those of a simple model."""
+    """Under random traffic, the input buffer and output queue equal a simple model, including overwritten
+    bytes, accepted bytes and loaded answers.
+    """
     rand = rng()
     for name, size in (("mail3", 3), ("mail5", 5)):
         u = BlockDriver(dut, name, BLOCKS, "ibf_o ready_o obf_o new_o")
@@ -198,7 +204,7 @@ async def mailbox_random(dut):
 
 @cocotb.test()
 async def mailbox_directed(dut):
-    """Each case that the header names occurs in the exact cycle."""
+    """Each case in the header of the module occurs in the exact cycle."""
     u = BlockDriver(dut, "mail3", BLOCKS, "ibf_o ready_o byte_o")
     await u.reset()
     await u.clk(wr_i=1, wr_data_i=0x11)
@@ -227,8 +233,8 @@ async def mailbox_directed(dut):
 
 @cocotb.test()
 async def host_port_status(dut):
-    """After a write and an answer of three bytes, the status contains IBF and OBF, and the reads return
-    the bytes.
+    """After a write and an answer of three bytes, the status contains IBF and OBF, and reads return the
+    bytes.
     """
     u = BlockDriver(dut, "port", BLOCKS, "ready_o command_o byte_o")
 

@@ -1,4 +1,6 @@
-"""Wishbone B4 master for classic cycles; it checks in every cycle that no unrequested response occurs."""
+"""Wishbone B4 master for classic cycles; it checks in each cycle that no response occurs without a
+request.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +11,10 @@ from cocotb.triggers import RisingEdge
 
 
 class WishboneMaster:
-    """Master at the pins `<prefix>_*`. `clk` counts rising edges; `latency` is that of the last
-    response.
+    """Master at the pins `<prefix>_*`. `clk` counts rising edges; `latency` is that of the last response.
 
-    Latency: cycles from the first edge that samples STB to the edge that samples the response.
+    The latency is the number of cycles from the first edge that samples STB to the edge that samples the
+    response.
     """
 
     TIMEOUT = 200
@@ -58,9 +60,10 @@ class WishboneMaster:
     ) -> tuple[bool, int]:
         """Make one bus cycle at a byte address: a read, or a write of `value`; return (ok, data).
 
-        Args: keep: leave CYC and STB high for another access directly after this one.
+        Raises AssertionError if no response occurs.
 
-        Raises: AssertionError: no response.
+        Args:
+            keep: leave CYC and STB high for another access directly after this one.
         """
         self._offer(address, value, sel)
         for waited in range(self.TIMEOUT):
@@ -77,8 +80,9 @@ class WishboneMaster:
         raise AssertionError(f"no answer for {self.TIMEOUT} clk at address {address:#x}")
 
     async def give_up(self, address: int, value: int | None, after: int) -> bool:
-        """Request an access and withdraw it after `after` cycles (>= 1); return True if it was answered
-        before.
+        """Request an access and withdraw the request after `after` cycles (at least 1).
+
+        Return True if a response occurred before.
         """
         self._offer(address, value, 0xF)
         for _ in range(after):
