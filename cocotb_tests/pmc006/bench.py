@@ -37,5 +37,5 @@ WITH_EEPROM = replace(
     fed=LINES,
     aside=frozenset({"ee_on"}),
 )
-"""The part and its EEPROM in one top (eeprom_bench.sv), which drives the levels of the lines."""
+"""The part and its EEPROM in one top (eeprom_bench.sv), which drives the levels of the I2C lines."""
 PARTS = (PMC006,)
