@@ -1,4 +1,4 @@
-"""Acceptance checks AC-25 to AC-44 (except AC-40) at the pins; stimulus and values are those of the acceptance table."""
+"""Acceptance checks AC-25 to AC-44 (except AC-40) at the pins, with the values of the acceptance table."""
 
 from __future__ import annotations
 
