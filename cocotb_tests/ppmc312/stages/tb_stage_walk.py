@@ -252,8 +252,8 @@ async def stage_seq_searches(dut):
 class LateStopRun(SequencerRun):
     """A change is decided during a search, and a deceleration stop follows.
 
-    A stage of the acceleration ramp becomes a constant rate. Instruction 88 is decided during the search for this
-    and 81 arrives before the boundary.
+    A stage of the acceleration ramp becomes a constant rate. Instruction 88 is decided during the search for
+    this rate, and 81 arrives before the boundary.
     """
 
     def plan_requests(self) -> dict[int, str]:
