@@ -255,7 +255,7 @@ async def bank_mot_05_which_pulse_counts(dut):
             # after
             # pulse 2 it has index 1.
             want = 2 if visit <= second else 4
-            env.check("BANK-MOT-05", f"pulses, V {visit - second:+} clk", len(axis.pulses), want)
+            env.check("BANK-MOT-05", f"pulses, V {visit - second:+} cycles", len(axis.pulses), want)
             await axis.finish()
 
 

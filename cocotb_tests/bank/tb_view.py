@@ -59,8 +59,8 @@ class Bridge:
             if self.seen[n - 1][0]:
                 found.append((address, 0))
                 around = [there for _, there in self.seen[n - STEADY + 1 : n + 1]]
-                same(f"clk {n}: address before the strobe", around, [address] * STEADY)
-            same(f"clk {n}: address in the strobe", address, found[-1][0])
+                same(f"cycle {n}: address before the strobe", around, [address] * STEADY)
+            same(f"cycle {n}: address in the strobe", address, found[-1][0])
             found[-1] = (address, found[-1][1] + 1)
         return found
 

@@ -197,11 +197,11 @@ async def bank_win_05_reset_in_an_access(dut):
         await bench.clocks(into)
         bench.set(rst_n=0)
         await bench.clocks(1)
-        env.check("BANK-WIN-05", f"d_oe, {strobe} since {into} clk", bench.level("d_oe"), 0)
+        env.check("BANK-WIN-05", f"d_oe, {strobe} since {into} cycles", bench.level("d_oe"), 0)
         await bench.clocks(3)
         bench.set(cs_n=1, **{strobe: 1})
         await env.reset()
-        env.check("BANK-WIN-06", f"CONFIG, {strobe} since {into} clk", await env.host.read(CONFIG), 3)
+        env.check("BANK-WIN-06", f"CONFIG, {strobe} since {into} cycles", await env.host.read(CONFIG), 3)
 
 
 @directed("BANK-WIN-07", builds=(B8, F100))

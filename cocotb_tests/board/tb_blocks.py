@@ -25,7 +25,7 @@ async def clocks_to_release(unit: BlockDriver, limit: int) -> int:
         if await unit.settle():
             return count
         await unit.clk()
-    raise AssertionError(f"still in reset after {limit} clk")
+    raise AssertionError(f"still in reset after {limit} cycles")
 
 
 @cocotb.test()
@@ -41,7 +41,7 @@ async def board_reset_release(dut):
         unit.choose()
         if i == 0:  # the initial register values alone cause a reset, without a loss of lock
             first = await clocks_to_release(unit, 3 * least)
-            assert least <= first <= 2 * least + 3, f"power-on: {first} clk of {least}"
+            assert least <= first <= 2 * least + 3, f"power-on: {first} cycles of {least}"
         for what in ("lock_i", "req_ni"):
             await unit.clk(lock_i=1, req_ni=1)
             for _ in range(5):  # the button bounces
@@ -55,7 +55,7 @@ async def board_reset_release(dut):
             await unit.clk(**{what: 0})
             unit.put(**{what: 1})
             count = await clocks_to_release(unit, 3 * least + 3)
-            assert least <= count <= 2 * least + 4, f"{what} {clk_hz}: {count} clk, least {least}"
+            assert least <= count <= 2 * least + 4, f"{what} {clk_hz}: {count} cycles, least {least}"
 
 
 @cocotb.test()
@@ -85,4 +85,4 @@ async def board_led_stretch(dut):
         lit += 1
         assert lit < LED_CLK_HZ, "LED stays on"
     least = LED_CLK_HZ // 32
-    assert least + again <= lit <= 2 * least + again + 2, f"{lit} clk"
+    assert least + again <= lit <= 2 * least + again + 2, f"{lit} cycles"

@@ -67,7 +67,7 @@ async def bus_power_on_and_read(dut):
     bidirectional pins.
     """
     count = await power_on(dut)
-    assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{count} clk"
+    assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{count} cycles"
     same("status", await read(dut, 1), 0x00)
     await write(dut, 1, READ_PINS)
     same("status with an answer", await read(dut, 1), 0x01)
@@ -87,7 +87,7 @@ async def bus_resets(dut):
         await ClockCycles(dut.clk, 100)
         getattr(dut, name).value = 1
         count = await clocks_to_run(dut)
-        assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{name}: {count} clk"
+        assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{name}: {count} cycles"
         same(f"status after {name}", await read(dut, 1), 0x00)
 
 

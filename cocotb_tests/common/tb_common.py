@@ -87,7 +87,7 @@ async def sync_two_stages(dut):
     past = [0b10110, 0b10110]
     for n in range(300):
         level = rand.getrandbits(5)
-        same(f"clk {n}: q1, q2", await u.clk(d_i=level), (past[-1], past[-2]))
+        same(f"cycle {n}: q1, q2", await u.clk(d_i=level), (past[-1], past[-2]))
         past.append(level)
     same("reset at once", await u.settle(rst_ni=0), (0b10110, 0b10110))
 
@@ -122,7 +122,7 @@ async def ram_two_clk(dut):
         we, value = int(n > 100 and rand.random() < 0.5), rand.getrandbits(9)
         got = await u.clk(we_i=we, waddr_i=write, wdata_i=value, raddr_i=read)
         if n > 1:
-            same(f"clk {n}", got, due[n - 2])
+            same(f"cycle {n}", got, due[n - 2])
         due.append(mem[read])
         if we:
             mem[write] = value
@@ -142,7 +142,7 @@ async def tick_gen_exact(dut):
             n = 1
             for j in range(1, run + 1):
                 due = j == ceil(n * period)
-                same(f"{clk} Hz, {xtal} Hz, clk {j} of {run}", await u.clk(restart_i=0), due)
+                same(f"{clk} Hz, {xtal} Hz, cycle {j} of {run}", await u.clk(restart_i=0), due)
                 n += due
         await u.settle(rst_ni=0)
         same(f"{clk} Hz, {xtal} Hz, in reset", await u.settle(), 0)
@@ -159,7 +159,7 @@ async def square_no_drift(dut):
         for j in range(5000):
             if j == ceil(t * period):
                 level, t = 1 - level, t + 1
-            same(f"{clk} Hz, {xtal} Hz, {j} clk after the reset", await u.clk(), level)
+            same(f"{clk} Hz, {xtal} Hz, {j} cycles after the reset", await u.clk(), level)
         await u.settle(rst_ni=0)
         same("level in reset", await u.settle(), 0)
 
@@ -178,7 +178,7 @@ async def xtal_timer_exact(dut):
             await u.clk(restart_i=1, limit_i=limit)
             for j in range(1, run + 1):
                 got = await u.clk(restart_i=0)
-                same(f"{clk} Hz, {xtal} Hz, limit {limit}, clk {j}", got, j > due)
+                same(f"{clk} Hz, {xtal} Hz, limit {limit}, cycle {j}", got, j > due)
 
 
 @cocotb.test()

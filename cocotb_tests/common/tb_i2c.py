@@ -100,7 +100,7 @@ class Lines:
     def _data(self, scl: int, sda: int) -> None:
         """Note a change of SDA: START, STOP, or a bit while SCL is low."""
         if not (scl and self.scl):
-            assert not scl and not self.scl, f"clk {self.t}: both lines change together"
+            assert not scl and not self.scl, f"cycle {self.t}: both lines change together"
             self._note("hd_dat", "fall")
             self.since["data"] = self.t
         elif sda:
@@ -151,7 +151,7 @@ async def i2c_times_of_the_data_sheets(dut):
             got, shortest = found[name], limits[scl == 90_000]
             assert got >= shortest, f"{clk} Hz, SCL {scl} Hz: {name} {float(got):.1f} ns, want {shortest}"
         low = lines.found["low"]
-        assert 0 <= low - Fraction(55 * clk, 100 * scl) < 1, f"{clk} Hz, SCL {scl} Hz: low {low} clk"
+        assert 0 <= low - Fraction(55 * clk, 100 * scl) < 1, f"{clk} Hz, SCL {scl} Hz: low {low} cycles"
 
 
 @cocotb.test()
@@ -164,7 +164,7 @@ async def i2c_times_with_a_stretched_clock(dut):
             lines = await played(dut, number, stretch)
             for name in ("high", "su_sta", "su_sto", "hd_sta"):
                 got = Fraction(lines.found[name] * 10**9, clk)
-                assert got >= SHORTEST_NS[name][0], f"{clk} Hz, {stretch} clk: {name} {float(got):.1f} ns"
+                assert got >= SHORTEST_NS[name][0], f"{clk} Hz, {stretch} cycles: {name} {float(got):.1f} ns"
 
 
 @cocotb.test()

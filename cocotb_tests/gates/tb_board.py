@@ -111,7 +111,7 @@ async def move(
     got = since(first, [(t, name, value) for name in MOTOR for t, value in bench.edges(name, begin)])
     want = golden.move(op, count, limit_at)
     wrong = next((pair for pair in zip_longest(got, want) if pair[0] != pair[1]), None)
-    bench.check("UART move", "first wrong edge (clk after the first pulse, pin, level)", wrong, None)
+    bench.check("UART move", "first wrong edge (cycles after the first pulse, pin, level)", wrong, None)
     event = await uart.frame()
     assert event.payload[0] == EVENT, f"expected an event, got {event}"
     answer = await uart.ask(Script().call(0x80).get(1).count())

@@ -63,7 +63,7 @@ async def bus_write_any_pins(dut):
             a0, data = rand.randrange(2), rand.getrandbits(8)
             got = await u.settle(cs_ni=pins[0], rd_ni=pins[1], wr_ni=pins[2], a0_i=a0, d_i=data)
             event = past[-3][1] and not past[-2][1]
-            where = f"style {style}, clk {n}"
+            where = f"style {style}, cycle {n}"
             want = (event, past[-1][1] or past[-2][1] or past[-3][1], past[-1][0])
             same(f"{where}: wr_o, wr_busy_o, d_oe_o", got, want)
             if event:
@@ -84,7 +84,7 @@ async def bus_short_strobe(dut):
             await u.settle(**levels(kind, style))
             u.put(**IDLE)
             for n in range(5):
-                same(f"style {style}, {kind}, clk {n}", await u.clk(), (0, 0, 0, 0, 0, 0))
+                same(f"style {style}, {kind}, cycle {n}", await u.clk(), (0, 0, 0, 0, 0, 0))
 
 
 async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, gap: int, early: bool) -> None:
@@ -103,7 +103,7 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
         u.put(a0_i=a0 if n < length else 1 - a0)
         oe, out, busy, done = await u.clk()
         sampled.append((status, data, valid))
-        where = f"style {style}, {length} clk, a0 {a0}, edge {n}"
+        where = f"style {style}, {length} cycles, a0 {a0}, edge {n}"
         if n:
             same(f"{where}: d_oe", oe, n <= length)
         if n > 1 or early:
@@ -167,7 +167,7 @@ async def mailbox_random(dut):
         box, out, queue = (0, 0), 0, deque()
         for n in range(5000):
             ready = ibf and settled
-            where = f"{size} bytes, clk {n}"
+            where = f"{size} bytes, cycle {n}"
             wr, load = rand.random() < 0.2, rand.random() < 0.06
             take = ready and rand.random() < 0.4
             done = obf and rand.random() < 0.3
@@ -209,7 +209,7 @@ async def mailbox_directed(dut):
     await u.reset()
     await u.clk(wr_i=1, wr_data_i=0x11)
     same("byte at once, ready not yet", await u.clk(wr_i=0), (1, 0, 0x11))
-    same("ready one clk later; taken while a new one is written", await u.settle(), (1, 1, 0x11))
+    same("ready one cycle later; taken while a new one is written", await u.settle(), (1, 1, 0x11))
     await u.clk(take_i=1, wr_i=1, wr_data_i=0x22)
     same("the new byte stays", await u.clk(take_i=0, wr_i=0), (1, 0, 0x22))
     await u.clk(wr_i=1, wr_data_i=0x33)
@@ -221,7 +221,7 @@ async def mailbox_directed(dut):
     await u.clk(load_i=1, long_i=1, answer_i=0x030201)
     for byte in (1, 2, 3):
         same("valid", await u.clk(load_i=0, rd_done_i=1), (1, byte))
-        same("gap of one clk", (await u.clk(rd_done_i=0))[0], 0)
+        same("gap of one cycle", (await u.clk(rd_done_i=0))[0], 0)
     same("empty", (await u.clk())[0], 0)
     await u.clk(load_i=1, long_i=1, answer_i=0x060504)
     await u.clk(load_i=0, rd_done_i=1)
@@ -252,7 +252,7 @@ async def host_port_status(dut):
         for _ in range(2):
             await u.clk(a0_i=1, d_i=0xA7, **levels("write", style))
         await u.clk(d_i=0, a0_i=0, **IDLE)
-        same("IBF one clk after the write's end", await read(1), 0b10110110)
+        same("IBF one cycle after the write's end", await read(1), 0b10110110)
         same("byte", await u.settle(), (1, 1, 0xA7))
         await u.clk(take_i=1)
         await u.clk(take_i=0, load_i=1, long_i=1, answer_i=0xCCBBAA)

@@ -219,7 +219,7 @@ async def ext_clock_thresholds(dut):
             await u.reset(pin_i=rest)
             for n in range(6):
                 rise, fall, *_ = await u.clk()
-                same(f"rest {rest}, clk {n}", (rise, fall), (0, rest == 0 and n == 2))
+                same(f"rest {rest}, cycle {n}", (rise, fall), (0, rest == 0 and n == 2))
             await u.clk(pin_i=0)
             await u.clk()
             await u.clk()
@@ -235,7 +235,7 @@ async def ext_clock_thresholds(dut):
             for t, level in enumerate([*wave, 1, 1, 1]):
                 rise, fall, is_long, is_short = await u.clk(pin_i=level)
                 due = levels[-2] and not levels[-3]
-                same(f"clk {t}: rise, fall", (rise, fall), (due, levels[-3] and not levels[-2]))
+                same(f"cycle {t}: rise, fall", (rise, fall), (due, levels[-3] and not levels[-2]))
                 if rise:
                     period = 10**9 if last is None else t - last
                     where = f"{EXTERNAL[i]}, period {period}: long, short"
@@ -262,7 +262,7 @@ async def ext_lag_sum(dut):
             for t in range(1, due + 1):
                 is_edge = t in (d, hit)
                 got = await u.clk(restart_i=0, edge_i=is_edge, hit_i=t == hit, long_period_i=is_edge and long)
-                same(f"{where}, clk {t}: count, fire", got, (t > d or not enabled, t == due))
+                same(f"{where}, cycle {t}: count, fire", got, (t > d or not enabled, t == due))
 
 
 @cocotb.test()
@@ -289,7 +289,7 @@ async def pulse_shaper_width(dut):
             u.put(arm_i=0, pulse_i=0, full_i=not full)
             for t in range(1, whole + rand.randint(1, 150)):
                 got = await u.clk(cut_i=t == cut)
-                same(f"{where}, clk {t}: low, up", got, (t <= low, t >= whole))
+                same(f"{where}, cycle {t}: low, up", got, (t <= low, t >= whole))
 
 
 @cocotb.test()
@@ -310,7 +310,7 @@ async def hold_timer_quanta(dut):
                 # No quantum tick occurs in the additional cycles, which are fewer than a quantum.
                 quantum = t > 0 and rand.random() < 0.5 and (not rest or count < quanta or hold)
                 same(
-                    f"{quanta} quanta, {count} passed, clk {t}",
+                    f"{quanta} quanta, {count} passed, cycle {t}",
                     await u.clk(busy_i=0, quantum_i=quantum),
                     hold,
                 )
@@ -343,7 +343,7 @@ async def hold_timer_units(dut):
             for t in range(whole * 3 // 2 if rand.random() < 0.3 else 2 * whole + 4):
                 quantum = t > 0 and rand.random() < 0.8
                 got = await u.clk(busy_i=0, quantum_i=quantum, units_i=rand.randint(0, top))
-                same(f"{units} units of {quanta}, {count} passed, clk {t}", got, hold)
+                same(f"{units} units of {quanta}, {count} passed, cycle {t}", got, hold)
                 hold = hold or count >= whole
                 count += quantum
 
@@ -369,7 +369,7 @@ async def chopper_phases(dut):
             run, restart = n > 3 and rand.random() < 0.998, rand.random() < 0.002
             quantum = rand.random() < 0.6
             got = await u.clk(run_i=run, restart_i=restart, quantum_i=quantum, **times)
-            same(f"unit {unit}, clk {n}", got, on or not run)
+            same(f"unit {unit}, cycle {n}", got, on or not run)
             left -= quantum
             if restart or not run or left == 0:
                 on = not on if run and not restart else True
@@ -410,7 +410,9 @@ async def excitation_walks(dut):
                 step, off, home = rand.random() < 0.7, rand.random() < 0.01, rand.random() < 0.02
                 step = step and on
                 got = await u.clk(step_i=step, off_i=off, phase_init_i=home and not off, ccw_i=ccw)
-                same(f"{phases} phases, half {half}, clk {n}, index {index}", got, steps[index] if on else 0)
+                same(
+                    f"{phases} phases, half {half}, cycle {n}, index {index}", got, steps[index] if on else 0
+                )
                 if off or home:
                     index, on = 0, not off
                 elif step:
@@ -452,7 +454,7 @@ async def motor_port_pins(dut, idle):
         got = await u.clk(
             phase_init_i=0, chop_restart_i=0, busy_i=busy, step_i=step, low_i=low, ccw_i=ccw, off_i=n == 299
         )
-        same(f"clk {n}: pins, levels", got, (*before, steps[index] ^ off))
+        same(f"cycle {n}: pins, levels", got, (*before, steps[index] ^ off))
         # Phases are on during a motion; otherwise they are on for 3 quanta and off for 2. The first ON phase
         # begins at the restart.
         on = busy or (n if n < 100 else n - 200) % 5 < 3
@@ -549,7 +551,7 @@ async def stop_guard_causes(dut, variant):
         p["slow"] &= guard(p, flagged, variant)[0]
         pins = {key: value for name in p for key, value in guard_pins(p, name).items()}
         got = await u.clk(clear_i=clear, complete_i=complete, **pins)
-        same(f"clk {n}: flagged, causes", got, (flagged, int("".join(map(str, causes)), 2)))
+        same(f"cycle {n}: flagged, causes", got, (flagged, int("".join(map(str, causes)), 2)))
         _, stop, forced, new = guard(p, flagged, variant)
         flagged, causes = forced, [old | more for old, more in zip(causes, new, strict=True)]
         stopped = (stopped or bool(stop)) and not clear
@@ -572,4 +574,4 @@ async def pulse_counter(dut):
             count = (count + (-1 if ccw else 1)) % 16
         was = level
         await u.clk(clear_i=clear, pout_ni=level, dir_i=ccw)
-        same(f"clk {n}", await u.settle(), count)
+        same(f"cycle {n}", await u.settle(), count)

@@ -131,7 +131,7 @@ async def ramp_builder_exact(dut, bits):
         want = table(*triple)
         wrong = {r: (got.get(r), want.get(r)) for r in got | want if got.get(r) != want.get(r)}
         same(f"(slow, fast, steps) {triple}: r -> (got, want)", wrong, {})
-        assert took <= LONGEST_BUILD, f"{triple}: {took} clk"
+        assert took <= LONGEST_BUILD, f"{triple}: {took} cycles"
         longest = max(longest, took)
     same("PA alone for equal rates", (await _build(u, 77, 77, 100))[0], {77: 100})
     cocotb.log.info("longest build of %d bits: %d clk", bits, longest)
@@ -197,7 +197,7 @@ async def ramp_tables_shared(dut):
             busy, _ = await u.clk(start_i=start.get(t, 0), **pins)
             begun = sum(bits for at, bits in start.items() if at < t)
             want = sum(1 << n for n in (0, 1) if begun >> n & 1 and t <= due[n])
-            same(f"case {case}, {ramps}, {gap} clk apart, clk {t}: busy_o", busy, want)
+            same(f"case {case}, {ramps}, {gap} cycles apart, cycle {t}: busy_o", busy, want)
         tables = [table(*ramp) for ramp in ramps]
         rates = [list(one) for one in tables]
         for k in range(max(map(len, rates))):

@@ -196,7 +196,7 @@ class Host(View, SerialLine):
         await self.go(max(self.t, e + ceil(bit) + NEAR + 1))
         rise = await self.next_de_rise()
         assert rise is not None, "no reply"
-        assert abs(rise - e - bit) <= NEAR, f"de rises {rise - e} clk after the frame"
+        assert abs(rise - e - bit) <= NEAR, f"de rises {rise - e} cycles after the frame"
         await self.go(max(self.t, e + ceil(82 * bit) + NEAR + 1))
         fall = next((t for t, level in self.edges("de", rise) if not level), None)
         assert fall is not None and abs(fall - e - 82 * bit) <= NEAR, f"de falls {fall}, the frame ended {e}"

@@ -107,7 +107,7 @@ async def p006_eeprom_device(dut: Any) -> None:
                     model.on_lines(t, *lines)
                 before = lines
                 pulls = int(dut.scl_oe_o.value), int(dut.sda_oe_o.value)
-                assert pulls == (model.scl, model.sda), f"clk {t}: {pulls}, model {(model.scl, model.sda)}"
+                assert pulls == (model.scl, model.sda), f"cycle {t}: {pulls}, model {(model.scl, model.sda)}"
                 seen["scl"] += pulls[0]
                 seen["sda"] += pulls[1]
                 t += 1

@@ -288,7 +288,7 @@ async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
         await host.send_frame("y", 0xF8)
         await host.pause(ceil(90 * host.bit))
         heard = late >= 0
-        assert await host.out("gpo") == (0x1F if heard else 0), f"{late} clk after the middle"
+        assert await host.out("gpo") == (0x1F if heard else 0), f"{late} cycles after the middle"
         assert len(host.edges("de", rise)) == (4 if heard else 2)
 
 

@@ -70,7 +70,7 @@ class View(ABC):
         Raises AssertionError if the cycles deviate from whole us by more than one cycle.
         """
         micros = round(Fraction(clk * 1_000_000, self.clk_hz))
-        assert abs(clk - Fraction(micros * self.clk_hz, 1_000_000)) <= 1, f"{clk} clk are not whole us"
+        assert abs(clk - Fraction(micros * self.clk_hz, 1_000_000)) <= 1, f"{clk} cycles are not whole us"
         return micros
 
     # ------------------------------------------------------------------ steps

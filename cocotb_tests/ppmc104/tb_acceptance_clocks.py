@@ -108,7 +108,7 @@ async def p104_ac_49_external_clock(dut):
         env.check("AC-49", "pulses", len(env.pulses), 10)
         for interval in env.intervals:
             env.window(
-                "AC-49", f"interval at {period} clk, vsel {vsel}", interval, expected - 2, expected + 2
+                "AC-49", f"interval at {period} cycles, vsel {vsel}", interval, expected - 2, expected + 2
             )
         env.check("AC-49", "sum of intervals", sum(env.intervals), 9 * expected)
         env.check("AC-49", "low times", env.low_times, [80] * 10)

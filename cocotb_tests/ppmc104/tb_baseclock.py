@@ -143,7 +143,7 @@ async def p104_bck_05_too_fast_clock(dut):
         for code, rate in ((0x44, 0), (0x43, None), (0xC3, None)):
             before = env.bench.level("s")
             await env.move(code, 25, rate)
-            env.check("P104-BCK-05", f"pulses at {period} clk", len(env.pulses), 25)
+            env.check("P104-BCK-05", f"pulses at {period} cycles", len(env.pulses), 25)
             env.check("P104-BCK-05", "shortest interval", min(env.intervals) >= period, True)
             env.check("P104-BCK-05", "intervals are whole periods", {i % period for i in env.intervals}, {0})
             turns = 25 if code != 0xC3 else 0
@@ -196,7 +196,7 @@ async def p104_int_03_vsel_low_external(dut):
             delay = env.pulses[0] - edges[first]
             got = [t - delay for t in env.pulses]
             expected = carried(env.cfg, edges, first, rate_list)
-            same = f"pulses at {gaps[:3]} clk, {code:#x}"
+            same = f"pulses at {gaps[:3]} cycles, {code:#x}"
             env.check("P104-INT-03", same, differences(got), differences(expected))
             await env.bench.clocks(20)
 

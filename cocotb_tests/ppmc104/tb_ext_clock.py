@@ -80,6 +80,6 @@ async def p104_int_03_long_threshold(dut):
             edges = env.clock_edges(env.since)
             first = max(i for i, t in enumerate(edges) if t < env.pulses[0] - 1)
             expected = carried(env.cfg, edges, first, [rate] * 5)
-            same = f"intervals at {gaps[:4]} clk, rate {rate}"
+            same = f"intervals at {gaps[:4]} cycles, rate {rate}"
             env.check("P104-INT-03", same, env.intervals, differences(expected))
             await env.bench.clocks(20)

@@ -61,7 +61,7 @@ async def p104_tim_05_external_low_times(dut):
                 env.bench.set(clock=0)
                 cut = (rate + 1) // 2 * period if rate else (high if period < us(8) else w)
                 expected = [min(w, cut)] * 4 + [w]
-                what = f"low times at {period}/{high} clk, rate {rate}"
+                what = f"low times at {period}/{high} cycles, rate {rate}"
                 env.check("P104-TIM-05", what, env.bench.low_times(env.since), expected)
                 await env.bench.clocks(8)
 

@@ -53,7 +53,7 @@ async def opens(env: Env, rule: str, edge0: int, micros: int) -> None:
     await env.host.poll(IBF, 0, dense=100)
     latest = C_EVENT_LATEST - WRITE_EVENT + TOLERANCE + READ
     env.window(
-        rule, f"clk beyond {micros} us until the next byte is taken", env.bench.now - nominal, 0, latest
+        rule, f"cycles beyond {micros} us until the next byte is taken", env.bench.now - nominal, 0, latest
     )
 
 

@@ -174,7 +174,7 @@ async def p2104_ac_54_switching(dut: Any) -> None:
     spans = axis.stretches(env.bench.now - 9_000)
     for pattern, span in spans:
         nominal = {0b11100: 664, 0b11111: 1328}[pattern]
-        env.window("AC-54", f"clk of {pattern:05b}", span, nominal - 5, nominal + 5)
+        env.window("AC-54", f"cycles of {pattern:05b}", span, nominal - 5, nominal + 5)
     env.window("AC-54", "number of phases", len(spans), 7, 10)
     await axis.send(0x84, [0x40, 0x80])
     await env.bench.clocks(3_000)
@@ -186,7 +186,7 @@ async def p2104_ac_54_switching(dut: Any) -> None:
     env.check("AC-54", "82", set(reads), {0x3C})
     for pattern, span in axis.stretches(since):
         nominal = {0b11100: 512, 0b11111: 1024}[pattern]
-        env.window("AC-54", f"new clk of {pattern:05b}", span, nominal - 5, nominal + 5)
+        env.window("AC-54", f"new cycles of {pattern:05b}", span, nominal - 5, nominal + 5)
     await env.bench.edge("s1_n", 0b11111)
     await axis.go(0x42)
     (pulse,) = [await axis.pulse(1)]
@@ -197,7 +197,7 @@ async def p2104_ac_54_switching(dut: Any) -> None:
     end = await axis.wait_end()
     off = await env.bench.edge("s1_n", 0b11111)
     env.window("AC-54", "end to OFF", off - end, 502, 522)
-    env.check("AC-54", "clk of OFF", await env.bench.edge("s1_n", 0b11001) - off, 1024)
+    env.check("AC-54", "cycles of OFF", await env.bench.edge("s1_n", 0b11001) - off, 1024)
 
 
 @directed("AC-55", "P2104-END-07", "P2104-AUX-05", "P2104-HLD-01")

@@ -134,7 +134,7 @@ async def p2104_ac_07_cmnd(dut: Any) -> None:
         env.check("AC-07", f"statuses of {code}", got, [cmnd] * 5)
         begin = env.bench.now
         await env.host.poll(0xFF, 0x00)
-        env.window("AC-07", "clk until the table is ready", env.bench.now - begin, 1, BUILD_LATEST)
+        env.window("AC-07", "cycles until the table is ready", env.bench.now - begin, 1, BUILD_LATEST)
 
 
 @directed("AC-08", "P2104-INI-04", "P2104-RD-05")

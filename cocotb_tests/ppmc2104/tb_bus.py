@@ -92,7 +92,7 @@ async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
             edge0 = bench.set(a0=0, d_i=0x87, **end)
             await bench.clocks(14)
             t, level = bench.edges("auxo[0]", edge0)[0]
-            env.check("P2104-BUS-05", f"AUXO0, busc {busc}, {length} clk, {end}", level, 1 - low)
+            env.check("P2104-BUS-05", f"AUXO0, busc {busc}, {length} cycles, {end}", level, 1 - low)
             latencies.add(t - edge0)
             bench.set(**IDLE)
             await bench.clocks(12)
@@ -122,7 +122,7 @@ async def p2104_bus_06_read_edges(dut: Any) -> None:
         await bench.clocks(length)
         after = bench.set(a0=DATA, **style.read_off)
         await bench.clocks(8)
-        what = f"busc {busc}, {length} clk, {early}"
+        what = f"busc {busc}, {length} cycles, {early}"
         env.check("P2104-BUS-06", f"d_oe, {what}", bench.edges("d_oe", first), [(first, 1), (after, 0)])
         values = [bench.level_at("d_o", t) for t in range(first, after + 3)]
         env.check("P2104-BUS-06", f"d_o is a status, {what}", {*values[: length + 2]} <= {0x04, 0x00}, True)
@@ -168,7 +168,7 @@ async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
         await env.host.command(0x81)
         env.check("P2104-HSK-06", "OBF with IBF = 0", await env.host.status() & (OBF | IBF), OBF)
         byte = await env.host.read(DATA, strobe=length, gap=gap)
-        env.check("P2104-BUS-08", f"byte, {length} clk", byte, 0xCF)
+        env.check("P2104-BUS-08", f"byte, {length} cycles", byte, 0xCF)
         env.check("P2104-BUS-08", f"OBF {gap} cycles later", await env.host.read(STATUS, strobe=3) & OBF, 0)
 
 

@@ -56,9 +56,9 @@ async def p2104_end_02_pulse_finishes(dut: Any) -> None:
         await env.bench.until(fall + after)
         pin = axis.set(alm_n=0)
         end = await axis.wait_end()
-        env.check("P2104-END-02", f"low times, {after} clk", axis.low_times, [w] * 3)
+        env.check("P2104-END-02", f"low times, {after} cycles", axis.low_times, [w] * 3)
         last = max(pin, fall + w)
-        env.window("P2104-END-02", f"end, {after} clk", end - last, 0, 8)
+        env.window("P2104-END-02", f"end, {after} cycles", end - last, 0, 8)
         pattern = axis.phases_now
         axis.set(alm_n=1)
         await axis.result("P2104-END-02", 3, 0xA5, NO_PULSES_DONE - 4)

@@ -76,7 +76,7 @@ async def p2104_tim_02_run(dut: Any) -> None:
             await env.bench.clocks(width)
             axis.set(run=0)
             first = await axis.pulse(1)
-            env.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} clk", first - rise, w, w + 6)
+            env.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} cycles", first - rise, w, w + 6)
             await axis.result("P2104-OPR-02", n or 1, 0x80 | code & 7, 0)
         axis.set(run=1)
     # If run falls in any cycle near the acceptance, the axis is either in RUN wait or in START, and no other
@@ -220,10 +220,13 @@ async def p2104_tim_05_external_low_times(dut: Any) -> None:
         await env.bench.clocks(4 * period)
         await axis.move(0x44, 6, rate)
         env.check(
-            "P2104-BCK-04", f"intervals, {period} clk, rate {rate}", axis.intervals, [period * (rate + 1)] * 5
+            "P2104-BCK-04",
+            f"intervals, {period} cycles, rate {rate}",
+            axis.intervals,
+            [period * (rate + 1)] * 5,
         )
         for got in axis.low_times[1:-1]:
-            env.window("P2104-TIM-05", f"low time, {period} clk, rate {rate}", got, low - 1, low + 1)
+            env.window("P2104-TIM-05", f"low time, {period} cycles, rate {rate}", got, low - 1, low + 1)
         env.check("P2104-TIM-05", "last low time", axis.low_times[-1], env.cfg.w)
         clock.cancel()
         await axis.finish()
@@ -249,7 +252,7 @@ async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
         clock = env.bench.external_clock(repeat(period), axis.clock, high=high)
         for code, n, rate in ((0x44, 40, 0), (0x43, 60, None), (0xC3, 13, None)):
             await axis.go(code, n, rate)
-            await axis.result(f"P2104-BAD-19, {period} clk", n, 0x80 | code & 7, 0)
+            await axis.result(f"P2104-BAD-19, {period} cycles", n, 0x80 | code & 7, 0)
         await axis.go(0x45, rate=0)
         await axis.pulse(5)
         await axis.command(0x40)

@@ -121,7 +121,7 @@ class SerialHost(SerialLine, DirectedHost):
         end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK
         while (rise := self.rise()) is None:
             await self.bench.edge("snd", 1, max(1, end + 1 - self.t))
-        assert rise <= end, f"snd rises {rise - end} clk too late"
+        assert rise <= end, f"snd rises {rise - end} cycles too late"
         return rise
 
     async def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
@@ -132,7 +132,7 @@ class SerialHost(SerialLine, DirectedHost):
         """
         rise = await self.begin(within)
         self.waited = rise - self.middle - self.bit / 2
-        late = f"snd rises {float(self.waited):.1f} clk after the frame"
+        late = f"snd rises {float(self.waited):.1f} cycles after the frame"
         assert not timed or self.waited >= self.bit * self.wait + self.bit / 2, late
         while not (falls := self.bench.falls("snd", rise)):
             await self.bench.edge("snd", 0)

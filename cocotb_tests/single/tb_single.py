@@ -242,7 +242,7 @@ async def clk_to_action(u: BlockDriver, where: str, closed: bool) -> int:
         if closed:
             same(f"{where}: closed before it", u.get("open_o"), 0)
         await u.clk()
-    raise AssertionError(f"{where}: no action within {took + 1} clk")
+    raise AssertionError(f"{where}: no action within {took + 1} cycles")
 
 
 @cocotb.test()
@@ -258,7 +258,7 @@ async def proc_time_fast(dut):
     u.put(act_i=0)
     for _ in range(5):
         same("closed while the table is built", (await u.clk(building_i=1))[1], 0)
-    same("and one clk longer, when it is complete", await u.clk(building_i=0), (0, 0, 1, 0, 0, 1))
+    same("and one cycle longer, when it is complete", await u.clk(building_i=0), (0, 0, 1, 0, 0, 1))
     same("open", await u.clk(), (0, 1, 1, 0, 0, 0))
 
 

@@ -160,7 +160,7 @@ class Env(AxisDriver):
             self.check(rule, "gaps in cycles", differences(steps), expected)
         else:
             got = [t - steps[0] for t in steps]
-            self.check(rule, "clk from step 0", got, internal_offsets(self.cfg, list(ticks)))
+            self.check(rule, "cycles from step 0", got, internal_offsets(self.cfg, list(ticks)))
 
     async def outcome(
         self, rule: str, steps: int, finish: int, remaining: int, ticks: Sequence[int] | None = None

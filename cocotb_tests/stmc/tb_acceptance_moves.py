@@ -151,7 +151,7 @@ async def stmc_ac_12_odd_core_clock(dut: Any) -> None:
     offsets = [t - env.pulses[0] for t in env.pulses]
     env.check("AC-12", "steps", len(offsets), 101)
     exact = [-(-i * 98_765_424 // 10_000) for i in range(101)]
-    env.check("AC-12", "clk from step 0", offsets, exact)
+    env.check("AC-12", "cycles from step 0", offsets, exact)
     env.check("AC-12", "gaps", sorted(set(env.intervals)), [9876, 9877])
     env.check("AC-12", "total", offsets[-1], 987_655)
     await first_step(env, "AC-12", 62)

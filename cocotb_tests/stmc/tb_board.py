@@ -254,4 +254,4 @@ async def j105_all_parameters(dut: Any) -> None:
     slack = env.cfg.cyc(4) + 1
     for level, clk in env.stretches(end)[1:]:
         nominal = env.cfg.cyc(401 if level else 611)
-        env.window("STMC-CHP-01", f"clk of s = {level}", clk, nominal - slack, nominal + slack)
+        env.window("STMC-CHP-01", f"cycles of s = {level}", clk, nominal - slack, nominal + slack)

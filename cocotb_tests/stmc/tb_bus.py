@@ -140,7 +140,7 @@ async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
             if not taken:
                 status = await host.poll(IBF, 0)
             if byte != 0x40:
-                env.check("STMC-BUS-13", f"status of {byte:#x} after {delay} clk", status, after)
+                env.check("STMC-BUS-13", f"status of {byte:#x} after {delay} cycles", status, after)
             if after == BUSY:
                 await bench.until(max(bench.now, edge0 + PINS_LATEST))
                 env.check("STMC-BUS-13", "hold", bench.level("hold"), 0)
@@ -164,9 +164,9 @@ async def stmc_bus_14_newest_byte_wins(dut: Any) -> None:
         await env.bench.until(max(env.bench.now, edge0 + apart - 3))
         await env.host.write(DATA, 0x14, strobe=3)
         status = await env.host.poll(IBF, 0)
-        env.check("STMC-BUS-14", f"status of {apart} clk", status in (0x30, 0xB0), True)
+        env.check("STMC-BUS-14", f"status of {apart} cycles", status in (0x30, 0xB0), True)
         if apart >= C_EVENT_LATEST:
-            env.check("STMC-BUS-12", f"status of {apart} clk", status, 0x30)
+            env.check("STMC-BUS-12", f"status of {apart} cycles", status, 0x30)
 
 
 @directed("STMC-BUS-20")

@@ -29,7 +29,7 @@ def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> N
     env.check(rule, "levels", {level for level, _ in rows}, {pattern, off})
     for level, clk in rows:
         nominal = env.cfg.cyc(on_xt if level == pattern else off_xt)
-        env.window(rule, f"clk of s = {level:05b}", clk, nominal - slack, nominal + slack)
+        env.window(rule, f"cycles of s = {level:05b}", clk, nominal - slack, nominal + slack)
     begins = [t for t, level in env.bench.edges("s", since) if level == off]
     period = env.cfg.cyc(4 * -(-on_xt // 4) + 4 * -(-off_xt // 4))
     total = begins[-1] - begins[0]

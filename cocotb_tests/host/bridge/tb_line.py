@@ -68,7 +68,7 @@ def check_edges(bench: Bench) -> None:
             continue
         clk = bench.clk_of(time - start)
         near = round(clk / bit) * bit
-        assert -0.3 <= clk - near <= 1.3, f"{bench.baud} baud: edge after {clk} clk, bit time {bit}"
+        assert -0.3 <= clk - near <= 1.3, f"{bench.baud} baud: edge after {clk} cycles, bit time {bit}"
         checked += 1
     assert checked > 10
 

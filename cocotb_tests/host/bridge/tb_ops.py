@@ -59,13 +59,13 @@ def check_strobes(bench: Bench) -> int:
     for time, pin, level in bench.strobes:
         clk = round(bench.clk_of(time), 3)
         if pin in ("a_o", "d_o"):
-            assert clk - last_rise >= 1, f"{pin} changes {clk - last_rise} clk after the strobe"
+            assert clk - last_rise >= 1, f"{pin} changes {clk - last_rise} cycles after the strobe"
             last_change = clk
         elif level == 0:
             falls[pin] = clk
             if pin != "cs_no":
-                assert clk - last_change >= 1, f"strobe {clk - last_change} clk after {pin}"
-                assert clk - last_rise >= 4, f"only {clk - last_rise} clk between two strobes"
+                assert clk - last_change >= 1, f"strobe {clk - last_change} cycles after {pin}"
+                assert clk - last_rise >= 4, f"only {clk - last_rise} cycles between two strobes"
         else:
             same(
                 f"length of {pin}",
@@ -200,12 +200,12 @@ async def ops_board(dut):
     changes = watch(bench, dut.count_zero_o)
     await bench.done("00 09 00")
     same("ZERO", [level for _, level in changes], [1, 0])
-    same("one clk", bench.clk_of(changes[1][0] - changes[0][0]), 1)
+    same("one cycle", bench.clk_of(changes[1][0] - changes[0][0]), 1)
     resets = watch(bench, dut.part_rst_no)
     bench.strobes.clear()
     await bench.done("05 12 01")
     same("RESET", [level for _, level in resets], [0, 1])
-    same("16 clk", bench.clk_of(resets[1][0] - resets[0][0]), 16)
+    same("16 cycles", bench.clk_of(resets[1][0] - resets[0][0]), 16)
     strobe = next(time for time, pin, level in bench.strobes if pin == "wr_no" and not level)
     assert 16 <= bench.clk_of(strobe - resets[1][0]) <= 24, "pause after the reset"
     same("straps stay", int(dut.straps_o.value), 0x5A)

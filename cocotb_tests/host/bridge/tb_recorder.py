@@ -62,7 +62,7 @@ async def recorder_changes(dut: Any) -> None:
         changes = [(t, now) for (_, was), (t, now) in zip(samples, samples[1:], strict=False) if was != now]
         same("levels", [now for _, now in changes], [level for _, level in steps])
         gaps = [b - a for (a, _), (b, _) in zip(changes, changes[1:], strict=False)]
-        same(f"clk between, turn {turn}", gaps, [gap for gap, _ in steps[1:]])
+        same(f"cycles between, turn {turn}", gaps, [gap for gap, _ in steps[1:]])
         same("a rest has a record of its own, and the end", len(samples), 1 + len(steps) + 1 + 1)
         assert samples[-1][0] - changes[-1][0] > 10, "the end is when END was done"
 

@@ -61,11 +61,11 @@ class StrobeSlave:
             self.clk += 1
             now = self._sample()
             cs_n, rd_n, wr_n, address, _ = now
-            where = f"clk {self.clk}, pins {now}"
+            where = f"cycle {self.clk}, pins {now}"
             assert cs_n == (rd_n and wr_n) and (rd_n or wr_n), f"{where}: cs_n goes with one strobe"
             if not cs_n:
                 if not low:
-                    assert high >= GAP_CLK, f"{where}: only {high} clk since the strobe before"
+                    assert high >= GAP_CLK, f"{where}: only {high} cycles since the strobe before"
                     first = self.clk
                 # At the first low level, `before` is the cycle before the strobe, in which the pins must have
                 # the same values.
@@ -74,9 +74,9 @@ class StrobeSlave:
                 last = low == READ_CLK - 1 and not rd_n
                 self._pins["q"].value = self.registers.values[address] if last else self._rng.getrandbits(8)
             elif low:
-                assert before[3:] == now[3:], f"{where}: address or data not held 1 clk after the strobe"
+                assert before[3:] == now[3:], f"{where}: address or data not held 1 cycle after the strobe"
                 write = not before[2]
-                assert low == (WRITE_CLK if write else READ_CLK), f"{where}: strobe of {low} clk"
+                assert low == (WRITE_CLK if write else READ_CLK), f"{where}: strobe of {low} cycles"
                 self._end(write, before[3], before[4], first)
                 low, high = 0, 1
             else:

@@ -213,7 +213,7 @@ async def axil_latency(dut):
             await edge
             waited += 1
             assert waited < 50, f"no {answer}"
-        assert waited == want, f"{answer} at {address:#x}: {waited} clk, the header says {want}"
+        assert waited == want, f"{answer} at {address:#x}: {waited} cycles, the header says {want}"
         dut.model_axil_bready.value = dut.model_axil_rready.value = 1
         await edge
         dut.model_axil_bready.value = dut.model_axil_rready.value = 0

@@ -41,17 +41,17 @@ async def cut(dut: Any, prefix: str, call: dict[str, int], after: int) -> None:
     await FallingEdge(dut.clk)
     dut.rst_n.value = 0
     await Timer(PERIOD_PS // 4, "ps")
-    assert outputs() == REST[prefix], f"{after} clk into {call}"
+    assert outputs() == REST[prefix], f"{after} cycles into {call}"
     put(**dict.fromkeys(call, 0))
     for _ in range(3):
         await RisingEdge(dut.clk)
-        assert outputs() == REST[prefix], f"{after} clk into {call}, held"
+        assert outputs() == REST[prefix], f"{after} cycles into {call}, held"
     await FallingEdge(dut.clk)
     dut.rst_n.value = 1
     for n in range(2 * LONGEST):
         await RisingEdge(dut.clk)
         irq = 1 if n else 0
-        assert outputs() == {**REST[prefix], "bus_irq": irq}, f"{after} clk into {call}, {n} clk after"
+        assert outputs() == {**REST[prefix], "bus_irq": irq}, f"{after} cycles into {call}, {n} cycles after"
 
 
 @cocotb.test()

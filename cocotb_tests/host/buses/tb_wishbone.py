@@ -105,12 +105,12 @@ async def wishbone_latency(dut):
     ):
         await master.clocks(20)
         await master.access(address, value)
-        assert master.latency == want, f"{address:#x}: {master.latency} clk, the header says {want}"
+        assert master.latency == want, f"{address:#x}: {master.latency} cycles, the header says {want}"
     for value, want in ((1, WRITE_LATENCY + 1), (None, READ_LATENCY + 1)):
         await master.clocks(20)
         await master.access(4, 1, keep=True)
         await master.access(4, value)
-        assert master.latency == want, f"in a row: {master.latency} clk, the header says {want}"
+        assert master.latency == want, f"in a row: {master.latency} cycles, the header says {want}"
 
 
 @cocotb.test()

@@ -34,9 +34,9 @@ class WishboneMaster:
             self.clk += 1
             ack, err, stb = (int(self._pins[name].value) for name in ("ack", "err", "stb"))
             stb &= int(self._pins["cyc"].value)
-            assert not (ack and err), f"clk {self.clk}: ACK and ERR"
-            assert stb or not (ack or err), f"clk {self.clk}: answer without CYC and STB"
-            assert not (before and (ack or err)), f"clk {self.clk}: answer longer than one clk"
+            assert not (ack and err), f"cycle {self.clk}: ACK and ERR"
+            assert stb or not (ack or err), f"cycle {self.clk}: answer without CYC and STB"
+            assert not (before and (ack or err)), f"cycle {self.clk}: answer longer than one cycle"
             before = ack or err
 
     def _put(self, **levels: int) -> None:
@@ -77,7 +77,7 @@ class WishboneMaster:
                 if not keep:
                     self.idle()
                 return bool(ack), data
-        raise AssertionError(f"no answer for {self.TIMEOUT} clk at address {address:#x}")
+        raise AssertionError(f"no answer for {self.TIMEOUT} cycles at address {address:#x}")
 
     async def give_up(self, address: int, value: int | None, after: int) -> bool:
         """Request an access and withdraw the request after `after` cycles (at least 1).

@@ -38,7 +38,7 @@ async def isa_slave_one_part(dut: Any) -> None:
     same("sd_oe_o without the part", unit.get("sd_oe_o"), 0)
     for level in (0, 0, 1, 0, 1, 1):
         await unit.clk(int_ni=level)
-        same("irq_o after one clk", (await unit.settle())[4], 1 - level)
+        same("irq_o after one cycle", (await unit.settle())[4], 1 - level)
 
 
 @cocotb.test()

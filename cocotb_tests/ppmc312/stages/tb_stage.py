@@ -67,9 +67,9 @@ async def muldiv_exact(dut):
         u.put(start_i=0, lo_i=rand.getrandbits(24), mul_i=rand.randrange(2), operand_i=operand)
         last = steps + (1 - mul)
         for clk in range(last):
-            same(f"{n}: busy in clk {clk} of {last}", (await u.clk())[0], 1)
+            same(f"{n}: busy in cycle {clk} of {last}", (await u.clk())[0], 1)
         busy, got_hi, got_lo = await u.settle()
-        same(f"{n}: busy after {last} clk", busy, 0)
+        same(f"{n}: busy after {last} cycles", busy, 0)
         if mul:
             same(f"{n}: {small} * {operand}", got_hi << steps | got_lo >> 24 - steps, small * operand)
         else:
@@ -187,7 +187,7 @@ async def stage_tables_exact(dut):
         await u.clk(build_i=1, curve_i=curve_word(setting))
         u.put(build_i=0)
         took = await _idle(u, "busy_o")
-        assert 0 < took <= LONGEST_BUILD, f"{setting}: {took} clk"
+        assert 0 < took <= LONGEST_BUILD, f"{setting}: {took} cycles"
         longest = max(longest, took)
         try:
             table = build(start, stop, high, acc, dec, 5, bool(sigmoid), bool(separate))
@@ -277,7 +277,7 @@ async def stage_plans_exact(dut):
             u.put(profile_req_i=pack((0, 1), *steady))
             took = await _idle(u, "plan_busy_o")
             where = f"curve {case} {brief(table)}, rate {rate}, {count} pulses"
-            assert 0 < took <= LONGEST_PLAN, f"{where}: {took} clk"
+            assert 0 < took <= LONGEST_PLAN, f"{where}: {took} cycles"
             got = u.get("profile_o")
             same(f"{where}: target", Target.split(got & (1 << 38) - 1), Target.of(table, rate))
             endless, climb = got >> 127, got >> 126 & 1
