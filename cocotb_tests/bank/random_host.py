@@ -64,7 +64,7 @@ class BankHost(RandomHost):
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
-        """This object, which owns its bench."""
+        """Host of the base class `RandomHost`: this object, which has the bench."""
         return self
 
     def _pause(self) -> int:

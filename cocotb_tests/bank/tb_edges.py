@@ -141,7 +141,7 @@ async def bank_hld_01_read_at_the_visit_at_which_hold_rises(dut):
 
 
 def build_cycles(slow: int, fast: int) -> int:
-    """Duration of a table build (BANK-INI-01)."""
+    """Return the duration of a table build in cycles (BANK-INI-01)."""
     return 1954 + 136 * (slow - fast) if slow > fast else 3
 
 

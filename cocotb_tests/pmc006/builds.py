@@ -2,7 +2,7 @@
 
 Most tests run at 8 MHz and 115200 baud, which needs the fewest cycles. A few tests run with the default
 parameters, at a clock that is not a multiple of 1 MHz, or with the other timing mode and the other reply to
-s.
+instruction s.
 """
 
 from __future__ import annotations

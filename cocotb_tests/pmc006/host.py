@@ -169,7 +169,7 @@ class Host(View, SerialLine):
     # ------------------------------------------------------------------ frames
 
     async def send_frame(self, code: str | int, data: int = 0, address: int | None = None) -> None:
-        """Send a valid frame. An s, N 1 or z also restarts the count of steps."""
+        """Send a valid frame. Instructions s, N 1 and z also restart the count of steps."""
         self._begin(number(code), data)
         address = self.address if address is None else address
         self.bench.accesses.append(Access(self.t, f"{code!r} to {address:02X}, data", 0, data & 0xFFFFFFFF))
@@ -238,5 +238,5 @@ class Host(View, SerialLine):
         self._reply_end = self.t
 
     def accepted(self, count: int) -> int:
-        """Return the reply data of an s that is accepted."""
+        """Return the reply data of an accepted instruction s."""
         return count if self.echo else 3

@@ -16,7 +16,7 @@ FREE_RUN, EXT1_EN, EXT2_EN, SPEED_MODE, FORWARD, OFFLINE = 0x01, 0x02, 0x04, 0x0
 
 
 async def setup(host: Host) -> Host:
-    """Apply SETUP: e 1000, u 3, o 3, v 3200."""
+    """Apply SETUP: current (e) 1000, acceleration (u) 3, deceleration (o) 3, maximum speed (v) 3200."""
     await host.ok(e=1000, u=3, o=3, v=3200)
     return host
 
@@ -38,12 +38,12 @@ async def constant_speed_host(dut: Any, speed: int = 3000, **options: Any) -> Ho
 
 
 async def start(host: Host, count: int) -> None:
-    """Send an s with this number of steps and check that it is accepted."""
+    """Start a move of this number of steps (instruction s) and check that it is accepted."""
     assert await host.ask("s", count) == host.accepted(count)
 
 
 async def run(host: Host, on: int = 1) -> None:
-    """Send N 1 or N 0 and check its reply."""
+    """Start or stop the speed mode (instruction N 1 or N 0) and check the reply."""
     assert await host.ask("N", on) == on
 
 

@@ -103,5 +103,5 @@ class FrameHost(RandomHost):
         await self.frame("y", self.rng.choice((0x08, 0xF8, 0x50, 0x87, 0, -1)))
 
     async def save(self) -> None:
-        """Send t or B."""
+        """Send instruction t (save settings) or B (burn program)."""
         await self.frame(self.rng.choice("ttB"))

@@ -32,7 +32,7 @@ class MotionHost(FrameHost):
             await self.frame("g", 0)
 
     async def single(self) -> None:
-        """Execute one instruction with E."""
+        """Execute one program instruction (instruction E)."""
         rng = self.rng
         place = rng.randrange(100)
         await self.frame("A", 2 * place)
@@ -57,7 +57,7 @@ class MotionHost(FrameHost):
             await self.host.pause(rng.choice((2_000, 9_000)))
 
     async def analog(self) -> None:
-        """Set a voltage on GPI1, and start the following motion with E."""
+        """Set a voltage on GPI1, and start the following motion with instruction E."""
         rng = self.rng
         t = self.host.t + 1
         self.background.add(t, adc_data=rng.choice((0, 1, 300, 512, 1023)), adc_valid=1)

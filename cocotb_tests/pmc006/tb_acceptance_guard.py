@@ -106,7 +106,9 @@ async def p006_ac_30(dut: Any) -> None:
 
 
 async def to_cruise(host: Host, y: int) -> None:
-    """Write Z 256, T 5, N 1, and wait until the speed is constant."""
+    """Set the stall level (Z) to 256 and length (T) to 5, start the speed mode, and wait until the speed is
+    constant.
+    """
     await host.ok(Z=256, T=5, Y=y)
     if not host.literal:
         await set_constant_speed(host, 2900)
@@ -191,7 +193,7 @@ async def p006_ac_55(dut: Any) -> None:
 
 
 async def towards_the_switch(host: Host, count: int) -> int:
-    """Run AC-56 up to its second b; return the number of steps."""
+    """Run AC-56 up to its second instruction b; return the number of steps."""
     await set_constant_speed(host, 2500, f=1, d=0)
     assert (await host.exchange("A5 FF 73 FF FF FF 7F 93"))[
         9:20

@@ -17,7 +17,7 @@ STEEP = {"v": 16_000, "L": 65, "S": 65, "u": 5}
 """Settings for a motion with a constant rate, and for a motion whose rate changes for a long time."""
 LONG = 1_000_000
 LOOP, OUT = 0, 2
-"""PP for a jump to itself, and for an instruction that the host may execute."""
+"""Program pointer for a jump to itself, and for an instruction that the host may execute."""
 PROGRAM = (goto(0), out(1, 1))
 
 
@@ -53,11 +53,11 @@ REPLIES: dict[str, int | None] = {
     # The replies to these codes depend on the state; the golden model checks them.
     **dict.fromkeys("OcjxLSuvqrs"),
 }
-"""Code -> reply to the code with its data at standstill. H is an undefined code."""
+"""Code -> reply to the code with its data at standstill. Code H is undefined."""
 UNLIKE = {"R": 1, "T": -1, "y": 7, "w": 0, "H": 1}
 """Code -> data to send, for codes whose reply is not the data."""
 AT = {"E": OUT, "G": OUT, "W": OUT, "z": LOOP}
-"""Code -> value that PP must have."""
+"""Code -> value that the program pointer must have."""
 DISTURBS = "BEFINgstz"
 
 

@@ -23,7 +23,7 @@ from .programs import END, Op, rot
 
 
 async def regulated(dut: Any, full: int, value: int) -> Host:
-    """Return a host of a part with ANALOG = 1, set by E; `value` is the last sample."""
+    """Return a host of a part with ANALOG = 1, which instruction E has set; `value` is the last sample."""
     host = await constant_speed_host(dut)
     await host.ok(u=5, o=5)
     await download(host, [Op(0x08, 1, full)])
@@ -55,7 +55,7 @@ async def p006_targets(dut: Any, value: int) -> None:
 async def p006_move_below_its_start_speed(dut: Any) -> None:
     """A move below the start speed has no acceleration or deceleration: exactly N steps at the target.
 
-    The check of s uses VMAX.
+    Instruction s is checked with VMAX.
     """
     host = await regulated(dut, 3000, 990)
     await start(host, 256)
@@ -71,7 +71,7 @@ async def p006_move_below_its_start_speed(dut: Any) -> None:
 async def p006_voltage_of_zero(dut: Any) -> None:
     """At a voltage of 0, no steps are made, and BUSY stays set.
 
-    The voltage is sampled every 10 ms; I ends the motion.
+    The voltage is sampled every 10 ms; instruction I ends the motion.
     """
     host = await regulated(dut, 3000, 0)
     await start(host, 400)

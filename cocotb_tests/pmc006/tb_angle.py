@@ -174,7 +174,8 @@ async def p006_factors_act_at_once(dut: Any) -> None:
 async def p006_decay(dut: Any) -> None:
     """The current is reduced by the selected coefficient 100 ms after the fall of BUSY.
 
-    a, Q and an accepted motion take effect immediately; a rejected s has no effect.
+    Instructions a and Q and an accepted motion take effect immediately; a rejected instruction s has no
+    effect.
     """
     host = await constant_speed_host(dut)
     await start(host, 1)
@@ -205,7 +206,9 @@ async def p006_decay(dut: Any) -> None:
 
 @directed("P006-STA-12", "P006-EXC-30", "P006-CMD-28")
 async def p006_free(dut: Any) -> None:
-    """g 1 switches all outputs off immediately; g 0 restores the hold current at the same angle."""
+    """Instruction g 1 switches all outputs off immediately; g 0 restores the hold current at the same
+    angle.
+    """
     host = await constant_speed_host(dut)
     await host.ok(e=2000)
     await start(host, 500)

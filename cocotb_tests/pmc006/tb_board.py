@@ -14,7 +14,7 @@ from cocotb_tests.harness.line import UartBfm
 from cocotb_tests.pmc006.frames import command, of_reply
 
 BAUD, ADDRESS = 115_200, 255
-ACCEPTED = 3  # reply to an accepted s
+ACCEPTED = 3  # reply to an accepted instruction s
 INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "cmp": 0, "ext1": 1, "ext2": 1, "gpi": 31}
 INPUTS |= {"conv": 0, "adc_stb": 0, "bemf_stb": 0}
 LINE, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
@@ -103,7 +103,9 @@ async def board006_both_lines(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_motion_and_leds(dut: Any) -> None:
-    """A move lights its LED until its last step, the switches light their LED, and the outputs follow y."""
+    """A move lights its LED until its last step, the switches light their LED, and the outputs follow
+    instruction y.
+    """
     board = await start(dut)
     usb, steps = board.usb, 0
     same("y", await usb.ask("y", 0b10110 << 3), 0b10110 << 3)

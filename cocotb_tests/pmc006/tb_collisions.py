@@ -37,7 +37,9 @@ async def collide(host: Host, code: str, data: int, shift: int, **levels: int) -
 
 
 def frame_clk(host: Host) -> int:
-    """Return the cycles from the begin of a frame to its e, including the synchronisers."""
+    """Return the cycles from the begin of a frame to e (its last stop-bit sample), including the
+    synchronisers.
+    """
     return 7 * ceil(10 * host.bit) + 2 + ceil(9.5 * host.bit) - 1
 
 
@@ -126,8 +128,8 @@ async def p006_position_and_step(dut: Any) -> None:
 
 @directed("P006-MOT-42", "P006-STA-14", "P006-CMD-11", "P006-MOT-41")
 async def p006_speed_mode_restarted_at_its_end(dut: Any) -> None:
-    """An N 1 before or at the edge at which the motion would end continues the motion; after this edge, N 1
-    starts another motion.
+    """If N 1 is sent before or at the edge at which the speed mode would end, the motion continues; after
+    this edge, N 1 starts another motion.
     """
     host = await Host.start(dut)
     await host.ok(v=300, L=300, S=65, o=5)
@@ -155,7 +157,9 @@ async def ready_for_reset(host: Host) -> int:
 
 @directed("P006-PRG-31", "P006-STA-14", "P006-PRG-15", "P006-BAD-23")
 async def p006_reset_key_and_frames(dut: Any) -> None:
-    """Starts, F 0 and z near the event of the RESET key have valid replies, and RESET is executed."""
+    """Starts and instruction F 0 near the event of the RESET key have valid replies, and RESET is
+    executed.
+    """
     host = await constant_speed_host(dut, 2500)
     await host.wait_us(1_010)
     await download(host, [Op(0x13, 1, 3), Op(0x10, 3, 0), goto(1), out(1, 1), goto(4)])
@@ -199,7 +203,9 @@ async def p006_keys_in_every_clk_of_an_instruction(dut: Any) -> None:
 
 @directed("P006-PRG-15", "P006-PRG-16", "P006-FRM-03", "P006-CMD-46")
 async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
-    """A y between two OUTs sets the pins, and then the last instruction determines their levels."""
+    """Instruction y between two OUT instructions of the program sets the pins; afterwards the last
+    instruction determines their levels.
+    """
     host = await Host.start(dut)
     await load(host, out(1, 1), out(2, 1), out(1, 0), out(2, 0), goto(0))
     begin = host.t + frame_clk(host) + 100
@@ -213,8 +219,8 @@ async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
 
 @directed("P006-PRG-20", "P006-CMD-03", "P006-STA-14")
 async def p006_single_try_and_emergency_stop(dut: Any) -> None:
-    """If a stop occurs before the ROT of E, the ROT is rejected; after it, the stop ends the motion. No step
-    is made.
+    """If a stop occurs before the ROT that instruction E executes, the ROT is rejected; a later stop ends its
+    motion. No step is made.
     """
     host = await constant_speed_host(dut)
     await host.ok(f=1)
@@ -228,7 +234,7 @@ async def p006_single_try_and_emergency_stop(dut: Any) -> None:
 
 @directed("P006-BAD-12", "P006-EEP-22", "P006-EEP-20")
 async def p006_restore_and_save(dut: Any) -> None:
-    """If the FSET event occurs near t, either both are executed or t is rejected."""
+    """If the FSET event occurs near instruction t (save), either both are executed or t is rejected."""
     host = await Host.start(dut)
     await host.wait_us(100)
     replies = []

@@ -167,8 +167,8 @@ async def p006_ext_around_the_last_step(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-17", "P006-EXT-02")
 async def p006_flag_set_and_cleared_in_one_clk(dut: Any) -> None:
-    """If the flag is set and cleared in the same cycle, it is set afterwards; a b that is executed later
-    clears it.
+    """If the flag is set and cleared in the same cycle, it is set afterwards; a later instruction b clears
+    it.
     """
     host = await constant_speed_host(dut)
     await host.ok(f=1)
@@ -210,7 +210,7 @@ async def p006_port_word(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-15", "P006-STA-10")
 async def p006_frames_executed_around_a_step(dut: Any) -> None:
-    """i, I and g near a step neither lose nor repeat a step, and no step follows a stop."""
+    """Instructions i, I and g near a step neither lose nor repeat a step, and no step follows a stop."""
     for code, data in (("i", 500), ("I", 0), ("g", 1)):
         for offset in range(-2, 5):
             host = await constant_speed_host(dut)

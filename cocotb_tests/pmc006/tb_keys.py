@@ -188,7 +188,7 @@ async def p006_pause(dut: Any) -> None:
 
 @directed("P006-PRG-32", "P006-PRG-12", "P006-CMD-04")
 async def p006_frames_while_paused(dut: Any) -> None:
-    """A paused program is not halted: z, E and W are rejected.
+    """A paused program is not halted: instructions z, E and W are rejected.
 
     F 0 ends the program; a program that is started afterwards is not paused.
     """
@@ -234,9 +234,9 @@ async def p006_reset_ends_a_pause(dut: Any) -> None:
 
 @directed("P006-PRG-31", "P006-PRG-14")
 async def p006_reset_in_halt_stops_every_motion(dut: Any) -> None:
-    """If RESET is HALT, it stops every motion, also one that the host has started.
+    """If the instruction of RESET is HALT, it stops every motion, also one that the host has started.
 
-    The program stays at its instruction. F 0 disarms the key.
+    The program stays at its instruction. Instruction F 0 disarms the key.
     """
     host = await armed(dut)
     await load(host, reset_en(2), END, out(1, 1), END)
@@ -276,7 +276,7 @@ async def p006_keys_are_off_after_a_start_and_when_switched_off(dut: Any) -> Non
 
 @directed("P006-PRG-33", "P006-PRG-30")
 async def p006_key_pins_are_inputs_as_before(dut: Any) -> None:
-    """WAIT, CMP and x sample the key pins directly, without the filter."""
+    """WAIT, CMP and instruction x sample the key pins directly, without the filter."""
     host = await armed(dut)
     await load(
         host, reset_en(0), PAUSE_EN, Op(0x10, 1, 0), out(1, 1), Op(0x10, 2, 0), out(2, 1), Op(0x12, 9, BOTH)

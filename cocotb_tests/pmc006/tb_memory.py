@@ -36,8 +36,8 @@ async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
 
 @directed("P006-CMD-02", "P006-CMD-41", "P006-CMD-53", "P006-BAD-12")
 async def p006_eeprom_codes(dut: Any) -> None:
-    """t and B reply immediately and are executed in the background; until a job ends, another one is
-    rejected.
+    """Instructions t (save) and B (burn) reply immediately and are executed in the background; until a job
+    ends, another one is rejected.
     """
     host = await Host.start(dut, chip=Chip(write_us=6_000))
     assert await host.ask("t", -1) == 1 and await host.ask("t") == 0 and await host.ask("B") == 0

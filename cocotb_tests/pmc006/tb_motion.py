@@ -106,7 +106,7 @@ async def p006_the_highest_speed(dut: Any) -> None:
 
 @directed("P006-MOT-40", "P006-MOT-41", "P006-MOT-15", "P006-STA-13")
 async def p006_stop_in_the_middle_of_the_ramp(dut: Any) -> None:
-    """Worked example W10: if an N 0 takes effect at t = 100,000, the speed mode stops as calculated."""
+    """Worked example W10: if N 0 takes effect at t = 100,000, the speed mode stops as calculated."""
     host = await Host.start(dut)
     await host.ok(e=1000, u=3, o=3, v=3200)
     await run(host)
@@ -206,7 +206,7 @@ async def p006_motions_that_ignore_a_retarget(dut: Any) -> None:
 
 @directed("P006-MOT-42", "P006-STA-16", "P006-CMD-11")
 async def p006_speed_mode_switched_on_again(dut: Any) -> None:
-    """An N 1 during STOPPING returns to the target, both during the ramp and after its end."""
+    """Instruction N 1 during STOPPING returns to the target speed, both during the ramp and after its end."""
     host = await Host.start(dut)
     await host.ok(L=2800, S=2800, v=3000, u=5, o=5)
     await run(host)

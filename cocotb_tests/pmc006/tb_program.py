@@ -61,7 +61,9 @@ CASES = (
 @cocotb.parametrize(part=range(2))
 @directed("P006-BAD-17", "P006-PRG-20", "P006-CMD-03", "P006-BAD-09", "P006-BAD-08")
 async def p006_operands(dut: Any, part: int) -> None:
-    """With E, too, an instruction with an illegal operand changes nothing; its reply is 1."""
+    """An instruction with an illegal operand also changes nothing if instruction E executes it; the reply is
+    1.
+    """
     host = await Host.start(dut)
     chosen = CASES[part::2]
     await download(host, [case.op for case in chosen])
@@ -100,7 +102,9 @@ async def p006_words_and_pointer(dut: Any) -> None:
 
 @directed("P006-BAD-11", "P006-CMD-03", "P006-CMD-47", "P006-PRG-12", "P006-PRG-20", "P006-BAD-18")
 async def p006_what_is_refused_while_a_program_runs(dut: Any) -> None:
-    """While a jump to itself is executed, W, E and z are rejected, G and A work, and F 0 ends the program."""
+    """While a program jumps to itself, instructions W, E and z are rejected, G and A work, and F 0 ends the
+    program.
+    """
     host = await Host.start(dut)
     await load(host, goto(0))
     for code in "WEz":
@@ -152,7 +156,7 @@ async def p006_bad_opcodes(dut: Any, opcode: int) -> None:
 
 @directed("P006-PRG-13", "P006-BAD-16", "P006-PRG-12", "P006-CMD-47")
 async def p006_after_the_last_instruction(dut: Any) -> None:
-    """z starts the program at instruction PP >> 1; the program halts after instruction 99."""
+    """Instruction z starts the program at instruction number PP >> 1; the program halts after number 99."""
     host = await Host.start(dut)
     await download(host, [out(1, 1), out(2, 1)], first=98)
     await host.ok(A=199)
@@ -183,9 +187,9 @@ async def p006_spare_fields_are_ignored(dut: Any) -> None:
 
 @directed("P006-PRG-10", "P006-PRG-20")
 async def p006_counter_and_flag_between_single_tries(dut: Any) -> None:
-    """Counter and flag keep their values from one E to the next; z clears them.
+    """Counter and flag keep their values from one instruction E to the next; instruction z clears them.
 
-    Instructions that control the program have no effect with E.
+    Instructions that control the program have no effect if instruction E executes them.
     """
     host = await Host.start(dut)
     program = (

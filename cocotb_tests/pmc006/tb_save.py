@@ -24,7 +24,7 @@ def written(host: Host) -> list[tuple[int, bytes]]:
 
 @directed("P006-EEP-10", "P006-CMD-41", "P006-BAD-12")
 async def p006_save(dut: Any) -> None:
-    """t writes two pages with all saved registers (the copy first) and nothing else."""
+    """Instruction t writes two pages with all saved registers (the copy first) and nothing else."""
     host = await Host.start(dut, chip=Chip(write_us=3_000))
     await host.ok(m=0, u=5, o=4, a=0, Q=4, J=3, L=3000, S=65, M=1200, P=2000, e=4000, w=120)
     await host.ok(v=5, d=0, f=3, y=0xF8, T=3, Y=7, Z=99, i=12, A=7)
@@ -72,9 +72,9 @@ async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
 
 @directed("P006-EEP-11", "P006-CMD-02", "P006-BAD-12", "P006-BAD-11", "P006-PRG-02")
 async def p006_burn(dut: Any) -> None:
-    """B clears the mark, writes 25 pages, then writes sum and mark.
+    """Instruction B clears the mark, writes 25 pages, then writes sum and mark.
 
-    During this time W is rejected, a program runs, and the buffer does not change.
+    During this time instruction W is rejected, a program runs, and the buffer does not change.
     """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await download(host, P1)
@@ -135,7 +135,7 @@ async def p006_lines_that_stick_while_saving(dut: Any) -> None:
 
 @directed("P006-EEP-10", "P006-CMD-41", "P006-CMD-48")
 async def p006_a_failed_save_is_reported(dut: Any) -> None:
-    """V returns 1 while the EEPROM is in use, 2 if it did not respond, and 0 after success."""
+    """Instruction V returns 1 while the EEPROM is in use, 2 if it did not respond, and 0 after success."""
     host = await Host.start(dut, chip=Chip(write_us=2_000))
     chip = host.eeprom
     assert await host.ask("V") == 0
@@ -194,7 +194,7 @@ async def answering(host: Host) -> int:
 
 @directed("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
 async def p006_reset_while_settings_are_saved(dut: Any) -> None:
-    """After a reset at any time during t, the next boot restores either all old or all new settings.
+    """After a reset at any time during a save, the next boot restores either all old or all new settings.
 
     This test resets the complete part at some times; tests/pmc006/model/test_cuts.py tests every edge.
     """
@@ -243,7 +243,9 @@ async def p006_restore_in_operation(dut: Any) -> None:
 
 @directed("P006-EEP-22", "P006-BAD-12")
 async def p006_restore_waits_for_a_job(dut: Any) -> None:
-    """A factory restore waits for the end of a burn; until both have ended, t and B are rejected."""
+    """A factory restore waits for the end of a burn; until both have ended, instructions t and B are
+    rejected.
+    """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await host.pins(fset_n=0)
     await host.wait_us(FSET_US - 5_000)

@@ -53,8 +53,8 @@ async def p006_stall_length(dut: Any, case: Any) -> None:
 
 @directed("P006-STL-06", "P006-STL-05", "P006-STL-01", "P006-CMD-20", "P006-CMD-21")
 async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
-    """The number of low samples for a stall is 64 after reset. With level 0, no sample is below the level.
-    Without bit 0 of Y, samples are ignored.
+    """The number of low samples for a stall is 64 after reset. With level 0, no sample is below the level. If
+    bit 0 of the configuration Y is 0, samples are ignored.
     """
     host = await constant_speed_host(dut)
     await host.ok(Z=511, Y=1)

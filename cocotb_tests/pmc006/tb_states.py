@@ -133,7 +133,9 @@ async def p006_every_row_in_every_state(dut: Any, name: str) -> None:
 @cocotb.parametrize(name=["idle", "move", "ext1", "free"])
 @directed("P006-PRG-17", "P006-PRG-20", "P006-STA-01")
 async def p006_rot_is_accepted_like_s(dut: Any, name: str) -> None:
-    """A ROT by E is accepted in the same states as s; the reply is 1 in all states."""
+    """A ROT that instruction E executes is accepted in the same states as instruction s; the reply is 1 in
+    all states.
+    """
     host = await Host.start(dut)
     await set_constant_speed(host, 3000, f=3)
     await download(host, [rot(LONG)])
@@ -145,7 +147,9 @@ async def p006_rot_is_accepted_like_s(dut: Any, name: str) -> None:
 
 @directed("P006-STA-01", "P006-STA-02", "P006-BAD-10", "P006-CMD-43")
 async def p006_speeds_against_the_maximum(dut: Any) -> None:
-    """s is accepted if VSTART and VSTOP do not exceed VMAX; N 1 is accepted regardless of them."""
+    """Instruction s is accepted if VSTART and VSTOP do not exceed VMAX; N 1 is accepted regardless of
+    them.
+    """
     host = await Host.start(dut)
     for low, high, limit, good in (
         (600, 600, 599, False),
@@ -165,7 +169,7 @@ async def p006_speeds_against_the_maximum(dut: Any) -> None:
 
 @directed("P006-STA-04", "P006-MOT-52", "P006-STA-01")
 async def p006_analog_speed_does_not_refuse(dut: Any) -> None:
-    """With analog speed, s is checked with the full-scale speed, even if the present speed is 0.
+    """With analog speed, instruction s is checked with the full-scale speed, even if the present speed is 0.
 
     If the full scale is 0, every start is rejected.
     """

@@ -133,7 +133,7 @@ async def p006_compare(dut: Any, case: Any) -> None:
 
 @directed("P006-PRG-10", "P006-PRG-15", "P006-CMD-06", "P006-STA-10")
 async def p006_abort_during_a_program(dut: Any) -> None:
-    """I ends the motion, and the program continues after its WAIT."""
+    """Instruction I ends the motion, and the program continues after its WAIT."""
     host = await constant_speed_host(dut)
     await load(host, rot(100_000), WAIT_REST, out(1, 1), rot(3), WAIT_REST, out(2, 1))
     await after_steps(host, 5)

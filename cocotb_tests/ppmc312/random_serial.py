@@ -356,7 +356,7 @@ class RandomSerialHost(StateAwareHost):
         )
 
     async def reset(self) -> None:
-        """Reset the device with the pin or with FF."""
+        """Reset the device with the pin or with instruction FF."""
         rng, host = self.rng, self.host
         if rng.random() < 0.5:
             await self.instruct("FF")

@@ -7,7 +7,7 @@ from fractions import Fraction
 SPEEDS = {5: Fraction(19_200), 6: Fraction(38_400), 7: Fraction(250_000, 3)}
 """Speeds in bits/s for mod[2:0], with a 16 MHz crystal."""
 T_EXEC, T_INIT = 4_096, 65_536
-"""Maximum number of cycles before a reply: to any instruction except 00, and to 00."""
+"""Maximum number of cycles before a reply: to any instruction except 00, and to instruction 00."""
 SILENCE = 320_000
 """20 ms in cycles at 16 MHz."""
 

@@ -176,11 +176,11 @@ class SerialHost(SerialLine, DirectedHost):
         return [await self.ask(text) for text in texts]
 
     async def status(self) -> str:
-        """Return the data of 4D: flags, state, registered instructions."""
+        """Return the data of instruction 4D: flags, state, registered instructions."""
         return (await self.ask("4D")).removeprefix("A0 ")
 
     async def state(self) -> int:
-        """Return the state byte of 4D."""
+        """Return the state byte of instruction 4D."""
         return int((await self.status()).split()[1], 16)
 
     def forget(self) -> None:

@@ -288,7 +288,9 @@ async def p312_position_triggers_of_all_kinds(dut: Any, order: tuple[int, ...]) 
 
 @directed("P312-BAD-09", "P312-RSP-20", "P312-PAR-06", "P312-CHK-62", "P312-CMD-FF")
 async def p312_hosts_that_never_read(dut: Any) -> None:
-    """With any number of unread responses the part does not hang, stops still work, and FF is accepted."""
+    """With any number of unread responses the part does not hang, stops still work, and instruction FF is
+    accepted.
+    """
     host = await Host.start(dut, *TF, register(0, message(Code.INPUT)))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.blip("evt0_n", 20, 300)
@@ -297,7 +299,8 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
     mark = host.t
     await host.pause(20_000)
     assert not host.bench.rises("pout", mark) and await host.read(CSR) & MWEF
-    # The bus ignores writes now. After one answer is read, it accepts them, and FF needs no further read.
+    # The bus ignores writes now. After one answer is read, it accepts them, and instruction FF needs no
+    # further read.
     await host.put(message(Code.RESET))
     assert (
         await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
@@ -310,7 +313,8 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
         and await host.read(CSR) == MREF
         and host.condition == 0x01
     )
-    # During a table read, MWEF is deasserted with the last block of the table; FF is accepted only then.
+    # During a table read, MWEF is deasserted with the last block of the table; instruction FF is accepted
+    # only then.
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.TABLE_READ))
     await host.pause(1000)

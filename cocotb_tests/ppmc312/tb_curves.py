@@ -178,7 +178,7 @@ async def p312_a_transfer_that_is_disturbed(dut: Any) -> None:
     assert (rates, up, down) == ([100, 200, 400], [6, 4], [5, 4, 3]) and head[:3] == [3, 2, 3]
     for block in ("02 01 40", "02 02 80 00", "02 09 00 01 03E8 00C8 0007D0"):
         assert await host.ask(block) == message(Answer.STATUS, "01 02")
-    # A block is sent while an answer is unread, then FF: the part executes FF immediately.
+    # A block is sent while an answer is unread, then instruction FF: the part executes FF immediately.
     await host.ask(TF[0])
     await host.issue(TF[1])
     await host.pause(200)

@@ -75,7 +75,7 @@ async def p312_least_pulses_of_a_table(dut: Any, case: Any) -> None:
 @cocotb.parametrize(case=[case for case in LEAST if not case[0].startswith("1")])
 @directed("P312-TBL-05", "P312-CHK-08", "P312-SER-41", "P312-SER-47")
 async def p312_serial_least_pulses_of_a_table(dut: Any, case: Any) -> None:
-    """The serial line has the same limits as the bus; the reply is 42 or ready."""
+    """The serial line has the same limits as the bus; the reply is 42 (parameter error) or ready."""
     head, least, _ = case
     host = await SerialHost.start(dut)
     for pulses, reply in ((least - 1, "B0 42"), (least, "90"), (least + 1, "90")):
@@ -136,8 +136,8 @@ async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
 @cocotb.parametrize(direction=[0, 0x40])
 @directed("P312-CMD-FC-4", "P312-MOT-12", "P312-MOT-30", "P312-MOT-32", "P312-OVR-11", "P312-MOT-31")
 async def p312_a_stage_every_two_pulses_up_to_2_mpps(dut: Any, direction: int) -> None:
-    """With stages of 2 pulses at 130 to 4 ticks of 125 ns, ramps, 81, 87 and 88 take effect at the correct
-    pulse.
+    """With stages of 2 pulses at 130 to 4 ticks of 125 ns, ramps and instructions 81, 87 and 88 take effect
+    at the correct pulse.
     """
     sign = -1 if direction else 1
     host = await Host.start(dut, *STEEP)

@@ -164,8 +164,8 @@ WALKS = [
         "400x4 200x7 100x7 200x13 400x6 200x3",
         0x40,
     ),
-    # If a ramp ends at the deceleration point and no deceleration follows, the next 87 starts from t(R_c),
-    # not from the stage in which the ramp ended.
+    # If a ramp ends at the deceleration point and no deceleration follows, the next instruction 87 starts
+    # from t(R_c), not from the stage in which the ramp ended.
     (
         SLOW_EQUAL,
         message(Code.RAMP, "00 0096 0000003C"),
@@ -180,8 +180,8 @@ WALKS = [
         "400x9 200x13 400x7 200x11",
         0x40,
     ),
-    # As before, but with rates that do not descend: t(400) = t(401) = 125, so that 87 finds stages to
-    # decelerate.
+    # As before, but with rates that do not descend: t(400) = t(401) = 125, so that instruction 87 finds
+    # stages to decelerate.
     (
         UNEVEN,
         message(Code.RAMP, "00 0064 00000050"),
@@ -232,8 +232,8 @@ async def p312_walks_and_changes(dut: Any, case: Any) -> None:
 
 @directed("P312-MOT-33", "P312-MOT-32", "P312-OVR-11", "P312-STA-01")
 async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
-    """An 87 that is accepted before the ramp of another 87 begins waits during that ramp and is then
-    discarded.
+    """If an instruction 87 is accepted before the ramp of another 87 begins, it waits during that ramp and is
+    then discarded.
 
     It is too late for the boundary of the first 87. The remaining pulses are not accelerated.
     """
@@ -255,8 +255,8 @@ async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
 
 @directed("P312-MOT-32", "P312-OVR-03", "P312-OVR-11", "P312-STA-01")
 async def p312_an_override_with_a_ramp_waits_for_the_end_of_another_ramp(dut: Any) -> None:
-    """An override with 87 that is accepted before the ramp of a direct 87 begins waits until that ramp
-    ends.
+    """If an override with instruction 87 is accepted before the ramp of a direct 87 begins, it waits until
+    that ramp ends.
     """
     for ahead in (40, 60, 100, 140):
         host = await Host.start(dut, *TF, message(Code.RAMP_CHANGE, "05 0190"))
@@ -276,7 +276,7 @@ async def p312_an_override_with_a_ramp_waits_for_the_end_of_another_ramp(dut: An
 
 @directed("P312-MOT-12", "P312-MOT-31", "P312-OVR-11", "P312-CMD-88")
 async def p312_stages_go_on_while_an_88_is_looked_up(dut: Any) -> None:
-    """While the rate of an 88 is looked up, the motion continues through the stages.
+    """While the rate of an instruction 88 is looked up, the motion continues through the stages.
 
     The look-up takes longer than a stage here, and the motion reads the table during this time.
     """

@@ -1,4 +1,6 @@
-"""Resets of the PPMC-312, by pin and by FF, that coincide with accesses, blocks and motions; mode pins."""
+"""Resets of the PPMC-312, by the pin and by instruction FF, that coincide with accesses, blocks and motions;
+mode pins.
+"""
 
 from __future__ import annotations
 

@@ -29,7 +29,9 @@ async def p312_serial_addresses(dut: Any, adr: int) -> None:
 
 @directed("P312-SER-10", "P312-BAD-16", "P312-CHK-56")
 async def p312_serial_control_codes(dut: Any) -> None:
-    """Only 81 and 91 address station 1. Any other byte with bit 7 set ends a frame and does not begin one."""
+    """Only control codes 81 and 91 address station 1. Any other byte with bit 7 set ends a frame and does not
+    begin one.
+    """
     host = await SerialHost.start(dut)
     for control in range(0x80, 0x100, 3):
         if control not in (0x81, 0x91):
@@ -134,7 +136,7 @@ BAD_DIGITS = (0x00, 0x2F, 0x3A, 0x3F, 0x40, 0x41, 0x46, 0x60, 0x67, 0x7F, 0x20, 
 @cocotb.parametrize(bad=BAD_DIGITS)
 @directed("P312-SER-12", "P312-CHK-73", "P312-BAD-16")
 async def p312_serial_bad_digits(dut: Any, bad: int) -> None:
-    """An invalid digit in the data does not shorten the frame, whose end is answered with 41."""
+    """An invalid digit in the data does not shorten the frame, whose end is answered with reply 41."""
     host = await SerialHost.start(dut)
     frame = bytearray(summed(0x91, b"\x26\x15"))
     for place in (3, 4):
@@ -260,8 +262,8 @@ async def p312_serial_out_of_turn_while_a_table_is_built(dut: Any) -> None:
 
 @directed("P312-SER-15")
 async def p312_serial_a_station_that_hears_itself(dut: Any) -> None:
-    """If a station receives its own replies, it counts echoes of 91 and 81 as overruns, but not those of A1
-    and B1.
+    """If a station receives its own replies, it counts echoes of control codes 91 and 81 as overruns, but not
+    those of A1 and B1.
 
     This happens with a master that does not gate its receiver.
     """

@@ -129,7 +129,7 @@ async def p312_serial_software_reset_by_an_event(dut: Any, clk: int) -> None:
 
 @directed("P312-PRT-03", "P312-CMD-FF")
 async def p312_serial_pins_that_are_latched(dut: Any) -> None:
-    """Address and speed are sampled only at the end of a reset, by the pin or by FF."""
+    """Address and speed are sampled only at the end of a reset, by the pin or by instruction FF."""
     host = await SerialHost.start(dut)
     await host.pins(adr=5, mod=6)
     await host.pause(20)

@@ -81,7 +81,8 @@ async def p312_sigmoid_tables_keep_stages_that_rounding_makes_equal(dut: Any) ->
 
 @directed("P312-OVR-10", "P312-EVT-01", "P312-CMD-00", "P312-CMD-FC-1", "P312-CMD-FC-9")
 async def p312_an_event_edge_during_00_and_01_is_dropped(dut: Any) -> None:
-    """If an event edge occurs during 00 or 01, it is stored, then discarded when the buffers are emptied.
+    """If an event edge occurs during instruction 00 or 01, it is stored, then discarded when the buffers are
+    emptied.
 
     It does not trigger an entry that is registered afterwards.
     """
@@ -188,7 +189,7 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
     await host.ask(message(Code.STOP, "00"))
     await host.response()
     await host.pins(fhl_n=0)
-    # HSL is the value that was set. After 00 or 01 sets a new table, HSL is RH of this table.
+    # HSL is the value that was set. After instruction 00 or 01 sets a new table, HSL is RH of this table.
     await host.ask(message(Code.SPEED_LIMIT, "00C8"))
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
     await host.ask(message(Code.STOP, "00"))

@@ -52,7 +52,7 @@ def test_serial(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """The fixed seeds use every build, occur once each, and always select the same build."""
+    """The fixed seeds use each build, contain no seed twice, and always select the same build for a seed."""
     builds = [build(seed) for seed in SEEDS]
     assert builds == [build(seed) for seed in SEEDS]
     assert {config.name for config in builds} == build.names
@@ -75,7 +75,7 @@ def test_hosts_are_rich() -> None:
 
 
 def test_hosts_on_the_line_are_rich() -> None:
-    """The fixed seeds use every build, and each kind of frame, reply and error occurs often enough."""
+    """The fixed seeds use each build, and each kind of frame, reply and error occurs often enough."""
     assert {random_serial.build(seed).name for seed in SERIAL_SEEDS} == random_serial.build.names
     with counting_frames() as counts:
         for seed in SERIAL_SEEDS:

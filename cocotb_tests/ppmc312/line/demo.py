@@ -35,7 +35,7 @@ Chapter = Callable[[str, str], AbstractContextManager[None]]
 
 
 def no_chapter(key: str, title: str) -> AbstractContextManager[None]:
-    """Replacement of `DemoLog.chapter` in a run without a log."""
+    """Return a context that does nothing: replacement of `DemoLog.chapter` in a run without a log."""
     return nullcontext()
 
 

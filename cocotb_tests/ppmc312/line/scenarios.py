@@ -97,7 +97,9 @@ async def speeds(master: Master, rng: random.Random) -> None:
 
 
 async def bad_checksums(master: Master, rng: random.Random) -> None:
-    """A frame with a wrong checksum is answered with 41 and counted; its instruction is not executed."""
+    """A frame with a wrong checksum is answered with reply 41 and counted; its instruction is not
+    executed.
+    """
     for station in (1, 14):
         good = master.frame(INSTRUCTION | station, b"\x26\x15")
         bad = good[:-1] + bytes([good[-1] ^ 1 << rng.randrange(7)])

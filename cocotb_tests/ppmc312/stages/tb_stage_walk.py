@@ -176,7 +176,7 @@ class SequencerRun:
 
 
 def some_plan(rand: random.Random, table: Table) -> Plan:
-    """Return an operation 82, 83, 85 or 86 with a number of pulses near the interesting limits."""
+    """Return the plan of instruction 82, 83, 85 or 86 with a number of pulses near the interesting limits."""
     rate = some_rate(rand, table)
     most = table.na + table.nd + 12
     n = rand.choice((None, rand.randint(1, most), rand.randint(1, most), rand.randint(1, 4)))
@@ -203,7 +203,7 @@ class CollisionRun(SequencerRun):
     """A ramp of instruction 87 reaches the deceleration point; random requests follow."""
 
     def plan_requests(self) -> dict[int, str]:
-        """Request 88 some pulses before the deceleration point and 87 closer to it."""
+        """Request an 88 (change) some pulses before the deceleration point, and an 87 (ramp) closer to it."""
         plan = self.plan
         before = (plan.n or 0) - plan.down - self.sequence.done
         if before in (self.jump, self.ramp):
@@ -257,7 +257,7 @@ class LateStopRun(SequencerRun):
     """
 
     def plan_requests(self) -> dict[int, str]:
-        """Request 88 and 87, which begin the search, then 88 and 81 during the search."""
+        """Request an 88 and an 87, which begin the search, then an 88 and an 81 during the search."""
         if self.sequence.was_searched and self.jump:
             requests = {self.jump: "jump", LEADS["slow"]: "slow"}
             self.jump = 0
