@@ -234,9 +234,9 @@ async def p006_reset_ends_a_pause(dut: Any) -> None:
 
 @directed("P006-PRG-31", "P006-PRG-14")
 async def p006_reset_in_halt_stops_every_motion(dut: Any) -> None:
-    """If the instruction of RESET is HALT, it stops every motion, also one that the host has started.
+    """While the program is halted, the RESET key stops every motion, also one that the host has started.
 
-    The program stays at its instruction. Instruction F 0 disarms the key.
+    The program stays halted. Instruction F 0 disarms the key.
     """
     host = await armed(dut)
     await load(host, reset_en(2), END, out(1, 1), END)

@@ -42,8 +42,8 @@ async def p312_serial_bit_times_that_are_no_whole_clk(dut: Any, mod: int) -> Non
 
 REPLIES = {"81 7E": "90", "91 34 31 2D": "A0 12", "91 32 30 4E": "90"}
 REPLIES |= {"91 32 30 4F": "B0 41", "91 34 65 20": "A0 00"}
-"""Frames for each source of a reply: the poll, the core with and without data, and the station for the last
-two.
+"""Frame -> reply, for each source of a reply: the poll, the core with and without data, and the station
+itself (last two frames).
 """
 
 

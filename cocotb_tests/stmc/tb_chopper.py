@@ -110,8 +110,8 @@ async def stmc_chp_02_initialisations(dut: Any) -> None:
 
 @directed("STMC-CHP-01", "STMC-MOT-05", "STMC-HLD-01")
 async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
-    """If code 42 makes no step because l1_n is low, a complete on-time nevertheless begins at its end
-    (STMC-CHP-01).
+    """If code 42 makes no step because l1_n is low, a complete on-time nevertheless begins at the end of the
+    motion (STMC-CHP-01).
     """
     env = await Env.start(dut, CHOP, clock=0)
     await env.pins(l1_n=0)

@@ -1,4 +1,4 @@
-"""The station of `ppmc312_line`, compiled once for all sixteen stations: a Verilator library in a cache.
+"""The station of `ppmc312_line`, compiled once for all sixteen: a Verilator library, cached by its sources.
 
 Sixteen instances of the part in one Verilator model take ten times as long to compile and run no faster.
 """

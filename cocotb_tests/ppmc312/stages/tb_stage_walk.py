@@ -286,6 +286,6 @@ async def stage_seq_stop_during_a_search_for_a_change(dut):
         await run.load()
         end = await run.run(80)
         ends.add((end, run.searched > 0))
-    # If 81 waits, it is loaded at rate 363, where no deceleration is left; the final deceleration then lasts
-    # until the end of the count.
+    # If 81 waits for the 88, the rate 363 is loaded, at which no deceleration is left; the final deceleration
+    # then lasts until the end of the count.
     same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])
