@@ -46,7 +46,7 @@ WRITE_EVENT = 2
 SNAPSHOT = 2
 """Edges from edge 0 of a read to the edge whose state it returns (BANK-WIN-05)."""
 SYNC = 2
-"""Edges from the first edge that samples a pin to the edge on which its level acts (BANK-MOT-02)."""
+"""Edges from the first edge that samples a pin to the edge on which its level takes effect (BANK-MOT-02)."""
 
 
 class WindowBus(HostBus):

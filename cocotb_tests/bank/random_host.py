@@ -71,7 +71,7 @@ class BankHost(RandomHost):
         return 0 if self.rng.random() < 0.7 else self.rng.randint(1, self.rng.choice((3, 12, 60)))
 
     async def play(self) -> None:
-        """Initialise axes, act, and wait for the ends of all motions."""
+        """Initialise axes, perform actions, and wait for the ends of all motions."""
         rng, env = self.rng, self.env
         for n in rng.sample(range(env.size), env.size):
             if rng.random() < (0.95 if self.quick else 0.7):
@@ -198,7 +198,7 @@ class BankHost(RandomHost):
             await self.move(n)
 
     async def stop(self) -> None:
-        """Send 0x40 or 0x41."""
+        """Send a stop command (0x40 or 0x41)."""
         await self.send(self.axis(), self.rng.choice((0x40, 0x41, 0x41)))
 
     async def read(self) -> None:
@@ -213,7 +213,7 @@ class BankHost(RandomHost):
         await self.send(self.axis(), 0x84, self.rng.choice((0, 1, 3, 20)), self.rng.choice((0, 1, 3, 20)))
 
     async def off(self) -> None:
-        """Send excitation OFF."""
+        """Send Excitation OFF (0xC0)."""
         await self.send(self.axis(), 0xC0)
 
     async def any_byte(self) -> None:

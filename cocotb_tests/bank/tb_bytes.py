@@ -215,7 +215,7 @@ async def bank_gen_03_all_codes_while_busy(dut):
     await axis.go(0x45, rate=9)
     for code in range(256):
         if code & 0xC6 == 0x40:
-            continue  # a stop
+            continue  # a stop command
         status = await axis.command(code)
         undefined = idle_answer(code, True) == 0x80
         want = BUSY | 0x80 | (UNDEFINED if undefined else WHILE_BUSY << 4)

@@ -117,8 +117,9 @@ async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
 
 @directed("BANK-MOT-04", builds=(B4, B8, B32, F100))
 async def bank_mot_04_busy_falls(dut):
-    """After a complete move, BUSY falls at the first visit V after the last low time: sampled at V - 1
-    and V (BANK-MOT-04).
+    """After a complete move, BUSY falls at the first visit V after the last low time (BANK-MOT-04).
+
+    The test reads the status at V - 1 and V.
     """
     env = await Env.start(dut)
     for axis in (env.axes[0], env.axes[-1]):

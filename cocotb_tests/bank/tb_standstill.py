@@ -128,7 +128,7 @@ async def bank_ini_02_completion(dut):
 
 @directed("BANK-HLD-01", "BANK-CHP-01", builds=(B8,))
 async def bank_hld_01_hold(dut):
-    """After a motion, hold rises at the first visit at least 34 ms later that orders no edge of the
+    """After a motion, hold rises at the first visit that is at least 34 ms later and orders no edge of the
     chopper (BANK-HLD-01).
     """
     env = await Env.start(dut)

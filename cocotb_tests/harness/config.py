@@ -70,7 +70,7 @@ class Config:
         return max(2, 2 * round(5e11 / self.clk_hz))
 
     def to_json(self) -> str:
-        """Return the text form for the simulator process."""
+        """Return the configuration as text for the simulator process."""
         return json.dumps({**self.__dict__, "extra": list(map(list, self.extra))})
 
     @classmethod

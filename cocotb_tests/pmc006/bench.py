@@ -1,4 +1,4 @@
-"""Test bench of the PMC006B4: its build defaults. Pins and levels are those of the golden model."""
+"""Test bench of the PMC006B4: build defaults. Names and levels of the pins are those of the golden model."""
 
 from __future__ import annotations
 

@@ -189,8 +189,8 @@ async def p006_ac_61(dut: Any, first: bool) -> None:
     ten, twenty = await Line.start(dut, first)
     for host in (ten, twenty):
         await host.boot()
-    # The addresses are set one after the other, because both are FF at first: meanwhile the second part is in
-    # reset.
+    # The addresses are set one after the other, because both are FF at first. During the first setting, the
+    # second part is in reset.
     await twenty.pins(rst_n=0)
     assert await ten.ask("w", 10) == 10
     await twenty.pins(rst_n=1)

@@ -138,7 +138,7 @@ async def board006_converter(dut: Any) -> None:
     for code, data in (("A", 0), ("W", 0x0108), ("W", 1198), ("A", 0), ("E", 0)):
         await usb.ask(code, data)
     same("VMAX", await usb.ask("q"), 1198)
-    for code, data in (("T", 2), ("Y", 1), ("Z", 100)):  # two samples below 100 make a stall
+    for code, data in (("T", 2), ("Y", 1), ("Z", 100)):  # two samples below 100 cause a stall
         same(code, await usb.ask(code, data), data)
     await board.strobe("adc_stb", 512)
     await board.strobe("bemf_stb", 1000)

@@ -93,7 +93,7 @@ async def p006_edges_with_the_enable_off_are_forgotten(dut: Any) -> None:
     await host.pause(10)
     await host.pins(ext1=0)
     assert await host.status() == DECAY | EXT1
-    # f 0 does not clear the flag; b clears it.
+    # Instruction f 0 does not clear the flag; instruction b clears it.
     await host.ok(f=0)
     assert await host.status() == DECAY | EXT1 and await host.ask("s", 1) == 0
     assert await host.ask("b") == 0 and len(await move(host, 2)) == 1

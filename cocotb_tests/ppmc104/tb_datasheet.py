@@ -183,7 +183,9 @@ async def p104_ds_03_closed_until_busy(dut):
 
 @directed("P104-DS-06", "P104-SW-02", builds=(D16, D25X8))
 async def p104_ds_06_single_step(dut):
-    """The pulse of 0x42 occurs at 86 us; INT, chopper and mailbox follow at 112 us (P104-DS-06)."""
+    """The pulse of 0x42 occurs after 86 us; INT falls, chopping begins, and the mailbox opens after 112 us
+    (P104-DS-06).
+    """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))
     event = await env.event(0x42)
     fall = await env.pulse(1)

@@ -279,7 +279,9 @@ async def p2104_ac_17_no_interrupt(dut: Any) -> None:
 
 @directed("AC-18", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
 async def p2104_ac_18_two_causes(dut: Any) -> None:
-    """Between the end-status reads of both axes, int_n is high for 5 us (AC-18)."""
+    """If an end of each axis is pending, int_n is high for 5 us after the first end-status read, then low
+    until the second (AC-18).
+    """
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)
     await env.run("c 42 c 62")

@@ -125,8 +125,8 @@ async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
 
 @directed("P2104-BCK-01", "P2104-BCK-03", "P2104-INTV-01", "P2104-TIM-05", "P2104-GEN-04", builds=CLOCKS)
 async def p2104_bck_01_intervals(dut: Any) -> None:
-    """For each core clock, crystal and csel, every pulse is at the accumulated time of its intervals
-    (P2104-BCK-01, P2104-INTV-01).
+    """For each core clock, crystal and csel, every pulse occurs at the accumulated time of the intervals
+    before it (P2104-BCK-01, P2104-INTV-01).
     """
     env = await Env.start(dut)
     for axis, csel in product(await env.both((0x02, 30, 3, 9)), (1, 0)):

@@ -407,7 +407,7 @@ class ScenarioHost(MisuseHost):
                 await self.attend(50)
 
     async def encoder(self) -> None:
-        """Switch the monitors on; the encoder follows."""
+        """Enable monitors and make moves that the encoder follows."""
         rng = self.rng
         self.follows = rng.choice((1.0, 0.9, 0.6, 0.2))
         await self.send_block(
@@ -426,7 +426,7 @@ class ScenarioHost(MisuseHost):
             self.follows = 0.0
 
     async def interlock(self) -> None:
-        """Switch the interlock control on and move past its position."""
+        """Enable the interlock control and move past its position."""
         rng = self.rng
         step = rng.choice((1, 3, 9, -2, -5))
         await self.send_block(

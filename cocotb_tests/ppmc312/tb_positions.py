@@ -152,7 +152,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
         stopped(0x40, 6),
         message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS),
     }
-    # In the END wait the output has ended.
+    # In the END wait, the pulse output has already ended.
     await host.ask(message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.CONSTANT, "40 0190 00000002"))
     assert (

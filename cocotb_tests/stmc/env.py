@@ -69,17 +69,17 @@ class Env(AxisDriver):
 
     @property
     def inputs_code(self) -> int:
-        """Code of the read of the inputs."""
+        """Code that reads the inputs."""
         return 0x82 if self.sheet else 0x81
 
     @property
     def outputs_code(self) -> int:
-        """Code of the read of the outputs."""
+        """Code that reads the outputs."""
         return 0x83 if self.sheet else 0x82
 
     @property
     def remaining_code(self) -> int:
-        """Code of the read of the remaining steps."""
+        """Code that reads the remaining steps."""
         return 0x84 if self.sheet else 0x83
 
     async def init(self, code: int, d1: int, d2: int, pa: int) -> None:

@@ -106,7 +106,7 @@ async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
     for part in range(8):
         await bench.align()
         await Timer(clk * part // 16 * 2 + 2 * (clk // 64), "ps")
-        # The levels are invalid until 2 cycles before the rise.
+        # The levels are invalid until 2 cycles before the rise of the strobe.
         bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
         await Timer(clk + 2, "ps")
         await strobe(env, 2 * clk, 12 * clk, a0=1, d_i=0x0A, cs_n=0, wr_n=0)

@@ -1,4 +1,4 @@
-"""DATASHEET timing: STMC-DS-01..14. Times are -0/+16 cycles, plus up to 2 cycles to a pin."""
+"""DATASHEET timing: STMC-DS-01..14. Times have a tolerance of -0/+16 cycles, plus up to 2 cycles to a pin."""
 
 from __future__ import annotations
 

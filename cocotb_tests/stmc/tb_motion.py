@@ -160,7 +160,7 @@ async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
 
 @directed("STMC-MOT-05", "STMC-MOT-10", "STMC-HLD-02")
 async def stmc_mot_05_times_without_a_step(dut: Any) -> None:
-    """With mon low, a motion sets BUSY for at most 8 cycles, and int_n falls (STMC-MOT-05)."""
+    """While mon is low, a motion command sets BUSY for at most 8 cycles, and int_n falls (STMC-MOT-05)."""
     env = await Env.start(dut)
     await env.pins(mon=0)
     for masked in (0, 0x10):

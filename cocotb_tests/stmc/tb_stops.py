@@ -282,7 +282,7 @@ async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
 
 @directed("STMC-FIN-02", "STMC-FIN-04", "STMC-MOT-08", "STMC-STP-04")
 async def stmc_mot_08_after_the_last_step(dut: Any) -> None:
-    """Switches or stops directly after the last step have no effect (STMC-MOT-08)."""
+    """Switches and stops directly after the last step have no effect (STMC-MOT-08)."""
     env = await Env.start(dut)
     for wait in range(0, 10):
         for how, code in (("l1_n", 0x43), ("mon", 0x43), ("c 40", 0x43), ("c 41", 0x43), ("c 41", 0x44)):

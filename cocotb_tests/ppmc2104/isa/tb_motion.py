@@ -245,7 +245,7 @@ async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
 
 
 async def random_switches(setting: Setting) -> None:
-    """Move limits, alarms and RUN of all axes at random, until cancelled."""
+    """Change limits, alarms and RUN of all axes at random, until the task is cancelled."""
     bench, rng = setting.bench, setting.bench.rng
     while True:
         pin = f"{rng.choice(('fl_n', 'bl_n', 'fhl_n', 'bhl_n', 'alm_n', 'run'))}[{rng.randrange(1, 5)}]"

@@ -100,7 +100,7 @@ class Module:
         return 0
 
     def run(self, high: int) -> int:
-        """Set all RUN pins."""
+        """Set the level of all RUN pins."""
         self.pass_time(ACCESS)
         for part in self.parts:
             part.pins(self.t, run=0b11 * high)
