@@ -167,8 +167,8 @@ async def bank_mot_02_pins_around_slower_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-GRP-04", "BANK-WIN-07", builds=(B4, B8, B32, F100))
 async def bank_grp_04_stop_around_pulses(dut):
-    """A STOP with g + 1 at -2 to +2 cycles from a pulse of all axes suppresses exactly the pulses at g + 1 or
-    later (BANK-GRP-04).
+    """If the edge g + 1 of a STOP is -2 to +2 cycles from a pulse of all axes, exactly the pulses on edge g +
+    1 or later are suppressed (BANK-GRP-04).
     """
     env = await Env.start(dut)
     waves = Waves(env, 2)

@@ -262,7 +262,7 @@ class HostWriter(RandomHost, ABC):
     def send_command(self, code: int, data: list[int], polled: float) -> None:
         """Send a command with its data bytes.
 
-        The bytes are polled with the probability `polled`, else sent without polling.
+        With the probability `polled` the host polls IBF = 0 after each byte; otherwise it does not poll.
         """
         if self.rng.random() < polled:
             self.add("send", code, data)

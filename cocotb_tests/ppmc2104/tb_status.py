@@ -18,9 +18,7 @@ LARGEST = (0x02, 255, 1, 0x2BD4)
 
 @directed("P2104-STA-01", "P2104-STA-04", "P2104-STA-05", "P2104-STA-07")
 async def p2104_sta_01_every_bit(dut: Any) -> None:
-    """In each state of each axis, the status indicates it only with BUSY and CMND of this axis
-    (P2104-STA-01).
-    """
+    """The status indicates the state of an axis only with its BUSY and CMND bits (P2104-STA-01)."""
     env = await Env.start(dut)
     for axis, state in product(env.axes, (*RESTING, *MOVING)):
         await enter(axis, state)

@@ -107,7 +107,7 @@ async def p312_serial_the_newest_of_events_and_overrides(dut: Any) -> None:
 )
 @directed("P312-SER-22", "P312-EVT-03", "P312-SER-43")
 async def p312_serial_what_events_may_do(dut: Any, case: Any) -> None:
-    """Data of read instructions that an event executes are discarded; a failure empties the buffer."""
+    """If an event executes read instructions, their data are discarded; a failure empties the buffer."""
     block, answer = case
     host = await SerialHost.start(dut, TS, event("49", block))
     await host.blip("evt0_n")

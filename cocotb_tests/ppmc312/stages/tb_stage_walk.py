@@ -21,13 +21,11 @@ AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 LEADS = {"slow": 2, "jump": 5, "ramp": 9}
 """Minimum number of cycles before a boundary at which a request takes effect at this boundary."""
 SHORTEST, TARGET_CLK = 4, 2
-"""Minimum number of cycles of an interval; cycles from change_i to the sampling of the target in
+"""Cycles: minimum length of an interval; time from change_i to the edge that samples the target in
 profile_i.
 """
 FLAT, SEARCH, FOUND = 7, 129, 3
-"""Numbers of cycles: of constant rate before a ramp can begin; of a search; from its end to the final
-deceleration.
-"""
+"""Cycles: of constant rate before a ramp can begin; of a search; from its end to the final deceleration."""
 WATCH = "next_end_o next_low_o next_count_o next_rate_o"
 
 
