@@ -109,7 +109,10 @@ class PinNoise:
         return {pin: sum((rng.random() < 0.7) << place for place in range(width))}
 
     async def make(self, clocks: int) -> None:
-        """Drive noise for about `clocks` cycles: changes up to 60 cycles apart, at any time between edges."""
+        """Drive noise for about `clocks` cycles, with changes at any time between edges.
+
+        The changes are 0.1 to 60 cycles apart.
+        """
         rng, bench = self.rng, self.bench
         end = bench.now + clocks
         while bench.now < end:

@@ -11,8 +11,8 @@ HOME = 64
 
 
 def sines(angle: int, peak: int) -> tuple[int, int, int, int]:
-    """Return reference and sign of phase A, then of phase B, at an angle of 0 to 511 units
-    (P006-EXC-10..12).
+    """Return reference and sign of phase A, then of phase B, at an angle (512 units per period,
+    P006-EXC-10..12).
     """
 
     def one(units: int) -> tuple[int, int]:

@@ -259,7 +259,9 @@ async def p104_ac_20_immediate_stop(dut):
 
 @directed("AC-40", "P104-HSK-08", "P104-HSK-06")
 async def p104_ac_40_queue_replaced(dut):
-    """If 0x80 is executed while two bytes of an answer are unread, its byte replaces them (AC-40)."""
+    """If 0x80 is executed after the stimulus of AC-20, while two bytes of an answer are unread, its byte
+    replaces them (AC-40).
+    """
     env = await Env.start(dut, INIT_A)
     await stopped_after_ten(env)
     await env.host.run("c 80 r c 83 rrr")
