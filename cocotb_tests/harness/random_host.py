@@ -111,7 +111,7 @@ class PinNoise:
     async def make(self, clocks: int) -> None:
         """Drive noise for about `clocks` cycles, with changes at any time between edges.
 
-        The changes are 0.1 to 60 cycles apart.
+        The changes are up to 60 cycles apart.
         """
         rng, bench = self.rng, self.bench
         end = bench.now + clocks
