@@ -1,4 +1,4 @@
-"""Test bench of the bank: its builds, and pins whose width depends on AXES.
+"""Test bench of the bank: builds, and pins whose widths depend on AXES.
 
 Names and levels of the pins are those of the golden model.
 """
@@ -41,18 +41,18 @@ PARTS = (BANK,)
 
 
 def build(name: str, axes: int, mhz: int, phase_idle: int = 1) -> Config:
-    """Return a build with this number of axes and a crystal of 16 MHz."""
+    """Return a build with this number of axes and a 16 MHz crystal."""
     return Config(name, clk_hz=mhz * 1_000_000, phase_idle=phase_idle, extra=(("AXES", axes),))
 
 
 B8 = build("b8", 8, 16)
 B32 = build("b32", 32, 32)
-"""Lowest clock frequency for this number of axes: half of the shortest interval is one round."""
+"""Build with the lowest clock frequency for 32 axes: half of the shortest interval is one round."""
 F100 = build("f100", 32, 100)
 B4 = build("b4", 4, 8, phase_idle=0)
-"""The round is longer than the number of axes; a quantum is 2 cycles."""
+"""Build whose round is longer than its number of axes; a quantum is 2 cycles."""
 B16 = build("b16", 16, 16)
-"""Two bytes of interrupt map and MASK."""
+"""Build in which the interrupt map and MASK have two bytes each."""
 B64 = build("b64", 64, 64)
 BUILDS = (B8, B32, F100, B4, B64)
 

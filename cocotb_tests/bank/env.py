@@ -46,11 +46,11 @@ WRITE_EVENT = 2
 SNAPSHOT = 2
 """Edges from edge 0 of a read to the edge whose state it returns (BANK-WIN-05)."""
 SYNC = 2
-"""Edges from the first edge that samples a pin to the edge on which its level acts (BANK-MOT-02)."""
+"""Edges from the first edge that samples a pin to the edge on which its level takes effect (BANK-MOT-02)."""
 
 
 class WindowBus(HostBus):
-    """Host at the window; with `axis`, registers 0 and 1 are those of this axis.
+    """Host that accesses the window of the bank; with `axis`, registers 0 and 1 are those of this axis.
 
     Strobes and pauses have the minimum lengths of BANK-WIN-04.
     """
@@ -62,7 +62,10 @@ class WindowBus(HostBus):
 
 
 class Axis(AxisDriver):
-    """Axis n with its codes, pins and status. `released` and R determine its visits."""
+    """Axis n with its codes, pins and status.
+
+    `released`, the edge on which the reset was released, and the round R determine the visits of the axis.
+    """
 
     def __init__(self, bench: DutBench, n: int) -> None:
         super().__init__(bench, WindowBus(bench, n), f"pout_n[{n}]")
@@ -77,7 +80,7 @@ class Axis(AxisDriver):
         return f"{name}[{self.n}]"
 
     def set(self, **levels: int) -> int:
-        """Drive input pins of this axis and return the stamp."""
+        """Drive input pins of this axis and return the stamp of the change."""
         return self.bench.set(**{self.pin(name): level for name, level in levels.items()})
 
     def at(self, edge: int, **levels: int) -> Any:
@@ -89,7 +92,7 @@ class Axis(AxisDriver):
         return self.bench.level(self.pin(name))
 
     def edges(self, name: str, since: int | None = None) -> list[tuple[int, int]]:
-        """Return the edges of pout_n, dir or hold since the last `go`, or since an edge."""
+        """Return the edges of pout_n, dir or hold since an edge (default: since the last `go`)."""
         return self.bench.edges(self.pin(name), self.since if since is None else since)
 
     def patterns(self, since: int | None = None) -> list[tuple[int, int]]:
@@ -120,8 +123,9 @@ class Axis(AxisDriver):
         return start + max(0, -(-(edge - start) // self.round)) * self.round
 
     def accepting_visit(self, edge0: int) -> int:
-        """Return the visit that accepts a byte whose write has this edge 0, provided that it accepts
-        bytes (BANK-HSK-01).
+        """Return the visit that accepts a byte if the axis then accepts bytes (BANK-HSK-01).
+
+        `edge0` is edge 0 of the write of the byte.
         """
         return self.visit(edge0 + WRITE_EVENT + 7)
 
@@ -134,7 +138,7 @@ class Axis(AxisDriver):
             await self.opened()
 
     async def opened(self) -> None:
-        """Wait until the axis accepts bytes: until it has executed a read command.
+        """Send a read command and wait until the axis has executed it, so that the axis accepts bytes.
 
         The answer is discarded.
         """
@@ -161,7 +165,7 @@ class Axis(AxisDriver):
         return await self.host.status()
 
     async def refused(self, rule: str, what: str, error: int, code: int, *data: int) -> None:
-        """Send an instruction and check that it sets ERR with this error number (-1: no error)."""
+        """Send an instruction and check the error number that it sets in ERR (-1: no error)."""
         status = await self.host.send(code, data)
         got = status >> 4 & 7 if status & 0x80 else -1
         self.check(rule, f"error of {what}", got, error)
@@ -174,14 +178,14 @@ class Axis(AxisDriver):
         remaining: int | None = None,
         rates: Sequence[int] | None = None,
     ) -> None:
-        """Check the end of a motion with `result`, and the pulse train."""
+        """Check the result of a motion and, if `rates` is present, its pulse train."""
         await self.result(rule, pulses, finish, remaining)
         if rates is not None:
             self.check_train(rule, rates)
 
 
 class Env:
-    """Test bench, window and axes of a bank; created with `await Env.start(dut)`."""
+    """Test bench, window and axes of a bank; create it with `await Env.start(dut)`."""
 
     def __init__(self, bench: DutBench) -> None:
         self.bench = bench
@@ -200,15 +204,15 @@ class Env:
         return cls(bench)
 
     async def ready(self, n: int, init: Init = INIT_A) -> Axis:
-        """Initialise axis n and return it."""
+        """Initialise axis n and return the axis."""
         axis = self.axes[n]
         await axis.init(*init)
         return axis
 
     async def all_ready(self, *numbers: int, init: Init = INIT_A) -> list[Axis]:
-        """Initialise some axes, or all, one after the other, and return them.
+        """Initialise some axes (default: all), one after the other, and return them.
 
-        A table is built while the bytes of the next axis are written.
+        While the table of one axis is built, the bytes of the next axis are written.
         """
         chosen = [self.axes[n] for n in numbers or range(self.size)]
         for axis in chosen:
@@ -227,7 +231,7 @@ class Env:
     # ---------------------------------------------------------------- registers of the bank
 
     async def mask(self, *numbers: int) -> None:
-        """Set exactly the MASK bits of these axes."""
+        """Set the MASK bits of these axes and clear all others."""
         bits = sum(1 << n for n in numbers)
         for k in range(max(1, self.size // 8)):
             await self.host.write(k << 4 | MASK, bits >> 8 * k & 0xFF)
@@ -248,9 +252,9 @@ class Env:
     # ---------------------------------------------------------------- exact to the cycle
 
     def at_event(self, edge: int, address: int, byte: int) -> Any:
-        """Schedule a write with its write event on that edge, in parallel with the test.
+        """Schedule a write whose write event occurs on that edge; the test continues during this time.
 
-        The host must be idle then.
+        The host must make no other access then.
         """
         edge0 = edge - WRITE_EVENT
         return self.bench.drive(
@@ -262,12 +266,12 @@ class Env:
         )
 
     async def write_at(self, edge: int, address: int, byte: int) -> None:
-        """Write a byte with its write event on that edge; return when the next access may begin."""
+        """Write a byte so that its write event occurs on that edge; return when the next access may begin."""
         await self.bench.until(edge - WRITE_EVENT - 3)
         await self.host.write(address, byte)
 
     async def as_of(self, edge: int, address: int) -> int:
-        """Read the value that a register has after that edge (BANK-WIN-05)."""
+        """Read a register; return its value after that edge (BANK-WIN-05)."""
         await self.bench.until(edge - SNAPSHOT - 1)
         return await self.host.read(address)
 

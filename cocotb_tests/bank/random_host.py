@@ -1,10 +1,9 @@
-"""Constrained-random hosts of the bank: bytes, stops and groups on all axes, and switches that move at
-random.
+"""Constrained-random hosts of the bank: bytes, stops and groups on all axes, and random movements of
+switches.
 
-A seed decides everything; `build` returns its build and `play(dut, seed)` runs it. In every fourth seed
-the host sends many instructions and moves little. The other seeds keep all axes in fast motions until
-the golden model has output INTERVALS intervals. If the RTL outputs fewer, the comparison reports the
-missing one.
+`build(seed)` returns the build of a seed, and `play(dut, seed)` runs the seed. In one of four seeds the host
+sends many instructions and moves little. In all other seeds the host keeps all axes in fast motions until the
+golden model has output INTERVALS intervals. If the RTL outputs fewer, the comparison reports the missing one.
 """
 
 from __future__ import annotations
@@ -20,8 +19,8 @@ from .env import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Env
 
 build = Builds("bank", ((B32, 50), (B8, 18), (B64, 12), (F100, 12), (B4, 8)))
 INTERVALS = 50_000
-"""Pulse intervals of all axes; a host that keeps the axes in motion continues until they have output
-this number.
+"""Number of pulse intervals, summed over all axes. A host that keeps the axes in motion ends after this
+number.
 """
 ACTS = 260
 """Number of actions of a host that sends many instructions."""
@@ -30,7 +29,7 @@ CLK_LIMIT = 3_000_000
 
 
 async def play(dut: Any, seed: int) -> int:
-    """Run one seed and return the number of intervals that all axes have output."""
+    """Run one seed and return the number of intervals that all axes together have output."""
     host = BankHost(seed)
     await host.begin(dut)
     await host.play()
@@ -38,14 +37,14 @@ async def play(dut: Any, seed: int) -> int:
 
 
 def in_motion(seed: int) -> bool:
-    """Return whether the host of a seed keeps all axes in motion."""
+    """Return whether the host of this seed keeps all axes in motion."""
     return seed % 4 != 0
 
 
 class BankHost(RandomHost):
     """Constrained-random host.
 
-    It reacts to what it reads; the golden model reports which axes are at standstill.
+    Its actions depend on the data that it reads. The golden model reports which axes are at standstill.
     """
 
     def __init__(self, seed: int) -> None:
@@ -65,14 +64,14 @@ class BankHost(RandomHost):
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
-        """This object, which owns its bench."""
+        """Host of the base class `RandomHost`: this object, which has the bench."""
         return self
 
     def _pause(self) -> int:
         return 0 if self.rng.random() < 0.7 else self.rng.randint(1, self.rng.choice((3, 12, 60)))
 
     async def play(self) -> None:
-        """Initialise axes, act, and wait for the ends of all motions."""
+        """Initialise axes, perform actions, and wait for the ends of all motions."""
         rng, env = self.rng, self.env
         for n in rng.sample(range(env.size), env.size):
             if rng.random() < (0.95 if self.quick else 0.7):
@@ -119,7 +118,7 @@ class BankHost(RandomHost):
     # ------------------------------------------------------------ pulses counted
 
     def count(self) -> int:
-        """Return the number of intervals that the golden model has output until now."""
+        """Return the number of intervals that the golden model has output so far."""
         edges = self.model.edges
         for edge in edges[self._counted :]:
             if edge.signal == "pout_n":
@@ -135,7 +134,7 @@ class BankHost(RandomHost):
         return self.rng.randrange(self.env.size)
 
     async def send(self, n: int, code: int, *data: int) -> None:
-        """Send an instruction; most bytes are written after IBF = 0 was polled.
+        """Send an instruction; poll IBF = 0 before most bytes.
 
         A host that stops polling is legal, too.
         """
@@ -148,7 +147,9 @@ class BankHost(RandomHost):
             await bus.write(reg, byte, self.rng.choice((2, 2, 3)), self.rng.choice((3, 3, 4, 9)))
 
     async def init(self, n: int) -> None:
-        """Initialise an axis: with a short ramp in motion seeds, else also with unusual settings."""
+        """Initialise an axis: seeds with much motion use a short ramp, other seeds also use unusual
+        settings.
+        """
         rng = self.rng
         if self.quick:
             rl, rh, pa = rng.choice((5, 5, 9, 19)), rng.choice((0, 0, 1, 2, 4)), rng.choice((4, 6, 10, 40))
@@ -188,7 +189,7 @@ class BankHost(RandomHost):
         await self.move(self.axis())
 
     async def keep_moving(self) -> None:
-        """Start operations on axes at standstill."""
+        """Start operations on some axes at standstill."""
         rng, model = self.rng, self.model
         resting = [n for n in range(self.env.size) if not model.busy(n)]
         for n in rng.sample(resting, min(len(resting), 6)):
@@ -197,11 +198,11 @@ class BankHost(RandomHost):
             await self.move(n)
 
     async def stop(self) -> None:
-        """Send 0x40 or 0x41."""
+        """Send a stop command (0x40 or 0x41)."""
         await self.send(self.axis(), self.rng.choice((0x40, 0x41, 0x41)))
 
     async def read(self) -> None:
-        """Send a read command and read some of its answer."""
+        """Send a read command and read some bytes of its answer."""
         n = self.axis()
         await self.send(n, self.rng.choice((0x80, 0x81, 0x82, 0x83)))
         for _ in range(self.rng.randrange(4)):
@@ -212,7 +213,7 @@ class BankHost(RandomHost):
         await self.send(self.axis(), 0x84, self.rng.choice((0, 1, 3, 20)), self.rng.choice((0, 1, 3, 20)))
 
     async def off(self) -> None:
-        """Send excitation OFF."""
+        """Send Excitation OFF (0xC0)."""
         await self.send(self.axis(), 0xC0)
 
     async def any_byte(self) -> None:
@@ -241,7 +242,7 @@ class BankHost(RandomHost):
         await self.env.axes[n].host.read(CONFIG)
 
     async def position(self) -> None:
-        """Read the position register, all of it or a part."""
+        """Read the complete position register or a part of it."""
         n = self.axis()
         for k in range(self.rng.choice((1, 1, 4))):
             await self.env.axes[n].host.read(POSITION + k)
@@ -275,7 +276,7 @@ class BankHost(RandomHost):
     # ------------------------------------------------------------ pins
 
     async def switch(self) -> None:
-        """Move some switches soon; most of them return."""
+        """Schedule changes of some switches; most switches return to the idle level."""
         rng, bench = self.rng, self.bench
         for _ in range(rng.choice((1, 1, 2, 6))):
             pin, n = rng.choice(SWITCHES), self.axis()

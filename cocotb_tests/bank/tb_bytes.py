@@ -1,4 +1,6 @@
-"""Bytes: input buffer, output queue, codes, the shared builder (BANK-HSK, BANK-INI, BANK-GEN-03)."""
+"""Bytes: input buffer, output queue, codes, and the table builder that all axes share (BANK-HSK, BANK-INI,
+BANK-GEN-03).
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ PARAMETERS = {3: 3, 4: 4, 5: 1, 7: 1}
 
 
 def idle_answer(code: int, initialised: bool) -> int:
-    """Return the status after a command byte at rest; it follows from P104-CMD-01 and BANK-GEN-03 alone."""
+    """Return the status after a command byte at standstill, derived from P104-CMD-01 and BANK-GEN-03 only."""
     if code < 0x40:
         return 0x40 if code & 3 and not code & 0x10 else 0x80
     if 0x80 <= code < 0xC0:
@@ -34,8 +36,9 @@ def idle_answer(code: int, initialised: bool) -> int:
 
 @directed("BANK-HSK-01", "BANK-GEN-01", builds=(B4, B8, B32, B64, F100))
 async def bank_hsk_01_seven_clk(dut):
-    """The first visit V at w + 7 or later accepts a byte written at w: tried with w = V - 8, V - 7,
-    V - 6, V - 1, V (BANK-HSK-01).
+    """A byte written at w is accepted by the first visit V at w + 7 or later (BANK-HSK-01).
+
+    The test uses w = V - 8, V - 7, V - 6, V - 1 and V.
     """
     env = await Env.start(dut)
     for axis in (env.axes[0], env.axes[env.size // 2], env.axes[-1]):
@@ -53,8 +56,8 @@ async def bank_hsk_01_seven_clk(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_03_replaced(dut):
-    """If two bytes are written before a visit V, it accepts the newer one if that was written at V - 7
-    or earlier, else the older one (BANK-HSK-03).
+    """Of two bytes written before a visit V, the visit accepts the newer one if it was written at V - 7 or
+    earlier, else the older one (BANK-HSK-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)
@@ -75,7 +78,9 @@ async def bank_hsk_03_replaced(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32, F100))
 async def bank_hsk_03_last_one_counts(dut):
-    """When all axes get bytes faster than they accept them, only replaced bytes are missed (BANK-HSK-03)."""
+    """If all axes receive bytes faster than they accept them, only replaced bytes are missed
+    (BANK-HSK-03).
+    """
     env = await Env.start(dut)
     for axis in env.axes:
         for code in (0x83, 0x81, 0x80):
@@ -89,7 +94,7 @@ async def bank_hsk_03_last_one_counts(dut):
 
 @directed("BANK-HSK-05", "BANK-HSK-01", builds=(B8, B32, B64))
 async def bank_hsk_05_axes_do_not_wait(dut):
-    """When all axes get their bytes in turn, each axis initialises and moves regardless of the others
+    """If bytes are sent to all axes in turn, each axis initialises and moves regardless of the other axes
     (BANK-HSK-05).
     """
     env = await Env.start(dut)
@@ -111,7 +116,7 @@ async def bank_hsk_05_axes_do_not_wait(dut):
 
 @directed("BANK-HSK-04", builds=(B8, B32))
 async def bank_hsk_04_queue(dut):
-    """The end of each data read loads the next of three answer bytes, on edge 2 after its strobe
+    """After the end of a data read, the next of three answer bytes is loaded on edge 2 after the strobe
     (BANK-HSK-04).
     """
     env = await Env.start(dut)
@@ -128,14 +133,14 @@ async def bank_hsk_04_queue(dut):
         env.check("BANK-HSK-04", "byte stays", await axis.host.read(DATA), 0x12)
     await axis.command(0x83)
     await axis.host.read(DATA)
-    await axis.command(0x80)  # the previous answer is dropped
+    await axis.command(0x80)  # the new command discards the previous answer
     env.check("BANK-HSK-04", "new answer", await axis.host.read(DATA), 0xC4)
     env.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
 
 
 @directed("BANK-HSK-04", builds=(B8, B32))
 async def bank_hsk_04_answer_coincides_with_a_read(dut):
-    """The end of a read strobe around the visit of a new answer does not remove the new answer
+    """If a read strobe ends near the visit that outputs a new answer, the new answer stays available
     (BANK-HSK-04).
     """
     env = await Env.start(dut)
@@ -161,8 +166,8 @@ async def bank_hsk_04_answer_coincides_with_a_read(dut):
 
 @directed("BANK-HSK-02", builds=(B8, B32))
 async def bank_hsk_02_end_takes_the_visit(dut):
-    """A visit that ends a motion or completes an initialisation accepts no byte; the next visit accepts
-    it (BANK-HSK-02).
+    """A visit that ends a motion or completes an initialisation accepts no byte; the byte is accepted at the
+    next visit (BANK-HSK-02).
     """
     env = await Env.start(dut)
     axis = await env.ready(4)
@@ -179,8 +184,8 @@ async def bank_hsk_02_end_takes_the_visit(dut):
 
 @directed("BANK-GEN-03", "BANK-HSK-04", builds=(B8, B32))
 async def bank_gen_03_all_codes_at_rest(dut):
-    """Each of the 256 codes, sent before and after an initialisation, sets the status that the code map
-    states (BANK-GEN-03).
+    """Each of the 256 codes, sent before and after an initialisation, sets the status that the code map of
+    BANK-GEN-03 states.
     """
     env = await Env.start(dut)
     for initialised, axis in ((False, env.axes[1]), (True, env.axes[6])):
@@ -202,7 +207,7 @@ async def bank_gen_03_all_codes_at_rest(dut):
 
 @directed("BANK-GEN-03", builds=(B8, B32))
 async def bank_gen_03_all_codes_while_busy(dut):
-    """During a motion, stops act, 0xC0 sets error 1, and each code that is left out sets error 0
+    """During a motion, stops take effect, 0xC0 sets error 1, and each unsupported code sets error 0
     (BANK-GEN-03).
     """
     env = await Env.start(dut)
@@ -210,7 +215,7 @@ async def bank_gen_03_all_codes_while_busy(dut):
     await axis.go(0x45, rate=9)
     for code in range(256):
         if code & 0xC6 == 0x40:
-            continue  # a stop
+            continue  # a stop command
         status = await axis.command(code)
         undefined = idle_answer(code, True) == 0x80
         want = BUSY | 0x80 | (UNDEFINED if undefined else WHILE_BUSY << 4)
@@ -245,8 +250,8 @@ async def bank_gen_03_data_bytes(dut):
 
 @directed("BANK-INI-01", "BANK-INI-02", "BANK-HSK-05", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_ini_02_shared_builder(dut):
-    """During a long table build the last initialisation bytes of other axes wait and all other bytes
-    are accepted; then the waiting axes are built (BANK-INI-02, BANK-HSK-05).
+    """During a long table build, the last initialisation bytes of other axes wait, and all other bytes are
+    accepted. After the build, the tables of the waiting axes are built (BANK-INI-02, BANK-HSK-05).
     """
     env = await Env.start(dut)
     one, two, three = (env.axes[n] for n in (1, 2, 5))
@@ -258,7 +263,7 @@ async def bank_ini_02_shared_builder(dut):
     await three.host.write(DATA, 0)
     for _ in range(5):
         env.check("BANK-HSK-05", "status", [await x.status() for x in (two, three)], [0x12, 0x12])
-    await three.host.write(STATUS, 0x87)  # a command instead of the last byte
+    await three.host.write(STATUS, 0x87)  # a command replaces the last byte
     await env.bench.clocks(2 * env.round)
     env.check("BANK-HSK-05", "status of a command", await three.status(), 0x80)
     env.check("BANK-HSK-05", "status of the last byte", await two.status(), 0x12)
@@ -274,7 +279,7 @@ async def bank_ini_02_shared_builder(dut):
 
 @directed("BANK-HSK-05", "BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_05_command_at_the_end_of_a_build(dut):
-    """If a command replaces a waiting last byte around the end of a build, exactly one of the two is
+    """If a command replaces a waiting last byte near the end of a build, exactly one of these two bytes is
     accepted (BANK-HSK-05).
     """
     env = await Env.start(dut)
@@ -304,7 +309,7 @@ async def bank_hsk_05_command_at_the_end_of_a_build(dut):
 
 @directed("BANK-GEN-05", "BANK-INI-01", builds=(B8, B32))
 async def bank_gen_05_reset_in_a_build(dut):
-    """A reset during a build, with a last byte waiting for the builder, frees the builder (BANK-GEN-05)."""
+    """A reset frees the builder during a build and while a last byte waits for the builder (BANK-GEN-05)."""
     env = await Env.start(dut)
     for n in range(env.size):
         waiting = env.axes[n]
@@ -327,7 +332,7 @@ async def bank_gen_05_reset_in_a_build(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_03_replaced_many_times(dut):
-    """When one to nine bytes are written while no byte is accepted, IBF stays 1 and the last byte is
+    """If one to nine bytes are written while no byte is accepted, IBF stays 1, and then the last byte is
     accepted (BANK-HSK-03).
     """
     env = await Env.start(dut)
@@ -344,9 +349,7 @@ async def bank_hsk_03_replaced_many_times(dut):
 
 @directed("BANK-HSK-04", builds=(B8, B32))
 async def bank_hsk_04_answers_that_are_not_read(dut):
-    """After one to nine answers, of which the host has read none, the last answer is available
-    (BANK-HSK-04).
-    """
+    """If the host reads none of one to nine answers, the last answer is available (BANK-HSK-04)."""
     env = await Env.start(dut)
     axis = env.axes[1]
     for count in range(1, 10):

@@ -1,4 +1,4 @@
-"""Event orders that a host relies on: requests around an end, STOP and GO, table builds, absent axes."""
+"""Orders of events that a host relies on: requests near an end, STOP and GO, table builds, absent axes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ STOP_BIT, ALARM_BIT, LIMIT_BIT, SLOW_BIT = 0x40, 0x20, 0x10, 0x08
 
 
 def blip(axis: Axis, edge: int, **pins: int) -> None:
-    """Schedule levels of input pins that only the edge `edge`, after the synchroniser, samples."""
+    """Schedule levels of input pins for a single cycle; `edge` is the edge on which they are detected."""
     axis.at(edge - SYNC, **pins)
     axis.at(edge - SYNC + 1, **{name: 1 - level for name, level in pins.items()})
 
@@ -24,7 +24,7 @@ def blip(axis: Axis, edge: int, **pins: int) -> None:
 @directed("BANK-MOT-02", "BANK-MOT-03", builds=(B8, B32))
 async def bank_mot_03_requests_around_an_end(dut):
     """If an alarm decides the end on edge e, 0x41 and a slow-down limit at visits up to e + 4 set their
-    finish bits; an immediate stop does so at visit e, but not at e + 1 to e + 4 (BANK-MOT-03)."""
+    finish bits. An immediate stop sets its bit at visit e, but not at visits e + 1 to e + 4 (BANK-MOT-03)."""
     env = await Env.start(dut)
     axis = await env.ready(3)
     requests = ((0x40, 0x46), (0x40, 0x45), (0x41, 0x45), (0x41, 0x46), ("slow", 0x46))
@@ -49,8 +49,8 @@ async def bank_mot_03_requests_around_an_end(dut):
 
 @directed("BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_05_slow_down_limit_with_a_stop(dut):
-    """The visit that accepts 0x40 ignores a slow-down limit; the visit that accepts 0x41 sets both finish
-    bits (BANK-MOT-05)."""
+    """The visit that accepts 0x40 ignores a slow-down limit; the visit that accepts 0x41 also accepts the
+    limit and sets both finish bits (BANK-MOT-05)."""
     env = await Env.start(dut)
     axis = await env.ready(3)
     for (request, both), late in product(((0x40, 0), (0x41, SLOW_BIT)), (-1, 0, 1)):
@@ -69,8 +69,8 @@ async def bank_mot_05_slow_down_limit_with_a_stop(dut):
 
 @directed("BANK-GRP-04", builds=(B8, B32, F100))
 async def bank_grp_04_causes_of_a_start_after_stop(dut):
-    """An operation that starts at visits g to g + R ends on the next edge with bit 6, and with the bits
-    of the alarm or limit that is active on that edge (BANK-GRP-04).
+    """If an operation starts at visits g to g + R of a STOP written at g, it ends on the next edge with
+    finish bit 6. An alarm or limit that is active on that edge also sets its bit (BANK-GRP-04).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)
@@ -79,7 +79,7 @@ async def bank_grp_04_causes_of_a_start_after_stop(dut):
         visit = axis.visit(env.bench.now + 120)
         g = visit - late
         if abs(g - (visit - 7)) < 6:
-            continue  # the bus is occupied
+            continue  # the bus is occupied by the other access
         axis.since = visit - 30
         axis.set(**{pin: 0})
         for event, address, byte in sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (g, STOP, 0)]):
@@ -95,13 +95,13 @@ async def bank_grp_04_causes_of_a_start_after_stop(dut):
 
 @directed("BANK-GRP-03", builds=(B8, B32, B64))
 async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
-    """A GO written at g + 1 to g + R begins on edge g + R; a later one begins on its own write event
-    (BANK-GRP-03)."""
+    """A GO written at g + 1 to g + R, where g is the write event of another GO, takes effect as if written on
+    edge g + R; a later GO takes effect on its own write event (BANK-GRP-03)."""
     env = await Env.start(dut)
     axis = await env.ready(5)
     for gap in (6, 7, env.round - 1, env.round, env.round + 1):
         if gap > 2 * env.round - 8:
-            continue  # the bus is occupied
+            continue  # the bus is occupied by the other access
         await env.mask(axis.n)
         await axis.go(0x42)
         await env.mask()
@@ -123,7 +123,7 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
 
 @directed("BANK-HLD-01", builds=(B8,))
 async def bank_hld_01_read_at_the_visit_at_which_hold_rises(dut):
-    """0x82 accepted at the visit at which hold rises returns HOLD = 0; at the next visit it returns HOLD = 1
+    """At the visit at which hold rises, 0x82 returns HOLD = 0; at the next visit it returns HOLD = 1
     (BANK-HLD-01)."""
     env = await Env.start(dut)
     reads = []
@@ -141,14 +141,15 @@ async def bank_hld_01_read_at_the_visit_at_which_hold_rises(dut):
 
 
 def build_cycles(slow: int, fast: int) -> int:
-    """Duration of a table build (BANK-INI-01)."""
+    """Return the duration of a table build in cycles (BANK-INI-01)."""
     return 1954 + 136 * (slow - fast) if slow > fast else 3
 
 
 @directed("BANK-INI-01", "BANK-INI-02", "BANK-CHP-01", builds=(B4, B8, B32, B64, F100))
 async def bank_ini_01_duration_of_a_build(dut):
-    """A table is complete 1954 + 136 (RL - RH) cycles after the visit of the last byte, 3 for RL = RH; IBF
-    and the chopper follow the first visit 3 cycles later (BANK-INI-01, BANK-INI-02)."""
+    """A table is complete B cycles after the visit of the last byte: B = 1954 + 136 (RL - RH), or 3 if RL =
+    RH. The first visit at least 3 cycles later completes the initialisation and starts the chopper; the next
+    visit accepts bytes again (BANK-INI-01, BANK-INI-02)."""
     env = await Env.start(dut)
     rng = random.Random(env.size)
     some = [sorted((rng.randrange(1, 256), rng.randrange(256)), reverse=True) for _ in range(5)]
@@ -178,8 +179,9 @@ async def bank_ini_01_duration_of_a_build(dut):
 
 @directed("BANK-GRP-02", "BANK-INI-02", builds=(B8, B32))
 async def bank_grp_02_go_while_an_axis_is_initialised(dut):
-    """GO rejects an axis whose table is being built: error 2 for the first initialisation, up to the
-    visit that completes it, else error 0. The initialisation completes nevertheless (BANK-GRP-02).
+    """While the table of an axis is built, the axis rejects GO. The error is 2 during the first
+    initialisation, up to the visit that completes it, and 0 during later ones. The initialisation completes
+    nevertheless (BANK-GRP-02).
     """
     env = await Env.start(dut)
     axis = env.axes[6]
@@ -206,8 +208,8 @@ async def bank_grp_02_go_while_an_axis_is_initialised(dut):
 
 @directed("BANK-WIN-01", "BANK-WIN-03", builds=(B4, B8, B32))
 async def bank_win_01_bank_registers_at_absent_axes(dut):
-    """MASK, GO and STOP written at an absent axis have no effect; a byte of MASK for absent axes reads
-    as 0, and writes to it have no effect (BANK-WIN-01, BANK-WIN-03).
+    """A write to MASK, GO or STOP at an absent axis has no effect. The byte of MASK for absent axes reads as
+    0 and ignores writes (BANK-WIN-01, BANK-WIN-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(0)

@@ -9,7 +9,7 @@ from .env import GO, INIT_A, MASK, STATUS, STOP, SYNC, Axis, Env
 
 
 def due(env: Env, g: int) -> int:
-    """Return the edge of pulse 1 after a GO with its write event on g (BANK-GRP-02)."""
+    """Return the edge of pulse 1 if the write event of GO is edge g (BANK-GRP-02)."""
     return g + 4 + env.round + env.cfg.w
 
 
@@ -40,15 +40,17 @@ async def bank_grp_02_all_on_one_edge(dut):
 
 @directed("BANK-GRP-01", builds=(B8, B32, F100))
 async def bank_grp_01_mask_of_a_start(dut):
-    """An operation that starts at V is held if MASK was written at w = V - 5 or earlier (BANK-GRP-01)."""
+    """An operation that starts at visit V is held if the MASK bit was written at w = V - 5 or earlier
+    (BANK-GRP-01).
+    """
     env = await Env.start(dut)
     axis = await env.ready(3)
     for byte in (8, 0):
         for early in (6, 5, 4):
             await env.mask(*([] if byte else [3]))
             visit = axis.visit(env.bench.now + 100)
-            # The two writes do not fit into one round of 8 cycles: the operation's byte is written as early
-            # as possible.
+            # The two writes do not fit into one round of 8 cycles, so the byte of the operation is written as
+            # early as possible.
             env.at_event(visit - early - 7, axis.n << 4 | STATUS, 0x42)
             env.at_event(visit - early, MASK, byte)
             start = axis.visit(visit - early)
@@ -67,8 +69,8 @@ async def bank_grp_01_mask_of_a_start(dut):
 
 @directed("BANK-GRP-02", "BANK-HSK-02", builds=(B4, B8, B32))
 async def bank_grp_02_refused(dut):
-    """GO sets error 1 for a busy member, 2 for one without an initialisation, and 0 for one at standstill or
-    waiting for parameters (BANK-GRP-02).
+    """GO sets error 1 in a busy member, error 2 in a member without an initialisation, and error 0 in a
+    member at standstill or waiting for parameters (BANK-GRP-02).
     """
     env = await Env.start(dut)
     busy, held, rest, fresh = env.axes[:4]
@@ -97,8 +99,8 @@ async def bank_grp_02_refused(dut):
 
 @directed("BANK-GRP-02", builds=(B8, B32, F100))
 async def bank_grp_02_which_visit(dut):
-    """GO acts at the first visit at g + 5 or later; it finds only operations that started at an earlier
-    visit (BANK-GRP-02).
+    """A GO written at g takes effect at the first visit at g + 5 or later, for operations that started at an
+    earlier visit (BANK-GRP-02).
     """
     env = await Env.start(dut)
     axis = await env.ready(2)
@@ -108,7 +110,7 @@ async def bank_grp_02_which_visit(dut):
         # The operation starts at `visit`; GO is written `early` cycles before it.
         events = sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (visit - early, GO, 0)])
         if abs(7 - early) < 6:
-            continue  # the bus is occupied
+            continue  # the bus is occupied by the other access
         axis.since = visit - 30
         for event, address, byte in events:
             await env.write_at(event, address, byte)
@@ -126,8 +128,8 @@ async def bank_grp_02_which_visit(dut):
 
 @directed("BANK-GRP-03", builds=(B8, B32, B64))
 async def bank_grp_03_second_go_waits(dut):
-    """A GO written while another GO acts takes effect R cycles after the first; a third one has no
-    effect (BANK-GRP-03).
+    """A GO written while another GO is active takes effect R cycles after the first; a third GO has no effect
+    (BANK-GRP-03).
     """
     env = await Env.start(dut)
     axes = await env.all_ready(0, env.size - 1)
@@ -154,7 +156,7 @@ async def bank_grp_03_second_go_waits(dut):
 
 @directed("BANK-GRP-03", "BANK-GRP-02", builds=(B8, B32, B64))
 async def bank_grp_03_mask_during_go(dut):
-    """While GO acts, each visit uses the MASK of 5 cycles before it (BANK-GRP-03)."""
+    """While GO is active, each visit uses the value that MASK had 5 cycles before the visit (BANK-GRP-03)."""
     env = await Env.start(dut)
     axes = await env.all_ready()
     for late in range(6, env.round + 8, max(1, env.round // 8)):
@@ -177,7 +179,7 @@ async def bank_grp_03_mask_during_go(dut):
 
 @directed("BANK-GRP-01", "BANK-GRP-04", "BANK-MOT-02", builds=(B8, B32))
 async def bank_grp_01_held_is_watched(dut):
-    """Limit, alarm, stop commands and STOP end a held operation without a pulse (BANK-GRP-01)."""
+    """A limit, an alarm, a stop command or STOP ends a held operation without a pulse (BANK-GRP-01)."""
     env = await Env.start(dut)
     axis = await env.ready(1)
     await env.mask(1)
@@ -214,14 +216,16 @@ async def bank_grp_01_held_is_watched(dut):
 
 @directed("BANK-GRP-04", builds=(B8, B32, F100))
 async def bank_grp_04_starts_around_stop(dut):
-    """STOP at g ends operations that start at visits up to g + R, and no later ones (BANK-GRP-04)."""
+    """A STOP written at g ends operations that start at visits up to g + R, but no later operation
+    (BANK-GRP-04).
+    """
     env = await Env.start(dut)
     axis = await env.ready(4)
     for late in (-9, -8, -7, -1, 0, 1, 2, env.round - 1, env.round, env.round + 1, env.round + 2):
         visit = axis.visit(env.bench.now + 100)
         g = visit - late
         if abs(g - (visit - 7)) < 6:
-            continue  # the bus is occupied
+            continue  # the bus is occupied by the other access
         axis.since = visit - 30
         for event, address, byte in sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (g, STOP, 0)]):
             await env.write_at(event, address, byte)
@@ -255,8 +259,8 @@ async def bank_grp_04_all_at_once(dut):
 
 @directed("BANK-GRP-03", "BANK-GRP-02", builds=(B32, B64, F100))
 async def bank_grp_03_third_go(dut):
-    """A third GO before g + R has no effect; at g + R or later, while the second GO acts, it waits for the
-    end of the second GO (BANK-GRP-03).
+    """A third GO has no effect if it is written before g + R. At g + R or later, while the second GO is
+    active, it waits for the end of the second GO (BANK-GRP-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(9)
@@ -267,7 +271,7 @@ async def bank_grp_03_third_go(dut):
         g = axis.visit(env.bench.now + 40) - 5  # the earliest visit detects this GO
         for edge in (g, g + env.round // 2, g + env.round + late):
             await env.write_at(edge, GO, 0)
-        # MASK = 1 for the visit of the third GO, and for no earlier one.
+        # MASK = 1 for the visit of the third GO, but not for an earlier visit.
         await env.write_at(g + 2 * env.round - 4, axis.n // 8 << 4 | MASK, 1 << axis.n % 8)
         await env.bench.clocks(4 * env.round + env.cfg.w)
         want = [due(env, g + 2 * env.round)] if late >= 0 else []

@@ -1,8 +1,8 @@
-"""Switches, STOP and stop commands -2 to +2 cycles around a pulse, for each position of the pulse in
-its round (BANK-MOT-02).
+"""Switches, STOP and stop commands -2 to +2 cycles from a pulse, for each position of the pulse in its round
+(BANK-MOT-02).
 
-One GO releases held operations of all axes. Their pulses occur on one edge, which has a different
-position in the round of each axis. The expected results follow from the edges alone.
+One GO releases the held operations of all axes. Their pulses occur on the same edge, which has a different
+position in the round for each axis. The expected results follow from the edges alone.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ PINS = {"limit": ("l1_n", "l2_n"), "alarm": ("alm_n", "alm_n"), "origin": ("cnp_
 
 @dataclass(frozen=True)
 class Case:
-    """One axis of a wave: the cause of its end, `offset` cycles from pulse `pulse`, and the cycles for
-    which the pin is low.
+    """Case for one axis: the cause of its end, which is detected `offset` cycles after pulse `pulse`, and the
+    number of cycles for which the pin is low.
     """
 
     cause: str
@@ -46,7 +46,9 @@ class Case:
 
 
 class Waves:
-    """Waves of cases on all axes of the bank. `rate` sets the low time: half of an interval, or W."""
+    """Waves of cases: a wave runs one case on each axis. `rate` sets the low time: half of an interval, or
+    W.
+    """
 
     def __init__(self, env: Env, rate: int) -> None:
         self.env, self.rate, self.done = env, rate, 0
@@ -59,12 +61,12 @@ class Waves:
         await self.env.mask(*range(self.env.size))
 
     def edges(self, g: int) -> list[int]:
-        """Return the edges of the pulses that a GO starts, if nothing ends the motion."""
+        """Return the edges of the pulses that a GO with write event g starts, if no cause ends the motion."""
         first = g + 4 + self.env.round + self.env.cfg.w
         return [first + k * self.interval for k in range(N)]
 
     async def let_go(self) -> list[int]:
-        """Write GO at a fixed position in the round and return `edges`.
+        """Write GO at a fixed position in the round and return the edges of the pulses.
 
         The pulses then have all positions in the rounds of the axes.
         """
@@ -73,7 +75,7 @@ class Waves:
         return self.edges(g)
 
     async def held(self, axis: Axis, code: int) -> None:
-        """Start a held operation of N pulses, or one without a pulse count."""
+        """Start an operation that is held: N pulses, or one without a pulse count."""
         await (axis.go(code, N, self.rate) if code & 7 == 4 else axis.go(code, rate=self.rate))
 
     async def play(self, cases: list[Case]) -> None:
@@ -125,9 +127,9 @@ def cases_of_pins() -> list[tuple[str, int, int, int]]:
 
 
 async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
-    """Run every case `rounds` times on successive axes.
+    """Run every case `rounds` times, each time on the next axis.
 
-    If `rounds` is R, this covers each position in the round.
+    If `rounds` is R, each case runs at each position in the round.
     """
     env = await Env.start(dut)
     waves, rng = Waves(env, rate), random.Random(rate)
@@ -141,14 +143,14 @@ async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
 
 
 def _turned(cases: list[tuple[str, int, int, int]], turn: int) -> list[tuple[str, int, int, int]]:
-    """Rotate the cases, so that each runs on another axis in each turn."""
+    """Rotate the list of cases, so that each case runs on another axis in the next wave."""
     return cases[turn:] + cases[:turn]
 
 
 @directed("BANK-MOT-01", "BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B8,))
 async def bank_mot_02_pins_around_pulses(dut):
-    """A limit, an alarm or the origin at -2 to +2 cycles around the first, a middle or the last pulse
-    ends the motion as the edges require (BANK-MOT-02).
+    """A limit, an alarm or the origin that is detected -2 to +2 cycles from the first, a middle or the last
+    pulse ends the motion on its edge of detection (BANK-MOT-02).
     """
     waves = await pin_waves(dut, 0, 12)
     assert waves.done >= 90 * 12
@@ -156,15 +158,17 @@ async def bank_mot_02_pins_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B4, B8, B32, B64, F100))
 async def bank_mot_02_pins_around_slower_pulses(dut):
-    """The same holds at a rate whose low time is W, and in the other builds (BANK-MOT-02)."""
+    """A cause near a pulse also ends the motion on its edge of detection at a rate whose low time is W, and
+    in the other builds (BANK-MOT-02).
+    """
     waves = await pin_waves(dut, 3, 2)
     assert waves.done >= 180
 
 
 @directed("BANK-MOT-02", "BANK-GRP-04", "BANK-WIN-07", builds=(B4, B8, B32, F100))
 async def bank_grp_04_stop_around_pulses(dut):
-    """STOP with g + 1 at -2 to +2 cycles around a pulse of all axes suppresses exactly the pulses at
-    g + 1 or later (BANK-GRP-04).
+    """If the edge g + 1 of a STOP is -2 to +2 cycles from a pulse of all axes, exactly the pulses on edge g +
+    1 or later are suppressed (BANK-GRP-04).
     """
     env = await Env.start(dut)
     waves = Waves(env, 2)
@@ -184,8 +188,8 @@ async def bank_grp_04_stop_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-03", "BANK-WIN-07", builds=(B8, F100))
 async def bank_mot_02_stop_command_around_pulses(dut):
-    """0x40 or 0x41 accepted at visits around each pulse suppresses exactly the pulses at that visit or
-    later (BANK-MOT-02).
+    """A 0x40 or 0x41 that is accepted at a visit near a pulse suppresses exactly the pulses on the edge of
+    that visit or later (BANK-MOT-02).
     """
     env = await Env.start(dut)
     waves = Waves(env, 1)
@@ -211,8 +215,8 @@ async def bank_mot_02_stop_command_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-03", "BANK-GRP-04", "BANK-WIN-07", builds=(B8, B32))
 async def bank_mot_02_two_causes(dut):
-    """Of two causes up to six cycles apart around a pulse, the earlier one sets its bit; both set
-    theirs if they occur on the same edge (BANK-MOT-02).
+    """If two causes occur up to six cycles apart near a pulse, only the earlier one sets its finish bit; if
+    they occur on the same edge, both set their bits (BANK-MOT-02).
     """
     env = await Env.start(dut)
     waves = Waves(env, 0)
@@ -241,9 +245,9 @@ async def bank_mot_02_two_causes(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
-    """If L1 and ALM fall on the same edge, both bits are set: for each operation, while accelerating,
-    at the top and while decelerating. A completed count with a slow-down limit before its last pulse
-    sets no bit (BANK-MOT-02, BANK-MOT-05).
+    """If L1 and ALM fall on the same edge, both finish bits are set, for each operation, while accelerating,
+    at constant speed and while decelerating. If a slow-down limit occurs before the last pulse of a counted
+    operation, the completed count sets no bit (BANK-MOT-02, BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)
@@ -287,8 +291,8 @@ async def bank_mot_02_what_is_ignored(dut):
 
 @directed("BANK-MOT-05", builds=(B8, B32, F100))
 async def bank_mot_05_inputs_to_the_clk(dut):
-    """0x81 accepted at V reports an alarm that was detected on edge V - 4 or earlier, but not one cycle
-    later (BANK-MOT-05).
+    """If 0x81 is accepted at visit V, it reports an alarm that was detected on edge V - 4 or earlier, but not
+    one that was detected on edge V - 3 (BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = env.axes[6]
@@ -303,14 +307,14 @@ async def bank_mot_05_inputs_to_the_clk(dut):
 
 @directed("BANK-MOT-02", builds=(B8, B32))
 async def bank_mot_02_after_a_forced_end(dut):
-    """A limit in the low time of the last pulse of a forced deceleration is not a cause of the end
-    (BANK-MOT-02).
+    """A limit in the low time of the last pulse of a forced deceleration does not count as the cause of the
+    end (BANK-MOT-02).
     """
     env = await Env.start(dut)
     axis = await env.ready(2)
     for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
         edge0 = await axis.go(0x43, 100, poll=False)
-        last = axis.accepting_visit(edge0) + env.cfg.w  # requested before pulse 1: only this pulse is left
+        last = axis.accepting_visit(edge0) + env.cfg.w  # 0x41 before pulse 1: only this pulse is left
         await axis.host.poll(2, 0)
         await axis.command(0x41)
         axis.at(last + offset - SYNC, l1_n=0)

@@ -1,4 +1,4 @@
-"""Motions: exact intervals on several axes at the same time, ends, and when visits detect them
+"""Motions: exact intervals on several axes at the same time, ends, and the visits that detect the ends
 (BANK-MOT).
 """
 
@@ -55,7 +55,7 @@ async def bank_mot_01_all_axes_at_once(dut):
 
 @directed("BANK-MOT-01", "BANK-INI-01", builds=(B8, B32))
 async def bank_mot_01_another_ramp(dut):
-    """An axis that is initialised again uses its new ramp; the other axes keep theirs (BANK-MOT-01)."""
+    """An axis that is initialised again uses its new ramp; the other axes keep their ramps (BANK-MOT-01)."""
     env = await Env.start(dut)
     ramps = {1: (20, 3, 8), 2: (9, 0, 12), 6: (14, 5, 4)}
     for ramp in ((12, 1, 10), (30, 2, 6)):
@@ -71,8 +71,8 @@ async def bank_mot_01_another_ramp(dut):
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_slow_clocks(dut):
-    """The intervals for all values of csel and vsel are those of the PPMC-104; the values written 7
-    cycles before the start apply (BANK-MOT-01, BANK-GEN-04).
+    """For all values of csel and vsel, the intervals are those of the PPMC-104. The values that were written
+    7 cycles or more before the start apply (BANK-MOT-01, BANK-GEN-04).
     """
     env = await Env.start(dut)
     axis = await env.ready(env.size - 3)
@@ -100,8 +100,8 @@ async def bank_mot_01_slow_clocks(dut):
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
-    """With csel low, the intervals of a steep ramp are those of the PPMC-104. Such a ramp skips many
-    rates; while decelerating, the search for the next rate therefore ends after the low time (BANK-MOT-01).
+    """With csel low, the intervals of a steep ramp are those of the PPMC-104. Such a ramp skips many rates,
+    so the search for the next rate while decelerating ends after the low time (BANK-MOT-01).
     """
     env = await Env.start(dut)
     axis = env.axes[env.size - 2]
@@ -117,8 +117,9 @@ async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
 
 @directed("BANK-MOT-04", builds=(B4, B8, B32, F100))
 async def bank_mot_04_busy_falls(dut):
-    """After a complete move, BUSY falls at the first visit V after the last low time: sampled at V - 1
-    and V (BANK-MOT-04).
+    """After a complete move, BUSY falls at the first visit V after the last low time (BANK-MOT-04).
+
+    The test reads the status at V - 1 and V.
     """
     env = await Env.start(dut)
     for axis in (env.axes[0], env.axes[-1]):
@@ -135,8 +136,8 @@ async def bank_mot_04_busy_falls(dut):
 
 @directed("BANK-MOT-03", "BANK-MOT-04", builds=(B8, B32, F100))
 async def bank_mot_04_cut_while_high(dut):
-    """If a limit is detected on edge e while pout_n is high, BUSY falls at the first visit at e + 5 or
-    later (BANK-MOT-04).
+    """If a limit is detected on edge e while pout_n is high, BUSY falls at the first visit at e + 5 or later
+    (BANK-MOT-04).
     """
     env = await Env.start(dut)
     axis = await env.ready(env.size - 1)
@@ -158,8 +159,8 @@ async def bank_mot_04_cut_while_high(dut):
 
 @directed("BANK-MOT-03", builds=(B8, B32))
 async def bank_mot_03_byte_before_it_is_known(dut):
-    """A Decelerating Stop accepted before the visit that detects the end is treated as during a motion
-    (BANK-MOT-03).
+    """A Decelerating Stop that is accepted before the visit that detects the end has the same effect as
+    during a motion (BANK-MOT-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(4)
@@ -178,8 +179,8 @@ async def bank_mot_03_byte_before_it_is_known(dut):
 
 @directed("BANK-MOT-05", builds=(B8, B32, F100))
 async def bank_mot_05_slow_down_limit(dut):
-    """Visit V acts on a slow-down limit that was detected on edge V - 4, but not on one detected a
-    cycle later (BANK-MOT-05).
+    """A slow-down limit that was detected on edge V - 4 takes effect at visit V; a limit that was detected on
+    edge V - 3 does not (BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = await env.ready(env.size - 2)
@@ -188,7 +189,7 @@ async def bank_mot_05_slow_down_limit(dut):
         await axis.pulse(2, env.cfg.w + 20)
         visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, l3_n=0)
-        axis.at(visit - early - SYNC + 1, l3_n=1)  # only this visit, or no visit, samples the level
+        axis.at(visit - early - SYNC + 1, l3_n=1)  # only this visit samples the level, or no visit does
         if early == 4:
             await axis.idle()
             env.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)
@@ -200,8 +201,8 @@ async def bank_mot_05_slow_down_limit(dut):
 
 @directed("BANK-MOT-05", "P104-LIM-09", "P104-FDC-05", builds=(B8, B32))
 async def bank_mot_05_only_the_first_request(dut):
-    """A slow-down limit sets no bit if a command or the count has begun the deceleration, or if the
-    visit that samples it has detected an end (BANK-MOT-05).
+    """A slow-down limit sets no bit if a command or the count has already begun the deceleration, or if the
+    visit that samples the limit has detected an end (BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)
@@ -251,10 +252,11 @@ async def bank_mot_05_which_pulse_counts(dut):
                 axis.at(visit - 4 - SYNC + env.round, l3_n=1)
             await axis.pulse(2)
             await axis.idle()
-            # After pulse 1 the interval of index 0 runs, which is the last one; after pulse 2 that of
-            # index 1.
+            # The motion ends after the interval of index 0. After pulse 1 the current interval has index 0;
+            # after
+            # pulse 2 it has index 1.
             want = 2 if visit <= second else 4
-            env.check("BANK-MOT-05", f"pulses, V {visit - second:+} clk", len(axis.pulses), want)
+            env.check("BANK-MOT-05", f"pulses, V {visit - second:+} cycles", len(axis.pulses), want)
             await axis.finish()
 
 

@@ -28,7 +28,9 @@ from .random_host import INTERVALS, in_motion, play
     least=200,
 )
 async def bank_random_host(dut: Any, seed: int) -> None:
-    """During the transactions of a random host, all outputs change as in the golden model."""
+    """During the transactions of a random host, all outputs change on the same edges as in the golden
+    model.
+    """
     made = await play(dut, seed)
     logging.getLogger("cocotb.bank").info("seed %d: %d intervals", seed, made)
     add_counts(intervals=made)

@@ -1,4 +1,4 @@
-"""ppmc_bank_carrier with HOST = "SPI": the complete window over four wires (docs/bank/spi.md)."""
+"""ppmc_bank_carrier with HOST = "SPI": access to the complete window through SPI (docs/bank/spi.md)."""
 
 from __future__ import annotations
 
@@ -52,7 +52,9 @@ class Host:
         await Timer(round(n * self.period), "ps")
 
     async def frame(self, word: int, *data: int) -> bytes:
-        """Send a header and bytes, store the status, and return the bytes that follow the header."""
+        """Send a header and bytes, store the status of the bridge, and return the bytes that follow the
+        header.
+        """
         dut, seen = self.dut, bytearray()
         await self.clk(4.3)
         dut.spi_cs_n.value = 0
@@ -75,9 +77,10 @@ class Host:
         return bytes(seen[2:])
 
     async def raw(self, mode: int, skew: float, *data: int) -> bytes:
-        """Send a frame in SPI mode 0 to 3 and return all bytes of miso.
+        """Send a frame in SPI mode 0 to 3 and return all bytes received on miso.
 
-        Args: skew: cycles from an edge of sck to the change of mosi that belongs to it, -2 to 2.
+        Args:
+            skew: cycles from an edge of sck to the change of mosi that belongs to it, -2 to 2.
         """
         dut, seen = self.dut, bytearray()
         idle, late = mode >> 1, mode & 1
@@ -118,11 +121,11 @@ class Host:
                 await self.clk(abs(skew))
 
     async def write(self, axis: int, register: int, *data: int, step: int = 0) -> None:
-        """Write a burst."""
+        """Write bytes in one burst."""
         await self.frame(WRITE | step | axis << 4 | register, *data)
 
     async def read(self, axis: int, register: int, count: int = 1, step: int = 0) -> bytes:
-        """Read a burst."""
+        """Read bytes in one burst."""
         return (await self.frame(step | axis << 4 | register, *[0xFF] * count, 0))[1:]
 
     async def until(self, axis: int, good: Callable[[int], bool]) -> int:
@@ -145,7 +148,7 @@ class Host:
 @cocotb.test()
 @configs(CONFIG)
 async def spi_window(dut):
-    """In bursts by axis and by register, INFO, CONFIG and MASK are at the addresses that the rules
+    """Bursts by axis and bursts by register find INFO, CONFIG and MASK at the addresses that the rules
     state.
     """
     host = Host(dut)
@@ -162,7 +165,9 @@ async def spi_window(dut):
 @cocotb.test()
 @configs(CONFIG)
 async def spi_moves(dut):
-    """During and after a motion, the host reads status, interrupt, map, finish status and position."""
+    """During and after a motion, the host reads the correct status, interrupt, map, finish status and
+    position.
+    """
     host = Host(dut)
     await host.start()
     same("initialised", await host.call(3, *INITIALISE), 0)
@@ -180,8 +185,8 @@ async def spi_moves(dut):
 @cocotb.test()
 @configs(CONFIG)
 async def spi_read_back_finds_a_wrong_mode(dut):
-    """MASK read back as written proves that the mode is right, which the status does not in mode 1. A
-    frame in a wrong mode moves no motor (docs/bank/spi.md).
+    """Only the correct mode lets the host read MASK back as written; in mode 1 the status does not reveal a
+    wrong mode. A frame in a wrong mode moves no motor (docs/bank/spi.md).
     """
     host = Host(dut)
     await host.start()
@@ -192,7 +197,8 @@ async def spi_read_back_finds_a_wrong_mode(dut):
             got.append((await host.raw(mode, skew, 0x00, 0x08, 0xFF, 0x00)).hex())
         what = f"mode {mode}, mosi {skew:+} cycles from sck"
         right = got == ["80000005", "80000000"]
-        # In mode 1 with mosi before the edge of sck, the bridge samples the bits that the master sends.
+        # In mode 1, if mosi changes before the edge of sck, the bridge samples the bits that the master
+        # sends.
         same(f"MASK is read back as written, {what}", right, mode in (0, 3) or (mode == 1 and skew <= 0))
         same(f"pulses, {what}", int(dut.pout_n.value), (1 << AXES) - 1)
         same(f"sign of the status, {what}", [word[0] for word in got], ["c" if mode == 2 else "8"] * 2)

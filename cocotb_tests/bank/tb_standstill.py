@@ -1,4 +1,4 @@
-"""At rest: completion of initialisations, chopper, hold (BANK-INI-02, BANK-CHP, BANK-HLD)."""
+"""Standstill: completion of initialisations, chopper, hold (BANK-INI-02, BANK-CHP, BANK-HLD)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CHOPPED = (0x2A, 9, 4, 4)
 
 @directed("BANK-CHP-01", "BANK-INI-02", builds=(B4, B8, B32, F100))
 async def bank_chp_01_phases(dut):
-    """While all axes chop, every phase is exact to the cycle, also after the end of a motion
+    """While all axes chop, the duration of every phase is exact to the cycle, also after the end of a motion
     (BANK-CHP-01).
     """
     env = await Env.start(dut)
@@ -44,8 +44,9 @@ async def bank_chp_01_phases(dut):
 
 @directed("BANK-CHP-01", "BANK-GEN-04", builds=(B8, F100))
 async def bank_chp_01_settings(dut):
-    """Parameters and vsel set the phases of the chopper as the rules state; vsel applies if written 7
-    cycles or more before the visit that orders the first edge of a phase (BANK-CHP-01, BANK-GEN-04).
+    """Parameters and vsel set the durations of the chopper phases as the rules state. vsel applies to a phase
+    if it was written 7 cycles or more before the visit that orders the first edge of the phase (BANK-CHP-01,
+    BANK-GEN-04).
     """
     env = await Env.start(dut)
     axis = await env.ready(3, CHOPPED)
@@ -85,7 +86,9 @@ async def bank_chp_01_settings(dut):
 
 @directed("BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_hsk_02_chopper_takes_the_visit(dut):
-    """A byte whose visit orders an edge of the chopper is accepted at the next visit (BANK-HSK-02)."""
+    """If a visit orders an edge of the chopper, it accepts no byte; the byte is accepted at the next visit
+    (BANK-HSK-02).
+    """
     env = await Env.start(dut)
     axis = await env.ready(env.size - 1, CHOPPED)
     address = axis.n << 4 | STATUS
@@ -125,14 +128,15 @@ async def bank_ini_02_completion(dut):
 
 @directed("BANK-HLD-01", "BANK-CHP-01", builds=(B8,))
 async def bank_hld_01_hold(dut):
-    """After a motion, hold rises at the first visit at least 34 ms later that orders no edge of the
+    """After a motion, hold rises at the first visit that is at least 34 ms later and orders no edge of the
     chopper (BANK-HLD-01).
     """
     env = await Env.start(dut)
     plain, chopped, again, low = env.axes[0], env.axes[3], env.axes[5], env.axes[7]
     for axis in (plain, chopped, again, low):
         await axis.init(*(CHOPPED if axis is chopped else (0x0A, 9, 4, 4)))
-    # 34 ms are 136 000 quanta: 60 periods of 700 + 1555 and one ON phase, so the edge lies on this visit.
+    # 34 ms are 136 000 quanta: 60 chopper periods (700 + 1555 quanta) and one ON phase (700), so a chopper
+    # edge is ordered at this visit.
     await chopped.set_config(1, 0)
     await chopped.host.send(0x84, (50, 120))
     ends = {}

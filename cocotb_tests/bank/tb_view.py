@@ -1,4 +1,4 @@
-"""Contract of ppmc_bank_axis_port: docs/bank/carrier.md, and the requirements of BANK-WIN-04 for strobes."""
+"""Contract of ppmc_bank_axis_port (docs/bank/carrier.md), and the requirements of BANK-WIN-04 for strobes."""
 
 from __future__ import annotations
 
@@ -17,13 +17,16 @@ CHOICE = 3
 AXES = 64
 WRITE_CLK, READ_CLK, GAP_CLK = 4, 6, 4
 STEADY = 2
-"""Rising edges of `clk` that sample the address, up to the first one that samples the strobe
+"""Number of rising edges of `clk` that sample the address, including the first that samples the strobe
 (BANK-WIN-04).
 """
 
 
 class Bridge:
-    """Strobes of UB-BUS-01 at the view; `seen` lists (cs_n, address) at the bank for every cycle."""
+    """Strobes of UB-BUS-01 at the host side of ppmc_bank_axis_port.
+
+    `seen` lists (cs_n, address) at the bank for every cycle.
+    """
 
     def __init__(self, dut: Any) -> None:
         self.unit = BlockDriver(dut, "view", BLOCKS, "cs_no a_o d_o")
@@ -35,7 +38,7 @@ class Bridge:
         return data
 
     async def access(self, a: int, value: int | None = None, shown: int = 0) -> int:
-        """Make one access, while the bank outputs `shown`. Return the byte on the bus in the last cycle."""
+        """Make one access while the bank outputs `shown`; return the byte on the bus in the last cycle."""
         data = 0
         await self._clk(a_i=a, d_i=value or 0, bank_d_i=shown)
         for _ in range(READ_CLK if value is None else WRITE_CLK):
@@ -56,14 +59,14 @@ class Bridge:
             if self.seen[n - 1][0]:
                 found.append((address, 0))
                 around = [there for _, there in self.seen[n - STEADY + 1 : n + 1]]
-                same(f"clk {n}: address before the strobe", around, [address] * STEADY)
-            same(f"clk {n}: address in the strobe", address, found[-1][0])
+                same(f"cycle {n}: address before the strobe", around, [address] * STEADY)
+            same(f"cycle {n}: address in the strobe", address, found[-1][0])
             found[-1] = (address, found[-1][1] + 1)
         return found
 
 
 async def start(dut: Any) -> Bridge:
-    """Return a bridge in front of a view that was reset."""
+    """Return a bridge in front of a ppmc_bank_axis_port that was reset."""
     bridge = Bridge(dut)
     await bridge.unit.reset(cs_ni=1, wr_ni=1)
     return bridge
@@ -91,8 +94,8 @@ async def view_random_accesses(dut):
 
 @cocotb.test()
 async def view_axes_that_the_window_lacks(dut):
-    """For a chosen axis of 64 to 255, reads return FF, the bank gets no strobe, and 0x3 can choose
-    again.
+    """If an axis of 64 to 255 is chosen, reads return FF, the bank receives no strobe, and 0x3 can still
+    choose another axis.
     """
     bridge = await start(dut)
     for axis in (64, 128, 192, 255):

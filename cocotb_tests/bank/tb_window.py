@@ -1,4 +1,4 @@
-"""Window: registers, strobes, positions, interrupt map (BANK-WIN), and the bank before it is ready
+"""Window: registers, strobes, positions, interrupt map (BANK-WIN); the bank before it is ready
 (BANK-GEN-05).
 """
 
@@ -17,7 +17,7 @@ REGISTERS = range(16)
 
 @directed("BANK-WIN-03", builds=(B8, B32, B64, B4, F100))
 async def bank_win_03_info(dut):
-    """INFO returns the window and AXES at each axis with the same a[6:4] (BANK-WIN-03)."""
+    """INFO returns the window and AXES, depending only on a[6:4] of the axis (BANK-WIN-03)."""
     env = await Env.start(dut)
     for axis in range(env.size):
         want = (0x42, 1, env.size, 0, 0, 0, 0, 0)[axis % 8]
@@ -55,7 +55,7 @@ async def bank_win_01_addresses(dut):
 
 @directed("BANK-WIN-02", "BANK-GEN-04", builds=(B8, B32))
 async def bank_win_02_registers_of_an_axis(dut):
-    """Each axis has its own CONFIG: 3 after reset, of which bits 0 and 1 are stored (BANK-WIN-02,
+    """Each axis has a separate CONFIG, which is 3 after reset and stores bits 0 and 1 (BANK-WIN-02,
     BANK-GEN-04).
     """
     env = await Env.start(dut)
@@ -71,7 +71,7 @@ async def bank_win_02_registers_of_an_axis(dut):
 
 @directed("BANK-WIN-03", builds=(B8, B4, B32, B64))
 async def bank_win_03_registers_of_the_bank(dut):
-    """Byte k of MASK, map and INFO is at k = a[6:4]; read-only registers keep their values
+    """Byte k of MASK, map and INFO is at k = a[6:4]; a write does not change a read-only register
     (BANK-WIN-03).
     """
     env = await Env.start(dut)
@@ -112,7 +112,7 @@ async def bank_win_04_short_reads(dut):
 
 @directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32))
 async def bank_win_04_irregular_strobes(dut):
-    """Bytes of 1-cycle writes, of both strobes together and of strobes without cs_n are written
+    """Bytes of 1-cycle writes, of accesses with both strobes and of strobes without cs_n are either written
     completely or not at all (BANK-WIN-04).
     """
     env = await Env.start(dut)
@@ -130,8 +130,8 @@ async def bank_win_04_irregular_strobes(dut):
 
 @directed("BANK-WIN-05", builds=(B8, B32, F100))
 async def bank_win_05_read_to_the_clk(dut):
-    """In a read, d_oe = 1 from edge 2 and d_o is valid from edge 4; d_oe = 0 on edge 2 after the
-    strobe, and d_o does not change (BANK-WIN-05).
+    """In a read, d_oe = 1 from edge 2 and d_o is valid from edge 4. On edge 2 after the strobe, d_oe becomes
+    0 and d_o does not change (BANK-WIN-05).
     """
     env = await Env.start(dut)
     bench = env.bench
@@ -148,8 +148,9 @@ async def bank_win_05_read_to_the_clk(dut):
 
 @directed("BANK-WIN-05", "BANK-HSK-04", builds=(B8, B32, F100))
 async def bank_win_05_snapshot(dut):
-    """A read returns the state after its edge 2: tried around the visit V that accepts an operation, at
-    V - 1, V and V + 1 (BANK-WIN-05).
+    """A read returns the state after its edge 2 (BANK-WIN-05).
+
+    The test reads at V - 1, V and V + 1, where visit V accepts an operation.
     """
     env = await Env.start(dut)
     for axis in {env.axes[0], env.axes[env.size - 1]}:
@@ -165,7 +166,7 @@ async def bank_win_05_snapshot(dut):
 
 @directed("BANK-WIN-06", "BANK-HSK-01", builds=(B8, F100))
 async def bank_win_06_last_sample(dut):
-    """If d_i changes during the strobe, the last sample is written, with the write event on edge 2
+    """If d_i changes during the strobe, the last sample is written; the write event is on edge 2
     (BANK-WIN-06).
     """
     env = await Env.start(dut)
@@ -186,8 +187,8 @@ async def bank_win_06_last_sample(dut):
 
 @directed("BANK-WIN-05", "BANK-WIN-06", "BANK-WIN-04", builds=(B8,))
 async def bank_win_05_reset_in_an_access(dut):
-    """A reset 1 to 7 cycles after the begin of an access sets d_oe = 0 immediately, and the access has
-    no effect (BANK-WIN-05, BANK-WIN-06).
+    """A reset 1 to 7 cycles after the start of an access sets d_oe = 0 immediately, and the access has no
+    effect (BANK-WIN-05, BANK-WIN-06).
     """
     env = await Env.start(dut)
     bench = env.bench
@@ -196,11 +197,11 @@ async def bank_win_05_reset_in_an_access(dut):
         await bench.clocks(into)
         bench.set(rst_n=0)
         await bench.clocks(1)
-        env.check("BANK-WIN-05", f"d_oe, {strobe} since {into} clk", bench.level("d_oe"), 0)
+        env.check("BANK-WIN-05", f"d_oe, {strobe} since {into} cycles", bench.level("d_oe"), 0)
         await bench.clocks(3)
         bench.set(cs_n=1, **{strobe: 1})
         await env.reset()
-        env.check("BANK-WIN-06", f"CONFIG, {strobe} since {into} clk", await env.host.read(CONFIG), 3)
+        env.check("BANK-WIN-06", f"CONFIG, {strobe} since {into} cycles", await env.host.read(CONFIG), 3)
 
 
 @directed("BANK-WIN-07", builds=(B8, F100))
@@ -220,13 +221,14 @@ async def bank_win_07_position_counts(dut):
 
 @directed("BANK-WIN-07", builds=(B8, F100, B32))
 async def bank_win_07_counted_at_the_visit(dut):
-    """A pulse on edge e is counted at the last visit at or before e: read at this visit -1, 0, +1
-    cycles (BANK-WIN-07).
+    """A pulse on edge e is counted at the last visit at or before e (BANK-WIN-07).
+
+    The test reads the position at this visit -1, 0 and +1 cycles.
     """
     env = await Env.start(dut)
     axis = await env.ready(env.size - 2)
     for number, offset in enumerate((-1, 0, 1)):
-        await axis.set_config(1, 0)  # 30 quanta more: not a multiple of R at 100 MHz
+        await axis.set_config(1, 0)  # 30 quanta longer: not a multiple of R at 100 MHz
         edge0 = await axis.go(0x44, 3, 20, poll=False)
         second = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(21 * 8 + 30)
         ordered = axis.visit(second - env.round + 1)
@@ -256,8 +258,8 @@ async def bank_win_07_kept_bytes(dut):
 
 @directed("BANK-WIN-08", builds=(B4, B8, B32, B64))
 async def bank_win_08_interrupts(dut):
-    """The map has one bit per axis, set by ends with an interrupt; int_n is low while any bit is set
-    (BANK-WIN-08).
+    """The map has one bit per axis, which is set by an end with an interrupt; int_n is low while any bit is
+    set (BANK-WIN-08).
     """
     env = await Env.start(dut)
     numbers = {0, 1, env.size // 2, env.size - 1}
@@ -276,24 +278,24 @@ async def bank_win_08_interrupts(dut):
 
 @directed("BANK-WIN-05", "BANK-WIN-08", builds=(B4, B8, B16, B32, B64))
 async def bank_win_08_map_to_the_cycle(dut):
-    """A read of the map returns each bit as it is after edge 2 of the read. This holds for each phase
-    between the read and the visits that set or clear bits, and at each address of the byte
-    (BANK-WIN-05, BANK-WIN-08).
+    """A read of the map returns each bit as it is after edge 2 of the read, at each address of the byte and
+    for each distance between the read and a visit that sets or clears bits (BANK-WIN-05, BANK-WIN-08).
     """
     env = await Env.start(dut)
     await env.all_ready()
     for k in range(max(1, env.size // 8)):
         axes = env.axes[8 * k : 8 * k + 8]
         await env.mask(*(axis.n for axis in axes))
-        # Axis a is visited one cycle after axis a - 1, so the addresses next to the byte are sufficient.
+        # Axis a is visited one cycle after axis a - 1, so it is sufficient to test the addresses next to the
+        # byte.
         for at in [n for n in range(k, env.size, 8) if env.size < 32 or -8 <= n - 8 * k <= 16]:
             for step in range(len(axes) + 6):
                 await _map_near_visits(env, axes, at << 4 | MAP, step)
 
 
 async def _map_near_visits(env: Env, axes: list[Axis], address: int, step: int) -> None:
-    """Read the map step - 3 cycles after the first visit that sets a bit, then near each visit that
-    clears one.
+    """Read the map step - 3 cycles after the first visit that sets a bit, then near each visit that clears a
+    bit.
     """
     for axis in axes:
         await axis.command(0x42)
@@ -316,8 +318,8 @@ async def _map_near_visits(env: Env, axes: list[Axis], address: int, step: int) 
 
 @directed("BANK-GEN-05", builds=(B8, B4, B32, B64))
 async def bank_gen_05_not_ready(dut):
-    """After a reset, until edge R + 7, status reads as 02 and all else as 00, and writes have no effect
-    (BANK-GEN-05).
+    """From a reset until edge R + 7, status reads as 02, all other registers read as 00, and writes have no
+    effect (BANK-GEN-05).
     """
     env = await Env.start(dut)
     env.check("BANK-GEN-05", "outputs", env.axes[0].outputs(), _resting(env))

@@ -1,4 +1,4 @@
-"""Tests of the blocks around a bank: the view of one axis, and the carrier with its SPI host."""
+"""Tests of the blocks around a bank: ppmc_bank_axis_port, and the carrier with its SPI host."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import files
 
 VIEW = cocotb_items("cocotb_tests.bank", "tb_view", part=BLOCKS, shared=True)
 SPI = cocotb_items("cocotb_tests.bank", "tb_spi", part=BLOCKS, shared=True)
-# Start values are 0, as in an FPGA. There is one C++ file, as in the tests of the UART bridge.
+# Start values are 0, as in an FPGA. The build uses one C++ file, as in the tests of the UART bridge.
 FROM_ZERO = ("--output-split", "0", "--x-initial", "0")
 
 

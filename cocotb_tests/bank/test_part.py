@@ -22,8 +22,8 @@ ITEMS = cocotb_items(
     part=BANK,
 )
 
-# A row has a parameter, its legal values, and values just outside the range. The other parameters keep their
-# defaults: 32 axes, 100 MHz.
+# A row contains a parameter, its legal values, and values just outside the range. The other parameters keep
+# their defaults: 32 axes, 100 MHz.
 RANGES = {
     "CLK_HZ": (("32_000_000", "200_000_000"), ("28_000_000", "204_000_000", "100_000_001")),
     "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001", "15_000_000")),
@@ -40,7 +40,5 @@ def test_bank(item: Item, sim_options: SimOptions) -> None:
 
 @verifies("BANK-GEN-01", "BANK-GEN-02")
 def test_bank_gen_02_ranges() -> None:
-    """The elaboration accepts each parameter at its bounds and rejects the values just outside
-    (BANK-GEN-02).
-    """
+    """The elaboration accepts each parameter at its bounds and rejects values just outside (BANK-GEN-02)."""
     check_ranges("BANK-GEN-02", part_design("bank", F100), RANGES)

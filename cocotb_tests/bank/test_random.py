@@ -1,4 +1,4 @@
-"""Random hosts against the golden model: a fixed list of seeds; `--seed N` runs seed N only.
+"""Compares random hosts with the golden model: a fixed list of seeds, or one seed with `--seed N`.
 
 One simulation runs several seeds of one build. `make soak PART=bank` runs any number of other seeds.
 """
@@ -23,8 +23,8 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_seeds_are_enough() -> None:
-    """The fixed seeds use every build, each seed once, and compare a million intervals; each host
-    checks its own number.
+    """The fixed seeds use each build, contain no seed twice, and compare a million intervals in total. Each
+    host checks its own number of intervals.
     """
     assert random_item.complete
     assert {build(seed).name for seed in SEEDS} == build.names

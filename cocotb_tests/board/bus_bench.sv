@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// bus_bench: a board top without a PLL, and an old host on its data bus; each has tri-state drivers.
+// bus_bench: a board top without a PLL, and an old host on its data bus. Both have tri-state drivers.
 `default_nettype none
 
 module bus_bench #(

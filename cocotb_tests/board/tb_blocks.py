@@ -1,4 +1,4 @@
-"""Contracts of ppmc_board_reset and ppmc_board_led_stretch, as their headers state them."""
+"""Contracts of ppmc_board_reset and ppmc_board_led_stretch, as stated in their headers."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ async def clocks_to_release(unit: BlockDriver, limit: int) -> int:
         if await unit.settle():
             return count
         await unit.clk()
-    raise AssertionError(f"still in reset after {limit} clk")
+    raise AssertionError(f"still in reset after {limit} cycles")
 
 
 @cocotb.test()
 async def board_reset_release(dut):
-    """After power-on, loss of lock, or a bouncing button, the reset lasts HoldUs to 2 HoldUs after all
-    inputs are good.
+    """After power-on, loss of lock, or a bouncing button, the reset ends HoldUs to 2 HoldUs after all inputs
+    are inactive.
     """
     random = rng()
     for i, (clk_hz, hold_us) in enumerate(RESETS):
@@ -39,9 +39,9 @@ async def board_reset_release(dut):
         least = clk_hz // 1_000_000 * hold_us
         unit.put(lock_i=1, req_ni=1)
         unit.choose()
-        if i == 0:  # the start values alone make a reset, without a lock
+        if i == 0:  # the initial register values alone cause a reset, without a loss of lock
             first = await clocks_to_release(unit, 3 * least)
-            assert least <= first <= 2 * least + 3, f"power-on: {first} clk of {least}"
+            assert least <= first <= 2 * least + 3, f"power-on: {first} cycles of {least}"
         for what in ("lock_i", "req_ni"):
             await unit.clk(lock_i=1, req_ni=1)
             for _ in range(5):  # the button bounces
@@ -55,12 +55,12 @@ async def board_reset_release(dut):
             await unit.clk(**{what: 0})
             unit.put(**{what: 1})
             count = await clocks_to_release(unit, 3 * least + 3)
-            assert least <= count <= 2 * least + 4, f"{what} {clk_hz}: {count} clk, least {least}"
+            assert least <= count <= 2 * least + 4, f"{what} {clk_hz}: {count} cycles, least {least}"
 
 
 @cocotb.test()
 async def board_reset_assertion(dut):
-    """lock_i resets immediately and without a clock; req_ni resets with the third edge that samples it."""
+    """lock_i resets immediately and without a clock; req_ni resets on the third edge that samples it low."""
     clk_hz, hold_us = RESETS[2]
     unit = BlockDriver(dut, "reset2", BLOCKS, "rst_no")
     unit.put(lock_i=1, req_ni=1)
@@ -75,9 +75,7 @@ async def board_reset_assertion(dut):
 
 @cocotb.test()
 async def board_led_stretch(dut):
-    """A single-cycle pulse lights the LED for 1/32 to 1/16 s, and a new pulse during this time extends
-    it.
-    """
+    """A single-cycle pulse lights the LED for 1/32 to 1/16 s; a new pulse during this time extends it."""
     unit = BlockDriver(dut, "led", BLOCKS, "led_o")
     await unit.reset()
     same("after reset", await unit.clk(on_i=0), 0)
@@ -87,4 +85,4 @@ async def board_led_stretch(dut):
         lit += 1
         assert lit < LED_CLK_HZ, "LED stays on"
     least = LED_CLK_HZ // 32
-    assert least + again <= lit <= 2 * least + again + 2, f"{lit} clk"
+    assert least + again <= lit <= 2 * least + again + 2, f"{lit} cycles"

@@ -1,6 +1,4 @@
-"""A complete board top without a PLL: power-on, tri-states of the bus, both resets, pins of the UART
-host.
-"""
+"""A complete board top without a PLL: power-on, bidirectional bus, both resets, pins of the UART host."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ READ_PINS = 0x82  # command that requests S1 … S5, HOLD, DIR, from bit 7 down
 
 
 async def power_on(dut) -> int:
-    """Start the clock with every input idle; return the cycles until the top reports that it runs."""
+    """Start the clock with every input idle; return the cycles until the top lights the LED "running"."""
     for name in ("key_n", "host_rst_n", "cs_n", "rd_n", "wr_n"):
         getattr(dut, name).value = 1
     for name in ("a0", "host_oe", "host_d"):
@@ -26,7 +24,9 @@ async def power_on(dut) -> int:
 
 
 async def clocks_to_run(dut) -> int:
-    """Return the cycles from now until the LED "running" is lit; no output may act before."""
+    """Return the cycles from now until the LED "running" is lit; check that the outputs are inactive after
+    three cycles.
+    """
     start = get_sim_time("ns")
     await ClockCycles(dut.clk, 3)
     assert dut.d_oe.value == 0
@@ -36,7 +36,7 @@ async def clocks_to_run(dut) -> int:
 
 
 async def write(dut, a0: int, byte: int) -> None:
-    """Make one write access of the old host."""
+    """Make one write access as the old host does."""
     dut.a0.value, dut.host_d.value, dut.host_oe.value, dut.cs_n.value = a0, byte, 1, 0
     dut.wr_n.value = 0
     await ClockCycles(dut.clk, 4)
@@ -49,7 +49,7 @@ async def write(dut, a0: int, byte: int) -> None:
 
 
 async def read(dut, a0: int) -> int:
-    """Make one read access of the old host, check the direction of the bus, and return the byte."""
+    """Make one read access as the old host does, check the direction of the bus, and return the byte."""
     assert dut.d_oe.value == 0
     dut.a0.value, dut.cs_n.value, dut.rd_n.value = a0, 0, 0
     await ClockCycles(dut.clk, 5)
@@ -63,11 +63,11 @@ async def read(dut, a0: int) -> int:
 
 @cocotb.test()
 async def bus_power_on_and_read(dut):
-    """The start values make the reset; then a command and its answer pass through the bidirectional
-    pins.
+    """The initial register values reset the board; then a command and its answer pass through the
+    bidirectional pins.
     """
     count = await power_on(dut)
-    assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{count} clk"
+    assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{count} cycles"
     same("status", await read(dut, 1), 0x00)
     await write(dut, 1, READ_PINS)
     same("status with an answer", await read(dut, 1), 0x01)
@@ -77,7 +77,7 @@ async def bus_power_on_and_read(dut):
 
 @cocotb.test()
 async def bus_resets(dut):
-    """The button and the reset line of the host reset the part; an answer that waits is discarded."""
+    """The button and the reset line of the host reset the part, which discards an answer that waits."""
     await power_on(dut)
     for name in ("key_n", "host_rst_n"):
         await write(dut, 1, READ_PINS)
@@ -87,7 +87,7 @@ async def bus_resets(dut):
         await ClockCycles(dut.clk, 100)
         getattr(dut, name).value = 1
         count = await clocks_to_run(dut)
-        assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{name}: {count} clk"
+        assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{name}: {count} cycles"
         same(f"status after {name}", await read(dut, 1), 0x00)
 
 

@@ -1,7 +1,7 @@
-"""LEDs of the carriers, with a bus as host: limits, alarm and MON light one LED, a motion lights the
-other, and no other input does.
+"""LEDs of the carriers, with a bus as host: a limit, an alarm or MON lights one LED, a motion lights the
+other, and no other input lights an LED.
 
-The PPMC-312 moves for other hosts only: its motion LED is tested at standstill.
+The PPMC-312 only moves through other hosts, so its motion LED is tested at standstill only.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ LIT = {
     "stmc": ("l1_n", "l2_n", "l3_n", "l4_n", "mon"),
     "ppmc312": ("fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n"),
 }
-"""Pins whose active level, of any bit, lights led_switch."""
+"""Pins that light led_switch when any of their bits is active."""
 DARK = {"ppmc104": ("cnp_n",), "ppmc2104": ("org_n",), "stmc": ("cnp_n",), "ppmc312": ("org_n", "end_n")}
 STROBES = {"ppmc104": "wr_n", "stmc": "wr_n", "ppmc2104": "ds_wrs_n"}
 RAMP = (9, 4, 4, 0)  # RL, RH, PA
-AXES = {"ppmc2104": (0x00, 0x20)}  # bit of the code for each axis
+AXES = {"ppmc2104": (0x00, 0x20)}  # bit of the code that selects each axis
 
 
 async def start(dut, part: str) -> None:
@@ -37,7 +37,7 @@ async def start(dut, part: str) -> None:
 
 
 async def write(dut, part: str, a0: int, byte: int) -> None:
-    """Make one write access of the old host."""
+    """Make one write access as the old host does."""
     strobe = getattr(dut, STROBES[part])
     dut.a0.value, dut.d_i.value, dut.cs_n.value, strobe.value = a0, byte, 0, 0
     await ClockCycles(dut.clk, 4)
@@ -48,8 +48,8 @@ async def write(dut, part: str, a0: int, byte: int) -> None:
 @cocotb.test()
 @cocotb.parametrize(part=[*LIT])
 async def led_of_the_switches(dut, part: str):
-    """Each limit and the alarm (MON of the STMC) of each axis lights led_switch alone; other switches
-    do not.
+    """Each limit and the alarm (MON of the STMC) of each axis lights led_switch and no other LED; other
+    switches do not light it.
     """
     await start(dut, part)
     same("at rest", (int(dut.led_switch.value), int(dut.led_moving.value)), (0, 0))
@@ -68,7 +68,9 @@ async def led_of_the_switches(dut, part: str):
 @cocotb.test()
 @cocotb.parametrize(part=[*STROBES])
 async def led_of_the_motion(dut, part: str):
-    """During a move of each axis, led_moving is lit from the start until the hold time is over."""
+    """During a move of each axis, led_moving is lit from the start of the move to the end of its hold
+    time.
+    """
     await start(dut, part)
     for axis, bit in enumerate(AXES.get(part, (0,))):
         for register, byte in ((1, 0x02 | bit), *((0, byte) for byte in RAMP)):

@@ -1,6 +1,4 @@
-"""rtl/boards in simulation: reset and LEDs, a top with either host, a PPMC-312 on its line, the
-PMC006B4.
-"""
+"""rtl/boards in simulation: reset and LEDs, a top with each host, a PPMC-312 on its line, the PMC006B4."""
 
 from __future__ import annotations
 
@@ -22,16 +20,16 @@ ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
 HERE = ROOT / "cocotb_tests" / "board"
 RTL = ROOT / "rtl" / "boards"
-# One C++ file, because the make file of the wheel cannot use the header that several files share. Start
-# values 0, as in an FPGA: they make the power-on reset of the top, which has no pin that could make an edge
-# of its reset before the first rising edge of `clk`.
+# The build uses one C++ file, because the make file of the wheel cannot use the header that several files
+# share. Start values are 0, as in an FPGA: they cause the power-on reset of the top, which has no pin that
+# could produce an edge of its reset before the first rising edge of `clk`.
 ARGS = ("--output-split", "0", "--x-initial", "0")
 SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "led_stretch", "leds")]
 
 
 @pytest.mark.parametrize("item", BLOCK_ITEMS)
 def test_board_block(item, sim_options):
-    """Run one simulation of the small blocks."""
+    """Run one simulation of the small blocks of a board."""
     base = area_design("boards", BLOCKS)
     design = Design(base.top, [*base.sources[:-1], *SHARED, base.sources[-1]], base.includes, ports="*")
     run_item(item, sim_options, design=design)
@@ -62,9 +60,7 @@ def test_leds(item, sim_options):
 
 @pytest.mark.parametrize("item", ITEMS_312)
 def test_board_ppmc312_serial(item, sim_options):
-    """Run one simulation of the common part of the board tops with a PPMC-312, with its serial line as
-    host.
-    """
+    """Run one simulation of the board top of a PPMC-312, with its serial line as host."""
     part = part_design("ppmc312", item.config)
     bench = ROOT / "cocotb_tests/ppmc312/line/board_bench.sv"
     files = [*part.sources, *board_files("ppmc312"), *SHARED, bench]

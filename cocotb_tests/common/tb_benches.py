@@ -25,7 +25,7 @@ async def benches_leave_one_watch_a_port(dut: Any) -> None:
 
 @cocotb.test()
 async def a_bench_records_what_it_watches_itself(dut: Any) -> None:
-    """A port that one bench watches in addition is not watched by the next bench."""
+    """If one bench watches an additional port, the next bench does not watch this port."""
     await RtlBench.start(dut, PARTS["ppmc104"])
     more = sim_backend().port("d_i")
     sim_backend().watch(more)

@@ -79,20 +79,22 @@ def unit(dut, name: str, watch: str) -> BlockDriver:
 
 @cocotb.test()
 async def sync_two_stages(dut):
-    """A level is on q1 after the edge that samples it, on q2 one cycle later; in reset both are ResetVal."""
+    """A level appears on q1 after the edge that samples it, and on q2 one cycle later. During reset, both are
+    ResetVal.
+    """
     rand, u = rng(), unit(dut, "sync", "q1_o q2_o")
     await u.reset(d_i=0)
     past = [0b10110, 0b10110]
     for n in range(300):
         level = rand.getrandbits(5)
-        same(f"clk {n}: q1, q2", await u.clk(d_i=level), (past[-1], past[-2]))
+        same(f"cycle {n}: q1, q2", await u.clk(d_i=level), (past[-1], past[-2]))
         past.append(level)
     same("reset at once", await u.settle(rst_ni=0), (0b10110, 0b10110))
 
 
 @cocotb.test()
 async def reset_release(dut):
-    """rst_no falls immediately with rst_ni and rises at the second edge that samples rst_ni = 1."""
+    """rst_no falls immediately with rst_ni and rises on the second edge that samples rst_ni = 1."""
     rand, u = rng(), unit(dut, "reset", "rst_no")
     await u.reset()
     for _ in range(60):
@@ -111,9 +113,7 @@ async def reset_release(dut):
 
 @cocotb.test()
 async def ram_two_clk(dut):
-    """With random writes and reads of different addresses, read data is valid two cycles after its
-    address.
-    """
+    """If reads and writes use different addresses, read data is valid two cycles after its address."""
     rand, u = rng(), unit(dut, "ram", "rdata_o")
     u.choose()
     mem, due = [0] * 32, []
@@ -122,7 +122,7 @@ async def ram_two_clk(dut):
         we, value = int(n > 100 and rand.random() < 0.5), rand.getrandbits(9)
         got = await u.clk(we_i=we, waddr_i=write, wdata_i=value, raddr_i=read)
         if n > 1:
-            same(f"clk {n}", got, due[n - 2])
+            same(f"cycle {n}", got, due[n - 2])
         due.append(mem[read])
         if we:
             mem[write] = value
@@ -130,21 +130,19 @@ async def ram_two_clk(dut):
 
 @cocotb.test()
 async def tick_gen_exact(dut):
-    """After a restart at a random time, tick n occurs exactly ceil(n * TickXtal * ClkHz / XtalHz)
-    cycles later.
-    """
+    """After a restart at any time, tick n occurs exactly ceil(n * TickXtal * ClkHz / XtalHz) cycles later."""
     rand = rng()
     for i, (clk, xtal, step) in enumerate(TICKS):
         u = unit(dut, f"tick{i}", "tick_o")
         period = Fraction(step * clk, xtal)
         await u.reset()
-        # The longest phase cycle of the set has 1728 cycles.
+        # The longest phase cycle of these settings has 1728 cycles.
         for run in [2000] + [rand.randint(1, ceil(6 * period)) for _ in range(15)]:
             await u.clk(restart_i=1)
             n = 1
             for j in range(1, run + 1):
                 due = j == ceil(n * period)
-                same(f"{clk} Hz, {xtal} Hz, clk {j} of {run}", await u.clk(restart_i=0), due)
+                same(f"{clk} Hz, {xtal} Hz, cycle {j} of {run}", await u.clk(restart_i=0), due)
                 n += due
         await u.settle(rst_ni=0)
         same(f"{clk} Hz, {xtal} Hz, in reset", await u.settle(), 0)
@@ -161,14 +159,14 @@ async def square_no_drift(dut):
         for j in range(5000):
             if j == ceil(t * period):
                 level, t = 1 - level, t + 1
-            same(f"{clk} Hz, {xtal} Hz, {j} clk after the reset", await u.clk(), level)
+            same(f"{clk} Hz, {xtal} Hz, {j} cycles after the reset", await u.clk(), level)
         await u.settle(rst_ni=0)
         same("level in reset", await u.settle(), 0)
 
 
 @cocotb.test()
 async def xtal_timer_exact(dut):
-    """past_o is high, and stays high, from the cycle after ceil(limit * ClkHz / XtalHz) on."""
+    """past_o rises in the cycle after ceil(limit * ClkHz / XtalHz) cycles, and then stays high."""
     rand = rng()
     for i, (clk, xtal, width) in enumerate(TIMERS):
         u = unit(dut, f"timer{i}", "past_o")
@@ -180,7 +178,7 @@ async def xtal_timer_exact(dut):
             await u.clk(restart_i=1, limit_i=limit)
             for j in range(1, run + 1):
                 got = await u.clk(restart_i=0)
-                same(f"{clk} Hz, {xtal} Hz, limit {limit}, clk {j}", got, j > due)
+                same(f"{clk} Hz, {xtal} Hz, limit {limit}, cycle {j}", got, j > due)
 
 
 @cocotb.test()

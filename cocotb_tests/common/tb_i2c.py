@@ -1,4 +1,4 @@
-"""Contract of ppmc_i2c_master: the times on both lines compared with the data sheets of the EEPROMs."""
+"""Contract of ppmc_i2c_master: times on both lines, compared with the data sheets of the EEPROMs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ CLOCKS = [
     (8_000_000, 100_000),
     (8_000_000, 90_000),
 ]
-"""CLK_HZ, I2C_HZ."""
+"""(CLK_HZ, I2C_HZ) of each instance."""
 PORTS = (
     "tick_o cmd_i:3:ppmc_i2c_pkg::i2c_cmd_e byte_i:8 ack_i first_o done_o fail_o byte_o:8 nack_o"
     " scl_i sda_i scl_oe_o sda_oe_o"
@@ -44,20 +44,18 @@ SHORTEST_NS = {
     "su_sto": (600, 4000),
     "buf": (1300, 4700),
 }
-"""Minimum times in ns. First value: required by both the 24LC32A from 2.5 V on (Microchip, table of the
-AC characteristics) and the M24C32 at 400 kHz (ST, the same table). Second value: 24AA32A below 2.5 V,
-at 90 kHz.
+"""Minimum times in ns. The first value is required by the 24LC32A from 2.5 V on (Microchip, table of the AC
+characteristics) and by the M24C32 at 400 kHz (ST, the same table); the second value, by the 24AA32A below 2.5
+V at 90 kHz.
 """
 SENT = (0xA5, 0x3C)
 ACCESS_NS = 900
-"""Longest time in ns from the fall of SCL to the bit of the device (both devices); the master samples
-later.
-"""
+"""Longest time in ns from the fall of SCL until either device outputs its bit; the master samples later."""
 
 
 @dataclass
 class Lines:
-    """Levels over time, and the shortest value of each time in cycles.
+    """Levels of both lines over time, and the shortest value of each time in cycles.
 
     The device holds SCL low for `stretch` cycles.
     """
@@ -76,7 +74,9 @@ class Lines:
             self.found[name] = min(span, self.found.get(name, span))
 
     def clk(self, scl_oe: int, sda_oe: int) -> tuple[int, int]:
-        """Return the levels of both lines after an edge on which the master pulls the lines as given."""
+        """Make one edge; return the levels of both lines with these output enables of the master (1: pulls
+        low).
+        """
         self.t += 1
         self.held = max(0, self.held - 1)
         scl, sda = int(not scl_oe and not self.held), int(not sda_oe)
@@ -100,7 +100,7 @@ class Lines:
     def _data(self, scl: int, sda: int) -> None:
         """Note a change of SDA: START, STOP, or a bit while SCL is low."""
         if not (scl and self.scl):
-            assert not scl and not self.scl, f"clk {self.t}: both lines change together"
+            assert not scl and not self.scl, f"cycle {self.t}: both lines change together"
             self._note("hd_dat", "fall")
             self.since["data"] = self.t
         elif sda:
@@ -124,7 +124,7 @@ def course() -> Iterator[tuple[int, int]]:
 
 
 async def played(dut: object, number: int, stretch: int = 0) -> Lines:
-    """Run `course` on one instance; return the lines."""
+    """Execute the commands of `course` on one instance; return the lines."""
     u = BlockDriver(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o sda_oe_o")
     lines = Lines(stretch)
     await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=NONE)
@@ -141,8 +141,8 @@ async def played(dut: object, number: int, stretch: int = 0) -> Lines:
 
 @cocotb.test()
 async def i2c_times_of_the_data_sheets(dut):
-    """For each clock, every time on the lines is at least the minimum of 24LC32A and M24C32, and SCL is
-    low for 55 % of the period, to the cycle.
+    """At each clock frequency, every time on the lines is at least the minimum of the 24LC32A and M24C32, and
+    SCL is low for 55 % of the period, exact to the cycle.
     """
     for number, (clk, scl) in enumerate(CLOCKS):
         lines = await played(dut, number)
@@ -151,12 +151,12 @@ async def i2c_times_of_the_data_sheets(dut):
             got, shortest = found[name], limits[scl == 90_000]
             assert got >= shortest, f"{clk} Hz, SCL {scl} Hz: {name} {float(got):.1f} ns, want {shortest}"
         low = lines.found["low"]
-        assert 0 <= low - Fraction(55 * clk, 100 * scl) < 1, f"{clk} Hz, SCL {scl} Hz: low {low} clk"
+        assert 0 <= low - Fraction(55 * clk, 100 * scl) < 1, f"{clk} Hz, SCL {scl} Hz: low {low} cycles"
 
 
 @cocotb.test()
 async def i2c_times_with_a_stretched_clock(dut):
-    """If a device holds SCL low for any length, the high time is still met."""
+    """If a device holds SCL low for any time, SCL is then still high for the minimum time or longer."""
     rand = rng()
     for number, (clk, scl) in enumerate(CLOCKS[:6]):
         low = clk * 11 // (scl * 20)
@@ -164,7 +164,7 @@ async def i2c_times_with_a_stretched_clock(dut):
             lines = await played(dut, number, stretch)
             for name in ("high", "su_sta", "su_sto", "hd_sta"):
                 got = Fraction(lines.found[name] * 10**9, clk)
-                assert got >= SHORTEST_NS[name][0], f"{clk} Hz, {stretch} clk: {name} {float(got):.1f} ns"
+                assert got >= SHORTEST_NS[name][0], f"{clk} Hz, {stretch} cycles: {name} {float(got):.1f} ns"
 
 
 @cocotb.test()
@@ -186,7 +186,7 @@ async def i2c_period(dut):
 
 @cocotb.test()
 async def i2c_access_time(dut):
-    """Bits of a device with the longest access time of the data sheets are received."""
+    """The master receives the bits of a device with the longest access time of the data sheets."""
     for number, (clk, _) in enumerate(CLOCKS[:7]):
         u = BlockDriver(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
         await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=BYTE, byte_i=0xFF)

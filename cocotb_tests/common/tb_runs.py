@@ -18,7 +18,7 @@ LEFT: list[str] = []
 
 
 async def _clk(dut: Any, **levels: int) -> int:
-    """Make one clock cycle with these inputs, all others 0; return the level of q after it."""
+    """Make one clock cycle with these input levels (0 if omitted); return the level of q after it."""
     for pin in ("clk", "fire", "die"):
         getattr(dut, pin).value = levels.get(pin, 0)
     await Timer(1, "step")
@@ -29,13 +29,13 @@ async def _clk(dut: Any, **levels: int) -> int:
 
 @cocotb.test()
 async def passes(dut):
-    """q changes with each cycle."""
+    """q changes in each cycle."""
     assert await _clk(dut) != await _clk(dut)
 
 
 @cocotb.test()
 async def raises(dut):
-    """pytest.raises() works."""
+    """pytest.raises() works within a test."""
     with pytest.raises(ValueError, match="of no use"):
         raise ValueError("of no use")
     await _clk(dut)
@@ -43,41 +43,41 @@ async def raises(dut):
 
 @cocotb.test()
 async def skips(dut):
-    """pytest.skip() within a test."""
+    """The test calls pytest.skip()."""
     await _clk(dut)
     pytest.skip("nothing to do")
 
 
 @cocotb.test(skip=True)
 async def skipped(dut):
-    """Would fail if it ran."""
+    """The test is skipped by its decorator; it would fail if it ran."""
     raise AssertionError("it ran")
 
 
 @cocotb.test()
 async def xfails(dut):
-    """pytest.xfail() within a test."""
+    """The test calls pytest.xfail()."""
     await _clk(dut)
     pytest.xfail("known fault")
 
 
 @cocotb.test(expect_fail=True)
 async def expected(dut):
-    """A failure that cocotb expects."""
+    """The test fails, as its decorator states."""
     assert await _clk(dut) == 2
 
 
 @cocotb.test()
 @cocotb.parametrize(step=[1, -2])
 async def cases(dut, step):
-    """Two cases, of which one fails."""
+    """The test has two cases, of which one fails."""
     await _clk(dut)
     assert step > 0
 
 
 @cocotb.test()
 async def shows(dut):
-    """A plain assert."""
+    """A plain assert fails."""
     levels = [await _clk(dut) for _ in range(2)]
     assert levels == [7, 7]
 

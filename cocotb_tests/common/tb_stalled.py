@@ -1,5 +1,6 @@
-"""Test cases for reports about blocks that never answer (tests/common/harness/test_stalled.py); they
-test no block.
+"""Test cases for reports about blocks that never respond (tests/common/harness/test_stalled.py).
+
+They test no block.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ BLOCKS = {"sync": Block("ppmc_sync", "d_i q1_o q2_o", {"ResetVal": 0})}
 
 @cocotb.test()
 async def waits_for_an_edge(dut):
-    """Wait for an output that never rises, with a free-running clock."""
+    """The clock runs freely while the test waits for an output that never rises."""
     u = BlockDriver(dut, "sync", BLOCKS, "q2_o", BlockDriver.FREE)
     await u.reset()
     await u.run_until("q2_o", 1)
@@ -21,7 +22,7 @@ async def waits_for_an_edge(dut):
 
 @cocotb.test()
 async def polls(dut):
-    """After each cycle, poll an output that never rises, in a separate function."""
+    """A separate function polls an output that never rises after each cycle."""
     u = BlockDriver(dut, "sync", BLOCKS, "q2_o", 3_000)
 
     async def risen() -> None:

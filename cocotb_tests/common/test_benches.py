@@ -1,4 +1,4 @@
-"""Tests of the test bench in a simulation, one simulation per test."""
+"""Tests of the test benches in a simulation, one simulation per test."""
 
 from __future__ import annotations
 

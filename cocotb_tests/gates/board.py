@@ -9,14 +9,14 @@ from cocotb_tests.harness.collect import Item
 
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
-# Clock frequency of the iCEBreaker's bitstream.
+# Clock frequency of the bitstream for the iCEBreaker.
 B24 = Config("b24m", clk_hz=24_000_000)
 
 
 def sources() -> list[Path]:
     """Return the sources of the part, then the board module and its blocks.
 
-    The tops of boards contain vendor cells.
+    Tops of boards are not included, because they contain vendor cells.
     """
     return [*project.sources(project.part("ppmc104")), *project.board_files("ppmc104")]
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // DP16KD: simulation model of the block RAM of the ECP5, in the modes that this project uses. The model
 //         library of yosys has only its ports. Any other mode ends the elaboration with an error.
-// Rules:  two ports, 1 to 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of
-//         their addresses. The word address begins at AD5 (36 bits), AD4 (18 bits), AD3 (9 bits), AD2 (4),
-//         AD1 (2) or AD0 (1). With 36 bits AD0 to AD3 enable the bytes of a write, with 18 bits AD0 and AD1.
-//         With 36 bits port A only writes (DIB, DIA) and port B only reads: a word of 36 bits appears on DOB
-//         and DOA, a narrower word on DOB only.
-// Timing: read data is valid after the rising edge of the clock. A port that writes keeps its output
-//         (NORMAL), outputs the new word (WRITETHROUGH) or the old one (READBEFOREWRITE).
+// Rules:  two ports of 1 to 18 bits, without an output register. INITVAL contains 18 bits in each 20 bits, in
+//         the order of their addresses. The lowest bit of the word address is AD5 (36 bits), AD4 (18 bits),
+//         AD3 (9 bits), AD2 (4 bits), AD1 (2 bits) or AD0 (1 bit). AD0 to AD3 (36 bits), or AD0 and AD1
+//         (18 bits), enable the bytes of a write. With 36 bits, port A only writes (DIB, DIA) and port B only
+//         reads: a word of 36 bits is output on DOB and DOA, a narrower word on DOB only.
+// Timing: read data is valid after the rising edge of the clock. During a write, the output of the port does
+//         not change (NORMAL), or is the new word (WRITETHROUGH) or the old word (READBEFOREWRITE).
 `default_nettype none
 
 // Macros for the parameters INITVAL_00 .. INITVAL_3F, and for a concatenation of sixteen of them.
@@ -69,7 +69,7 @@ module DP16KD #(
   localparam logic [64*320-1:0] Content = {`SIXTEEN(3), `SIXTEEN(2), `SIXTEEN(1), `SIXTEEN(0)};
   localparam bit Wide = DATA_WIDTH_A == 36;
 
-  // Both ports can write.
+  // Both ports can write, so two processes drive the memory.
   // verilator lint_off MULTIDRIVEN
   logic [35:0] mem[512];
   // verilator lint_on MULTIDRIVEN
@@ -100,7 +100,7 @@ module DP16KD #(
     localparam string Mode = p == 0 ? WRITEMODE_A : WRITEMODE_B;
     logic [35:0] data, word, fresh, out, written;
     logic [3:0] bytes;
-    logic [5:0] place;  // lowest bit of the port's word among the 36
+    logic [5:0] place;  // lowest bit of the port's word in the word of 36 bits
 
     initial out = '0;
     assign q[p] = out;
@@ -118,7 +118,7 @@ module DP16KD #(
         place = 6'd9 * 6'(ad[p][4:3]);
         bytes = 4'b1 << ad[p][4:3];
         data  = {4{d[p][8:0]}};
-        if (Width < 9) begin  // the ninth bit is omitted
+        if (Width < 9) begin  // words of 4 bits or less do not use the ninth bit
           place = place + 6'(int'(ad[p][2:0]) & (8 - Width));
           data  = 36'(d[p]) << place;
         end

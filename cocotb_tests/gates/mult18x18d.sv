@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MULT18X18D: simulation model of the multiplier of the ECP5 as yosys maps a product: 18 x 18 bits, no
-//         register. The model library of yosys has only its ports. The model has no parameters: an instance
-//         that sets one, for example for a register, ends the elaboration with an error.
+// MULT18X18D: simulation model of the multiplier of the ECP5, as far as yosys uses it for a product: 18 x 18
+//         bits, no register. The model library of yosys has only its ports. The model has no parameters, so
+//         an instance that sets one, for example for a register, ends the elaboration with an error.
 // Timing: combinational.
 `default_nettype none
 

@@ -1,5 +1,5 @@
-"""The board top through its UART: identification, moves compared with the golden model edge by edge,
-invalid frames.
+"""The board top, accessed through its UART: identification, moves compared with the golden model edge by
+edge, invalid frames.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ EVENT, NAK, NAK_CRC = 0x80, 0x81, 2
 
 
 async def start(dut: Any, code: int = 0) -> tuple[RtlBench, Uart]:
-    """Reset the board, then select the line rate of that code."""
+    """Reset the board, then select the line rate that has this code."""
     uart = Uart(dut)
     bench = await RtlBench.start(dut, PARTS["ppmc104"])
     uart.listen()
     await Timer(100, "us")
     answer = await uart.ask(Script().rate(code))
     assert answer.result is Result.DONE, answer
-    # The new rate applies after the stop bit; the answer was complete in the middle of this bit.
+    # The new rate applies after the stop bit; the answer was complete in the middle of the stop bit.
     await Timer(10, "us")
     uart.rate = RATES[code]
     return bench, uart
 
 
 class Golden:
-    """The golden model after INIT, for successive moves."""
+    """Golden model after its initialisation, which makes successive moves."""
 
     def __init__(self) -> None:
         self.model = Ppmc104(B24.clk_hz, B24.xtal_hz, B24.timing, B24.phase_idle)
@@ -54,7 +54,8 @@ class Golden:
     def move(self, op: int, count: int, limit_at: int | None) -> list[tuple[int, str, int]]:
         """Return the motor edges of a move, in cycles after its first pulse, up to the fall of int_n.
 
-        Args: limit_at: cycles after the first pulse at which l2_n falls.
+        Args:
+            limit_at: cycles from the first pulse to the fall of l2_n.
         """
         model, before = self.model, len(self.model.pulses)
         for place, byte in enumerate((op, *(count - 1).to_bytes(3, "little"))):
@@ -92,10 +93,10 @@ async def move(
     counted: int = 0,
     limit_at: int | None = None,
 ) -> int:
-    """Make one move with one frame, compare edges and finish status with the golden model, and return
-    its pulses.
+    """Make one move with one frame and compare edges and finish status with the golden model.
 
-    The pulse counter must count the pulses, CW up from `counted`, and the end must send an event.
+    The pulse counter must count the pulses from `counted` on (upwards for CW), and the end of the move must
+    send an event. Return the number of pulses.
     """
     begin = bench.now
     sender = cocotb.start_soon(uart.ask(Script().call(op, *(count - 1).to_bytes(3, "little"))))
@@ -110,7 +111,7 @@ async def move(
     got = since(first, [(t, name, value) for name in MOTOR for t, value in bench.edges(name, begin)])
     want = golden.move(op, count, limit_at)
     wrong = next((pair for pair in zip_longest(got, want) if pair[0] != pair[1]), None)
-    bench.check("UART move", "first wrong edge (clk after the first pulse, pin, level)", wrong, None)
+    bench.check("UART move", "first wrong edge (cycles after the first pulse, pin, level)", wrong, None)
     event = await uart.frame()
     assert event.payload[0] == EVENT, f"expected an event, got {event}"
     answer = await uart.ask(Script().call(0x80).get(1).count())
@@ -136,7 +137,7 @@ async def board_identifies_itself(dut: Any) -> None:
 @cocotb.test()
 @configs(B24)
 async def board_drops_a_bad_frame(dut: Any) -> None:
-    """A frame with a wrong CRC is answered with NAK 2, and no part of it is executed."""
+    """A frame with a wrong CRC is answered with NAK 2, and no command in it is executed."""
     bench, uart = await start(dut, RATES.index(1_000_000))
     line = bytearray(encode(bytes([5]) + bytes(Script().call(*INIT))))
     line[3] ^= 0x01
@@ -144,8 +145,8 @@ async def board_drops_a_bad_frame(dut: Any) -> None:
     nak = await uart.frame()
     assert nak.payload == bytes([NAK, NAK_CRC]), nak
     status = await uart.ask(Script().read(1).call(CW, 0, 0, 0))
-    # Without an initialisation the part rejects the move, so the initialisation in the invalid frame did not
-    # reach it.
+    # The part rejects the move, because it is not initialised: the initialisation in the invalid frame did
+    # not reach it.
     assert status.result is Result.REFUSED, status
     assert not bench.pulses()
 
@@ -154,8 +155,8 @@ async def board_drops_a_bad_frame(dut: Any) -> None:
 @configs(B24)
 @cocotb.parametrize(rate=(1_000_000, 3_000_000))
 async def board_moves(dut: Any, rate: int) -> None:
-    """After an initialisation through the UART, each edge of a move CW and of a move CCW into its limit
-    equals that of the golden model.
+    """After an initialisation through the UART, each edge of a CW move, and of a CCW move that ends at its
+    limit, equals that of the golden model.
     """
     bench, uart = await start(dut, RATES.index(rate))
     answer = await uart.ask(Script().events(True).call(*INIT))

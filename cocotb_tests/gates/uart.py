@@ -1,4 +1,4 @@
-"""UART host for the board tops in a simulation: sends scripts, receives answers."""
+"""UART host that sends scripts to a board top in a simulation and receives answers."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from openppmc.host.script import Answer, Script, parse_answer
 
 
 class Uart(UartBfm):
-    """The line on `uart_rxd` (to the board) and `uart_txd`; `frames` holds the received frames, oldest
-    first.
+    """Serial line on `uart_rxd` (to the board) and `uart_txd`.
+
+    `frames` contains the received frames, oldest first.
     """
 
     def __init__(self, dut: Any, rate: int = 115_200) -> None:
@@ -31,7 +32,7 @@ class Uart(UartBfm):
     async def frame(self, limit_us: int = 200_000) -> Frame:
         """Return the next frame.
 
-        Raise AssertionError if it is broken or no frame arrives within the limit.
+        Raise AssertionError if the frame is invalid or does not arrive within the time limit.
         """
         limit = Timer(limit_us, "us")
         while not self.frames:

@@ -1,11 +1,11 @@
-"""Test harness of the OpenPPMC devices: `from cocotb_tests.harness import …` is all that a test needs.
+"""Test harness of the OpenPPMC devices: a test needs only `from cocotb_tests.harness import …`.
 
     # cocotb_tests/ppmc104/tb_stops.py                       (runs inside the simulator)
     from cocotb_tests.harness import F11, F16, directed
     from .expected_timing import INIT_A
     from .env import Env
 
-    @directed("P104-STP-01", "AC-20", builds=(F16, F11))      # builds are optional; the default is F16 only
+    @directed("P104-STP-01", "AC-20", builds=(F16, F11))      # builds are optional; default: only F16
     async def p104_stp_01_immediate_stop(dut):
         "After 0x40 in a constant-speed move, no further pulse is output."
         env = await Env.start(dut, INIT_A)                    # clock, reset 1-0-1, initialisation
@@ -24,16 +24,17 @@
     def test_ppmc104(item, sim_options):
         run_item(item, sim_options)
 
-A name loads only the modules that it needs; the modules import each other and never this package. The first
-line of each module states its purpose (`head -qn1 cocotb_tests/harness/*.py`); docs/testing.md describes how
-they work together. No module depends on a device: the `bench.py` of a device lists its pins (`PARTS`).
+An import of a name loads only the modules that this name needs. The modules import each other, but never this
+package. The first line of each module states its purpose (`head -qn1 cocotb_tests/harness/*.py`);
+docs/testing.md describes how the modules work together. No module depends on a device: the `bench.py` of a
+device lists its pins (`PARTS`).
 
 Times are counted in rising edges of `clk`; edge 0 is the first that samples rst_n = 1. Input pins change on
-falling edges and are stamped with the rising edge that samples them first; an output edge is stamped with the
-rising edge that causes it.
+falling edges. The stamp of an input change is the first rising edge that samples it; the stamp of an output
+edge is the rising edge that causes it.
 
-A failure leaves log.txt and waves/dump.vcd (all signals) in build/failures/<test>/, for a comparison also
-compare.txt, compare.vcd and compare.png; the message ends with the command that repeats the test.
+A failed test writes log.txt and waves/dump.vcd (all signals) to build/failures/<test>/. A failed comparison
+also writes compare.txt, compare.vcd and compare.png. The message ends with the command that repeats the test.
 """
 
 from typing import TYPE_CHECKING

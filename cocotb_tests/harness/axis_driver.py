@@ -1,7 +1,7 @@
-"""`AxisDriver`: one axis as its host uses it: operations, pulses, results, and checks of a pulse train.
+"""`AxisDriver`: one axis as a host uses it: operations, pulses, results, and checks of a pulse train.
 
-A device with one axis has one `AxisDriver`; a device with two has one for each, on one `HostBus`. Times are
-in cycles.
+A device with one axis has one `AxisDriver`; a device with two axes has one for each axis, on one `HostBus`.
+Times are in cycles.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def indices(n: int, pa: int) -> list[int]:
 
 
 def forced(n: int, pa: int, j: int) -> list[int]:
-    """Return the interval indices if deceleration is forced after output of pulse j (P104-FDC-02/03)."""
+    """Return the interval indices if deceleration is forced after pulse j is output (P104-FDC-02/03)."""
     done = indices(n, pa)[:j]
     return done + list(range(done[-1] - 1, -1, -1)) if done else []
 
@@ -63,7 +63,7 @@ def rates(ramp: Ramp, which: Iterable[int]) -> list[int]:
 def quanta(r: int, csel: int = 1, vsel: int = 1) -> int:
     """Return the interval at rate r in quanta of the internal base clock (P104-INT-01/02).
 
-    A device without a vsel pin counts as vsel = H.
+    For a device without a vsel pin, use vsel = H.
     """
     return (r + 1) * (8 if csel else 32) + (0 if vsel else 30)
 
@@ -78,7 +78,7 @@ def offsets(config: Config, rate_list: Iterable[int], csel: int = 1, vsel: int =
 
 
 def low_times(config: Config, rate_list: Sequence[int], csel: int = 1, vsel: int = 1) -> list[int]:
-    """Return the low time of every pulse of a complete move on the internal clock (P104-TIM-05)."""
+    """Return the low time of each pulse of a complete move on the internal clock (P104-TIM-05)."""
     fast = csel and vsel
     return [config.cyc(16 * (r + 1)) if fast and r <= 2 else config.w for r in rate_list] + [config.w]
 
@@ -94,9 +94,9 @@ def bytes_of(value: int) -> list[int]:
 
 
 class AxisDriver:
-    """An axis: pins `pout`, `phases` and `clock`, BUSY bit `busy`, and `axis_bit`, or-ed into every code.
+    """An axis: pins `pout`, `phases`, `clock`; BUSY bit `busy`; `axis_bit`, which is ORed into every code.
 
-    `since` is the edge from which pulses of the present operation count.
+    Pulses on or after edge `since` count as pulses of the present operation.
     """
 
     def __init__(
@@ -124,10 +124,10 @@ class AxisDriver:
     # ---------------------------------------------------------------- operations
 
     async def go(self, code: int, n: int | None = None, rate: int | None = None, poll: bool = True) -> int:
-        """Send an operation of n pulses (None: an operation without a count).
+        """Send an operation of n pulses (None: an operation without a pulse count).
 
-        Returns the status after the last byte, or with poll = False edge 0 of its write. `since` becomes the
-        edge from which pulses of this operation count.
+        Returns the status after the last byte, or edge 0 of the write of this byte if `poll` is False. Pulses
+        from `since` on, which this method sets, count for the operation.
         """
         self.since = self.bench.now
         data = ([] if rate is None else [rate]) + ([] if n is None else bytes_of(n - 1))
@@ -144,11 +144,14 @@ class AxisDriver:
         return self.pulses
 
     async def idle(self, timeout: int | None = None) -> int:
-        """Poll until BUSY = 0; return that status."""
+        """Poll until BUSY = 0; return the status that was read last."""
         return await self.host.wait_idle(timeout, self.busy)
 
     async def command(self, code: int, poll: bool = True) -> int:
-        """Send a code to this axis; return the status with IBF = 0 that follows (without `poll`: edge 0)."""
+        """Send a code to this axis and poll until IBF = 0; return that status.
+
+        Without `poll`, return edge 0 of the write.
+        """
         return await self.host.command(code | self.axis_bit, poll)
 
     @property
@@ -167,21 +170,24 @@ class AxisDriver:
         return self.bench.low_times(self.since, self.pout)
 
     async def pulse(self, n: int, plus: int = 0) -> int:
-        """Wait for the n-th pulse of the last `go` and `plus` more cycles; return the pulse's edge."""
+        """Wait for the n-th pulse of the last `go`, then for `plus` cycles; return the edge of the pulse."""
         fall = await self.bench.nth_fall(n, self.since, self.pout)
         if plus:
             await self.bench.until(fall + plus)
         return fall
 
     async def wait_end(self, timeout: int = 1_000_000) -> int:
-        """Return the edge on which int_n fell after the last `go`; wait for it (I = 0 and no INT pending)."""
+        """Wait until int_n falls after the last `go`; return that edge.
+
+        The operation must enable the interrupt (I = 0), and no interrupt may be pending.
+        """
         if falls := self.bench.falls("int_n", self.since):
             await self.bench.align()
             return falls[0]
         return await self.bench.edge("int_n", 0, timeout)
 
     async def busy_until(self, end: Callable[[], bool], rule: str) -> int:
-        """Read status until `end()`; every read must return BUSY = 1. Return the number of reads."""
+        """Read status until `end()` is true; every read must return BUSY = 1. Return the number of reads."""
         count = 0
         while not end():
             status = await self.host.status()
@@ -216,7 +222,7 @@ class AxisDriver:
             self.check(rule, "remaining value", await self.remaining(), remaining)
 
     def check_train(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
-        """Check that every pulse of the last `go` is on the cycle given by the rates (P104-BCK-03)."""
+        """Check that each pulse of the last `go` occurs in the cycle set by the rates (P104-BCK-03)."""
         pulses = self.pulses
         got = [t - pulses[0] for t in pulses]
         expected = offsets(self.cfg, rates, csel, vsel)
@@ -227,16 +233,16 @@ class AxisDriver:
         self.check(rule, f"cycles from pulse 1 to pulse {j}", got[j - 1], expected[j - 1])
 
     def check_lows(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
-        """Check every low time of a complete move against P104-TIM-05."""
+        """Check each low time of a complete move (P104-TIM-05)."""
         self.check(rule, "low times", self.low_times, low_times(self.cfg, rates, csel, vsel))
 
     def stretches(self, since: int) -> list[tuple[int, int]]:
-        """Return (pattern, cycles) of every complete stretch of the phases that began at `since` or later."""
+        """Return (pattern, cycles) of each phase pattern that began at `since` or later and has ended."""
         edges = self.bench.edges(self.phases, since)
         return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
 
     def outputs(self) -> dict[str, int]:
-        """Return the present levels of all outputs except the host bus and free-running outputs."""
+        """Return the present levels of all outputs, without the host bus and free-running outputs."""
         return {
             name: self.bench.level(name) for name in self.bench.part.watched if name not in ("d_o", "d_oe")
         }
@@ -252,7 +258,7 @@ class AxisDriver:
             await self.bench.clocks(period - period // 2)
 
     async def tick_until(self, pulses: int, limit: int = 2000) -> None:
-        """Drive external clock edges until the last `go` has completed `pulses` pulses."""
+        """Drive edges of the external clock until the last `go` has output `pulses` pulses."""
         for _ in range(limit):
             if len(self.pulses) >= pulses:
                 break
@@ -261,7 +267,7 @@ class AxisDriver:
         await self.bench.level_is(self.pout, 1)
 
     def clock_edges(self, since: int = 0) -> list[int]:
-        """Return the stamps of the rising edges driven on the pin of the external clock."""
+        """Return the stamps of the rising edges driven on the external clock pin."""
         return self.bench.pin_rises(self.clock, since)
 
     # ---------------------------------------------------------------- byte by byte
@@ -274,11 +280,11 @@ class AxisDriver:
         return await self.bench.edge(output) - edge0
 
     async def status_after(self, byte: int, register: int = COMMAND) -> int:
-        """Write one byte with polling; return the status with IBF = 0 that follows."""
+        """Write one byte and poll until IBF = 0; return that status."""
         return await (self.host.command(byte) if register == COMMAND else self.host.data(byte))
 
     async def statuses(self, script: str) -> list[int]:
-        """Return the status after each polled write of a script such as "c 0A d 09"."""
+        """Write the bytes of a script such as "c 0A d 09" with polling; return the status after each byte."""
         words = script.split()
         pairs = zip(words[::2], words[1::2], strict=True)
         return [

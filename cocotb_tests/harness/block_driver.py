@@ -1,6 +1,6 @@
 """Drives one block instance of a generated wrapper, cycle by cycle.
 
-The wrapper is one top module with many instances; its ports are called <instance>_<port>.
+The wrapper is one top module with many instances, whose ports are called <instance>_<port>.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from cocotb.utils import get_sim_time
 
 @dataclass(frozen=True)
 class Block:
-    """One instance: module, its ports as "name[:width[:cast type]]" and its parameters.
+    """An instance: module, ports as "name[:width[:cast type]]", and parameters.
 
-    Names that end in _i or _ni are inputs. clk_i and rst_ni are added unless `bare`.
+    Names that end in _i or _ni are inputs. clk_i and rst_ni are added unless `bare` is set.
     """
 
     module: str
@@ -49,10 +49,10 @@ def is_input(port: str) -> bool:
 def wrapper_text(top: str, blocks: Mapping[str, Block]) -> str:
     """Return the SystemVerilog of the top module.
 
-    Its signal `chosen` is the number (from 1) of the instance that is clocked.
+    Only the instance with the number `chosen` (from 1), a signal of the module, is clocked.
     """
-    # Inputs start at random levels. Only the chosen instance is clocked, so no assertion of another one
-    # fires.
+    # Inputs start at random levels. Because only the chosen instance is clocked, no assertion of another
+    # instance fires.
     pins, body = [], ["  logic [7:0] chosen = 8'd0;"]
     for number, (name, block) in enumerate(blocks.items(), 1):
         links = []
@@ -72,17 +72,20 @@ FOLDER = Path(__file__).resolve().parents[1]
 
 
 def rng() -> random.Random:
-    """Return the random source of the running test; the seed is in the failure message and in --seed."""
+    """Return the random source of the running test.
+
+    Its seed is shown in the failure message and set with --seed.
+    """
     return random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
 
 
 def same(what: str, got: object, want: object) -> None:
-    """Assert that both values are equal, with both in the message."""
+    """Assert that both values are equal; the message contains both."""
     assert got == want, f"{what}: got {got}, want {want}"
 
 
 def _test_frame() -> FrameType:
-    """Return the frame of the running test: the outermost one of this project's tests."""
+    """Return the outermost frame of this project's code in the running test."""
     frame = sys._getframe(1)
     while frame.f_back is not None and FOLDER in Path(frame.f_back.f_code.co_filename).parents:
         frame = frame.f_back
@@ -90,7 +93,7 @@ def _test_frame() -> FrameType:
 
 
 async def _end(test: FrameType, clk: int) -> None:
-    """Fail the running test after `clk` cycles of two steps each; name the line in which it waits."""
+    """Fail the running test after `clk` cycles of two time steps each; name the line that waits."""
     await Timer(2 * clk, "step")
     file, line = test.f_code.co_filename, test.f_lineno
     waiting = linecache.getline(file, line).strip()
@@ -99,14 +102,15 @@ async def _end(test: FrameType, clk: int) -> None:
 
 
 class BlockDriver:
-    """One instance. `edges` counts the rising edges of `clk` since reset.
+    """Driver of one instance. `edges` counts the rising edges of `clk` since reset.
 
-    The first unit of a test limits the whole test, because a block that does not respond would stall it for
-    minutes. The limit is LIMIT cycles, or FREE if the clock runs freely, which is thirty times as fast.
+    The first driver that a test creates limits the duration of the test, because a block that does not
+    respond would stall it for minutes. The limit is LIMIT cycles, or FREE if the clock runs freely, which is
+    thirty times as fast.
     """
 
     LIMIT, FREE = 250_000, 1_500_000
-    """About twice the time of the longest tests, or 30 s."""
+    """Limits in cycles: about twice the duration of the longest tests, or 30 s."""
     _limited: FrameType | None = None
     """Frame of the test that already has a limit."""
 
@@ -117,7 +121,7 @@ class BlockDriver:
 
         Args:
             watch: outputs that `clk` returns, in this order.
-            limit: limit of the test: sum of the cycles of all its units.
+            limit: limit of the test, for the sum of the cycles of all its drivers.
         """
         block = blocks[name]
         self.chosen, self.number = dut.chosen, list(blocks).index(name) + 1
@@ -134,17 +138,17 @@ class BlockDriver:
         return int(self.pins[port].value)
 
     def put(self, **inputs: int) -> None:
-        """Set inputs; they are valid from the next wait on."""
+        """Set inputs; the levels take effect at the next wait."""
         for port, value in inputs.items():
             self.pins[port].value = int(value)
 
     def choose(self) -> None:
-        """Select this instance for the clock."""
+        """Connect the clock to this instance."""
         self.pins["clk_i"].value = 0
         self.chosen.value = self.number
 
     async def reset(self, **inputs: int) -> None:
-        """Reset for three cycles with all inputs 0 except the given ones, then release the reset."""
+        """Reset for three cycles, then release the reset; all inputs except `inputs` are 0."""
         self.put(**{port: 0 for port in self.inputs})
         self.put(**inputs)
         self.choose()
@@ -155,7 +159,7 @@ class BlockDriver:
         self.edges = 0
 
     async def settle(self, **inputs: int) -> Any:
-        """Set inputs and let the logic follow, without an edge of `clk`. Return the watched outputs."""
+        """Set inputs and let combinational logic settle, without a clock edge; return the watched outputs."""
         self.put(**inputs)
         await Timer(1, "step")
         values = [int(pin.value) for pin in self.watch]
@@ -173,7 +177,7 @@ class BlockDriver:
     async def run_until(self, port: str, level: int) -> int:
         """Run the clock freely until an output has this level; return the number of edges, at least one.
 
-        For long waits: thirty times as fast as `clk`.
+        Use it for long waits: it is thirty times as fast as `clk`.
         """
         await self.settle()  # makes the low level of the previous cycle effective
         clock = Clock(self.pins["clk_i"], 2, "step", impl="gpi")

@@ -1,4 +1,4 @@
-"""Unit tests of RTL blocks under pytest: one item per cocotb test, one build per area."""
+"""Unit tests of RTL blocks under pytest: one item per cocotb test, one build per area of the RTL."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ GROUPS = ("common", "motion", "host", "single")
 
 
 def run_block(item: Item, options: SimOptions) -> None:
-    """Run one simulation of the area that the item's module tests."""
+    """Run one simulation of the area to which the module of the item belongs."""
     module = importlib.import_module(item.module)
     area = getattr(module, "AREA", item.module.rsplit("_", 1)[-1])
     groups = getattr(module, "GROUPS", GROUPS)
@@ -26,10 +26,10 @@ def run_block(item: Item, options: SimOptions) -> None:
 
 
 def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = GROUPS) -> Design:
-    """Return the design with all instances of one area; write its top module below build/.
+    """Return the design with all instances of an area; write its top module to build/.
 
     Args:
-        groups: the groups of rtl/files.yml that contain the sources of the area.
+        groups: groups of rtl/files.yml that contain the sources of the area.
     """
     top = f"blocks_{area}"
     path = BUILD / "blocks" / f"{top}.sv"

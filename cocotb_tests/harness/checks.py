@@ -10,12 +10,12 @@ from random import Random
 
 from .axis_driver import NO_PULSES_DONE, AxisDriver, Ramp, differences, forced, indices, rates
 
-# From this interval on the rules apply to the exact cycle (P104-BCK-05).
+# For intervals of at least this number of cycles, the rules apply to the exact cycle (P104-BCK-05).
 EXACT = 16
-# If edges are at least this number of cycles apart, low times are exact, too (chapter 9.2 of the manuals).
+# If edges are at least this number of cycles apart, low times are also exact (chapter 9.2 of the manuals).
 EXACT_LOW = 6
-# If the period is below this number of crystal cycles, a pulse of rate 0 ends with the high time of the clock
-# (P104-TIM-05).
+# If the clock period is below this number of crystal cycles, a pulse of rate 0 ends with the high time of the
+# clock (P104-TIM-05).
 BRISK = 128
 # Reason why a `sweep` is not also compared with the golden model.
 TOO_MANY = "each pulse is compared with the formula; 800,000 changes of a clock are too many for the model"
@@ -25,7 +25,7 @@ RateOf = Callable[[Ramp, Sequence[int]], list[int]]
 
 @dataclass(frozen=True)
 class Move:
-    """n pulses on `ramp` (RL, RH, PA), or at constant speed with `rate`.
+    """A move of n pulses on `ramp` (RL, RH, PA), or at constant speed with `rate`.
 
     Attributes:
         gaps: numbers of cycles from edge to edge of the clock; the list is repeated indefinitely.
@@ -50,7 +50,10 @@ class Move:
 
 @dataclass(frozen=True)
 class Train:
-    """Record of a move: pulses, low times if any, edges of the clock (times when they act at the pins)."""
+    """Record of a move: edges of the clock, pulses, and low times if any.
+
+    `edges` and `falls` are the times when the edges of the clock take effect at the pins.
+    """
 
     edges: list[int]
     falls: list[int]
@@ -61,9 +64,9 @@ class Train:
 def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterator[str]:
     """Yield each contradiction to the rules; `w` and `brisk` are CYC(80) and CYC(128).
 
-    Every interval that is EXACT or longer by the formula must match it to the cycle. The same applies to the
-    low time that begins such an interval; with edges closer than EXACT_LOW it may be longer, up to W. A
-    shorter interval may be longer by whole base periods.
+    An interval whose length by the formula is EXACT or more must match the formula to the cycle. So must the
+    low time at the start of such an interval; if edges are closer than EXACT_LOW, it may be longer, up to W.
+    A shorter interval may be longer than the formula by whole base periods.
     """
     edges, pulses, lows = train.edges, train.pulses, train.lows
     at = [bisect_left(edges, t) for t in pulses]
@@ -94,7 +97,7 @@ class ExtMoves:
         slow_pin: slow-down limit of the direction CW, active low.
         lows: True if the device has a pulse output.
         rate_of: function that returns the rates of ramp indices.
-        delay: cycles from an edge at the pin to its pulse.
+        delay: cycles from an edge at the clock pin to the pulse that it causes.
     """
 
     def __init__(self, axis: AxisDriver, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
@@ -108,7 +111,7 @@ class ExtMoves:
     async def of(
         cls, axis: AxisDriver, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
     ) -> ExtMoves:
-        """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, the rest to the pin."""
+        """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, and the pin delay."""
         moves = cls(axis, slow_pin, lows, rate_of, 0)
         train = await moves._train(Move(2, (64,), 32, ramp))
         moves.delay = train.pulses[0] - max(t for t in train.edges if t < train.pulses[0] - 1)
@@ -126,7 +129,7 @@ class ExtMoves:
         axis, bench = self.axis, self.axis.bench
         expected = move.rates(self.rate_of)
         await axis.go(0x43 if move.rate is None else 0x44, move.n, move.rate)
-        # Allow for the set-up time, and for short intervals that are longer than requested.
+        # Allow for the set-up time, and for short intervals that become longer than the formula.
         count = axis.cfg.w // min(move.gaps) + sum(expected) + 8 * move.n + 8
         start = await bench.align() + 1
         rises = list(accumulate(islice(cycle(move.gaps), count), initial=start))
@@ -148,8 +151,8 @@ class ExtMoves:
 def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
     """Yield moves on a ramp: edges 4 to 17 cycles apart, N from 2 to beyond a plateau, some with a limit.
 
-    N decides where a move begins to decelerate and whether it holds its index before that (P104-PRO-03). A
-    limit occurs where the move can still decelerate.
+    N determines where a move begins to decelerate and whether it holds its index before that (P104-PRO-03). A
+    slow-down limit occurs where the move can still decelerate.
     """
     rl, _, pa = ramp
     fast = [j for j in range(2, pa + 3) if rate_of(ramp, [min(j - 1, pa)]) != [rl]]
@@ -163,7 +166,7 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
 
 
 BOTH = 0xB0
-"""Finish status without the code of the operation."""
+"""Finish status for limit and alarm, without the code of the operation."""
 MOVES = (
     (0x43, 24, None, (2, 10, 22)),
     (0x44, 24, 9, (6,)),
@@ -171,17 +174,17 @@ MOVES = (
     (0x46, None, None, (2, 10)),
     (0x47, None, 9, (6,)),
 )
-"""Operation, its pulses and rate, and the pulse counts at which both causes occur.
+"""Operation code, its pulses and rate, and the numbers of the pulses after which both causes occur.
 
-The counts lie on the acceleration, the constant speed and the deceleration of a ramp of 4 steps.
+These pulses lie in the acceleration, the constant speed and the deceleration of a ramp of 4 steps.
 """
 
 
 async def two_causes(axis: AxisDriver, rule: str, pins: Sequence[str]) -> None:
-    """Check that limit and alarm on the same edge are both reported, for all operations CW.
+    """Check that limit and alarm on the same edge are both reported, for all CW operations.
 
     Args:
-        pins: limit and alarm, both active low, by their names on the bench.
+        pins: names of the limit pin and the alarm pin on the bench, both active low.
     """
     for code, n, rate, places in MOVES:
         for made in places:

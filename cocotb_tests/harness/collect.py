@@ -8,8 +8,8 @@
         run_item(item, sim_options)
 
 `@verifies("P104-CMD-07", "AC-04")` names the rules that a test checks. It works on pytest functions and on
-cocotb tests. The pytest plugin records the outcome of each marked test for the traceability pages; an ID that
-the manual does not list fails the test. `@probe("u_axis.rate")` names inner signals that a test reads.
+cocotb tests. The pytest plugin records the outcome of each marked test for the traceability pages. A test
+with an ID that the manual does not list fails. `@probe("u_axis.rate")` names inner signals that a test reads.
 """
 
 from __future__ import annotations
@@ -33,14 +33,15 @@ from .paths import ROOT
 F = TypeVar("F")
 
 PREFIXES = {prefix: row.name for row in parts.folders() for prefix in row.rules}
-"""First word of a rule ID -> the device that the rule belongs to."""
+"""First word of a rule ID -> the device to which the rule belongs."""
 
-# The first prefix of a device has subjects (P104-CMD-07), any other prefix only numbers (J105-07).
+# IDs with the first prefix of a device contain a subject (P104-CMD-07); IDs with another prefix contain only
+# a number (J105-07).
 _SUBJECTS = "|".join(row.rules[0] for row in parts.folders() if row.rules)
 _NUMBERS = "|".join(prefix for row in parts.folders() for prefix in row.rules[1:]) or "(?!)"
 RULE_ID = re.compile(
     rf"^(?:(?P<prefix>(?:{_SUBJECTS})(?=-[A-Z])|(?:{_NUMBERS})(?=-\d))(?:-[A-Z]+)?-\d\d"
-    # Rules about an instruction of the PPMC-312 contain its code, those about free curves a number.
+    # IDs of rules about an instruction of the PPMC-312 contain its code, those about free curves a number.
     r"|(?P<code>P312)-CMD-(?:(?!FC)[0-9A-F]{2}|8L|8V|FC-\d{1,2})|AC-\d\d)$"
 )
 _ID = r"[A-Z0-9]+(?:-[A-Z]+)?-\d\d|P312-CMD-[0-9A-Z]{2}(?:-\d{1,2})?"
@@ -48,10 +49,10 @@ _ROW = re.compile(rf"^\|\s*(?:\*\*|`)?(?P<id>{_ID})(?:\*\*|`)?\s*\|\s*(?P<text>.
 
 
 def verifies(*ids: str) -> Callable[[F], F]:
-    """Mark a test as checking these rules.
+    """Mark a test as a test of these rules.
 
-    Raises ValueError at import time for an ID that is not of the form P104-ABC-NN (or the prefix of a related
-    device), J105-NN or AC-NN.
+    Raises ValueError at import time unless each ID has the form P104-ABC-NN (with the prefix of any device),
+    J105-NN or AC-NN.
     """
     if not ids:
         raise ValueError("verifies() needs at least one rule ID")
@@ -74,7 +75,10 @@ def rules_of(test: Any) -> tuple[str, ...]:
 
 
 def part_of_rule(rule: str) -> str | None:
-    """Return the device that a rule ID belongs to; None for AC-NN, which every device numbers separately."""
+    """Return the device to which a rule ID belongs, or None for AC-NN.
+
+    Every device numbers its AC-NN rules separately.
+    """
     match = RULE_ID.match(rule)
     prefix = match and (match["prefix"] or match["code"])
     return PREFIXES[prefix] if prefix else None
@@ -82,7 +86,7 @@ def part_of_rule(rule: str) -> str | None:
 
 @cache
 def manual_rules(part: str) -> dict[str, str]:
-    """Return rule ID -> short text, from the tables of docs/<part>/README.md (empty without a manual).
+    """Return rule ID -> short text, from the tables of docs/<part>/README.md; empty if there is no manual.
 
     A rule is a table row of two cells whose first cell is an ID. Raises ValueError if an ID occurs twice.
     """
@@ -100,7 +104,10 @@ def manual_rules(part: str) -> dict[str, str]:
 
 
 def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
-    """Return the IDs that the manual of their device does not list; without a manual, no ID is unknown."""
+    """Return the IDs that the manual of their device does not list.
+
+    Without a manual, every ID counts as listed.
+    """
     bad = []
     for rule in ids:
         known = manual_rules(part_of_rule(rule) or part)
@@ -110,9 +117,10 @@ def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
 
 
 def probe(*paths: str) -> Callable[[F], F]:
-    """Mark a cocotb test as a reader of these inner signals, given as paths below `dut`.
+    """Mark a cocotb test as a reader of these inner signals, which are paths below `dut`.
 
-    The decorator may be above or below others. Raises ValueError without a path, or if one is not a path.
+    The decorator may be placed above or below others. Raises ValueError if no path is listed or a path is
+    invalid.
     """
     if not paths or not all(re.fullmatch(r"\w+(\[\d+\])?(\.\w+(\[\d+\])?)*", path) for path in paths):
         raise ValueError(f"probe(): expected paths such as 'u_axis.rate', got {paths}")
@@ -134,13 +142,13 @@ def probes_of(test: Any) -> tuple[str, ...]:
 class Item:
     """One simulation to run: a cocotb test of a module under one configuration.
 
-    `target` is the make target of the command that repeats it.
+    `target` is the make target of the command that repeats the simulation.
 
     Attributes:
         probes: inner signals that the test reads.
         skipped: reason why the test does not run.
-        uncompared: the reason why a directed test is not compared with the golden model ("" if it is), None
-            for other tests.
+        uncompared: reason why a directed test is not compared with the golden model ("" if it is compared);
+            None for other tests.
         shared: True if it may share a process with other tests of its module, although it is not a directed
             test.
     """
@@ -160,17 +168,17 @@ class Item:
 
     @property
     def together(self) -> bool:
-        """Whether the test may share a process with others of its build, as directed tests may."""
+        """Whether the test may share a process with other tests of its build, as directed tests may."""
         return self.shared or self.uncompared is not None
 
     @property
     def full_name(self) -> str:
-        """Name that cocotb has for the test."""
+        """Name of the test in cocotb."""
         return f"{self.module}.{self.test}"
 
     @property
     def id(self) -> str:
-        """ID within the pytest parametrization; also the word for `make test T=` (pytest -k)."""
+        """ID in the pytest parametrization, which is also the word for `make test T=` (pytest -k)."""
         tag = f"-{self.tag}" if self.tag else ""
         return f"{self.test}-{self.config.name}{tag}".replace("/", ".").replace("=", ".")
 
@@ -180,7 +188,7 @@ class Item:
 
 
 def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) -> list[Any]:
-    """Return a pytest.param per cocotb test of `package`'s modules and configuration that it names.
+    """Return a pytest.param for each test of `package`'s modules and each configuration that the test names.
 
     Raises ValueError if a module has no cocotb test or two tests share a name.
 

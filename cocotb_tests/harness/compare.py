@@ -1,8 +1,9 @@
 """Edge-by-edge comparison of a run with the golden model.
 
-The pin changes of the run are replayed into the model; each output of RTL and model must then have the same
-level on the same rising edges of `clk`. Only outputs forced by an asynchronous reset may differ by one cycle,
-because rst_n can fall between two edges. A difference produces a text report, a VCD and a PNG.
+The pin changes of the run are replayed into the model. Each output of the RTL must then change to the same
+levels on the same rising edges of `clk` as in the model. Only outputs forced by an asynchronous reset may
+differ by one cycle, because rst_n can fall between two edges. A difference produces a text report, a VCD and
+a PNG.
 
 If OPENPPMC_COUNTS in the environment names a file, a simulation appends the counts of its comparisons to
 it, one JSON object per line.
@@ -50,14 +51,14 @@ def counts_text(sums: Counter[str]) -> str:
 
 
 DIGESTS = "OPENPPMC_DIGESTS"
-"""Environment variable: a simulation appends the digest of each compared recording to DIGEST_FILE."""
+"""Environment variable: if set, a simulation appends the digest of each compared recording to DIGEST_FILE."""
 DIGEST_FILE = "digests.txt"
 
 
 def replay(recording: Recording, model: Any) -> list[Edge]:
-    """Feed the pin changes into a model, run it to the recording's end, return its output edges.
+    """Feed the pin changes into a model, run it to the end of the recording, and return its output edges.
 
-    The model needs pins(t, **levels), run_until(t) and edges with fields t, signal, value.
+    The model needs pins(t, **levels), run_until(t) and edges with the fields t, signal and value.
     """
     model = ModelRunner(model).catch_up(recording.stimulus, recording.end)
     return [Edge(edge.t, edge.signal, edge.value) for edge in model.edges]
@@ -85,10 +86,10 @@ def leave_digest(recording: Recording, folder: Path) -> None:
 def check_against_model(bench: Any) -> Comparison:
     """Compare all changes that a bench has recorded so far.
 
-    The call raises AssertionError with the report at a difference.
+    Raises AssertionError with the report if there is a difference.
 
-    The golden model is the one that has followed the bench (`DutBench.golden`), if a test has used it. The
-    files of the report are written to bench.out.
+    If a test has used the golden model that follows the bench (`DutBench.golden`), this model is compared.
+    The files of the report are written to bench.out.
     """
     recording = bench.recording()
     leave_digest(recording, bench.out)

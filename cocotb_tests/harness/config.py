@@ -1,4 +1,4 @@
-"""Build configurations of the RTL under test, and the seeds that a simulation plays one after the other."""
+"""Build configurations of the RTL under test, and the seeds that one simulation plays one after the other."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ F = TypeVar("F")
 
 @dataclass(frozen=True)
 class Config:
-    """Parameters of one build. `name` is part of the test IDs (no name is a prefix of another).
+    """Parameters of one build. `name` is a part of the test IDs; no name may be a prefix of another name.
 
-    clk_hz, xtal_hz in Hz; `extra` holds further top-level parameters as (name, value) pairs.
+    clk_hz and xtal_hz are in Hz; `extra` contains further top-level parameters as (name, value) pairs.
     """
 
     name: str
@@ -35,7 +35,10 @@ class Config:
 
     @property
     def params(self) -> dict[str, Any]:
-        """Parameters of the top module; a device that lacks some of them selects its own (`Part.params`)."""
+        """Parameters of the top module.
+
+        A device that lacks some of these parameters selects the others (`Part.params`).
+        """
         return {
             "CLK_HZ": self.clk_hz,
             "XTAL_HZ": self.xtal_hz,
@@ -54,32 +57,32 @@ class Config:
         return self.cyc(80)
 
     def quanta(self, n: int) -> int:
-        """Return the edge of `clk` of quantum tick n after its restart (P104-BCK-03)."""
+        """Return the edge of `clk` at which quantum tick n after its restart occurs (P104-BCK-03)."""
         return self.cyc(4 * n)
 
     def us(self, micros: float) -> int:
-        """Return CYC of a time in µs at a 16 MHz crystal (P104-GEN-02)."""
+        """Return CYC of a time in µs with a 16 MHz crystal (P104-GEN-02)."""
         return self.cyc(round(micros * 16))
 
     @property
     def period_ps(self) -> int:
-        """Period of `clk` in ps, rounded to even so that both halves are whole time steps."""
+        """Period of `clk` in ps, rounded to an even number so that both halves are whole time steps."""
         return max(2, 2 * round(5e11 / self.clk_hz))
 
     def to_json(self) -> str:
-        """Return the text form for the simulator process."""
+        """Return the configuration as text for the simulator process."""
         return json.dumps({**self.__dict__, "extra": list(map(list, self.extra))})
 
     @classmethod
     def from_json(cls, text: str) -> Config:
-        """Return the configuration of a text of `to_json`."""
+        """Return the configuration from a text of `to_json`."""
         fields = json.loads(text)
         fields["extra"] = tuple((name, value) for name, value in fields["extra"])
         return cls(**fields)
 
 
-# Set of configurations that all parts share. Each configuration costs a build of about 10 s: add one only if
-# none of these is suitable.
+# Configurations that all parts share. Each configuration costs a build of about 10 s, so add one only if none
+# of these is suitable.
 F16 = Config("f16")
 F8 = Config("f8m", clk_hz=8_000_000)
 F11 = Config("f11m", clk_hz=11_059_200)
@@ -98,7 +101,7 @@ CONFIGS: dict[str, Config] = {config.name: config for config in ALL_CONFIGS}
 
 
 def configs(*builds: Config) -> Callable[[F], F]:
-    """Set the build configurations that a cocotb test runs under (decorator; default: only `F16`)."""
+    """Set the build configurations under which a cocotb test runs (decorator; default: only `F16`)."""
     if not builds:
         raise ValueError("configs() needs at least one Config")
 
@@ -114,7 +117,7 @@ _ALONE = re.compile(r"seed -?\d+ alone: make .*")
 
 
 async def each_seed(test: str, play: Callable[[int], Awaitable[Any]]) -> None:
-    """Play the seeds of the batch, or the seed of the run; log the command that repeats each seed alone."""
+    """Play the seeds of the batch or the seed of the run; log the command that repeats each seed alone."""
     seeds = os.environ.get(SEEDS, os.environ.get("OPENPPMC_SEED", "1")).split()
     for seed in map(int, seeds):
         if len(seeds) > 1:
@@ -123,5 +126,5 @@ async def each_seed(test: str, play: Callable[[int], Awaitable[Any]]) -> None:
 
 
 def last_seed(log: str) -> list[str]:
-    """Return the line of a batch's log about the seed played last; empty if the log is not one of a batch."""
+    """Return the line about the last seed in the log of a batch, or "" if the log is not of a batch."""
     return _ALONE.findall(log)[-1:]

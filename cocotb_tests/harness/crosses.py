@@ -1,4 +1,4 @@
-"""Coverage crosses: which states and causes coincided in golden models, counted from outside on request."""
+"""Coverage crosses: combinations of states and causes, counted in golden models on request."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ _hooked: set[str] = set()
 
 @dataclass(frozen=True)
 class Cross:
-    """A table with two axes. `rows` and `columns`: all values of the data sheet, as they are counted.
+    """Table of combinations.
+
+    `rows` and `columns` contain all values of the data sheet, under the names that are counted.
 
     Attributes:
         never: (row, column) -> reason why the combination cannot occur; "*" represents every row or every
@@ -46,14 +48,14 @@ class Cross:
 
 @dataclass(frozen=True)
 class Crosses:
-    """The crosses of a device. `hook(count)` makes its golden model call count(cross, row, column)."""
+    """Coverage crosses of a device. `hook(count)` makes its golden model call count(cross, row, column)."""
 
     tables: Sequence[Cross]
     hook: Callable[[Callable[[str, str, str], None]], None]
 
 
 def watch(part: str) -> None:
-    """Count from now on in each golden model of a device, if coverage is requested and it has crosses."""
+    """Count in each golden model of a device that has crosses, from now on, if coverage is requested."""
     if os.environ.get(COVERAGE) and part not in _hooked and parts.part(part).crosses:
         _hooked.add(part)
         found: Crosses = parts.part(part).load("crosses")
@@ -61,7 +63,7 @@ def watch(part: str) -> None:
 
 
 def before(owner: type, method: str, observe: Callable[..., None]) -> None:
-    """Call `observe(model, *arguments)` before each call of a method of a golden model."""
+    """Call `observe(model, *arguments)` before each call of `method` of the golden model `owner`."""
     original: Any = getattr(owner, method)
 
     @functools.wraps(original)
@@ -73,7 +75,7 @@ def before(owner: type, method: str, observe: Callable[..., None]) -> None:
 
 
 def after(owner: type, method: str, observe: Callable[..., None]) -> None:
-    """Do the same as `before`, but call `observe(model, result, *arguments)` after the method."""
+    """Call `observe(model, result, *arguments)` after each call of `method` of the golden model `owner`."""
     original: Any = getattr(owner, method)
 
     @functools.wraps(original)
@@ -86,7 +88,7 @@ def after(owner: type, method: str, observe: Callable[..., None]) -> None:
 
 
 def leave() -> None:
-    """Write the counts since the last call to a file."""
+    """Append the counts since the last call to a file."""
     where = os.environ.get(COVERAGE)
     if where and _counts:
         Path(where).mkdir(parents=True, exist_ok=True)
@@ -146,7 +148,7 @@ MOTION = (
 
 
 def without(crosses: Iterable[Cross], columns: Sequence[str], why: str) -> tuple[Cross, ...]:
-    """Return the crosses with the reason why some columns cannot occur in a device."""
+    """Return the crosses with `why` as the reason why these columns cannot occur in a device."""
     never = {("*", column): why for column in columns}
     return tuple(
         replace(cross, never={**cross.never, **never}) if set(columns) <= set(cross.columns) else cross
@@ -171,7 +173,7 @@ ERRORS = Cross("error and state", tuple(error.name for error in Error), STATES, 
 
 
 def phase(motion: Any) -> str:
-    """Return the phase of an operation."""
+    """Return the phase in which an operation is."""
     if not motion.done:
         return "before the first pulse"
     if not motion.is_ramp:
@@ -190,7 +192,7 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
     """Count the end of each operation of any axis.
 
     Args:
-        own: classes of the device that decide an end without calling the method of `Motion`.
+        own: classes of the device that decide an end without a call of the method of `Motion`.
     """
     came: dict[int, str] = {}
 
@@ -222,7 +224,7 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
 
 
 def hook_errors(count: Count) -> None:
-    """Count the error of each byte, by the state in which the byte was received."""
+    """Count the error of each byte by the state in which the device received the byte."""
 
     def on_read(unit: Any, result: Any, t: int, *rest: Any) -> None:
         if unit.error is not None:

@@ -1,9 +1,9 @@
-"""`DutBench`: the interface of a test or host to the device under test, the RTL or the golden model.
+"""`DutBench`: interface of a test or host to the device under test, which is the RTL or the golden model.
 
 Time is the index of rising edges of `clk`; edge 0 is the first one that samples rst_n = 1 after the first
-reset. A pin change made now is stamped `now`, the next rising edge; an output edge is stamped with the rising
-edge that caused it. Most methods use a few primitives, which `RtlBench` (RTL) and `ModelBench` (golden model)
-define.
+reset. The stamp of a pin change made now is `now`, the index of the next rising edge. The stamp of an output
+edge is the rising edge that caused it. Most methods use a few primitives, which `RtlBench` (RTL) and
+`ModelBench` (golden model) define.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def new_model(part: str, params: Mapping[str, object]) -> Any:
 
 
 class StimulusLog:
-    """Collects pin changes. `changes` is in order of time; later additions follow the earlier ones."""
+    """Collector of pin changes. `changes` is in order of time; later additions follow the earlier ones."""
 
     def __init__(self) -> None:
         self.changes: list[Change] = []
@@ -39,11 +39,11 @@ class StimulusLog:
         """Name -> number of its rows in the list, and the last of these rows."""
 
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
-        """Append the new rows of both, which grow from call to call; return the whole list.
+        """Append the new rows of both arguments, which grow from call to call; return the whole list.
 
         Args:
-            made: name -> (edge, level), first sampled by the next edge. The last level of the last edge may
-                have changed since the previous call.
+            made: name -> (edge, level), where the next edge is the first to sample the level. The last level
+                of the last edge may have changed since the previous call.
         """
         new, self._driven = list(driven[self._driven :]), len(driven)
         for name, rows in made.items():
@@ -67,7 +67,7 @@ PinChange = tuple[int, Mapping[str, int]]
 
 
 class Handle(Protocol):
-    """A series of scheduled pin changes; `await` it to wait until its last change."""
+    """A series of scheduled pin changes; `await` waits until the last of them."""
 
     def __await__(self) -> Generator[Any, Any, Any]: ...
 
@@ -78,14 +78,14 @@ class Handle(Protocol):
 class DutBench(ABC):
     """A device under test.
 
-    `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of each input and
-    of rst_n), `stimulus` (list[Change]: driven changes), `accesses` (list[Access]: accesses of a host),
-    `initial` (level of each recorded output before its first edge), `follower` (of `golden`, after its first
-    use).
+    Attributes: `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of
+    each input and of rst_n), `stimulus` (list[Change]: driven changes), `accesses` (list[Access]: accesses of
+    a host), `initial` (level of each recorded output before its first edge), `follower` (the model of
+    `golden`, after its first use).
     """
 
     simulated: ClassVar[bool] = True
-    """Whether this is the RTL, whose edges can be compared with those of the golden model."""
+    """Whether this is the RTL, whose output edges can be compared with those of the golden model."""
 
     def __init__(self, part: Part, config: Config, seed: int) -> None:
         self.part = part.built(part.params(config))
@@ -128,25 +128,25 @@ class DutBench(ABC):
 
     @abstractmethod
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """Do the same as `set`, but between two edges, for a reset; return the stamp of the change.
+        """Drive input pins as `set` does, but between two edges, for a reset; return the stamp of the change.
 
-        The change is made when `share` (0 to 1) of the low half of `clk` has passed; the method returns just
-        after it.
+        The pins change when `share` (0 to 1) of the low half of `clk` has passed; the method returns just
+        after the change.
         """
 
     @abstractmethod
     def drive(self, changes: Iterable[PinChange]) -> Handle:
         """Schedule pin changes in order of time, none in the past; the iterable is read as time advances.
 
-        The test continues meanwhile. cancel() of the result stops the changes, awaiting it waits for the last
-        change.
+        The test continues meanwhile. cancel() of the result stops the changes; awaiting the result waits for
+        the last change.
         """
 
     @abstractmethod
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """Wait for the next change (to `level` if given); return its edge, aligned so that set() works.
+        """Wait for the next change of an output (to `level`, if not None); return its edge.
 
-        Raises TimeoutError after `timeout` cycles.
+        The bench is then aligned, so that `set` works. Raises TimeoutError after `timeout` cycles.
         """
 
     @property
@@ -160,14 +160,16 @@ class DutBench(ABC):
 
     @abstractmethod
     def _output_changes(self) -> Mapping[str, list[tuple[int, int]]]:
-        """Return the changes (edge, level) of all recorded outputs up to now; of each edge only the last."""
+        """Return all changes (edge, level) of the recorded outputs until now.
+
+        Of several changes on one edge, only the last level is included.
+        """
 
     @property
     def golden(self) -> Any:
-        """The golden model at edge `now` - 1, with the pin changes so far; never ahead of this bench.
+        """The golden model at edge `now` - 1, with the pin changes so far; it is never ahead of this bench.
 
-        Use it only to choose moments (its `next_event`, position, state): a test checks values of the bench
-        itself.
+        Use it only to choose moments (its `next_event`, position, state). A test checks values of the bench.
         """
         if self.follower is None:
             self.follower = ModelRunner(new_model(self.part.name, self.part.params(self.config)))
@@ -176,7 +178,7 @@ class DutBench(ABC):
     def pin_changes(self) -> list[Change]:
         """Return the changes at the inputs of the device: driven ones, and those made by the bench's top.
 
-        A change that the top makes at edge t is first sampled by edge t + 1.
+        Edge t + 1 is the first to sample a change that the top makes at edge t.
         """
         part = self.part
         if not part.fed:
@@ -204,8 +206,9 @@ class DutBench(ABC):
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
         """Run the external clock: each item is the number of cycles from one rising edge to the next.
 
-        `pin` (default: the clock pin of a device with one axis). The first rising edge occurs immediately;
-        the clock ends with the iterable. Each high time is `high` cycles. For the result see `drive`.
+        `pin` (default: the clock pin of a device with one axis). The first rising edge occurs immediately,
+        and the clock stops at the end of the iterable. Each high time is `high` cycles. The result is that of
+        `drive`.
         """
         name, start = pin or self.part.clock, self.now
 
@@ -225,9 +228,9 @@ class DutBench(ABC):
         return await self.until(self.now + n)
 
     async def reset(self, clocks: int = 4, settle: int = 4) -> int:
-        """Pulse rst_n low for `clocks` cycles; return the stamp of the release (first edge that samples 1).
+        """Drive rst_n low for `clocks` cycles; return the stamp of the release (first edge that samples 1).
 
-        Waits `settle` cycles after the release (P104-PORT-03: bytes are accepted from then on).
+        The method then waits `settle` cycles; bytes are accepted from then on (P104-PORT-03).
         """
         await self.align()
         self.set(rst_n=0)
@@ -241,7 +244,7 @@ class DutBench(ABC):
     # ---------------------------------------------------------------- pins
 
     def pin(self, name: str) -> int:
-        """Return the level of an input as driven last, of a whole port or of one bit."""
+        """Return the last driven level of an input: a whole port, or one bit of it."""
         port, place = self.part.locate(name)
         return self.pins[port] if place is None else self.pins[port] >> place & 1
 
@@ -252,12 +255,12 @@ class DutBench(ABC):
         return [t for t, v in bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
 
     def _levelled(self, pin: str, level: int) -> tuple[str, int]:
-        """Return the port of a pin, and the port's level with the pin at `level`."""
+        """Return the port of a pin, and the level of the port when the pin has `level`."""
         port, place = self.part.locate(pin)
         return port, level if place is None else self.pins[port] & ~(1 << place) | level << place
 
     async def pulse_pin(self, pin: str, level: int, clocks: int) -> int:
-        """Hold a pin at `level` for `clocks` cycles, then restore the old level; return the first stamp."""
+        """Hold a pin at `level` for `clocks` cycles, then restore its old level; return the first stamp."""
         await self.align()
         before, stamp = self.pin(pin), self.now
         self.set(**{pin: level})
@@ -314,7 +317,7 @@ class DutBench(ABC):
     # ---------------------------------------------------------------- waiting for outputs
 
     async def nth_fall(self, n: int, since: int = 0, pin: str = "pout_n", timeout: int = TIMEOUT) -> int:
-        """Wait until `pin` has fallen n times from edge `since` on; return the edge of the n-th fall."""
+        """Wait for the n-th fall of `pin` from edge `since` on; return its edge."""
         end = self.now + timeout
         while len(self.falls(pin, since)) < n:
             await self.edge(pin, 0, max(1, end - self.now))
@@ -322,7 +325,7 @@ class DutBench(ABC):
         return self.falls(pin, since)[n - 1]
 
     async def level_is(self, output: str, level: int, timeout: int = TIMEOUT) -> int:
-        """Wait until an output has this level (no wait if it already has); return `now`."""
+        """Wait until an output has this level, which may already be so; return `now`."""
         if self.level(output) != level:
             await self.edge(output, level, timeout)
         return await self.align()
@@ -330,7 +333,7 @@ class DutBench(ABC):
     # ---------------------------------------------------------------- checking and reporting
 
     def context(self, last: int = 8) -> str:
-        """Return the last output edges, pin changes and host accesses, for messages."""
+        """Return the last output edges, pin changes and host accesses as text for messages."""
         usual = {*self.part.bus_pins, self.part.clock}
         pins = [c for c in self.stimulus if c.pin not in usual]
         shown = [edge for edge in self._all_edges() if edge.signal not in ("d_o", "d_oe")]
@@ -351,7 +354,7 @@ class DutBench(ABC):
         assert low <= got <= high, f"{rule}: {what}: expected {low}..{high}, got {got}\n{self.context()}"
 
     def recording(self) -> Recording:
-        """Return all changes up to now, for `compare`; the last complete edge of `clk` is `now` - 1."""
+        """Return all changes until now, for `compare`; the last complete edge of `clk` is `now` - 1."""
         return Recording(
             part=self.part.name,
             params=self.part.params(self.config),

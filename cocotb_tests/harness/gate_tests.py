@@ -1,4 +1,4 @@
-"""`PartTests`: which tests of a device run on netlists, and why others do not (`gates.py` of the device)."""
+"""`PartTests`: tests of a device that run on netlists, and why others do not (`gates.py` of the device)."""
 
 from __future__ import annotations
 
@@ -20,18 +20,20 @@ GENERATOR = "checks the generator of the random hosts; no simulation"
 
 @dataclass(frozen=True)
 class PartTests:
-    """Directed and random test modules of one device. Netlists run the ITEMS of the directed module.
+    """Directed and random test modules of one device.
+
+    On netlists, the ITEMS of the directed module run.
 
     Attributes:
-        sample: functions that make the item of a random seed, each with its seeds. The hosts of a sample
-            together use every configuration that random hosts choose from.
-        builds: names of the configurations that have netlists, for the reason in `why`; empty: all.
+        sample: functions that return the item of a random seed -> seeds. All hosts of a sample together use
+            every configuration from which random hosts choose.
+        builds: names of the configurations that have netlists (empty: all); `why` is the reason why others
+            have no netlist.
         simulating: test functions that run simulations.
-        not_applicable: test functions that do not, each with its relation to a netlist.
-        too_long: directed tests, or modules of them, that would take far too long on a netlist, with the
-            reason.
+        not_applicable: test functions that run no simulation -> their relation to a netlist.
+        too_long: directed tests, or modules of them, that would take far too long on a netlist -> reason.
         quick: tests of the quick sample, which runs in the build `quick_build`.
-        four_state: tests that also run on a simulator with X, which is a hundred times as slow.
+        four_state: tests that also run on a simulator with X, which is a hundred times slower.
         netlists: whether the device has netlists; if not, its tests run on plain Verilog only.
         pins: pins of the top, if the `bench.py` of the folder does not list them.
         params: parameters of the top in addition to those of a configuration.
@@ -69,7 +71,7 @@ class PartTests:
         return [item for item in self._directed if not self.is_too_long(item) and self.built(item)]
 
     def built(self, item: Item) -> bool:
-        """Return whether the configuration of a test has netlists."""
+        """Return whether there are netlists of the configuration of a test."""
         return not self.builds or item.config.name in self.builds
 
     def is_quick(self, item: Item) -> bool:
@@ -77,7 +79,7 @@ class PartTests:
         return not self.quick.isdisjoint(names(item)) and item.config.name == self.quick_build
 
     def is_four_state(self, item: Item) -> bool:
-        """Return whether a directed test is in the sample for a simulator with X."""
+        """Return whether a directed test is in the sample that also runs on a simulator with X."""
         return item.test in self.four_state and item.config.name == self.quick_build
 
     def is_too_long(self, item: Item) -> bool:
@@ -91,7 +93,7 @@ class PartTests:
 
     @property
     def functions(self) -> list[str]:
-        """The test functions of its modules."""
+        """Names of the test functions in both modules."""
         modules = [module for module in (self.directed, self.random) if module]
         return [name for module in modules for name in vars(module) if name.startswith("test_")]
 

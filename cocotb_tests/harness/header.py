@@ -18,7 +18,7 @@ RADIX = {"h": 16, "d": 10, "b": 2, None: 10}
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter: type ("": no type, a text), default, and the comment on its line ("": no comment)."""
+    """One parameter: type ("" if none), default as text, and the comment on its line ("" if none)."""
 
     name: str
     type: str
@@ -27,12 +27,12 @@ class Parameter:
 
     @property
     def is_text(self) -> bool:
-        """Whether the value is a string, not a number."""
+        """Whether the value is a string instead of a number."""
         return self.value.startswith('"')
 
     @property
     def default(self) -> int | str:
-        """The default as a value. Raises ValueError if it is not a plain literal."""
+        """Default as a Python value. Raises ValueError if it is not a plain literal."""
         if self.is_text:
             return self.value.strip('"')
         literal = _NUMBER.fullmatch(self.value.replace("_", ""))

@@ -1,4 +1,4 @@
-"""`IsaMaster` drives an 8-bit ISA bus; the address selects the register, there is no chip select."""
+"""`IsaMaster` drives an 8-bit ISA bus: the address selects the register, and there is no chip select."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ STROBES_ISA = BusStyle(
 
 @dataclass(frozen=True)
 class Times:
-    """An 8-bit I/O access in ns: the shortest at a bus clock of 8.33 MHz, with the usual wait states.
+    """Times of an 8-bit I/O access in ns.
+
+    The defaults are the shortest times at a bus clock of 8.33 MHz with the usual wait states.
 
     Attributes:
         setup: time from the address to the command.
@@ -41,7 +43,7 @@ class Times:
 
 
 class IsaMaster:
-    """The only driver of the bus; an access waits until the previous one is over."""
+    """Driver of the bus. An access waits until the previous access has ended."""
 
     def __init__(self, bench: RtlBench, times: Times | None = None) -> None:
         self.bench = bench
@@ -49,7 +51,7 @@ class IsaMaster:
         self._lock = Lock()
 
     async def wait(self, ns: float) -> None:
-        """Wait `ns` nanoseconds, and slightly longer if an edge of `clk` coincides with the end."""
+        """Wait `ns` nanoseconds, slightly longer if the end would coincide with a rising edge of `clk`."""
         if ns > 0:
             await Timer(round(ns * 500) * 2, "ps")
         if (self.bench.sim_time() - self.bench.edge_time(0)) % self.bench.period == 0:
@@ -75,7 +77,8 @@ class IsaMaster:
     async def read(self, address: int, aen: int = 0, command: float | None = None) -> tuple[int, int, int]:
         """Perform one read access; return (sd_oe, sd_o) when IOR rises, and the first edge with IOR low.
 
-        Checks that the data bus is not driven before IOR falls and is released as soon as IOR has risen.
+        Checks that the module does not drive the data bus before IOR falls and releases it as soon as IOR has
+        risen.
         """
         async with self._lock:
             bench, t = self.bench, self.times
@@ -100,7 +103,7 @@ class IsaMaster:
 
 
 class IsaHost(HostBus):
-    """`HostBus` of the device whose data register is at `base`."""
+    """`HostBus` on the ISA bus, for the device whose data register has the address `base`."""
 
     def __init__(self, master: IsaMaster, base: int) -> None:
         super().__init__(master.bench)

@@ -1,4 +1,4 @@
-"""A serial line on two pins: `UartBfm` with a simulator's pins, `SerialLine` on a `DutBench`."""
+"""Serial line on two pins: `UartBfm` drives pins of a simulator, `SerialLine` a `DutBench`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class UartBfm:
         self._out.value = 1
 
     def listen(self) -> None:
-        """Begin to receive; to be called after the reset, when txd is idle."""
+        """Begin to receive; call it after the reset, when txd is idle."""
         cocotb.start_soon(self._receive())
 
     def _time(self, bits: float) -> Timer:
@@ -37,7 +37,7 @@ class UartBfm:
     async def send(self, data: bytes) -> None:
         """Send bytes back to back."""
         for byte in data:
-            # All bits of a character form one word with start and stop bit, least significant bit first.
+            # A character is sent as one word with start and stop bit, least significant bit first.
             word = 1 << BITS + 1 | byte << 1
             for bit in range(BITS + 2):
                 self._out.value = word >> bit & 1
@@ -58,23 +58,23 @@ class UartBfm:
             self.on_char(byte)
 
     def on_char(self, byte: int) -> None:
-        """Process a received character; called in the middle of its stop bit."""
+        """Process a received character; `listen` calls it in the middle of the stop bit."""
         raise NotImplementedError
 
 
 Changes = list[tuple[int, int]]
-"""(first edge that samples the level, level), in order of time."""
+"""Pairs (first edge that samples the level, level), in order of time."""
 
 
 class LineTimes:
-    """Times of the level changes of characters.
+    """Calculation of the times at which the line changes its level.
 
     Attributes:
-        t: next free edge.
+        t: first edge at which the next character may begin.
         bit: bit time of the line in cycles.
         error: relative error of the host's bit time, 0.02 = 2 % too long.
-        middle: the middle of the last stop bit for a receiver with the correct bit time, counted from the
-            change of the pin.
+        middle: edge at the middle of the last stop bit, for a receiver with the correct bit time that
+            measures from the change of the pin.
     """
 
     t: int
@@ -93,7 +93,7 @@ class LineTimes:
         self.t, self._free = t, Fraction(0)
 
     def _character(self, byte: int, stop: int, spikes: Sequence[tuple[float, int]], bits: float) -> Changes:
-        """Return the changes of one character; after the call, `t` is the edge after the character."""
+        """Return the changes of one character; afterwards, `t` is the first edge after the character."""
         bit = self.bit * (1 + self.error)
         start = max(self._free, Fraction(self.t))
         levels = [0, *(byte >> place & 1 for place in range(8)), stop]
@@ -112,11 +112,11 @@ class LineTimes:
         return [(ceil(at), level) for at, level in changes]
 
     def _idle(self, gap: float) -> None:
-        """Leave the line idle for `gap` bits."""
+        """Keep the line idle for `gap` bit times."""
         self._free += Fraction(gap) * self.bit
 
     def _low(self, bits: float) -> Changes:
-        """Return the changes of a break, followed by one bit time of idle line."""
+        """Return the changes of a break, which is followed by one bit time of idle line."""
         begin, self.t = self.t, self.t + ceil(Fraction(bits) * self.bit)
         changes = [(begin, 0), (self.t, 1)]
         self.t += ceil(self.bit)
@@ -124,9 +124,9 @@ class LineTimes:
 
 
 class SerialLine(LineTimes):
-    """A sender for hosts on a `DutBench`.
+    """Sender for hosts on a `DutBench`.
 
-    After each method, the next one continues at `t`. The bench itself is then at the last change of the pin,
+    A character begins at `t`, where the previous one ended. A method returns at the last change of the pin,
     so that the test can do something else within the stop bit.
     """
 
@@ -139,7 +139,7 @@ class SerialLine(LineTimes):
 
         Args:
             stop: level of the stop bit.
-            spikes: (place in bits, cycles) where the line has the wrong level.
+            spikes: (position in bits, duration in cycles) of wrong levels on the line.
             bits: number of bits that are sent before the line becomes idle.
         """
         await self._drive(self._character(byte, stop, spikes, bits))
@@ -154,7 +154,7 @@ class SerialLine(LineTimes):
         """Send characters without errors.
 
         Args:
-            gap: idle time after each character in bits.
+            gap: idle time after each character, in bit times.
         """
         for byte in line:
             await self.character(byte)
@@ -173,13 +173,13 @@ class SerialLine(LineTimes):
 def characters(
     edges: Sequence[tuple[int, int]], start: Fraction, bit: Fraction, count: int, within: int = 0
 ) -> bytes:
-    """Return the bytes that a transmitter sends without a gap, the first start bit beginning at `start`.
+    """Return the bytes that a transmitter sends without a gap; the first start bit begins at `start`.
 
-    AssertionError if a change occurs more than `within` cycles after its place, or before it (more than
-    `within` cycles, if that is not 0), or if a start or stop bit is missing.
+    Raises AssertionError if a change is more than `within` cycles from its expected edge, or if a start or
+    stop bit is missing.
 
     Args:
-        edges: changes (t, level) of the line from `start` on; the line is high before.
+        edges: changes (t, level) of the line from `start` on; the line is high before them.
     """
     for t, _ in edges:
         number = round((t - start) / bit)

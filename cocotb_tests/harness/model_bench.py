@@ -1,7 +1,7 @@
-"""`ModelBench`: the golden model in place of the RTL: the same `async def` tests without a simulator.
+"""`ModelBench`: the golden model in place of the RTL, for the same `async def` tests without a simulator.
 
-No call suspends: `until` and `edge` run the model up to the requested edge, so `on_model` can run a whole
-coroutine with one `send(None)`. Scheduled pin changes wait in a queue sorted by time.
+No call suspends: `until` and `edge` run the model up to the requested edge. Therefore `on_model` can run a
+complete coroutine with one `send(None)`. Scheduled pin changes wait in a queue sorted by time.
 """
 
 from __future__ import annotations
@@ -24,7 +24,10 @@ F = TypeVar("F")
 
 @dataclass(frozen=True)
 class OnModel:
-    """Passed to a test in place of the simulator's `dut`: selects the golden model in this build."""
+    """Argument that a test receives in place of the simulator's `dut`; it selects the golden model.
+
+    `config` is the build of the model.
+    """
 
     config: Config = F16
     seed: int = 1
@@ -50,9 +53,9 @@ class _Later:
 
 
 class ModelBench(DutBench):
-    """A golden model just out of reset; `now` = `settle`, 0 or more; `pins` as for `RtlBench.start`.
+    """Bench with a golden model just after its reset, at `now` = `settle` (0 or more).
 
-    Its time begins with edge 0: the first reset itself is not visible.
+    `pins` are as for `RtlBench.start`. Time begins with edge 0: the first reset itself is not visible.
     """
 
     simulated = False
@@ -77,12 +80,12 @@ class ModelBench(DutBench):
 
     @property
     def golden(self) -> Any:
-        """See `DutBench.golden`: here it is the model of this bench."""
+        """See `DutBench.golden`; the golden model is the model of this bench."""
         return self.model
 
     @property
     def now(self) -> int:
-        """Index of the next rising edge of `clk`; the model has run all edges before it."""
+        """Index of the next rising edge of `clk`; the model has run up to the edge before it."""
         return self._now
 
     async def until(self, edge: int) -> int:
@@ -93,11 +96,11 @@ class ModelBench(DutBench):
         return edge
 
     async def align(self) -> int:
-        """Return `now`: the time is always the falling edge before `now`."""
+        """Return `now`; the bench is always at the falling edge before `now`."""
         return self._now
 
     def _go(self, edge: int) -> None:
-        """Advance the time to an edge, with all pin changes scheduled up to then."""
+        """Advance the time to an edge and make all pin changes scheduled up to that edge."""
         while self._due and self._due[0][0] <= edge:
             self._now, _, levels, later = heapq.heappop(self._due)
             if not later.over:
@@ -121,7 +124,7 @@ class ModelBench(DutBench):
         return self._now
 
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """See `DutBench.set_between`. There is no time between two edges here."""
+        """See `DutBench.set_between`. The model has no time between two edges."""
         return self.set(**levels)
 
     def drive(self, changes: Iterable[PinChange]) -> _Later:
@@ -149,7 +152,7 @@ class ModelBench(DutBench):
         return level
 
     def _output_changes(self) -> dict[str, list[tuple[int, int]]]:
-        """See `DutBench`. The effect of an asynchronous reset at `now` is added with the next edge."""
+        """See `DutBench`. The effect of an asynchronous reset at `now` is added at the next edge."""
         edges = self.model.edges
         while self._taken < len(edges) and edges[self._taken].t < self._now:
             t, signal, value = edges[self._taken]
@@ -179,7 +182,7 @@ class ModelBench(DutBench):
 def on_model(test: Coroutine[Any, Any, T]) -> T:
     """Run a coroutine that works on a `ModelBench` to its end; return its result.
 
-    Raises RuntimeError if it waits for something that only a simulator has.
+    Raises RuntimeError if the coroutine waits for something that only a simulator has.
     """
     try:
         test.send(None)
@@ -191,7 +194,10 @@ def on_model(test: Coroutine[Any, Any, T]) -> T:
 
 
 def rtl_only(why: str) -> Callable[[F], F]:
-    """Mark a cocotb test (above its other decorators) that the golden model cannot run, with the reason."""
+    """Mark a cocotb test that the golden model cannot run, with the reason.
+
+    The decorator is placed above the other decorators.
+    """
 
     def mark(test: F) -> F:
         test.func._openppmc_rtl_only = why  # type: ignore[attr-defined]

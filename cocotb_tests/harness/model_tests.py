@@ -1,10 +1,10 @@
-"""Directed tests on the golden model alone, without a simulator: `make test MODEL=1`, and `model_tests`.
+"""Runs directed tests on the golden model alone, without a simulator: `make test MODEL=1`, and `model_tests`.
 
     # tests/ppmc104/model/test_acceptance.py
     globals().update(model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves"))
 
-`p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. Thus one
-check applies to RTL and model, to the cycle.
+`p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. Thus the
+same check applies to RTL and model, exact to the cycle.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from .model_bench import OnModel, on_model
 
 @cache
 def _cases(module: str) -> dict[str, Any]:
-    """Return name -> cocotb test of a module, with each case of a parametrized one."""
+    """Return name -> cocotb test of a module, with an entry for each case of a parametrized test."""
     tests = all_tests(importlib.import_module(module))
     return {case.name: case for test in tests for case in test.generate_tests()}
 
 
 def run_on_model(item: Item, seed: int | None) -> None:
-    """Run one directed test; skip it with the reason if it is for the RTL only."""
+    """Run one directed test; if the test is for the RTL only, skip it with the reason."""
     case = _cases(item.module)[item.test]
     if item.skipped:
         pytest.skip(item.skipped)
@@ -55,7 +55,7 @@ def model_tests(module: str, package: str, *names: str, builds: Sequence[Config]
     Raises ValueError if two tests share a name.
 
     Args:
-        builds: builds that are used in place of the builds that the tests name.
+        builds: builds to use instead of those that the tests name.
     """
     made: dict[str, Any] = {}
     for name in names:

@@ -1,7 +1,7 @@
-"""`Part`: the pins of a device as test benches see them; `PARTS`: the devices by name.
+"""`Part`: the pins of a device for test benches; `PARTS`: the devices by name.
 
-A port of several bits is one number, as in the simulator. One bit of it has its own name: "pout_n[2]" is bit
-2 of a port declared `[2:1]`, whose lowest bit is number 1.
+A port of several bits is one number, as in the simulator. Each bit also has a name: "pout_n[2]" is bit 2 of a
+port declared `[2:1]`, whose lowest bit has number 1.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _BIT = re.compile(r"^(\w+)\[(\d+)\]$")
 
 @dataclass(frozen=True)
 class BusStyle:
-    """Pin levels of each half of an access; `address` is the register-select pin."""
+    """Pin levels for both strobes of a bus; `address` is the register-select pin."""
 
     write_on: Mapping[str, int]
     write_off: Mapping[str, int]
@@ -46,7 +46,7 @@ STROBES_RD_WR = BusStyle(
 
 
 class PinTable(Protocol):
-    """Pins as a golden model names them: idle levels, levels in reset, and widths other than 1 bit."""
+    """Pins of a golden model: idle levels, levels in reset, and widths other than 1 bit."""
 
     @property
     def INPUTS(self) -> Mapping[str, int]: ...  # noqa: N802
@@ -63,22 +63,22 @@ class Part:
     """One device.
 
     Attributes:
-        name: its name in the table of parts; also the name of the top module.
+        name: name of the device in the table of parts, which is also the name of its top module.
         inputs: every input pin except clk and rst_n -> its idle level.
         outputs: every output -> (width, reset level).
         widths: widths of the inputs wider than one bit.
-        lowest: ports whose lowest bit is not number 0, with that number.
+        lowest: port -> number of its lowest bit, if this is not 0.
         parameters: parameters of the top module.
         styles: styles of the host bus by the level of `style_pin`. A device with one style has no such pin,
             and a device without a bus has no style.
-        clock: the external base clock.
+        clock: pin of the external base clock.
         unwatched: free-running outputs; only tests that request them record their edges.
-        defaults: parameters of a build that names no parameters.
+        defaults: parameters of a build that sets no parameters.
         idle: one-bit parameters that select the level of an output in reset.
-        shape: the pins under parameters that determine the widths of ports (see `built`).
+        shape: function that returns the pins for parameters that determine the widths of ports (see `built`).
 
-    If the top of a bench contains more than the device: `fed` are inputs of the device that the top drives,
-    which are outputs here; `aside` are inputs of the top only.
+    The top of a bench may contain more than the device. Then `fed` lists inputs of the device that the top
+    drives (outputs of the bench), and `aside` lists inputs that only the top has.
     """
 
     name: str
@@ -101,17 +101,17 @@ class Part:
     def of_model(
         cls, name: str, pins: PinTable, more: Mapping[str, tuple[int, int]] | None = None, **rest: Any
     ) -> Part:
-        """Return a device with the pins of its golden model (and `more` outputs that the model omits)."""
+        """Return a device with the pins of its golden model, and outputs `more` that the model omits."""
         inputs, outputs, widths = _pins_of(pins)
         return cls(name, inputs, {**outputs, **(more or {})}, widths, **rest)
 
     @classmethod
     def of_shape(cls, name: str, shape: Callable[[Mapping[str, object]], PinTable], **rest: Any) -> Part:
-        """Return a device whose port widths depend on its parameters, with the ports of its `defaults`."""
+        """Return a device whose port widths depend on parameters, here with the parameters `defaults`."""
         return cls.of_model(name, shape(rest["defaults"]), shape=shape, **rest)
 
     def built(self, params: Mapping[str, object]) -> Part:
-        """Return the device with the ports that these parameters of the top module select."""
+        """Return the device with the port widths for these parameters of the top module."""
         if self.shape is None:
             return self
         inputs, outputs, widths = _pins_of(self.shape({**self.defaults, **params}))
@@ -119,7 +119,7 @@ class Part:
 
     @property
     def watched(self) -> tuple[str, ...]:
-        """Outputs whose every edge a bench records and compares with the golden model."""
+        """Outputs of which a bench records each edge and compares it with the golden model."""
         return tuple(name for name in self.outputs if name not in self.unwatched)
 
     def params(self, config: Config) -> dict[str, Any]:
@@ -128,7 +128,7 @@ class Part:
         return {name: v for name, v in config.params.items() if name in self.parameters or name in added}
 
     def reset_levels(self, params: Mapping[str, object] | None = None) -> dict[str, int]:
-        """Return the output levels during reset under the given parameters (P104-PORT-01, P104-PHS-02)."""
+        """Return the output levels during reset for these parameters (P104-PORT-01, P104-PHS-02)."""
         levels = {name: level for name, (_, level) in self.outputs.items()}
         for parameter, name in self.idle.items():
             if params and parameter in params:
@@ -155,7 +155,7 @@ class Part:
         return port, place
 
     def style(self, pins: Mapping[str, int]) -> BusStyle:
-        """Return the style of the host bus at these input levels."""
+        """Return the style of the host bus that these input levels select."""
         return self.styles[pins[self.style_pin] if self.style_pin else 0]
 
     @cached_property
@@ -167,7 +167,7 @@ class Part:
 
 
 def _pins_of(pins: PinTable) -> tuple[dict[str, int], dict[str, tuple[int, int]], dict[str, int]]:
-    """Return inputs, outputs and widths of inputs in the form of `Part`."""
+    """Return inputs, outputs and widths of inputs in the format of `Part`."""
     widths = pins.WIDTHS
     inputs = {pin: level for pin, level in pins.INPUTS.items() if pin != "rst_n"}
     outputs = {pin: (widths.get(pin, 1), level) for pin, level in pins.OUTPUTS.items()}
@@ -177,7 +177,7 @@ def _pins_of(pins: PinTable) -> tuple[dict[str, int], dict[str, tuple[int, int]]
 class _Benches(Mapping[str, Part]):
     """The devices that have a `bench.py`, loaded on request.
 
-    That module, in the device's folder below cocotb_tests, lists the devices of the folder in PARTS.
+    The `bench.py` in a device's folder below cocotb_tests lists the devices of the folder in PARTS.
     """
 
     def __getitem__(self, name: str) -> Part:
@@ -199,5 +199,5 @@ PARTS: Mapping[str, Part] = _Benches()
 
 
 def recorded(name: str, params: Mapping[str, object]) -> Part:
-    """Return the device with this name in a build with these parameters, as recordings store both."""
+    """Return the device with this name for a build with these parameters, both as stored in recordings."""
     return PARTS[name].built(params)

@@ -14,7 +14,7 @@ TRACE = BUILD / "trace"
 
 
 def relative(path: Path | str) -> str:
-    """Return a path as shown to the user: relative to the project root where possible."""
+    """Return a path in the form shown to the user: relative to the project root if possible."""
     path = Path(path)
     try:
         return str(path.resolve().relative_to(ROOT))

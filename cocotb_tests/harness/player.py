@@ -35,7 +35,10 @@ SETTING_CLK_DATASHEET = 1_300_000
 
 @dataclass(frozen=True)
 class ExternalClock:
-    """Programme of a clock pin: segments of (periods, period, jitter, high, pause after), times in cycles."""
+    """Sequence of segments for a clock pin, each with five numbers.
+
+    A segment is (number of periods, period, jitter, high time, pause after it), with times in cycles.
+    """
 
     segments: tuple[tuple[int, int, int, int, int], ...] = ()
 
@@ -51,7 +54,7 @@ class ExternalClock:
 
 
 def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> ExternalClock:
-    """Return a clock that is steady, jitters, pauses or changes; every period is at least 16 cycles.
+    """Return a clock that is steady, jitters, pauses or changes its period; periods are at least 16 cycles.
 
     Args:
         near: preferred periods in XTAL cycles.
@@ -81,7 +84,10 @@ def pauses(rng: random.Random) -> Callable[[], int]:
 
 @dataclass(frozen=True)
 class Scenario:
-    """One random host: build, initial pin levels, actions, programme of each clock pin, bus behaviour."""
+    """Stimulus of one random host: build, initial pin levels, actions, segments of each clock pin.
+
+    If `pauses` is set, the host inserts idle cycles before accesses.
+    """
 
     seed: int
     config: Config
@@ -98,7 +104,10 @@ class Scenario:
 
 
 class Player:
-    """Plays a scenario on a bench. After the time limit of a poll it continues: such a host is legal, too."""
+    """Plays a scenario on a bench.
+
+    When a poll reaches its time limit, the player continues: a host that does so is legal, too.
+    """
 
     def __init__(self, bench: DutBench, scenario: Scenario) -> None:
         self.bench = bench
@@ -124,7 +133,7 @@ class Player:
             handle.cancel()
 
     async def polled(self, mask: int, value: int, limit: int) -> bool:
-        """Return whether the status had this value within `limit` cycles."""
+        """Return whether the status has had this value within `limit` cycles."""
         try:
             await self.host.poll(mask, value, limit)
         except TimeoutError:
@@ -185,8 +194,8 @@ def describe(actions: list[Action]) -> str:
 class SinglePlayer(Player):
     """Plays one scenario: `await SinglePlayer(bench, scenario, rule).run()`.
 
-    Adds ("finish", clk): poll until BUSY = 0; after clk cycles send 0x40, which must clear BUSY according to
-    the rule.
+    Adds the action ("finish", clk): poll until BUSY = 0; after clk cycles without success send 0x40, which
+    must clear BUSY according to the rule.
     """
 
     def __init__(self, bench: DutBench, scenario: Scenario, rule: str) -> None:

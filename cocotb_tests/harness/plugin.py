@@ -1,6 +1,6 @@
-"""pytest plugin of the harness: its options, rule IDs of every test, build/trace/results.jsonl.
+"""pytest plugin of the harness: options, rule IDs of each test, build/trace/results.jsonl.
 
-The conftest.py at the project root loads it, so it also handles the plain Python tests below tests/.
+The conftest.py in the project root loads it, so it also handles the plain Python tests in tests/.
 """
 
 from __future__ import annotations
@@ -51,7 +51,10 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Deselect plain Python tests and other clocks (--clk-hz); all except directed tests (--model)."""
+    """Deselect tests that do not match --clk-hz or --model.
+
+    --clk-hz deselects plain Python tests and other clocks, --model all tests except directed ones.
+    """
     clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
     keep = [test for test in items if _is_selected(item_of(test), clk_hz, model)]
     if len(keep) < len(items):
@@ -60,7 +63,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def _is_selected(item: Item | None, clk_hz: int | None, model: bool) -> bool:
-    """Return whether a test runs at this clock, and on the golden model."""
+    """Return whether the options select a test: by its clock, and for the golden model."""
     if item is None:
         return clk_hz is None and not model
     return clk_hz in (None, item.config.clk_hz) and not (model and item.uncompared is None)
@@ -78,7 +81,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Record the rules of the test for the report; fail it if the manual does not list a rule."""
+    """Record the rules of the test for the report; fail the test if the manual does not list one of them."""
     rules, part = _rules_and_part(item)
     sim = item_of(item)
     item.user_properties.append(("rules", list(rules)))
@@ -92,7 +95,7 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 
 class _Recorder:
-    """Collects outcomes in the controlling process only (xdist forwards every report to it)."""
+    """Collects outcomes, only in the controlling process, to which xdist forwards every report."""
 
     def __init__(self, config: pytest.Config) -> None:
         self.records: dict[str, dict[str, Any]] = {}
@@ -102,7 +105,7 @@ class _Recorder:
         self.whole_files &= not any("::" in arg for arg in config.args)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Keep the worst phase of each test that names rules."""
+        """Record the outcome of each test that names rules: passed only if all its phases passed."""
         known = dict(report.user_properties)
         if not known.get("rules"):
             return
@@ -124,7 +127,10 @@ class _Recorder:
             record["ran"] = True
 
     def pytest_sessionfinish(self, session: pytest.Session, exitstatus: int) -> None:
-        """Merge into build/trace/results.jsonl; files that ran completely replace their old records."""
+        """Merge the outcomes into build/trace/results.jsonl.
+
+        The old records of files that ran completely are removed.
+        """
         for record in self.records.values():
             if not record.pop("ran", False) and record["outcome"] == "passed":
                 record["outcome"] = "failed"
@@ -147,7 +153,7 @@ class _Recorder:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the groups where tests are collected, and the recorder only in the controller.
+    """Register the grouping where tests are collected, and the recorder in the controller only.
 
     A worker of xdist has the attribute `workerinput`; the controller does not.
     """

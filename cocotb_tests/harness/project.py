@@ -1,4 +1,4 @@
-"""Facts about the project for all scripts: folders, devices, the RTL source list, the console."""
+"""Data of the project that all scripts use: folders, devices, list of RTL sources, console."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ RTL = ROOT / "rtl"
 BUILD = ROOT / "build"
 DOCS = ROOT / "docs"
 
-# Lines in logs are not wrapped; tables in them are not narrowed.
+# Lines in logs are not wrapped, and tables in them are not narrowed.
 console = Console(highlight=False, width=None if sys.stdout and sys.stdout.isatty() else 160)
 
 
 class ProjectError(Exception):
-    """A mistake of the user or of the set-up; its text is the line that the user sees."""
+    """A mistake of the user or of the set-up; its text is the line that is shown to the user."""
 
 
 def part(name: str) -> Row:
@@ -60,7 +60,7 @@ def sources(of: Row) -> list[Path]:
 
 
 def board_files(part_name: str) -> list[Path]:
-    """Return the files of a carrier without its device, in compile order; empty without a carrier."""
+    """Return the files of a carrier except those of its device, in compile order; empty without a carrier."""
     of = part(part_name)
     if not of.carrier:
         return []
@@ -77,18 +77,18 @@ def top_file(of: Row) -> Path:
 
 
 def include_dirs() -> list[Path]:
-    """Return the folders that are searched for `include files."""
+    """Return the folders in which `include files are searched."""
     return [RTL / "common"]
 
 
 def relative(path: Path) -> str:
-    """Return `path` relative to the project's root, for messages and for tools that start there."""
+    """Return `path` relative to the project root, for messages and for tools that start there."""
     resolved = path.resolve()
     return resolved.relative_to(ROOT).as_posix() if resolved.is_relative_to(ROOT) else str(path)
 
 
 def tool(name: str) -> str:
-    """Return the path of a program of this Python environment, which PATH may lack; else the name."""
+    """Return the path of a program of this Python environment; else its name, to be found in PATH."""
     return shutil.which(name, path=str(Path(sys.executable).parent)) or name
 
 
@@ -99,9 +99,9 @@ def fail(message: str) -> int:
 
 
 def run(main: Callable[[], int]) -> int:
-    """Run a script's `main`: a ProjectError or Ctrl-C becomes one line and a non-zero exit code.
+    """Run the `main` of a script: a ProjectError or Ctrl-C prints one line and returns a non-zero exit code.
 
-    Its stdout may have any encoding, be closed, or lose its reader (`openppmc.streams`).
+    The stdout of the script may have any encoding, be closed, or lose its reader (`openppmc.streams`).
     """
     return streams.guarded(lambda: _run(main))
 

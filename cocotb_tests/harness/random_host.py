@@ -1,4 +1,4 @@
-"""Building blocks of random hosts: seed and weights, random pin changes, bus noise, a writer of commands."""
+"""Building blocks of random hosts: seeds, weights, random pin changes, bus noise, a writer of commands."""
 
 from __future__ import annotations
 
@@ -40,7 +40,10 @@ class MovingPins:
         self.add(t + clk, **{pin: 1 - level})
 
     def external(self, t: int, on: bool, rng: random.Random) -> None:
-        """Start or stop the external clock at edge t; when running it has a random period, with pauses."""
+        """Start or stop the external clock at edge t.
+
+        A running clock has a random period and random pauses.
+        """
         if self._clock:
             self._clock.cancel()
         draw = random.Random(rng.random()) if on else None
@@ -69,12 +72,12 @@ UNCOMPARED = "levels change between two edges of clk, and either edge may sample
 
 
 class PinNoise:
-    """Drives random levels; each call of `make` continues where the previous one ended.
+    """Drives random levels. A call of `make` continues where the previous call ended.
 
     Args:
-        strobes: active-low bus pins, each repeated according to its frequency.
+        strobes: active-low bus pins; a pin that is listed more often is drawn more often.
         codes: bytes that are drawn often.
-        still: pins that keep their level. All other pins are drawn as switches.
+        still: pins that keep their level. All other pins except the bus and the clock are drawn as switches.
     """
 
     def __init__(
@@ -90,7 +93,7 @@ class PinNoise:
         self._switches = tuple(others)
 
     def _levels(self) -> dict[str, int]:
-        """Draw new levels for a few pins; mostly bus pins, so that many bytes are accepted."""
+        """Draw new levels for a few pins, mostly bus pins so that the device accepts many bytes."""
         rng, part = self.rng, self.bench.part
         kind = rng.random()
         if kind < 0.75:
@@ -106,20 +109,23 @@ class PinNoise:
         return {pin: sum((rng.random() < 0.7) << place for place in range(width))}
 
     async def make(self, clocks: int) -> None:
-        """Drive noise for about `clocks` cycles: changes 0.1 to 60 cycles apart, anywhere between edges."""
+        """Drive noise for about `clocks` cycles, with changes at any time between edges.
+
+        The changes are up to 60 cycles apart.
+        """
         rng, bench = self.rng, self.bench
         end = bench.now + clocks
         while bench.now < end:
             bench.set_between_edges(**self._levels())
             gap = rng.choice((0.1, 0.4, 1, 1, 2, 2, 3, 7, 20, 60))
             steps = max(2, int(gap * bench.period * rng.random()))
-            # A change is never on an edge of `clk` itself: it would be a race whether the edge samples the
+            # No change coincides with an edge of `clk`: the edge could sample the level before or after the
             # change.
             offset = (bench.sim_time() + steps - bench.edge_time(0)) % bench.period
             await Timer(steps + (2 if offset < 2 or offset == bench.period - 1 else 0), "ps")
 
     async def stop(self) -> None:
-        """Set all inputs to their idle levels; wait 20 cycles for the last byte."""
+        """Set all inputs to their idle levels; wait 20 cycles, in which the device accepts the last byte."""
         await self.bench.align()
         self.bench.set(**{**self.bench.part.inputs, **self.still})
         await self.bench.clocks(20)
@@ -152,28 +158,28 @@ class Builds:
 
     @property
     def names(self) -> set[str]:
-        """Names of all builds."""
+        """Names of all builds that seeds can select."""
         return {config.name for config, _ in self.weights}
 
 
 def in_turn(*builds: Config) -> Callable[[int], Config]:
-    """Return a function that assigns one build after the other, seed by seed."""
+    """Return a function that assigns the builds in turn to successive seeds."""
     return lambda seed: builds[seed % len(builds)]
 
 
 class HostProtocol(Protocol):
-    """The host of a device that a random host uses."""
+    """Host of a device, which a random host uses."""
 
     @property
     def bench(self) -> DutBench:
-        """The bench that the host works on."""
+        """Bench on which the host works."""
 
 
 class RandomHost:
-    """A host with the random numbers `rng` of a seed; `name` is the first word of the seed's text.
+    """A host whose random numbers `rng` depend on a seed; `name` is the first word of the seed's text.
 
-    A host that reacts to the responses has a `host` (for its accesses) and a `background` of pins that move
-    independently.
+    A host that reacts to responses has a `host`, which makes its accesses, and a `background` of pins that
+    move independently.
     """
 
     host: HostProtocol
@@ -185,7 +191,10 @@ class RandomHost:
 
     @property
     def model(self) -> Any:
-        """Golden model of the device. The host uses it to decide when to act, not for the responses."""
+        """Golden model of the device.
+
+        The host uses it only to decide when to act; it reads responses from the device.
+        """
         return self.host.bench.golden
 
     def pick(self, actions: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:
@@ -196,8 +205,8 @@ class RandomHost:
 class HostWriter(RandomHost, ABC):
     """Writes action lists.
 
-    Attributes: rng, config, scale (clk cycles per XTAL cycle), externals (clock pins in use), limit_clk,
-    actions (so far).
+    Attributes: rng, config, scale (cycles of `clk` per XTAL cycle), externals (for each clock pin, whether it
+    is used), limit_clk (time limit in cycles), actions (so far).
 
     Args:
         name: first word of the seed text.
@@ -224,14 +233,17 @@ class HostWriter(RandomHost, ABC):
 
     @abstractmethod
     def random_write(self) -> tuple[int, int]:
-        """Draw a register and a byte for it, often sensible ones."""
+        """Draw a register and a byte for it, often a sensible byte."""
 
     def add(self, *action: Any) -> None:
         """Append an action."""
         self.actions.append(action)
 
     def clk(self, low: int, high: int) -> int:
-        """Draw a time between two numbers of XTAL cycles; return it in cycles. Short times are frequent."""
+        """Draw a time between two numbers of XTAL cycles; return it in cycles.
+
+        Short times are frequent.
+        """
         spread = self.rng.random() ** 2
         return max(1, round((low + (high - low) * spread) * self.scale))
 
@@ -245,13 +257,16 @@ class HostWriter(RandomHost, ABC):
                 self.add("status", 1)
 
     def blind(self, writes: list[tuple[int, int]]) -> None:
-        """Write without polling, sometimes too fast for the mailbox."""
+        """Write without polling; some writes are too fast for the mailbox."""
         gap = self.rng.choice((2, 3, 4, 8, 12))
         for reg, byte in writes:
             self.add("write", reg, byte, self.rng.randint(2, 3), gap)
 
     def send_command(self, code: int, data: list[int], polled: float) -> None:
-        """Send a command with its data bytes, polled with the probability `polled`, else without polling."""
+        """Send a command with its data bytes.
+
+        With the probability `polled` the host polls IBF = 0 after each byte; otherwise it does not poll.
+        """
         if self.rng.random() < polled:
             self.add("send", code, data)
         else:
@@ -262,7 +277,7 @@ class HostWriter(RandomHost, ABC):
         self.blind([self.random_write() for _ in range(self.rng.randint(2, 5))])
 
     def bad_bus(self, codes: tuple[int, ...]) -> None:
-        """Assert both strobes, or end a strobe by cs_n or the other strobe (P104-BAD-08, STMC-BAD-12)."""
+        """Assert both strobes, or end a strobe by cs_n or by the other strobe (P104-BAD-08, STMC-BAD-12)."""
         rng = self.rng
         byte, reg = rng.choice(codes), rng.getrandbits(1)
         on = {"cs_n": 0, "a0": reg, "d_i": byte}

@@ -1,10 +1,10 @@
-"""`RandomItems`: the random tests of one kind, as the `test_random.py` of a part lists them.
+"""`RandomItems`: random tests of one kind, for the `test_random.py` of a part.
 
     random_item = RandomItems("stmc", "tb_random", "stmc_random_host", range(1, 151), build)
     pytest_generate_tests = generating(test_random=random_item)
 
 Several seeds share a simulation (`batches`), each after a reset. A failing simulation reports the shortest
-stimulus found that still fails (`shrink_report`).
+failing stimulus that was found (`shrink_report`).
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def attempt_random(
 ) -> str:
     """Do the same as `attempt`; the message of a failing run ends with its shortest list of transactions.
 
-    That list is found on the device alone.
+    The search for this list simulates the device alone.
     """
     message = attempt(item, options, env, design)
     if not message or mutant_present():
@@ -74,7 +74,7 @@ def replay_line(file: Path) -> str:
 def shrink_report(folder: Path, design: Design | None = None) -> str:
     """Shrink the recording of a failing run in its folder; return the shortest list of transactions as text.
 
-    `design` (default: the recorded device) is simulated. The files are in its subfolder `short`.
+    `design` (default: the recorded device) is simulated. The results are in the subfolder `short`.
     """
     file, short = folder / "recording.json", folder / "short"
     if not file.is_file():
@@ -85,7 +85,7 @@ def shrink_report(folder: Path, design: Design | None = None) -> str:
     try:
         design = design or part_design(item.part, item.config)
         run_sim(design, item, item.seed, env={REPLAY: str(file.resolve())}, folder=short, repro=line)
-    except SimError as error:  # an assertion of the RTL, or the time limit: the best list is on file
+    except SimError as error:  # an assertion or the time limit: the file has the best list
         trouble = str(error).splitlines()[0]
     words = short / WORDS
     if not words.is_file():
@@ -107,12 +107,15 @@ def _items(part: str, module: str) -> dict[str, Item]:
 
 
 def seed_item(part: str, module: str, test: str, seed: int, config: Config) -> Item:
-    """Return a test of a device's random hosts in the build of a seed."""
+    """Return the simulation of a device's random hosts, in the build of a seed."""
     return replace(_items(part, module)[test], config=config, seed=seed, tag=f"r{seed:04d}")
 
 
 def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:
-    """Return (first item, all seeds) of each simulation: at most `size` items of one build each."""
+    """Group items into simulations: at most `size` items of the same build in each.
+
+    Returns (first item, all seeds) of each simulation.
+    """
     builds: dict[str, list[Item]] = {}
     for item in items:
         builds.setdefault(item.config.name, []).append(item)
@@ -126,7 +129,7 @@ def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:
 def parametrize(
     metafunc: pytest.Metafunc, make: Callable[[int], Item], seeds: Iterable[int], size: int = BATCH
 ) -> None:
-    """Make one pytest item (`item`, `seeds`) per batch of the seeds."""
+    """Generate one pytest item (`item`, `seeds`) for each batch of seeds."""
     sets = batches([make(seed) for seed in seeds], size)
     metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
 
@@ -157,13 +160,13 @@ class Played:
     compared: Counter[str] = field(default_factory=Counter)
 
     def add(self, other: Played) -> None:
-        """Add the results of `other`."""
+        """Add the results of another simulation."""
         self.failures += other.failures
         self.compared.update(other.compared)
 
 
 def play(items: Sequence[Item], design: Callable[[Item], Design | None], size: int = BATCH) -> Played:
-    """Play one item per seed. If a seed of a simulation fails, play each seed of it again alone."""
+    """Play one item per seed. If a seed of a simulation fails, repeat each of its seeds alone."""
     played = Played()
     alone = {item.seed: item for item in items}
     for first, seeds in batches(items, size):
@@ -203,13 +206,13 @@ def all_of(parts: Iterable[Played]) -> Played:
 
 @dataclass(frozen=True, eq=False)
 class RandomItems:
-    """`random_item(seed)` is the simulation of any seed.
+    """Random tests of one kind; `random_item(seed)` returns the simulation of any seed.
 
     Attributes:
-        seeds: seeds that `make test` plays, up to `batch` of one build in a simulation.
+        seeds: seeds that `make test` plays; a simulation plays up to `batch` seeds of one build.
         build: function that returns the build of a seed.
-        design: the simulated design, if it is not the device alone.
-        takes: function that returns whether a seed is of this kind.
+        design: simulated design, if it is not the device alone.
+        takes: function that returns whether a seed belongs to this kind.
     """
 
     part: str
@@ -227,7 +230,7 @@ class RandomItems:
 
     @property
     def complete(self) -> bool:
-        """Whether each seed is played exactly once."""
+        """Whether `make test` plays each seed exactly once."""
         return played(self, self.seeds) == list(self.seeds)
 
     def _design(self, item: Item) -> Design | None:
@@ -243,7 +246,7 @@ class RandomItems:
         return play([self(seed) for seed in seeds], self._design, self.batch)
 
     def pins(self, seed: int) -> tuple[str, str]:
-        """Return the digest of all pin changes of a seed on the RTL, and that on the golden model alone."""
+        """Return the digest of all pin changes of a seed, on the RTL and on the golden model alone."""
         item = self(seed)
         folder = run_sim(self._design(item) or part_design(item.part, item.config), item, seed)
         found = re.search(r"edges compared, pins (\w+)", (folder / "log.txt").read_text(encoding="utf-8"))
@@ -253,7 +256,10 @@ class RandomItems:
 
 
 def generating(**kinds: RandomItems) -> Callable[[pytest.Metafunc], None]:
-    """Return the `pytest_generate_tests` of a module: one item per batch for each named test function."""
+    """Return the `pytest_generate_tests` of a module.
+
+    It generates one item per batch for each named test function.
+    """
 
     def generate(metafunc: pytest.Metafunc) -> None:
         kind = kinds.get(metafunc.function.__name__)

@@ -1,4 +1,4 @@
-"""Replays a recording on the RTL, compares it, and shortens it while it still differs (`shrink`)."""
+"""Replays a recording on the RTL, compares it with the golden model, and shortens it (`shrink`)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .shrink import Shrinker, Transaction, changes_of, report_lines, transaction
 async def rerun(bench: RtlBench, changes: Iterable[Change], end: int) -> list[Edge]:
     """Reset the device and make the changes; return all output edges up to edge `end`.
 
-    Times are counted as in `changes`.
+    Times are counted in the same way as in `changes`.
     """
     await bench.align()
     bench.set(rst_n=0)
@@ -41,19 +41,20 @@ REPLAY = "OPENPPMC_REPLAY"
 SECONDS = "OPENPPMC_SHRINK_S"
 WORDS = "short.txt"
 ROWS = 40
-"""Maximum number of lines in the message, one line for each group of transactions."""
+"""Maximum number of lines in the message; a line describes one group of transactions."""
 
 
 async def compared(bench: RtlBench, recording: Recording) -> Comparison:
-    """Compare the RTL with a golden model under a recording's pin changes, each just after a reset."""
+    """Compare RTL and golden model under the pin changes of a recording, both starting just after a reset."""
     edges = await rerun(bench, recording.stimulus, recording.end)
     return compare_recording(replace(recording, edges=edges))
 
 
 class Search:
-    """Searches a short list of transactions with the difference `first` of a recording on the same output.
+    """Searches for a short list of transactions that causes the difference `first` of a recording.
 
-    The best list so far is always in recording.json and short.txt of the bench's folder.
+    The difference must occur on the same output. The best list so far is always in recording.json and
+    short.txt in the bench's folder.
     """
 
     def __init__(self, bench: RtlBench, first: Comparison) -> None:
@@ -78,13 +79,16 @@ class Search:
         return True
 
     def store(self, found: Comparison) -> None:
-        """Store the best result so far; a shorter list may show the difference slightly later."""
+        """Store the best result so far; with a shorter list the difference may occur slightly later."""
         assert found.mismatch is not None
         self.last, t = found, found.mismatch.t
         self.end = min(self.end, t + t // 8 + 2_000)
 
     async def fails(self, transactions: Sequence[Transaction]) -> int | None:
-        """Return the edge of the difference if these transactions cause it and no output differs before."""
+        """Return the edge of the difference.
+
+        Return None if these transactions do not cause it, or if another output differs first.
+        """
         recording = replace(
             self.last.recording,
             end=self.end,
@@ -93,7 +97,7 @@ class Search:
         )
         try:
             found = await compared(self.bench, recording)
-        except (AssertionError, ValueError):  # not a legal stimulus for the golden model
+        except (AssertionError, ValueError):  # the transactions are not a legal stimulus for the golden model
             return None
         if found.mismatch is None or found.mismatch.signal != self.signal:
             return None
@@ -101,7 +105,7 @@ class Search:
         return found.mismatch.t
 
     def keep(self) -> None:
-        """Write the files."""
+        """Write recording.json and short.txt."""
         out, m, shrinker = self.bench.out, self.last.mismatch, self.shrinker
         assert m is not None
         short = replace(self.last.recording, end=min(self.end, m.t + 200))
@@ -130,7 +134,7 @@ async def _begun() -> tuple[RtlBench, Comparison]:
 
 @cocotb.test()
 async def replay(dut: Any) -> None:
-    """All outputs change as in the golden model when the RTL receives the pins of a recording."""
+    """All outputs change as in the golden model when the RTL receives the pin changes of a recording."""
     bench, comparison = await _begun()
     if comparison.mismatch is not None:
         raise AssertionError(write_report(comparison, bench.out, bench.repro))

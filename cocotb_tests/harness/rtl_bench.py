@@ -25,7 +25,7 @@ from .sim_backend import collect_seldom, sim_backend
 
 
 class RtlBench(DutBench):
-    """A device on the test bench. Create one with `await RtlBench.start(dut, part)`.
+    """The RTL of a device on the test bench; create it with `await RtlBench.start(dut, part)`.
 
     Members in addition to those of `DutBench`: `out` (Path for the files of this run) and `repro` (the
     command that repeats the run).
@@ -67,16 +67,16 @@ class RtlBench(DutBench):
         """Start clk, pulse rst_n 1-0-1 and return with `now` = settle.
 
         The devices accept bytes from edge 4 on (P104-PORT-03). With settle = 0, the method returns before
-        edge 0. `pins` override idle input levels; these levels have the stamp 0. `reset_clk` is the length of
-        the reset in cycles (>= 2). `seed` replaces the seed of the run.
+        edge 0. `pins` replace idle input levels; these levels have the stamp 0. `reset_clk` is the length of
+        the reset in cycles (at least 2). `seed` replaces the seed of the run.
         """
         bench = cls(dut, part, seed)
         part = bench.part
         watchdog.arm()
         collect_seldom()
-        # All state starts at random: no edge of `clk` may occur before rst_n has fallen, not even at time 0.
-        # In Icarus Verilog, signals start without a level, and a value set before the first evaluation has no
-        # effect.
+        # All registers start at random levels, so no edge of `clk` may occur before rst_n has fallen, not
+        # even at time 0. In Icarus Verilog, signals start without a level, and a value set before the first
+        # evaluation has no effect.
         at_once = int if cocotb.SIM_NAME.startswith("Icarus") else Immediate
         dut.clk.set(at_once(0))
         dut.rst_n.set(at_once(1))
@@ -85,7 +85,7 @@ class RtlBench(DutBench):
             bench.pins[pin] = level
         await Timer(bench.half, "ps")
         dut.rst_n.value = 0
-        # Each falling edge is half a period after a rising edge; the first edge is a rising one.
+        # Each falling edge occurs half a period after a rising edge; the first edge is a rising edge.
         bench._backend.clock(bench._backend.port("clk"), bench.half)
         await Timer(bench.period * max(2, reset_clk), "ps")
         bench._t0 = bench._time() + bench.half
@@ -102,7 +102,7 @@ class RtlBench(DutBench):
         return bench
 
     def watch(self, output: str) -> None:
-        """Record the edges of an output from now on; only `part.unwatched` outputs need it."""
+        """Record the edges of an output from now on; only outputs of `part.unwatched` need this call."""
         self.initial[output] = self.level(output)
         self._edges[output] = []
         port = self._ports[output]
@@ -163,7 +163,10 @@ class RtlBench(DutBench):
         self.stimulus.append(Change(stamp, port, level))
 
     def set_between_edges(self, **levels: int) -> int:
-        """Do the same as `set`, but at any moment (asynchronous events such as rst_n between two edges)."""
+        """Drive input pins as `set` does, but at any moment.
+
+        This is for asynchronous events such as a change of rst_n between two edges.
+        """
         stamp = self.now
         for pin, level in levels.items():
             self._drive(stamp, pin, level)
@@ -202,13 +205,13 @@ class RtlBench(DutBench):
     # ---------------------------------------------------------------- outputs
 
     def forget(self) -> None:
-        """Discard all output edges and pin changes recorded so far, for runs of many devices."""
+        """Discard all output edges and pin changes recorded so far, for runs of many devices in turn."""
         self.stimulus.clear()
         for changes in self._output_changes().values():
             changes.clear()
 
     def _index(self, time: int) -> int:
-        """Return the edge at which a change becomes visible (for asynchronous changes: the next edge)."""
+        """Return the edge at which a change is visible; for asynchronous changes this is the next edge."""
         return -((self._t0 - time) // self.period)
 
     def _output_changes(self) -> dict[str, list[tuple[int, int]]]:
@@ -245,7 +248,7 @@ class RtlBench(DutBench):
             fired = await First(handle.value_change, limit)
             if fired is limit:
                 break
-            # The change may concern other bits of the same port.
+            # The change may affect other bits of the same port.
             was, before = before, self.level(output)
             if before != was and level in (None, before):
                 t = self._index(self._time())

@@ -1,4 +1,4 @@
-"""Decorators of tests in the simulator: closed loop, and compared with the golden model at every edge.
+"""Decorators of simulated tests, which compare every edge of every output with the golden model.
 
     @directed("P104-STP-01", "AC-20", builds=(F16, F100))
     async def p104_stp_01_immediate(dut):
@@ -10,9 +10,10 @@
         "All outputs change as in the golden model for every random host."
         await ReactiveHost(await Host.start(dut), seed).play()
 
-Both are `cocotb.test()`, so `cocotb.parametrize`, `skip` and `xfail` work with them. The golden model gets
-the pin changes that the test makes; at the end, and before each further `start_bench`, every edge of every
-output is compared. A random test plays the seeds of its batch (`random_items`), each after a reset.
+Both decorators make a `cocotb.test()`, so `cocotb.parametrize`, `skip` and `xfail` work with them. The golden
+model receives the pin changes that the test makes. At the end, and before each further `start_bench`, every
+edge of every output is compared. A random test plays the seeds of its batch (`random_items`), each after a
+reset.
 """
 
 from __future__ import annotations
@@ -35,9 +36,13 @@ from .part import Part
 from .rtl_bench import RtlBench
 
 TAIL = 24
-"""Cycles for which the bench continues before the comparison, so that the last action has its effects."""
+"""Cycles for which the bench continues before the comparison, so that all effects of the last action
+occur.
+"""
 Comparer = Callable[[Any], Any]
-"""Compares the recording of a bench with the golden model; raises AssertionError at a difference."""
+"""Function that compares the recording of a bench with the golden model; raises AssertionError at a
+difference.
+"""
 
 
 class RunContext:
@@ -66,17 +71,17 @@ class RunContext:
             self.differs = False
 
     async def model_result(self) -> str:
-        """Return the result of the golden model for a run in which a check of the test has failed."""
+        """Return the result of the comparison for a run in which a check of the test has failed."""
         if not (self._compare and self.bench and self.bench.simulated):
             return "the outputs of this test are not compared with the golden model"
         try:
             await self.compare()
-        except Exception as other:  # any error of the model is secondary: the failed check counts
+        except Exception as other:  # any error of the model is secondary to the failed check
             return f"the golden model differs: {other}"
         return "up to here the golden model shows the same edges"
 
     async def close_bench(self) -> None:
-        """Compare the present bench, if any, and stop its pin changes, because another bench starts."""
+        """Compare the present bench, if any, and stop its pin changes before another bench starts."""
         if self.bench:
             await self.compare()
             self.bench.close()
@@ -94,7 +99,7 @@ def current_test() -> RunContext | None:
 
 @contextmanager
 def running_test(compare: Comparer | None, seed: int | None = None) -> Iterator[RunContext]:
-    """Provide the context of a test whose benches `compare` compares; see `RunContext`."""
+    """Provide the context of a test whose benches are compared by `compare`; see `RunContext`."""
     _running.append(RunContext(compare, seed))
     try:
         yield _running[-1]
@@ -132,8 +137,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
     Raises ValueError for an invalid rule ID.
 
     Args:
-        uncompared: the reason why the outputs are not compared with the golden model; the run lists such
-            tests.
+        uncompared: reason why the outputs are not compared with the golden model; the run lists such tests.
     """
 
     def mark(test: Any) -> Any:
@@ -144,7 +148,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
             with running_test(None if uncompared else check_against_model) as context:
                 await run_and_compare(context, function(dut, **arguments))
 
-        # The simulator must see the arguments of `run`.
+        # cocotb must see the arguments of `run`.
         del run.__wrapped__  # type: ignore[attr-defined]
         run._openppmc_directed = True  # type: ignore[attr-defined]
         run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
@@ -158,7 +162,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
 
 
 async def run_and_compare(context: RunContext, test: Any) -> None:
-    """Run the test, then compare; after a failed check, add whether the golden model shows the same edges."""
+    """Run the test, then compare; if a check fails, add whether the golden model has the same edges."""
     try:
         await test
     except (AssertionError, TimeoutError) as error:
@@ -172,11 +176,11 @@ RandomTest = Callable[[Any, int], Awaitable[None]]
 
 
 def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[RandomTest], Any]:
-    """Make a cocotb test that verifies `rules` from a coroutine that plays one seed on one bench.
+    """Make a cocotb test that verifies `rules`, from a coroutine that plays one seed on one bench.
 
     Args:
-        least: minimum number of output edges that a seed must make; all are compared.
-        uncompared: the reason why the output edges are not compared.
+        least: minimum number of output edges in a seed; all edges are compared.
+        uncompared: reason why the output edges are not compared.
     """
 
     def mark(test: RandomTest) -> Any:
@@ -209,7 +213,7 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
             await each_seed(name, functools.partial(one, dut))
             return ""
 
-        # The simulator must see the argument of `run`, not those of the test.
+        # cocotb must see the argument of `run`, not those of the test.
         del run.__wrapped__  # type: ignore[attr-defined]
         run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
         return cocotb.test()(verifies(*rules)(run))
@@ -218,7 +222,10 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
 
 
 def pins_digest(bench: DutBench) -> str:
-    """Return a digest of all pin changes of a bench: equal for the same host on RTL and golden model."""
+    """Return a digest of all pin changes of a bench.
+
+    It is equal for the same host on RTL and golden model.
+    """
     return sha256(repr(sorted(map(tuple, bench.stimulus))).encode()).hexdigest()[:12]
 
 

@@ -1,8 +1,8 @@
-"""Runs cocotb tests: directed tests of a build share one process, each other test has its own.
+"""Runs cocotb tests: directed tests of a build share one process; each other test has a separate process.
 
-All simulations of the project use this module. results.xml must hold exactly the requested tests (otherwise
-no test counts as run), exit codes count, and a fired assertion of the RTL is an error of the test in whose
-part of the log it is printed (`simulate`).
+All simulations of the project use this module. A process is accepted only if results.xml contains exactly the
+requested tests (otherwise no test counts as run) and the exit code is 0. A fired assertion of the RTL is an
+error of the test in whose part of the log it is printed (`simulate`).
 """
 
 from __future__ import annotations
@@ -58,7 +58,10 @@ def hint(text: str, design: Design) -> str:
 
 
 def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int]:
-    """Return (scope, name with range, width) of the top's signals (its ports if known), and the last time."""
+    """Return (scope, name with range, width) of the top's signals, and the last time.
+
+    Only the ports are returned if they are known.
+    """
     scopes: list[str] = []
     found: list[tuple[str, str, int]] = []
     with vcd.open("rb") as file:
@@ -80,12 +83,15 @@ def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int
 
 
 def write_views(vcd: Path, design: Design) -> list[Path]:
-    """Write a GTKWave save file and a Surfer command file next to a VCD; return all three, if it exists."""
+    """Write a GTKWave save file and a Surfer command file next to a VCD.
+
+    Return the paths of all three, if the VCD exists.
+    """
     if not vcd.is_file():
         return []
     signals, end = _signals(vcd, design)
     gtkw, sucl = vcd.with_suffix(".gtkw"), vcd.with_suffix(".sucl")
-    # The zoom is minus log2 of the time between two grid lines; the window shows about five of them.
+    # The zoom is minus log2 of the time between two grid lines; the window contains about five grid lines.
     lines = [f'[dumpfile] "{vcd.name}"', "[timestart] 0", "[size] 1500 900"]
     lines += [f"*-{math.log2(max(5, end) / 5):.6f} -1", "[sst_width] 200", "[signals_width] 180"]
     for scope, name, width in signals:
@@ -97,13 +103,15 @@ def write_views(vcd: Path, design: Design) -> list[Path]:
 
 
 MOST = 40
-"""Maximum number of tests in one process: two workers stay busy, and the imports take little time."""
+"""Maximum number of tests in one process. With this value two workers stay busy, and imports take little
+time.
+"""
 
 T = TypeVar("T")
 
 
 def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T, ...]]:
-    """Group items with the same key, at most MOST per group, in order; an item with key None is alone."""
+    """Group items with the same key in order, at most MOST per group; an item whose key is None is alone."""
     found: dict[Hashable, list[T]] = {}
     for number, thing in enumerate(things):
         found.setdefault((number,) if (name := key(thing)) is None else (None, name), []).append(thing)
@@ -118,8 +126,8 @@ def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T
 def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
     """Return the outcome of each item of a job, and the process in which it ran.
 
-    The items that a crash prevented from running get a new process, without the test that crashed. For a
-    mutant, one failure is enough.
+    Items that did not run because of a crash run in a new process without the test that crashed. For a
+    mutant, the first failure ends the job.
     """
     found: dict[Item, tuple[Outcome, Job]] = {}
     left: Sequence[Item] = job.items
@@ -135,13 +143,13 @@ def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
 
 
 def fails(job: Job, items: Sequence[Item]) -> bool:
-    """Return whether the last of these items fails in a process with all of them."""
+    """Return whether the last of these items fails in a process that runs all of them."""
     outcome = tried(replace(job, items=tuple(items)))[items[-1]]
     return not outcome.good
 
 
 def shortest_prefix(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
-    """Return the smallest list of the tests `before` after which `item` fails.
+    """Return the smallest list of tests out of `before` after which `item` fails.
 
     The list is halved as long as one half is sufficient.
     """
@@ -160,7 +168,7 @@ def shortest_prefix(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
 def failure_message(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
     """Return the message about an item that failed in `job`.
 
-    The log, and with `waves` a VCD, stay in build/failures/.
+    The log (with `waves`, also a VCD) is kept in build/failures/.
     """
     if mutant_present():
         return first.text
@@ -180,7 +188,7 @@ def failure_message(item: Item, first: Outcome, job: Job, waves: bool = True) ->
 def _message(
     item: Item, outcome: Outcome, job: Job, reasons: Sequence[str] = (), kept: Path | None = None
 ) -> str:
-    """Return the message about a failure: what failed, the results `reasons` of the other runs, the files."""
+    """Return the message about a failure: its text, the results `reasons` of the other runs, the files."""
     lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in reasons)]
     lines.append(f"seed {job.seed}" + (f", log {relative(kept / 'log.txt')}" if kept else ""))
     if kept and (kept / "waves" / VCD).is_file():
@@ -189,7 +197,7 @@ def _message(
 
 
 def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> str:
-    """Return the message about a failure that `job` reproduces; it needs all items before `item`."""
+    """Return the message about a failure that `job` reproduces only with all items before `item`."""
     reasons = [f"fails only after {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
     if unknown_name := hint(outcome.text, job.design):
         return _message(item, outcome, job, [*reasons, unknown_name], kept)
@@ -208,7 +216,7 @@ def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> s
 
 
 def _after_others(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
-    """Return the message about a test that passes alone but failed in a process with others."""
+    """Return the message about a test that passes alone but failed in a process with other tests."""
     again = tried(job)[item]
     if again.good:
         reasons = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
@@ -236,7 +244,7 @@ def notes(item: Item | None) -> list[tuple[str, Any]]:
 
 
 class Summary:
-    """Counts in the controlling process, to which xdist forwards every report."""
+    """Collects counts in the controlling process, to which xdist forwards every report."""
 
     def __init__(self) -> None:
         self._seen: dict[str, dict[str, Any]] = {}
@@ -251,7 +259,7 @@ class Summary:
             self._waves += [line for line in report.capstdout.splitlines() if line.startswith(WAVES_IN)]
 
     def pytest_terminal_summary(self, terminalreporter: Any) -> None:
-        """Write the counts, each reason once, and the waveform files."""
+        """Write the counts, each reason (once), and the waveform files."""
         if self._waves:
             terminalreporter.section("waves")
             for line in sorted(self._waves):
@@ -272,14 +280,14 @@ class Summary:
 
 @dataclass(frozen=True)
 class SimOptions:
-    """Options of the user on the command line; seed None = the fixed default of each test.
+    """Options of the user on the command line. If `seed` is None, each test uses its fixed default.
 
-    `done` holds the outcomes of the groups that have run.
+    `done` contains the outcomes of the groups that have run.
 
     Attributes:
         waves: True if a VCD of each test is kept, also of passing ones.
         probe: True if every signal is visible.
-        group: the items that share a simulator process, in order.
+        group: items that share a simulator process, in order.
     """
 
     seed: int | None = None
@@ -301,8 +309,8 @@ def run_sim(
 ) -> Path:
     """Build if needed and run one cocotb test in one process; return the folder of the run.
 
-    `folder` (default below build/runs/) receives log.txt, results.xml and the files of the test. Raises
-    SimError unless exactly this test ran and passed, and the process ended well.
+    `folder` (default: below build/runs/) receives log.txt, results.xml and the files of the test. Raises
+    SimError unless exactly this test ran and passed, and the process ended without an error.
     """
     job = Job(design, (item,), seed, waves, {**(env or {}), **({REPRO: repro} if repro else {})})
     folder = folder or job.folder
@@ -323,9 +331,9 @@ def _job(item: Item, options: SimOptions, env: Mapping[str, str], design: Design
 
 
 def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: Design | None) -> Outcome:
-    """Return the outcome of an item; the text of a failed one is the whole message.
+    """Return the outcome of an item; the text of a failed one is the complete message.
 
-    The first item of a group that is requested runs the whole group.
+    The first requested item of a group runs the whole group.
     """
     try:
         job = _job(item, options, env, design)
@@ -343,7 +351,7 @@ def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: 
 
 
 def _with_waves(item: Item, job: Job) -> Outcome:
-    """Run one item with waveforms, which stay in build/waves/ with their views."""
+    """Run one item with waveforms; keep them in build/waves/ with their view files."""
     folder = WAVES / safe(item.id)
     outcome = simulate(job, folder)[item]
     views = write_views(folder / VCD, job.design)
@@ -360,7 +368,7 @@ def attempt(
     env: Mapping[str, str] | None = None,
     design: Design | None = None,
 ) -> str:
-    """Run one item; return "" if it passed, otherwise a short message with the command that repeats it.
+    """Run one item; return "" if it passed, else a short message with the command that repeats it.
 
     `design` (default: the device of the item) is simulated.
     """

@@ -1,9 +1,9 @@
-"""Decides which pytest items share a simulator process, and makes xdist send such a group to one worker.
+"""Decides which pytest items share a simulator process; makes xdist send such a group to one worker.
 
-Tests marked with the same `xdist_group` also run in one worker, which shares what they build once. Groups are
-formed from the tests that remain to run (`-k`, a node's id, --lf), in their order. Each worker knows them
-from its own collection. The controller, which collects nothing, reads them from a file whose path it passes
-to its workers.
+Tests with the same mark `xdist_group` also run in one worker, which builds their common data once. Groups are
+formed from the tests that remain to run (`-k`, a node's id, --lf), in their order. Each worker determines
+them from the tests that it collects. The controller, which collects nothing, reads them from a file whose
+path it passes to its workers.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ def item_of(test: pytest.Item) -> Item | None:
 def group_key(test: pytest.Item) -> Hashable:
     """Return a key that is equal for tests that may share a process: same test function, same build.
 
-    The test function determines the design. The design of tests that are not directed may depend on their
-    module.
+    The test function determines the design. For tests that are not directed, the design may also depend on
+    their module.
     """
     item = item_of(test)
     if item is None or not item.together or len(params_of(test)) > 1:
@@ -50,7 +50,7 @@ def group_key(test: pytest.Item) -> Hashable:
 
 
 class Groups:
-    """The groups of a session, in a worker or in a session without workers."""
+    """Groups of a session, in a worker or in a session without workers."""
 
     def __init__(self, options: SimOptions) -> None:
         self._options = options
@@ -61,7 +61,7 @@ class Groups:
         return replace(self._options, group=self._group.get(test.nodeid, ()))
 
     def pytest_collection_finish(self, session: pytest.Session) -> None:
-        """Form the groups; with waves each test is alone."""
+        """Form the groups; with waves, each test is in a separate process."""
         key = (lambda test: None) if self._options.waves else group_key
         scopes = {}
         for tests in groups_of(session.items, key):
@@ -79,18 +79,18 @@ class Groups:
 
 
 class Sender:
-    """xdist's controller: sends each group as a whole to one worker, all other tests one by one."""
+    """Controller of xdist: sends each group as a whole to one worker, and all other tests one by one."""
 
     def __init__(self) -> None:
         self._file = BUILD / f"scopes-{os.getpid()}.json"
 
     def pytest_configure_node(self, node: Any) -> None:
-        """Pass a worker the file for its groups."""
+        """Pass the path of the file for the groups to a worker."""
         self._file.parent.mkdir(parents=True, exist_ok=True)
         node.workerinput[_SCOPES] = str(self._file)
 
     def pytest_xdist_make_scheduler(self, config: pytest.Config, log: Any) -> Any:
-        """Return xdist's scheduler for scopes, with the groups as scopes; None if the user selects one."""
+        """Return a scheduler of xdist whose scopes are the groups; None if the user selects a scheduler."""
         from xdist.scheduler import LoadScopeScheduling
 
         if config.getoption("dist") != "load":
@@ -108,5 +108,5 @@ class Sender:
         return Scheduler(config, log)
 
     def pytest_sessionfinish(self) -> None:
-        """Remove the file."""
+        """Remove the file with the groups."""
         self._file.unlink(missing_ok=True)

@@ -1,6 +1,6 @@
-"""Plays the host sessions printed in docs/<part>/examples.md: every byte must equal the printed one.
+"""Plays the host sessions printed in docs/<part>/examples.md: every byte must equal the printed byte.
 
-A chapter is "## <number> title"; its code blocks hold one access per line:
+A chapter is "## <number> title"; each line of its code blocks is one access:
 
     c 43    st 10    code byte, then the status register
     d E7    st 10    data byte, then the status register
@@ -28,7 +28,7 @@ LINE = re.compile(r"^(?:(c|d|w) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|
 
 @dataclass(frozen=True)
 class Step:
-    """One line: c, d or w byte with status, r with its byte, s a status read, p a polled status."""
+    """One line: a c, d or w byte with the status, r with its byte, s a status read, or p a polled status."""
 
     kind: str
     byte: int
@@ -47,7 +47,10 @@ class Sessions:
         self.brief = brief
 
     def blocks(self, chapter: int) -> list[list[Step]]:
-        """Return the code blocks of one chapter; ValueError names a line that is not an access."""
+        """Return the code blocks of one chapter.
+
+        Raise ValueError, which contains the line, if a line is not an access.
+        """
         parts = re.split(r"^## ", self.page.read_text(encoding="utf-8"), flags=re.M)
         body = next(part for part in parts if part.startswith(f"{chapter} "))
         found = []
@@ -68,7 +71,7 @@ class Sessions:
         return found
 
     async def play(self, bench: RtlBench, host: HostBus, steps: list[Step], where: str) -> None:
-        """Play one block on the bench."""
+        """Play one code block on the bench."""
         for number, step in enumerate(steps, 1):
             at = f"{where} line {number}: {step.kind} {step.byte:02X}"
             if step.kind == "r":
@@ -90,9 +93,9 @@ class Sessions:
 
 
 class DemoLog:
-    """Chapters of the run, with the edges of `clk` at which each begins and ends.
+    """Chapters of the run, with the edges of `clk` at which each chapter begins and ends.
 
-    The running chapter is the last line of the file `progress`; `save` writes chapters.json and
+    The running chapter is the last line of the file `progress`. `save` writes chapters.json and
     recording.json (all pin changes and output edges) to the run's folder.
     """
 
@@ -102,7 +105,7 @@ class DemoLog:
 
     @contextmanager
     def chapter(self, key: str, title: str) -> Iterator[None]:
-        """Assign all actions of the block to this chapter."""
+        """Assign all actions in this context to the chapter."""
         with (self.bench.out / "progress").open("a") as file:
             file.write(title + "\n")
         begin = self.bench.now

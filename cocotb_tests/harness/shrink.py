@@ -1,4 +1,4 @@
-"""Shortens a failing stimulus to a few transactions, as text and as pin changes."""
+"""Shortens a failing stimulus to a few transactions, which are output as text and as pin changes."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .part import Part, recorded
 
 LINE = "rxd"
 BUSY = 64
-"""Number of changes above which a pin is a clock. Its periods form about this number of transactions."""
+"""A pin with more changes is a clock, whose periods are combined to about this number of transactions."""
 
 
 class Step(NamedTuple):
-    """From edge `t` on, the bits of `mask` of a port have the levels of `value`."""
+    """A change at edge `t`: the bits `mask` of a port change to the levels `value`."""
 
     t: int
     port: str
@@ -29,11 +29,11 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Transaction:
-    """One transaction: a whole bus access, a frame, a reset, or the changes of one pin.
+    """One transaction: a complete bus access, a frame, a reset, or a change of one pin.
 
     Attributes:
         what: description of the transaction without its time.
-        access: entry of the transaction in the host's log, if it has one.
+        access: entry of the transaction in the list of the host's accesses, if it has one.
     """
 
     what: str
@@ -42,7 +42,7 @@ class Transaction:
 
     @property
     def kind(self) -> str:
-        """Register and direction of an access, name of a pin, "frame", "reset"."""
+        """Direction and register of an access, name of a pin, "frame" or "reset"."""
         return f"{self.access.kind} {self.access.reg}" if self.access else self.what.split()[0]
 
     @property
@@ -90,7 +90,7 @@ def transactions_of(recording: Recording) -> list[Transaction]:
 
 
 def changes_of(part: Part, transactions: Iterable[Transaction]) -> list[Change]:
-    """Return the pin changes of some transactions, without those that change no level."""
+    """Return the pin changes of some transactions; changes to the present level are omitted."""
     levels, changes = {**part.inputs, "rst_n": 1}, []
     for t, port, mask, value in sorted(
         (step for txn in transactions for step in txn.steps), key=lambda step: step.t
@@ -108,7 +108,7 @@ def changes_of(part: Part, transactions: Iterable[Transaction]) -> list[Change]:
 def _on_the_bus(
     part: Part, bus: Iterable[str], changes: Sequence[Change], accesses: Iterable[Access]
 ) -> Iterator[Transaction]:
-    """Yield valid and invalid accesses: each ends when all strobes are deasserted."""
+    """Yield valid and invalid accesses; an access ends when all strobes are deasserted."""
     strobes = {pin for pin in bus if part.inputs[pin] and part.width(pin) == 1 and pin != "cs_n"}
     levels = {pin: part.inputs[pin] for pin in sorted(bus)}
     done = {access.t: access for access in accesses}
@@ -153,7 +153,7 @@ def _access(steps: list[Step], done: dict[int, Access]) -> Transaction:
 
 
 def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
-    """Yield runs of characters: after each run, the line is idle for longer than a character of ones."""
+    """Yield frames: after a frame, the line is idle for longer than a character whose bits are all 1."""
     bit = _bit(rows)
     run: list[tuple[int, int]] = []
     for t, level in rows:
@@ -166,7 +166,7 @@ def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
 
 
 def _bit(rows: Sequence[tuple[int, int]]) -> int:
-    """Return the cycles per bit: the longest time between changes of which most others are near multiples."""
+    """Return the cycles per bit: the longest time of which most times between changes are near multiples."""
     lengths = Counter(b - a for (a, _), (b, _) in pairwise(rows))
 
     def fitting(bit: int) -> int:
@@ -183,7 +183,7 @@ def _frame(run: Sequence[tuple[int, int]], bit: int) -> Transaction:
 
 
 def _characters(run: Sequence[tuple[int, int]], bit: int) -> str:
-    """Return the bytes as a receiver would sample them in the middle of their bits."""
+    """Return the bytes that a receiver samples in the middle of the bits."""
     found, free = [], 0
     for start, level in run:
         if level or start < free:
@@ -199,7 +199,7 @@ def _characters(run: Sequence[tuple[int, int]], bit: int) -> str:
 
 
 def _resets(rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
-    """Yield the resets: rst_n low, and high again."""
+    """Yield the resets: each from the fall of rst_n to its rise."""
     for (t, level), (end, _) in pairwise([*rows, (rows[-1][0], 1)]):
         if not level:
             yield Transaction(f"reset for {end - t} clk", (Step(t, "rst_n", 1, 0), Step(end, "rst_n", 1, 1)))
@@ -223,7 +223,7 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
             shown = level if mask == 1 << place else f"{level:#x}"
             yield Transaction(f"{name} = {shown}", (Step(t, port, mask, level << place),))
         return
-    # A group begins with a rise, so that the rest of a clock has longer periods, not shorter ones.
+    # A group begins with a rising edge, so that without it the clock has longer periods, not shorter ones.
     size = -(-len(rows) // 2 // BUSY)
     rises = [number for number, (_, level) in enumerate(rows) if level]
     starts = [0, *rises[:: max(1, size)][1:], len(rows)]
@@ -235,14 +235,14 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
 
 
 PAUSE = 20
-"""Cycles that remain between two transactions when a pause is removed; every bus needs fewer."""
+"""Cycles that remain between two transactions when a pause is removed; this is enough for every bus."""
 
 
 def messages(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
     """Return runs of writes or of reads, and bursts of other pins.
 
     A run ends when the direction changes, or when its first register occurs again after other registers.
-    Examples of a run are a command with its data, all registers of a block, a response, or polls.
+    Examples of a run are a command with its data, all registers of a block, a response, or several polls.
     """
     found: list[list[Transaction]] = []
     run: list[Transaction] = []
@@ -279,7 +279,7 @@ def in_time_order(runs: Iterable[Sequence[Transaction]]) -> list[Transaction]:
 
 
 def report_lines(transactions: Iterable[Transaction]) -> list[str]:
-    """Return one line for each message whose transactions follow each other without a pause."""
+    """Return one line for each run of transactions that follow each other without a pause."""
     lines: list[list[Transaction]] = []
     for txn in transactions:
         last = lines[-1] if lines else []
@@ -307,19 +307,21 @@ def _words(line: Sequence[Transaction]) -> Iterator[str]:
 
 
 Fails = Callable[[Sequence[Transaction]], Awaitable[int | None]]
-"""Returns the edge of the first difference, or None without such a difference."""
+"""Function that returns the edge of the first difference, or None if there is no difference."""
 
 CAPS = (PAUSE, 10 * PAUSE, 100 * PAUSE, 1000 * PAUSE)
-"""Maximum length of a pause in cycles; the values are tried in turn."""
+"""Maximum lengths of a pause in cycles, which are tried in turn."""
 
 
 class _LimitError(Exception):
-    """A limit of the search is reached: number of trials or CPU time."""
+    """The search has reached a limit: number of trials or CPU time."""
 
 
 @dataclass
 class Shrinker:
-    """Shrinks a list: `transactions` is the shortest list so far, `trials` the number of lists tried.
+    """Shrinks a list of transactions.
+
+    `transactions` is the shortest list so far, `trials` the number of lists tried.
 
     Attributes:
         trials_at_most: maximum number of trials.
@@ -337,7 +339,7 @@ class Shrinker:
     _tried: set[tuple[Transaction, ...]] = field(default_factory=set)
 
     async def run(self) -> None:
-        """Shrink; `stopped` names the limit that ended the search before all transactions were necessary."""
+        """Shrink; if a limit ends the search early, `stopped` names the limit."""
         self._end = time.process_time() + self.seconds
         try:
             await self._keep_the_end()
@@ -354,7 +356,7 @@ class Shrinker:
             self.stopped = str(limit)
 
     async def _try(self, transactions: Sequence[Transaction]) -> bool:
-        """Return whether this list fails as well. If it fails, keep its transactions up to the difference."""
+        """Return whether this list fails as well; if so, keep its transactions up to the difference."""
         if tuple(transactions) in self._tried:
             return False
         if self.trials >= self.trials_at_most:
@@ -371,9 +373,9 @@ class Shrinker:
         return True
 
     async def _keep_the_end(self) -> None:
-        """Try only the last exchanges, soon after the reset: more and more of them until they are enough.
+        """Try only the last exchanges, soon after the reset, and add more of them until the list fails.
 
-        To omit transactions in the middle would change later reads, and short lists are quick to try.
+        An omission in the middle would change later reads; short lists at the end are quick to try.
         """
         runs, count = exchanges(self.transactions), 1
         head = [txn for txn in self.transactions if txn.begin < PAUSE]
@@ -387,10 +389,10 @@ class Shrinker:
             count += 1 + count // 4
 
     async def _leave_out_kinds(self) -> None:
-        """Omit all transactions of a kind, the most frequent first: polls, clocks, changes of other pins.
+        """Omit all transactions of a kind, the most frequent kind first.
 
-        Rare kinds are left to later steps. The last message stays: it may be the poll that shows the
-        difference.
+        Such kinds are polls, clocks, and changes of other pins. Rare kinds are left to later steps. The last
+        message is kept, because it may be the poll that shows the difference.
         """
         for kind, count in Counter(txn.kind for txn in self.transactions).most_common():
             if count < len(self.transactions) // 20:
@@ -424,7 +426,7 @@ class Shrinker:
                 return
 
     async def _close_pauses(self) -> None:
-        """Shorten each pause: completely, by half, or by a quarter."""
+        """Shorten each pause: remove it, or reduce it by half or by a quarter."""
         place = 0
         while place < len(self.transactions):
             last = max((txn.end for txn in self.transactions[:place]), default=0)

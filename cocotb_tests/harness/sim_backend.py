@@ -1,7 +1,7 @@
 """`SimBackend`: the frequent operations of a bench: clock, pins, levels, edges of outputs.
 
-`sim_backend()` returns `CppBackend` on our own main program and `CocotbBackend` on that of cocotb
-(`build.MAINS`). Both record the same; `CppBackend` is faster, `CocotbBackend` needs only cocotb.
+`sim_backend()` returns `CppBackend` with our main program and `CocotbBackend` with that of cocotb
+(`build.MAINS`). Both record the same changes; `CppBackend` is faster, `CocotbBackend` needs only cocotb.
 """
 
 from __future__ import annotations
@@ -24,7 +24,10 @@ PICOSECOND = -12
 
 
 class CocotbBackend:
-    """`SimBackend` with cocotb alone. Clock and recorder are tasks of the running test and end with it."""
+    """`SimBackend` that uses only cocotb.
+
+    Clock and recorder are tasks of the running test and end with it.
+    """
 
     def __init__(self) -> None:
         if simtime.time_precision != PICOSECOND:
@@ -47,9 +50,8 @@ class CocotbBackend:
     def read(self, port: int) -> int:
         """See `SimBackend.read`.
 
-        The call raises AssertionError if a bit has no level (X), which only some simulators report.
-
-        Undriven data, such as d_o with d_oe = 0, are not checked: such bits read as 0.
+        Raises AssertionError if a bit has no level (X), which only some simulators report. Undriven data,
+        such as d_o with d_oe = 0, are not checked: such bits read as 0.
         """
         value = self._handles[port].value
         try:
@@ -97,7 +99,7 @@ class CocotbBackend:
 
     def changes(self) -> Iterable[tuple[int, int, int]]:
         """See `SimBackend.changes`."""
-        # The recorder of a port may not have run yet after a change in this time step.
+        # After a change in this time step, the recorder of the port may not have run yet.
         for port in self._recorders:
             self._note(port)
         changed = []
@@ -113,7 +115,7 @@ _ROW = struct.Struct("=QQQ")
 _WORD = 64
 _ONES = (1 << _WORD) - 1
 _OTHER = 1 << 20
-"""Added to the numbers of ports that `CocotbBackend` handles."""
+"""Offset of the numbers of ports that `CocotbBackend` handles."""
 
 
 def _function(name: str, result: Any, *arguments: Any) -> Any:
@@ -133,7 +135,7 @@ class CppBackend:
         self._levels: dict[int, int] = {}
         """Last levels of the wide ports that are watched."""
         self._part_of: dict[int, tuple[int, int]] = {}
-        """Number of a word -> (its port, its bit position in the port)."""
+        """Number of a word -> (port of the word, position of the word in the port in bits)."""
         self.now = _function("openppmc_time", ctypes.c_uint64)
         self._port = _function("openppmc_port", ctypes.c_int, ctypes.c_char_p, ctypes.POINTER(ctypes.c_int))
         self._read = _function("openppmc_read", ctypes.c_uint64, ctypes.c_int)
@@ -215,20 +217,20 @@ class CppBackend:
 
 
 def collect_seldom() -> None:
-    """Make garbage collections rarer: a run creates a million small tuples that live until its end."""
+    """Make garbage collections rarer, because a run keeps a million small tuples until its end."""
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
 
 
 class SimBackend(Protocol):
-    """Clock, pins and recorder.
+    """Clock, pins and recorder of a simulation.
 
-    Times are steps of the simulation, that is, ps. Ports are those of the top module, by the numbers that
-    `port` returns.
+    Times are steps of the simulation, that is, ps. Ports are ports of the top module; `port` returns their
+    numbers.
     """
 
     def port(self, name: str) -> int:
-        """Return the number of a port. Raises AttributeError if the top has no port of this name."""
+        """Return the number of a port; raise AttributeError if the top has no port of this name."""
 
     def now(self) -> int:
         """Return the present time."""
@@ -237,19 +239,19 @@ class SimBackend(Protocol):
         """Return the present level of a port."""
 
     def put(self, port: int, level: int) -> None:
-        """Set the level of an input; the next evaluation of the design, in this time step, samples it."""
+        """Set the level of an input; the next evaluation of the design, in this time step, uses it."""
 
     def clock(self, port: int, half: int) -> None:
-        """Start or restart the clock: low now, first rising edge after `half`. It ends all watches."""
+        """Start or restart the clock: low now, first rising edge after `half`. This call ends all watches."""
 
     def watch(self, port: int) -> None:
         """Record the changes of a port from now on, until the clock is started again or the test ends.
 
-        One call is enough for each port.
+        A second call for the same port has no effect.
         """
 
     def changes(self) -> Iterable[tuple[int, int, int]]:
-        """Return (time, port, level) of all changes of watched ports since the last call, until now.
+        """Return (time, port, level) of all changes of watched ports since the last call.
 
         The changes of a port are in order; only the last level of each time step counts.
         """

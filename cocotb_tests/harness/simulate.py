@@ -33,14 +33,14 @@ _TABLE = re.compile(r"^[^\n]*\*{20,}", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Outcome:
-    """Outcome of one test: `kind`, and in `text` the failure, or the reason of a skip or expected failure."""
+    """Outcome of one test: `kind`, and in `text` the failure or the reason of a skip or expected failure."""
 
     kind: str
     text: str = ""
 
     @property
     def good(self) -> bool:
-        """Whether nothing has to be reported: passed, skipped or failed as expected."""
+        """Whether there is nothing to report: passed, skipped or failed as expected."""
         return self.kind in (PASSED, SKIPPED, XFAILED)
 
     @property
@@ -52,7 +52,7 @@ class Outcome:
 
 
 def read_log(log: Path) -> str:
-    """Return a log as text, with the project's files named relative to its root."""
+    """Return a log as text, with paths of the project relative to its root."""
     if not log.is_file():
         return ""
     return from_root(re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace")))
@@ -65,7 +65,7 @@ def failure_text(text: str, lines: int = 100) -> str:
     if start < 0:
         start = text.rfind("Traceback (most recent call last)")
     chosen = text[max(0, text.rfind("\n", 0, start) + 1) :] if start >= 0 else text
-    # The summary table of cocotb repeats what the message states.
+    # The summary table of cocotb only repeats the message, so it is removed.
     chosen = _TABLE.split(chosen)[0]
     if chosen.lstrip().startswith("Traceback"):
         chosen = chosen.split("\n", 1)[-1]
@@ -74,7 +74,7 @@ def failure_text(text: str, lines: int = 100) -> str:
 
 
 def _abridged(rows: list[str], lines: int) -> list[str]:
-    """Return about `lines` rows: the begin, the failure, the end."""
+    """Return about `lines` rows of a text: its beginning, the failure, and its end."""
     what = next((n for n, row in enumerate(rows) if _FAILED_LINE.match(row)), 0)
     middle = range(max(6, what), min(max(6, what) + lines // 3, len(rows)))
     end = range(max(middle.stop, len(rows) - lines + lines // 3 + 8), len(rows))
@@ -101,7 +101,7 @@ def _outcome(name: str, part: str, end: str) -> Outcome:
     """Return the outcome of a test from its part of the log.
 
     Args:
-        end: the cause of the end of the process, if it ended within a test.
+        end: reason for the end of the process, if it ended within a test.
     """
     if "%Error" in part:
         return Outcome(FAILED, failure_text(part))
@@ -152,7 +152,7 @@ REPRO = "OPENPPMC_REPRO"
 VCD = "dump.vcd"
 """Waveform file in the folder of a run."""
 ERRORS = 1_000_000
-"""Number of %Error lines, such as fired assertions of the RTL, after which Verilator ends the process."""
+"""Number of %Error lines (such as fired assertions of the RTL) after which Verilator ends the process."""
 
 
 @dataclass(frozen=True)
@@ -172,7 +172,7 @@ class Job:
 
     @property
     def folder(self) -> Path:
-        """Scratch folder; the process number separates parallel sessions."""
+        """Scratch folder of the job; the process number separates parallel sessions."""
         more = f"+{len(self.items) - 1}" if len(self.items) > 1 else ""
         return RUNS / f"{safe(self.items[0].id)}{more}-s{self.seed}.{os.getpid()}"
 
@@ -183,7 +183,7 @@ def safe(name: str) -> str:
 
 
 def repro_line(items: Sequence[Item], seed: int) -> str:
-    """Return the command that repeats these tests, in one process if there are several."""
+    """Return the command that repeats these tests; several tests are repeated in one process."""
     names = ",".join(item.id for item in items)
     main = {"own": "", ICARUS: " SIM=icarus"}.get(sim_main(), f" SIM_MAIN={sim_main()}")
     if items[0].target != "test":
@@ -192,7 +192,7 @@ def repro_line(items: Sequence[Item], seed: int) -> str:
 
 
 def tried(job: Job) -> dict[Item, Outcome]:
-    """Do the same as `simulate`, but remove the files of the run."""
+    """Do the same as `simulate`, but remove the files of the run afterwards."""
     try:
         return simulate(job)
     finally:
@@ -200,9 +200,9 @@ def tried(job: Job) -> dict[Item, Outcome]:
 
 
 def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
-    """Build if needed and run; return the outcome of each item. SimError only if the build fails.
+    """Build if needed and run; return the outcome of each item. Raises SimError only if the build fails.
 
-    `folder` (default: the job's) receives log.txt, results.xml and the files of the tests.
+    `folder` (default: that of the job) receives log.txt, results.xml and the files of the tests.
     """
     built = build(job.design, job.waves)
     folder = folder or job.folder
@@ -238,7 +238,8 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
                 "COCOTB_LOG_LEVEL": "INFO",
                 "COCOTB_ANSI_OUTPUT": "0",
                 "COCOTB_REWRITE_ASSERTION_FILES": "*.py",
-                # To rewrite assertions, cocotb creates a pytest configuration that would import every plugin.
+                # To rewrite assertions, cocotb creates a pytest configuration, which would import every
+                # plugin.
                 "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
                 # Without this option, an expected failure would look like a pass.
                 "COCOTB_PREVIEW": "xfail_in_results",
@@ -248,6 +249,6 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
     except RuntimeError as error:
         trouble = f"the simulator ended: {error}"
     except SystemExit:
-        pass  # a test failed, as its outcome states
+        pass  # The outcome states that a test failed.
     keep_counts(folder)
     return outcomes(job.items, log, results, trouble)

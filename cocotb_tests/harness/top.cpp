@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions that call the Verilated class of one design. verilated_sim.cpp calls them, so that it is compiled
-// only once for all designs.
+// Functions that call the Verilated class of one design. verilated_sim.cpp calls these functions instead of the
+// class, so it is compiled only once for all designs.
 #include "Vtop.h"
 #if VM_TRACE
 #include "verilated_vcd_c.h"

@@ -1,10 +1,10 @@
 """Replacements of the RTL in a simulation: a mutant (`make mutate`), or copies that count coverage.
 
-The environment variable OPENPPMC_MUTANT holds "FILE NUMBER COPY": the path of the original file, relative to
-the root; the number of the active mutant; the path of the copy that contains all mutants. A failure is then
-not repeated, shrunk or recorded for traceability.
+The environment variable OPENPPMC_MUTANT contains "FILE NUMBER COPY": the path of the original file, relative
+to the root; the number of the active mutant; the path of the copy that contains all mutants. Failures of a
+mutant are not repeated, shrunk or recorded for traceability.
 
-OPENPPMC_COVERAGE names a folder: each simulation writes a file with Verilator's counts to it.
+OPENPPMC_COVERAGE names a folder to which each simulation writes a file with Verilator's counts.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .paths import ROOT
 
 MUTANT = "OPENPPMC_MUTANT"
 MUTANT_WARNINGS = ("-Wno-lint", "-Wno-style", "-Wno-LATCH")
-"""Warnings of Verilator that are disabled for a copy: a mutant may well look like a mistake."""
+"""Warnings of Verilator that are disabled for the copy, because a mutant may look like a mistake."""
 
 
 def mutant_present() -> bool:
@@ -27,7 +27,10 @@ def mutant_present() -> bool:
 
 
 def with_mutant(sources: Sequence[Path]) -> list[Path] | None:
-    """Return the sources of a design with the mutated copy in place of the file; None without that file."""
+    """Return the sources of a design with the mutated copy in place of the file.
+
+    Return None if the design does not contain the file.
+    """
     if not mutant_present():
         return None
     file, _, copy = os.environ[MUTANT].split(" ", 2)
@@ -42,9 +45,9 @@ def mutant_plusargs() -> list[str]:
 
 COVERAGE = "OPENPPMC_COVERAGE"
 COVERAGE_COPIES = "OPENPPMC_COUNTED"
-"""Folder with copies of rtl/ that Verilator counts correctly (`scripts.measure.coverage.counted`)."""
+"""Folder with copies of rtl/ in which Verilator counts correctly (`scripts.measure.coverage.counted`)."""
 COVERAGE_FILE = "coverage.dat"
-"""Name of the file in the folder of a run."""
+"""Name of the file with the counts in the folder of a run."""
 
 
 def counts_coverage() -> bool:
@@ -58,7 +61,7 @@ def coverage_args() -> list[str]:
 
 
 def with_counters(sources: Sequence[Path]) -> list[Path]:
-    """Return the sources of a design, with the copy in place of each file that has a copy."""
+    """Return the sources of a design, with copies in place of the files that have one."""
     folder = os.environ.get(COVERAGE_COPIES)
     if not folder:
         return list(sources)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program of all simulations under cocotb. In addition to the callbacks of VPI it has a clock and a recorder
-// of output levels that need no callbacks: a cycle costs only two evaluations of the design. `CppBackend` in
-// sim_backend.py calls it. Compiled once for all designs: `top.cpp` contains the calls of one design.
+// of output levels. They need no callbacks, so a cycle costs only two evaluations of the design. `CppBackend` in
+// sim_backend.py calls this program. This file is compiled once for all designs; `top.cpp` contains the calls of
+// one design.
 // The makefile of Verilator optimises for size; the pragma selects -O2 instead.
 #pragma GCC optimize("O2")
 
@@ -45,7 +46,7 @@ struct Port {
             case 4: return *static_cast<std::uint32_t*>(data);
             default: {
                 std::uint64_t value;
-                std::memcpy(&value, data, 8);  // words of a wide port lie on multiples of 4
+                std::memcpy(&value, data, 8);  // words of a wide port are aligned to 4 bytes only
                 return value;
             }
         }
@@ -67,7 +68,7 @@ std::vector<Row> seen, taken, deposits;
 int clock_port = -1;
 std::uint64_t clock_level = 0, clock_next = NEVER, clock_half = 0;
 bool dirty = false;  // a port has been written since the last evaluation
-bool woken = true;   // some callback has run in this time step
+bool woken = true;   // a callback has run in this time step
 
 bool value_callbacks() {
     bool any = false;
@@ -169,7 +170,7 @@ std::uint64_t openppmc_read(int port) { return ports[port].load(); }
 
 std::uint64_t openppmc_time() { return main_time; }
 
-// Like a deposit of cocotb: the level is valid with the next evaluation of this time step.
+// Works like a deposit of cocotb: the level takes effect at the next evaluation in this time step.
 void openppmc_put(int port, std::uint64_t value) {
     deposits.push_back({main_time, static_cast<std::uint64_t>(port), value});
 }
@@ -229,7 +230,7 @@ int main(int argc, char** argv) {
 
     std::uint64_t deadline = 0;
     while (!Verilated::gotFinish()) {
-        // The time step is over: everything has settled.
+        // End of the time step: all signals are stable.
         top_eval_end_step();
         callbacks(cbReadOnlySynch);
         record();
@@ -250,7 +251,7 @@ int main(int argc, char** argv) {
             value_callbacks();
             callbacks(cbAfterDelay);
             value_callbacks();
-            // Levels put without delay take effect before all others.
+            // Levels that are set without a delay take effect before all others.
             if (eval_needed()) evaluate();
             do_puts();
         }

@@ -1,9 +1,9 @@
-"""Imported first in each simulation: a wall-clock limit for every test, and a Python trace when it expires.
+"""First import of each simulation: a wall-clock limit for every test, and a Python trace when it expires.
 
-`simulate` names this module before those with tests; it contains no tests. The limit is restarted with each
-test, and with each bench of a test that has many (a batch of seeds). When the limit ends the process, the log
-states which line was waiting; the same applies to a crash. A simulation of a mutant ends with the first test
-that fails.
+`simulate` names this module before the modules with tests; it contains no tests. Each test restarts the
+limit, and so does each bench of a test that has many benches (a batch of seeds). When the limit ends the
+process or the process crashes, the log states which line was waiting. A simulation of a mutant ends with the
+first test that fails.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ LIMIT = "OPENPPMC_WALL_S"
 
 
 def arm(least: int = 1) -> None:
-    """Restart the limit: after `least` seconds or more, the process ends even if Python is not running."""
+    """Restart the limit: the process ends after `least` seconds or more, even if Python is not running."""
     faulthandler.dump_traceback_later(max(least, int(os.environ.get(LIMIT, "300"))), exit=True)
 
 
 class _EachTest(logging.Handler):
-    """Follows cocotb from test to test by its log messages; there is no other hook."""
+    """Follows cocotb from test to test by its log messages, because there is no other hook."""
 
     failed = False
 
@@ -36,7 +36,7 @@ class _EachTest(logging.Handler):
         ctypes.CDLL(None).fflush(None)
         said = record.getMessage()
         if said.startswith("running "):
-            if self.failed and mutant_present():  # one failure is enough for a mutant
+            if self.failed and mutant_present():  # one failure is sufficient for a mutant
                 os._exit(1)
             arm()
         self.failed |= re.match(r"\S+ failed\b", said) is not None
@@ -44,7 +44,7 @@ class _EachTest(logging.Handler):
 
 def _watch() -> None:
     faulthandler.enable()
-    arm(300)  # for the imports of the tests, which are not part of any test
+    arm(300)  # This limit applies to the imports of the tests, which are not part of any test.
     logging.getLogger("cocotb.regression").addHandler(_EachTest())
     warnings.filterwarnings("ignore", re.escape(f"No tests were discovered in module: {__name__}"))
 

@@ -1,6 +1,4 @@
-"""An SPI host for ppmc_spi, and a reference model of the block's behaviour according to
-docs/bank/spi.md.
-"""
+"""An SPI host for ppmc_spi, and a reference model of the behaviour that docs/bank/spi.md describes."""
 
 from __future__ import annotations
 
@@ -21,7 +19,9 @@ COUNT = 1024
 
 @dataclass(frozen=True)
 class Pace:
-    """Times in cycles: low and high time of sck, cs_n to the first rise, cs_n high; sck idles at `idle`."""
+    """Times in cycles: low and high time of sck, cs_n to the first rise of sck, cs_n high. sck idles at
+    `idle`.
+    """
 
     low: float = 4.0
     high: float = 4.0
@@ -31,12 +31,12 @@ class Pace:
 
 
 def bits_of(*values: int) -> list[int]:
-    """Return bytes as bits, the highest first."""
+    """Return bytes as a list of bits, the most significant bit first."""
     return [byte >> n & 1 for byte in values for n in range(7, -1, -1)]
 
 
 def byte_of(bits: list[int]) -> int:
-    """Return eight bits, the highest first, as a byte."""
+    """Return eight bits, the most significant bit first, as a byte."""
     return int("".join(map(str, bits)), 2)
 
 
@@ -46,7 +46,7 @@ def header(word: int) -> list[int]:
 
 
 class SpiHost:
-    """Drives the pins at any times, in fractions of a cycle; rising edge n of `clk` is at time n."""
+    """Drives the pins at any times, also fractions of a cycle; rising edge n of `clk` is at time n."""
 
     def __init__(self, unit: BlockDriver, dut: Any, name: str) -> None:
         self.unit, self.now, self.edge = unit, 0.0, 0
@@ -74,7 +74,7 @@ class SpiHost:
         await self.wait(8)
 
     async def until(self, time: float) -> None:
-        """Let all rising edges of `clk` before this time pass."""
+        """Make all rising edges of `clk` before this time."""
         self.now = time
         while self.edge < time:
             await self.unit.clk()
@@ -85,9 +85,9 @@ class SpiHost:
         await self.until(self.now + clk)
 
     async def frame(self, bits: list[int], pace: Pace = Pace(), short: int = -1) -> list[int]:
-        """Send one frame; return the level of miso at each rise of sck.
+        """Send one frame; return the level of miso before each rising edge of sck.
 
-        The low time of the bit `short` is 2 cycles.
+        The low time of sck before bit number `short` is 2 cycles.
         """
         put, seen = self.unit.put, []
         put(sck_i=pace.idle)
@@ -108,7 +108,7 @@ class SpiHost:
         return seen
 
     async def talk(self, *values: int, pace: Pace = Pace()) -> list[int]:
-        """Send a frame of whole bytes; return the bytes of miso."""
+        """Send a frame of complete bytes; return the bytes of miso."""
         seen = await self.frame(bits_of(*values), pace)
         return [byte_of(seen[n : n + 8]) for n in range(0, len(seen), 8)]
 
@@ -116,7 +116,7 @@ class SpiHost:
 class PageReference:
     """Reference model from docs/bank/spi.md: accesses, miso, flags.
 
-    `registers` are those that the block accesses.
+    `registers` are the registers that ppmc_spi accesses.
     """
 
     def __init__(self) -> None:
@@ -126,7 +126,7 @@ class PageReference:
         self.level = 0  # level of INT
 
     def frame(self, bits: list[int]) -> list[int]:
-        """Model one frame at legal times; return the bits of miso."""
+        """Process one frame with legal times; return the bits of miso."""
         shown = self.flags
         if len(bits) >= 8:
             self.flags = 0
@@ -137,7 +137,7 @@ class PageReference:
         return out[: len(bits)]
 
     def _bytes(self, bits: list[int]) -> Iterator[int]:
-        """Yield the bytes of miso that follow the status."""
+        """Yield the bytes of miso after the status."""
         yield 0
         if len(bits) < 16:
             return

@@ -31,7 +31,7 @@ IDLE = {"cs_ni": 1, "rd_ni": 1, "wr_ni": 1}
 
 
 def strobes(cs_n: int, rd_n: int, wr_n: int, style: int) -> tuple[bool, bool]:
-    """Return the (read, write) strobe of pin levels, written as the truth table of each style."""
+    """Return the (read, write) strobe for pin levels, as in the truth table of each bus style."""
     if cs_n:
         return False, False
     if style == 0:
@@ -48,8 +48,8 @@ def levels(kind: str, style: int) -> dict[str, int]:
 
 @cocotb.test()
 async def bus_write_any_pins(dut):
-    """For random pins, the end of a write sampled at edge 0 is an event at edge 2 with the byte of the
-    sample before.
+    """For random pins, a write strobe whose end is sampled at edge 0 causes a write event at edge 2, with the
+    byte that was sampled at the edge before the end.
     """
     rand = rng()
     u = BlockDriver(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o")
@@ -63,7 +63,7 @@ async def bus_write_any_pins(dut):
             a0, data = rand.randrange(2), rand.getrandbits(8)
             got = await u.settle(cs_ni=pins[0], rd_ni=pins[1], wr_ni=pins[2], a0_i=a0, d_i=data)
             event = past[-3][1] and not past[-2][1]
-            where = f"style {style}, clk {n}"
+            where = f"style {style}, cycle {n}"
             want = (event, past[-1][1] or past[-2][1] or past[-3][1], past[-1][0])
             same(f"{where}: wr_o, wr_busy_o, d_oe_o", got, want)
             if event:
@@ -76,7 +76,7 @@ async def bus_write_any_pins(dut):
 
 @cocotb.test()
 async def bus_short_strobe(dut):
-    """Strobes that no clk edge samples cause no write and no read, and consume no byte."""
+    """A strobe that no rising edge of `clk` samples causes no write and no read, and consumes no byte."""
     u = BlockDriver(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o rd_busy_o rd_done_o d_o")
     for style in (0, 1):
         await u.reset(style_i=style, data_valid_i=1, data_i=0x5A, **IDLE)
@@ -84,11 +84,14 @@ async def bus_short_strobe(dut):
             await u.settle(**levels(kind, style))
             u.put(**IDLE)
             for n in range(5):
-                same(f"style {style}, {kind}, clk {n}", await u.clk(), (0, 0, 0, 0, 0, 0))
+                same(f"style {style}, {kind}, cycle {n}", await u.clk(), (0, 0, 0, 0, 0, 0))
 
 
 async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, gap: int, early: bool) -> None:
-    """Check one read of `length` cycles and its gap. With `early`, d_o must load on edge 0, too."""
+    """Check one read of `length` cycles and the gap after it.
+
+    If `early` is set, d_o must also load on edge 0.
+    """
     a0 = rand.randrange(2)
     sampled: list[tuple[int, int, int]] = []
     shown, taken, unseen = u.get("d_o"), False, False
@@ -100,7 +103,7 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
         u.put(a0_i=a0 if n < length else 1 - a0)
         oe, out, busy, done = await u.clk()
         sampled.append((status, data, valid))
-        where = f"style {style}, {length} clk, a0 {a0}, edge {n}"
+        where = f"style {style}, {length} cycles, a0 {a0}, edge {n}"
         if n:
             same(f"{where}: d_oe", oe, n <= length)
         if n > 1 or early:
@@ -109,7 +112,8 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
         same(f"{where}: rd_done", done, taken and n == length + 2)
         if n < 2 and n < length:
             shown = status if a0 else data
-        # A byte that arrives on edge 0 is output by the refresh on edge 1; a later byte was not read.
+        # A byte that arrives on edge 0 is output on edge 1, because d_o loads again; a later byte is not
+        # read.
         unseen = unseen or bool(new and (n or length == 1))
         if n == 1:
             taken = bool(valid and not a0)
@@ -118,8 +122,8 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
 
 @cocotb.test()
 async def bus_read(dut):
-    """In a read, d_o loads on edges 0 and 1 and is then stable; a byte is consumed if it was valid and
-    was output.
+    """In a read, d_o loads on edges 0 and 1 and is then stable. A byte is consumed if it was valid and was
+    output.
     """
     rand = rng()
     u = BlockDriver(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
@@ -131,8 +135,8 @@ async def bus_read(dut):
 
 @cocotb.test()
 async def bus_read_after_gap_of_one(dut):
-    """If only one edge samples the gap between two reads, the second read outputs its register from
-    edge 0 on.
+    """If only one edge samples the gap between two reads, the second read outputs its register from edge 0
+    on.
     """
     u = BlockDriver(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
     for style in (0, 1):
@@ -152,7 +156,9 @@ async def bus_read_after_gap_of_one(dut):
 
 @cocotb.test()
 async def mailbox_random(dut):
-    """Under random traffic, input, queue, overwriting, taking and loading equal those of a simple model."""
+    """Under random traffic, the input buffer and output queue equal a simple model, including overwritten
+    bytes, accepted bytes and loaded answers.
+    """
     rand = rng()
     for name, size in (("mail3", 3), ("mail5", 5)):
         u = BlockDriver(dut, name, BLOCKS, "ibf_o ready_o obf_o new_o")
@@ -161,7 +167,7 @@ async def mailbox_random(dut):
         box, out, queue = (0, 0), 0, deque()
         for n in range(5000):
             ready = ibf and settled
-            where = f"{size} bytes, clk {n}"
+            where = f"{size} bytes, cycle {n}"
             wr, load = rand.random() < 0.2, rand.random() < 0.06
             take = ready and rand.random() < 0.4
             done = obf and rand.random() < 0.3
@@ -198,12 +204,12 @@ async def mailbox_random(dut):
 
 @cocotb.test()
 async def mailbox_directed(dut):
-    """Each case that the header names occurs in the exact cycle."""
+    """Each case in the header of the module occurs in the exact cycle."""
     u = BlockDriver(dut, "mail3", BLOCKS, "ibf_o ready_o byte_o")
     await u.reset()
     await u.clk(wr_i=1, wr_data_i=0x11)
     same("byte at once, ready not yet", await u.clk(wr_i=0), (1, 0, 0x11))
-    same("ready one clk later; taken while a new one is written", await u.settle(), (1, 1, 0x11))
+    same("ready one cycle later; taken while a new one is written", await u.settle(), (1, 1, 0x11))
     await u.clk(take_i=1, wr_i=1, wr_data_i=0x22)
     same("the new byte stays", await u.clk(take_i=0, wr_i=0), (1, 0, 0x22))
     await u.clk(wr_i=1, wr_data_i=0x33)
@@ -215,7 +221,7 @@ async def mailbox_directed(dut):
     await u.clk(load_i=1, long_i=1, answer_i=0x030201)
     for byte in (1, 2, 3):
         same("valid", await u.clk(load_i=0, rd_done_i=1), (1, byte))
-        same("gap of one clk", (await u.clk(rd_done_i=0))[0], 0)
+        same("gap of one cycle", (await u.clk(rd_done_i=0))[0], 0)
     same("empty", (await u.clk())[0], 0)
     await u.clk(load_i=1, long_i=1, answer_i=0x060504)
     await u.clk(load_i=0, rd_done_i=1)
@@ -227,8 +233,8 @@ async def mailbox_directed(dut):
 
 @cocotb.test()
 async def host_port_status(dut):
-    """After a write and an answer of three bytes, the status contains IBF and OBF, and the reads return
-    the bytes.
+    """After a write and an answer of three bytes, the status contains IBF and OBF, and reads return the
+    bytes.
     """
     u = BlockDriver(dut, "port", BLOCKS, "ready_o command_o byte_o")
 
@@ -246,7 +252,7 @@ async def host_port_status(dut):
         for _ in range(2):
             await u.clk(a0_i=1, d_i=0xA7, **levels("write", style))
         await u.clk(d_i=0, a0_i=0, **IDLE)
-        same("IBF one clk after the write's end", await read(1), 0b10110110)
+        same("IBF one cycle after the write's end", await read(1), 0b10110110)
         same("byte", await u.settle(), (1, 1, 0xA7))
         await u.clk(take_i=1)
         await u.clk(take_i=0, load_i=1, long_i=1, answer_i=0xCCBBAA)

@@ -1,4 +1,4 @@
-"""Contract of ppmc_spi: docs/bank/spi.md."""
+"""Contract of ppmc_spi (docs/bank/spi.md)."""
 
 from __future__ import annotations
 
@@ -54,14 +54,14 @@ async def check(
 
 
 def any_pace(rand: random.Random) -> Pace:
-    """Return random legal times, including the shortest ones."""
+    """Return random legal times, which include the shortest ones."""
     low = rand.choice((3.01, 4.0, rand.uniform(3.01, 9)))
     high = rand.choice((1.01, 4.0, rand.uniform(1.01, 9)))
     return Pace(low, high, max(low, 3.01) + rand.uniform(0, 5), rand.uniform(2.01, 9), rand.randrange(2))
 
 
 def any_word(rand: random.Random) -> int:
-    """Return a header; one in eight is invalid."""
+    """Return a random header; one in eight is invalid."""
     step = rand.choice((0, NEXT, NEXT_AXIS, NEXT | NEXT_AXIS))
     word = rand.choice((0, WRITE)) | step | rand.randrange(COUNT)
     return word | (rand.randrange(1, 8) << 10 if rand.random() < 0.12 else 0)
@@ -69,7 +69,7 @@ def any_word(rand: random.Random) -> int:
 
 @cocotb.test()
 async def spi_random_frames(dut):
-    """For random frames, truncations and legal times, accesses, miso and flags are those of
+    """For random frames, truncated frames and legal times, accesses, miso and flags are as in
     docs/bank/spi.md.
     """
     rand = rng()
@@ -89,8 +89,8 @@ async def spi_random_frames(dut):
 
 @cocotb.test()
 async def spi_frames_close_together(dut):
-    """No flag is missed between frames with cs_n high for 2 cycles, truncated and rejected frames
-    included.
+    """No flag is missed if cs_n is high for only 2 cycles between frames, also after truncated and rejected
+    frames.
     """
     rand = rng()
     host, book = await start(dut)
@@ -122,7 +122,9 @@ async def spi_cut_everywhere(dut):
 
 @cocotb.test()
 async def spi_bursts(dut):
-    """In bursts at one address, by register, by axis and past the end, each access has its address."""
+    """In bursts at one address, by register, by axis and beyond the end, each access has the correct
+    address.
+    """
     host, book = await start(dut)
     for step in (0, NEXT, NEXT_AXIS, NEXT | NEXT_AXIS):
         for address in (0x3FE, 0x3F8, 0x014, 0x000):
@@ -134,15 +136,14 @@ async def spi_bursts(dut):
 
 @cocotb.test()
 async def spi_fastest(dut):
-    """At all phases to clk, the fastest sck works, and a slightly faster one is reported."""
+    """The fastest legal sck works at all phases to clk, and a slightly faster one is reported."""
     for step in range(0, 16):
         host, book = await start(dut)
         await host.wait(step / 16)
         for pace in (LEGAL, Pace(3.5, 3.5), Pace(3.0625, 3.0), Pace(3.0625, 1.0625, lead=4)):
             for word, data in ((WRITE | NEXT | 7, (0xA5, 0x3C)), (NEXT | 7, (0xFF, 0xFF, 0x00))):
                 await check(host, book, bits_of(*header(word), *data), pace)
-        # With low times of 2 cycles, mosi is sampled correctly, but miso is late: the first bits show
-        # this.
+        # With low times of 2 cycles, mosi is sampled correctly, but miso is late, as the first bits prove.
         bits = bits_of(*header(WRITE | 0x155), 0x77)
         book.frame(bits)
         seen = await host.frame(bits, Pace(2, 2, lead=6))
@@ -156,7 +157,7 @@ async def spi_fastest(dut):
 
 @cocotb.test()
 async def spi_one_short_low_time(dut):
-    """One low time of sck that is too short, in any bit, is reported by the next frame, once."""
+    """If one low time of sck is too short, at any bit, the next frame reports it, and later frames do not."""
     host, book = await start(dut)
     for short in range(1, 32):
         await host.frame(bits_of(*header(0), 0, 0), short=short)
@@ -186,7 +187,9 @@ async def spi_lines_that_stand_still(dut):
 
 @cocotb.test()
 async def spi_driver(dut):
-    """miso is driven from at most 3 cycles after the fall of cs_n until at most 3 cycles after its rise."""
+    """The block drives miso from at most 3 cycles after the fall of cs_n until at most 3 cycles after its
+    rise.
+    """
     host, _ = await start(dut)
     for level, driven in ((0, 1), (1, 0)):
         host.unit.put(cs_ni=level)

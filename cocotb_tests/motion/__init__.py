@@ -1,1 +1,1 @@
-"""Simulations of the blocks in rtl/motion: ramp, rate, excitation, guard."""
+"""Simulations of the blocks in rtl/motion: ramp, rate, excitation, stop monitor."""

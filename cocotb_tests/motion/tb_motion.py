@@ -11,7 +11,7 @@ from openppmc.model.motion.excitation import step_list
 
 from ..harness import Block, BlockDriver, rng, same
 
-BASES = [(8, 32, 30), (1, 5, 7), (2, 3, 1)]  # fast, slow, extra; fast is never above slow
+BASES = [(8, 32, 30), (1, 5, 7), (2, 3, 1)]  # fast, slow and extra in quanta; fast is never greater than slow
 EXTERNAL = [(136, 128), (20, 13), (9, 9), (940, 885)]
 LAGS = [120, 83, 5]
 SHAPES = [  # ClkHz, XtalHz, WidthXtal, HalfXtal, HalfRates
@@ -20,8 +20,8 @@ SHAPES = [  # ClkHz, XtalHz, WidthXtal, HalfXtal, HalfRates
     (8_000_000, 16_000_000, 80, 16, 3),
     (25_000_000, 8_000_000, 40, 4, 5),
 ]
-HOLDS = [(1, 0), (5, 0), (8, 0), (13, 0), (0, 3), (6, 1), (7, 9)]  # quanta, cycles after them
-HOLD_UNITS = [(2, 8), (16, 4), (512, 2)]  # quanta per unit, bits of the number of units
+HOLDS = [(1, 0), (5, 0), (8, 0), (13, 0), (0, 3), (6, 1), (7, 9)]  # quanta, additional cycles
+HOLD_UNITS = [(2, 8), (16, 4), (512, 2)]  # quanta per unit, number of bits of units_i
 CHOPS = [(12, 9), (3, 6), (1, 9)]
 BLOCKS = {
     **{
@@ -113,8 +113,8 @@ BLOCKS = {
 
 @cocotb.test()
 async def base_clock_quanta(dut):
-    """After a restart at a random time, each period ends on its quantum; the extra time precedes the
-    first.
+    """After a restart at any time, each period ends on the correct quantum; the extra time is added before
+    the first period.
     """
     rand = rng()
     for i, (fast, slow, extra) in enumerate(BASES):
@@ -123,7 +123,7 @@ async def base_clock_quanta(dut):
         for _ in range(40):
             is_slow, has_extra = rand.randrange(2), rand.randrange(2)
             period, before = slow if is_slow else fast, extra if has_extra else 0
-            # The quantum of the restart itself belongs to the previous interval.
+            # A quantum in the cycle of the restart belongs to the previous interval.
             await u.clk(restart_i=1, quantum_i=rand.randrange(2), slow_i=is_slow, extra_i=has_extra)
             count = 0
             for _ in range(rand.randint(1, 4 * (before + 3 * period))):
@@ -136,7 +136,9 @@ async def base_clock_quanta(dut):
 
 @cocotb.test()
 async def rate_counter_hit(dut):
-    """hit_o is asserted at base clock rate + 1, and half_o from base clock floor((rate + 1) / 2) on."""
+    """hit_o is asserted at base clock number rate + 1; half_o is asserted from base clock number floor((rate
+    + 1) / 2) on.
+    """
     rand = rng()
     for bits in (8, 10):
         u = BlockDriver(dut, f"rate{bits}", BLOCKS, "hit_o half_o")
@@ -161,7 +163,9 @@ async def rate_counter_hit(dut):
 
 @cocotb.test()
 async def rate_counter_wait(dut):
-    """While the rate still rises, base clocks are skipped; base clocks that can be used count."""
+    """While the rate is still rising, neither hit_o nor half_o is asserted. The base clocks during this time
+    count, up to the rate at that time.
+    """
     rand = rng()
     u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")
     await u.reset()
@@ -180,7 +184,7 @@ async def rate_counter_wait(dut):
         for number in range(count, rate + 1):
             await u.clk(restart_i=0, tick_i=0, wait_i=0, rising_i=0)
             for _ in range(2):
-                # A half that was skipped is asserted immediately.
+                # If base clock number half has already occurred, half_o is asserted immediately.
                 same("no tick", await u.clk(), (0, 2 * number >= rate))
             hit, _ = await u.clk(tick_i=1)
             same(f"rate {rate}, {passed} passed over, {number + 1} counted: hit", hit, number == rate)
@@ -188,7 +192,9 @@ async def rate_counter_wait(dut):
 
 @cocotb.test()
 async def rate_counter_final_rate(dut):
-    """With a final rate, while the interval must not end yet, the half occurs and the hit is delayed."""
+    """If the rate is final but the interval must not end yet, half_o is asserted at its base clock, and hit_o
+    is delayed until the interval may end.
+    """
     u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")
     await u.reset()
     for rate in range(9):
@@ -205,7 +211,7 @@ async def rate_counter_final_rate(dut):
 
 @cocotb.test()
 async def ext_clock_thresholds(dut):
-    """For periods around both thresholds, long_period_o and short_period_o switch in the exact cycle."""
+    """For periods near both thresholds, long_period_o and short_period_o switch in the exact cycle."""
     rand = rng()
     for i, (long, short) in enumerate(EXTERNAL):
         u = BlockDriver(dut, f"ext{i}", BLOCKS, "rise_o fall_o long_period_o short_period_o")
@@ -213,7 +219,7 @@ async def ext_clock_thresholds(dut):
             await u.reset(pin_i=rest)
             for n in range(6):
                 rise, fall, *_ = await u.clk()
-                same(f"rest {rest}, clk {n}", (rise, fall), (0, rest == 0 and n == 2))
+                same(f"rest {rest}, cycle {n}", (rise, fall), (0, rest == 0 and n == 2))
             await u.clk(pin_i=0)
             await u.clk()
             await u.clk()
@@ -229,7 +235,7 @@ async def ext_clock_thresholds(dut):
             for t, level in enumerate([*wave, 1, 1, 1]):
                 rise, fall, is_long, is_short = await u.clk(pin_i=level)
                 due = levels[-2] and not levels[-3]
-                same(f"clk {t}: rise, fall", (rise, fall), (due, levels[-3] and not levels[-2]))
+                same(f"cycle {t}: rise, fall", (rise, fall), (due, levels[-3] and not levels[-2]))
                 if rise:
                     period = 10**9 if last is None else t - last
                     where = f"{EXTERNAL[i]}, period {period}: long, short"
@@ -240,8 +246,8 @@ async def ext_clock_thresholds(dut):
 
 @cocotb.test()
 async def ext_lag_sum(dut):
-    """If the first base edge is d cycles after the pulse, the interval ends ExtraCycles - d cycles after its
-    hit.
+    """If the first base clock edge occurs d cycles after the pulse, the interval ends ExtraCycles - d cycles
+    after hit_i.
     """
     rand = rng()
     for lag in LAGS:
@@ -256,12 +262,12 @@ async def ext_lag_sum(dut):
             for t in range(1, due + 1):
                 is_edge = t in (d, hit)
                 got = await u.clk(restart_i=0, edge_i=is_edge, hit_i=t == hit, long_period_i=is_edge and long)
-                same(f"{where}, clk {t}: count, fire", got, (t > d or not enabled, t == due))
+                same(f"{where}, cycle {t}: count, fire", got, (t > d or not enabled, t == due))
 
 
 @cocotb.test()
 async def pulse_shaper_width(dut):
-    """For pulses of all kinds the low time is exact: the full time, half an interval, or cut."""
+    """For all kinds of pulses the low time is exact: the full time, half an interval, or a cut time."""
     rand = rng()
     for i, (clk, xtal, width, half, rates) in enumerate(SHAPES):
         u = BlockDriver(dut, f"shape{i}", BLOCKS, "low_o past_o")
@@ -283,14 +289,12 @@ async def pulse_shaper_width(dut):
             u.put(arm_i=0, pulse_i=0, full_i=not full)
             for t in range(1, whole + rand.randint(1, 150)):
                 got = await u.clk(cut_i=t == cut)
-                same(f"{where}, clk {t}: low, up", got, (t <= low, t >= whole))
+                same(f"{where}, cycle {t}: low, up", got, (t <= low, t >= whole))
 
 
 @cocotb.test()
 async def hold_timer_quanta(dut):
-    """hold_o falls one cycle after busy_i rises, and rises one cycle after the last cycle of the rest
-    time.
-    """
+    """hold_o falls one cycle after busy_i rises. It rises one cycle after the last cycle of the rest time."""
     rand = rng()
     for quanta, rest in HOLDS:
         u = BlockDriver(dut, f"hold{quanta}", BLOCKS, "hold_o")
@@ -303,10 +307,10 @@ async def hold_timer_quanta(dut):
                 same("busy", await u.clk(busy_i=1, quantum_i=rand.randrange(2)), t == 0 and hold)
             count, hold, rested = 0, 0, 0
             for t in range(rand.randint(0, 8 * quanta + rest + 4)):
-                # The additional rest time is shorter than a quantum.
+                # No quantum tick occurs in the additional cycles, which are fewer than a quantum.
                 quantum = t > 0 and rand.random() < 0.5 and (not rest or count < quanta or hold)
                 same(
-                    f"{quanta} quanta, {count} passed, clk {t}",
+                    f"{quanta} quanta, {count} passed, cycle {t}",
                     await u.clk(busy_i=0, quantum_i=quantum),
                     hold,
                 )
@@ -318,8 +322,8 @@ async def hold_timer_quanta(dut):
 
 @cocotb.test()
 async def hold_timer_units(dut):
-    """The units at the end of the motion set the hold time, exact to the quantum, although units_i
-    changes at random.
+    """The value of units_i at the end of the motion sets the hold time, exact to the quantum, although
+    units_i changes at random.
     """
     rand = rng()
     for quanta, bits in HOLD_UNITS:
@@ -339,14 +343,14 @@ async def hold_timer_units(dut):
             for t in range(whole * 3 // 2 if rand.random() < 0.3 else 2 * whole + 4):
                 quantum = t > 0 and rand.random() < 0.8
                 got = await u.clk(busy_i=0, quantum_i=quantum, units_i=rand.randint(0, top))
-                same(f"{units} units of {quanta}, {count} passed, clk {t}", got, hold)
+                same(f"{units} units of {quanta}, {count} passed, cycle {t}", got, hold)
                 hold = hold or count >= whole
                 count += quantum
 
 
 @cocotb.test()
 async def chopper_phases(dut):
-    """With times that change at random, each phase has the length that was set at its beginning."""
+    """If the times change at random, each phase has the length that was set when the phase began."""
     rand = rng()
     for unit, _ in CHOPS:
         u = BlockDriver(dut, f"chop{unit}", BLOCKS, "on_o")
@@ -365,7 +369,7 @@ async def chopper_phases(dut):
             run, restart = n > 3 and rand.random() < 0.998, rand.random() < 0.002
             quantum = rand.random() < 0.6
             got = await u.clk(run_i=run, restart_i=restart, quantum_i=quantum, **times)
-            same(f"unit {unit}, clk {n}", got, on or not run)
+            same(f"unit {unit}, cycle {n}", got, on or not run)
             left -= quantum
             if restart or not run or left == 0:
                 on = not on if run and not restart else True
@@ -377,7 +381,7 @@ async def chopper_phases(dut):
 
 @cocotb.test()
 async def chopper_longest(dut):
-    """With the longest times of the widths, both phases are exact to the quantum."""
+    """With the maximum times that the port widths allow, both phases are exact to the quantum."""
     u = BlockDriver(dut, "chop12", BLOCKS, "on_o")
     await u.reset(on_base_i=511, off_base_i=260, on_units_i=255, off_units_i=255, quantum_i=1)
     await u.clk(run_i=0)
@@ -388,7 +392,7 @@ async def chopper_longest(dut):
 
 @cocotb.test()
 async def excitation_walks(dut):
-    """For random steps of every motor in full and half step, the phases are those of the model."""
+    """For random steps of every motor, in full and half step, the phases are those of the model."""
     rand = rng()
     u = BlockDriver(dut, "excitation", BLOCKS, "pattern_o")
     for phases in (3, 4, 5):
@@ -406,7 +410,9 @@ async def excitation_walks(dut):
                 step, off, home = rand.random() < 0.7, rand.random() < 0.01, rand.random() < 0.02
                 step = step and on
                 got = await u.clk(step_i=step, off_i=off, phase_init_i=home and not off, ccw_i=ccw)
-                same(f"{phases} phases, half {half}, clk {n}, index {index}", got, steps[index] if on else 0)
+                same(
+                    f"{phases} phases, half {half}, cycle {n}, index {index}", got, steps[index] if on else 0
+                )
                 if off or home:
                     index, on = 0, not off
                 elif step:
@@ -415,7 +421,7 @@ async def excitation_walks(dut):
 
 @cocotb.test()
 async def excitation_off_steps(dut):
-    """After the phases were switched off, full steps energise no phase until phase_init_i."""
+    """After the phases were switched off, full steps do not energise a phase before phase_init_i."""
     u = BlockDriver(dut, "excitation", BLOCKS, "pattern_o")
     for motor in (1, 2, 3):
         await u.reset(motor_i=motor)
@@ -430,7 +436,9 @@ async def excitation_off_steps(dut):
 @cocotb.test()
 @cocotb.parametrize(idle=[0, 1])
 async def motor_port_pins(dut, idle):
-    """During steps, pulses and chopping, every pin follows by one cycle and has the right polarity."""
+    """During steps, pulses and chopping, every pin follows the axis by one cycle and has the correct
+    polarity.
+    """
     rand, steps = rng(), step_list(5, True)
     u = BlockDriver(dut, f"port{idle}", BLOCKS, "s_o pout_no dir_o levels_o")
     off = 0 if (positive := 1 - idle) else 31
@@ -446,9 +454,9 @@ async def motor_port_pins(dut, idle):
         got = await u.clk(
             phase_init_i=0, chop_restart_i=0, busy_i=busy, step_i=step, low_i=low, ccw_i=ccw, off_i=n == 299
         )
-        same(f"clk {n}: pins, levels", got, (*before, steps[index] ^ off))
-        # Phases are on during a motion; else on for 3 quanta and off for 2. The first ON phase begins at
-        # the restart.
+        same(f"cycle {n}: pins, levels", got, (*before, steps[index] ^ off))
+        # Phases are on during a motion; otherwise they are on for 3 quanta and off for 2. The first ON phase
+        # begins at the restart.
         on = busy or (n if n < 100 else n - 200) % 5 < 3
         before = ((steps[index] if on else 0) ^ off, 1 - low, ccw)
         index = (index + (-1 if ccw else 1) * step) % len(steps)
@@ -463,7 +471,7 @@ def guard(
     """Return slow_seen, stop, forced and the causes (stop, alarm, limit, slow) of one cycle.
 
     Variant 1: slow-down limits always count, and a deceleration at the start-up rate ends immediately.
-    Variant 2: in addition, a slow-down limit ends an origin search.
+    Variant 2: as variant 1, and a slow-down limit ends an origin search.
     """
     limit = p["limit_ccw"] if p["ccw"] else p["limit_cw"]
     slow = p["slow_ccw"] if p["ccw"] else p["slow_cw"]
@@ -486,7 +494,9 @@ PLAIN = ("armed", "top", "at_start_rate", "dec", "halt", "decel", "slow")
 
 
 def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
-    """Return the input pin (structures packed) that holds the level called `name`, with its value."""
+    """Return the input port that contains the level `name`, with the value of the port (structures are
+    packed).
+    """
     for pin, names in (("op_i", OP), ("switches_i", SWITCHES)):
         if name in names:
             return {pin: sum(p[key] << (len(names) - 1 - n) for n, key in enumerate(names))}
@@ -496,9 +506,9 @@ def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
 @cocotb.test()
 @cocotb.parametrize(flagged=[0, 1], variant=[0, 1, 2])
 async def stop_guard_truth_table(dut, flagged, variant):
-    """For every combination of levels, stop, forced and slow_seen are those of a plain function.
+    """For every combination of levels, stop, forced and slow_seen equal those of a plain function.
 
-    In a cycle with stop, forced and slow_seen are ignored, because no pulse can use them.
+    In a cycle with stop, forced and slow_seen are not checked, because no pulse can use them. The test
     stop_guard_causes checks the stored values.
     """
     u = BlockDriver(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
@@ -510,7 +520,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
     p = dict.fromkeys((*OP, *SWITCHES, *PLAIN), 0)
     await u.settle(armed_i=0, op_i=0, decel_i=0)
     same("flagged", u.get("flagged_o"), flagged)
-    # One level changes at a time (Gray code), so that one write per combination is sufficient.
+    # One level changes at a time (Gray code), so one write per combination is sufficient.
     for n in range(1, 2 ** len(names) + 1):
         got, want = await u.settle(), guard(p, flagged, variant)[:3]
         if got[1] != want[1] or (not want[1] and got != want):
@@ -524,7 +534,9 @@ async def stop_guard_truth_table(dut, flagged, variant):
 @cocotb.test()
 @cocotb.parametrize(variant=[0, 1, 2])
 async def stop_guard_causes(dut, variant):
-    """With random levels in every cycle, the causes and the request are kept until they are cleared."""
+    """With random levels in every cycle, the causes and the deceleration request are kept until they are
+    cleared.
+    """
     rand = rng()
     u = BlockDriver(dut, f"guard{variant}", BLOCKS, "flagged_o cause_o")
     await u.reset()
@@ -539,7 +551,7 @@ async def stop_guard_causes(dut, variant):
         p["slow"] &= guard(p, flagged, variant)[0]
         pins = {key: value for name in p for key, value in guard_pins(p, name).items()}
         got = await u.clk(clear_i=clear, complete_i=complete, **pins)
-        same(f"clk {n}: flagged, causes", got, (flagged, int("".join(map(str, causes)), 2)))
+        same(f"cycle {n}: flagged, causes", got, (flagged, int("".join(map(str, causes)), 2)))
         _, stop, forced, new = guard(p, flagged, variant)
         flagged, causes = forced, [old | more for old, more in zip(causes, new, strict=True)]
         stopped = (stopped or bool(stop)) and not clear
@@ -549,7 +561,7 @@ async def stop_guard_causes(dut, variant):
 
 @cocotb.test()
 async def pulse_counter(dut):
-    """The counter counts falls of pout_n in both directions, modulo 16, between random clears."""
+    """The counter counts the falling edges of pout_n in both directions, modulo 16, between random clears."""
     rand = rng()
     u = BlockDriver(dut, "count", BLOCKS, "count_o")
     await u.reset(pout_ni=1)
@@ -562,4 +574,4 @@ async def pulse_counter(dut):
             count = (count + (-1 if ccw else 1)) % 16
         was = level
         await u.clk(clear_i=clear, pout_ni=level, dir_i=ccw)
-        same(f"clk {n}", await u.settle(), count)
+        same(f"cycle {n}", await u.settle(), count)

@@ -39,7 +39,7 @@ BLOCKS = {
         " left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
-    # The width is one bit more than the words of the table, for the longest ramp that they can hold.
+    # A step number has one bit more than a word of the table, for the longest ramp that the table can store.
     "wide": Block(
         "ppmc_ramp_seq",
         "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
@@ -49,7 +49,7 @@ BLOCKS = {
     ),
 }
 LONGEST_BUILD = 40_000
-# (slow, fast, steps). The ramp 4, 0, 8 is the tie of P104-RMP-03.
+# (slow, fast, steps). The ramp 4, 0, 8 is the tie case of P104-RMP-03.
 CORNERS = [
     (255, 0, 1),
     (255, 0, 4),
@@ -64,7 +64,7 @@ CORNERS = [
 
 
 def threshold(slow: int, fast: int, steps: int, r: int) -> int:
-    """Return the first step with a rate below r, by bisection over the exact rates of the model."""
+    """Return the first step whose rate is below r, found by bisection over the exact rates of the model."""
     low, high = 0, steps  # rate(high) < r <= rate(low)
     while high - low > 1:
         middle = (low + high) // 2
@@ -76,12 +76,14 @@ def threshold(slow: int, fast: int, steps: int, r: int) -> int:
 
 
 def table(slow: int, fast: int, steps: int) -> dict[int, int]:
-    """Return the complete table, r -> thr(r), and PA at the rate where the ramp ends."""
+    """Return the complete table: r -> thr(r), and the last rate of the ramp -> PA."""
     return {fast: steps, **{r: threshold(slow, fast, steps, r) for r in range(fast + 1, slow + 1)}}
 
 
 def triples(rand: random.Random, bits: int, count: int) -> list[tuple[int, int, int]]:
-    """Return corner cases, the longest ramps of this width, and random ramps, mostly short ones."""
+    """Return corner cases, the longest ramps for words of `bits` bits, and random ramps, most of them
+    short.
+    """
     top = 11_220 if bits == 14 else 65_535
     found = [*CORNERS, (255, 0, top), (255, 254, top), (200, 3, top)]
     while len(found) < len(CORNERS) + 3 + count:
@@ -91,8 +93,9 @@ def triples(rand: random.Random, bits: int, count: int) -> list[tuple[int, int, 
 
 
 async def _build(u: BlockDriver, slow: int, fast: int, steps: int) -> tuple[dict[int, int], int]:
-    """Build one table with a free-running clock; return (words written, cycles from the start to the
-    fall of busy_o).
+    """Build one table with a free-running clock.
+
+    Return (words written, cycles from the start to the fall of busy_o).
     """
     busy, enable = u.pins["busy_o"], u.pins["we_o"]
     await u.clk(start_i=1, slow_i=slow, fast_i=fast, steps_i=steps)
@@ -119,7 +122,7 @@ async def _build(u: BlockDriver, slow: int, fast: int, steps: int) -> tuple[dict
 @cocotb.test()
 @cocotb.parametrize(bits=[14, 16])
 async def ramp_builder_exact(dut, bits):
-    """For corner-case and random ramps, every threshold is exact and no build exceeds its maximum time."""
+    """For corner-case and random ramps, every threshold is exact, and no build exceeds its maximum time."""
     u = BlockDriver(dut, f"build{bits}", BLOCKS, "busy_o", BlockDriver.FREE)
     await u.reset()
     longest = 0
@@ -128,7 +131,7 @@ async def ramp_builder_exact(dut, bits):
         want = table(*triple)
         wrong = {r: (got.get(r), want.get(r)) for r in got | want if got.get(r) != want.get(r)}
         same(f"(slow, fast, steps) {triple}: r -> (got, want)", wrong, {})
-        assert took <= LONGEST_BUILD, f"{triple}: {took} clk"
+        assert took <= LONGEST_BUILD, f"{triple}: {took} cycles"
         longest = max(longest, took)
     same("PA alone for equal rates", (await _build(u, 77, 77, 100))[0], {77: 100})
     cocotb.log.info("longest build of %d bits: %d clk", bits, longest)
@@ -136,7 +139,7 @@ async def ramp_builder_exact(dut, bits):
 
 @cocotb.test()
 async def ramp_table_read(dut):
-    """From a built table, thr(r) is valid two cycles after its address, together with the ramp; this
+    """After a build, thr(r) is valid two cycles after its address, together with the values of the ramp; this
     also holds after further builds.
     """
     u = BlockDriver(dut, "table", BLOCKS, "busy_o data_o slow_o fast_o steps_o")
@@ -156,13 +159,15 @@ async def ramp_table_read(dut):
 
 
 def build_clk(slow: int, fast: int) -> int:
-    """Return the cycles from start_i to the fall of busy_o of ppmc_ramp_tables with a free builder."""
+    """Return the cycles from start_i to the fall of busy_o of ppmc_ramp_tables while the builder is free."""
     return 1955 + 136 * (slow - fast)
 
 
 @cocotb.test()
 async def ramp_tables_shared(dut):
-    """If two axes request ramps at random times, each gets its own, one after the other."""
+    """If two axes request ramps at any times, each axis gets its table; the tables are built one after the
+    other.
+    """
     rand = rng()
     u = BlockDriver(dut, "tables", BLOCKS, "busy_o data_o")
     await u.reset()
@@ -182,7 +187,7 @@ async def ramp_tables_shared(dut):
         due[first] = build_clk(*ramps[first][:2])
         if case % 4 < 3:
             other = 1 - first
-            if gap == 0:  # both on one edge: axis 1 is first
+            if gap == 0:  # both on the same edge: axis 1 is first
                 first, other, start = 0, 1, {0: 3}
                 due[first] = build_clk(*ramps[first][:2])
             else:
@@ -192,7 +197,7 @@ async def ramp_tables_shared(dut):
             busy, _ = await u.clk(start_i=start.get(t, 0), **pins)
             begun = sum(bits for at, bits in start.items() if at < t)
             want = sum(1 << n for n in (0, 1) if begun >> n & 1 and t <= due[n])
-            same(f"case {case}, {ramps}, {gap} clk apart, clk {t}: busy_o", busy, want)
+            same(f"case {case}, {ramps}, {gap} cycles apart, cycle {t}: busy_o", busy, want)
         tables = [table(*ramp) for ramp in ramps]
         rates = [list(one) for one in tables]
         for k in range(max(map(len, rates))):
@@ -214,7 +219,7 @@ class Walker:
         self.requested = deque([0, 0])
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
-        """Make one cycle and return the watched outputs before it."""
+        """Make one cycle and return the watched outputs before its edge."""
         answer = self.lut.get(self.requested.popleft(), self.blank)
         out = await self.u.settle(lut_data_i=answer, **inputs)
         self.requested.append(self.u.get("lut_addr_o"))
@@ -222,8 +227,9 @@ class Walker:
         return out
 
     async def move(self, rand: random.Random, n: int, forced_at: int) -> None:
-        """Make n pulses; deceleration is requested at pulse forced_at (0: before pulse 1; above n:
-        never).
+        """Make n pulses, with a deceleration request at pulse `forced_at`.
+
+        `forced_at` = 0 requests it before pulse 1, and a value above n never.
         """
         slow, fast, steps = self.ramp
         where = f"{self.ramp}, {n} pulses, forced at {forced_at}"
@@ -277,7 +283,7 @@ class Walker:
 
 @cocotb.test()
 async def ramp_seq_walks(dut):
-    """For random ramps, pulse counts and stop times, rates and counts are those of the model."""
+    """For random ramps, pulse counts and times of stops, rates and counts are those of the model."""
     rand = rng()
     u = BlockDriver(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()
@@ -302,7 +308,9 @@ async def ramp_seq_longest(dut):
 
 @cocotb.test()
 async def ramp_seq_constant(dut):
-    """For constant speed and single steps, the rate is the loaded one and the count runs to its end."""
+    """For constant speed and single steps, the rate is the loaded rate, and the count decreases to its
+    end.
+    """
     rand = rng()
     u = BlockDriver(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset(slow_i=200, fast_i=10, ramp_i=0)

@@ -1,4 +1,4 @@
-"""Test bench of the PMC006B4: its build defaults. Pins and levels are those of the golden model."""
+"""Test bench of the PMC006B4: build defaults. Names and levels of the pins are those of the golden model."""
 
 from __future__ import annotations
 
@@ -37,5 +37,5 @@ WITH_EEPROM = replace(
     fed=LINES,
     aside=frozenset({"ee_on"}),
 )
-"""The part and its EEPROM in one top (eeprom_bench.sv), which drives the levels of the lines."""
+"""The part and its EEPROM in one top (eeprom_bench.sv), which drives the levels of the I2C lines."""
 PARTS = (PMC006,)

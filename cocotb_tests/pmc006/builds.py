@@ -1,7 +1,8 @@
-"""Builds in which the tests of the PMC006B4 run, and `directed` with the usual build.
+"""Builds in which the tests of the PMC006B4 run, and a `directed` that uses the most frequent build.
 
-Most tests run at 8 MHz and 115200 baud, where they need the fewest cycles. A few run at the defaults, at a
-clock that is not a multiple of 1 MHz, and in the other timing mode with the other reply to s.
+Most tests run at 8 MHz and 115200 baud, which needs the fewest cycles. A few tests run with the default
+parameters, at a clock that is not a multiple of 1 MHz, or with the other timing mode and the other reply to
+instruction s.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ ODD = Config(
     extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
 )
 BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900), ("T_BLANK_NS", 3_600)))
-"""T_BLANK is longer than half of T_OFF, so T_BLANK limits the fast decay (P006-CHP-03)."""
+"""Build whose T_BLANK is longer than half of T_OFF, so that T_BLANK limits the fast decay (P006-CHP-03)."""
 D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
 
 directed = partial(directed, builds=(F8B,))
-"""`harness.running.directed` with this build as the default."""
+"""`harness.run_context.directed` with build `F8B` as the default."""

@@ -1,6 +1,6 @@
-"""EEPROM of a PMC006 under test: the device in the bench's top, or the Python model on the golden model.
+"""EEPROM of a PMC006 under test: a device in the top of the bench, or the Python model for the golden model.
 
-Tests describe it (`Chip`), load it, read its bytes and its log of writes, and inject faults.
+Tests describe the EEPROM (`Chip`), load it, read its bytes and its log of writes, and inject faults.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .i2c_bus import I2cBus
 
 @dataclass(frozen=True)
 class Chip:
-    """A device that was just powered up.
+    """An EEPROM that was just powered up.
 
     Attributes:
         content: bytes from address 0 on, the rest is FF.
@@ -46,7 +46,7 @@ class Written(NamedTuple):
 
 
 class Eeprom(ABC):
-    """Device of a test. Faults take effect from the current edge on."""
+    """EEPROM of a test. Faults take effect from the present edge on."""
 
     @property
     @abstractmethod
@@ -68,14 +68,14 @@ class Eeprom(ABC):
 
     @abstractmethod
     def stretch(self, clk: int) -> None:
-        """Set for how many cycles the device holds SCL low after each acknowledge."""
+        """Set the number of cycles for which the device holds SCL low after each acknowledge."""
 
 
 def plug_in(bench: DutBench, chip: Chip, clk_hz: int, device: int) -> Eeprom:
     """Connect a device to a part just out of reset, before edge 0.
 
     Args:
-        device: address that the part uses.
+        device: device address that the part uses.
     """
     address = device ^ chip.other
     if isinstance(bench, ModelBench):
@@ -85,7 +85,7 @@ def plug_in(bench: DutBench, chip: Chip, clk_hz: int, device: int) -> Eeprom:
 
 
 class _Bussed:
-    """The golden model and the devices on its lines as one object."""
+    """The golden model and the devices on its lines, combined in one object."""
 
     def __init__(self, model: Any, bus: I2cBus) -> None:
         self._model, self._bus = model, bus
@@ -95,12 +95,12 @@ class _Bussed:
 
     @property
     def next_event(self) -> int | None:
-        """The next edge with an event of the model or of the bus."""
+        """Next edge at which the model or the bus has an event."""
         return min((t for t in (self._model.next_event, self._bus.due) if t is not None), default=None)
 
 
 class _OnModel(Eeprom):
-    """The Python device."""
+    """The EEPROM as a Python model."""
 
     def __init__(self, bench: ModelBench, chip: Chip, clk_hz: int, device: int) -> None:
         self._bench = bench
@@ -134,12 +134,12 @@ class _OnModel(Eeprom):
         self._bus.again(self._bench.now)
 
     def stretch(self, clk: int) -> None:
-        """Set for how many cycles the device holds SCL low after each acknowledge."""
+        """Set the number of cycles for which the device holds SCL low after each acknowledge."""
         self._chip.stretch_clk = clk
 
 
 class _OnBench(Eeprom):
-    """The device in the bench's top, accessed by names: see tb/pmc006/eeprom_24c32.sv."""
+    """The EEPROM in the top of the bench (tb/pmc006/eeprom_24c32.sv), whose signals are accessed by name."""
 
     def __init__(self, bench: RtlBench, chip: Chip, clk_hz: int, device: int) -> None:
         self._device = bench.dut.u_eeprom
@@ -185,5 +185,5 @@ class _OnBench(Eeprom):
         self._set(**{f"stuck_{line}": on})
 
     def stretch(self, clk: int) -> None:
-        """Set for how many cycles the device holds SCL low after each acknowledge."""
+        """Set the number of cycles for which the device holds SCL low after each acknowledge."""
         self._set(stretch_cycles=clk)

@@ -15,7 +15,7 @@ from .stepping import MotorHost
 
 @cocotb.test()
 async def demo_program(dut: Any) -> None:
-    """A host moves a motor and loads a program on a part just powered up, and the run is recorded."""
+    """A host moves a motor and loads a program into a part that was just powered up; the run is recorded."""
     host = await MotorHost.start(dut)
     assert isinstance(host.bench, RtlBench)
     demo_log = DemoLog(host.bench)

@@ -1,8 +1,8 @@
 """Program of `make demo PART=pmc006`: a host, and a motor on the bridges of the part.
 
-The host makes three moves of the same distance with finer and finer steps. Then a program that is loaded
-over the line homes to a switch and shuttles without a host. The motor is connected for the moves only,
-because its comparators change often.
+The host makes three moves of the same distance, each with finer steps than the previous one. Then it loads a
+program, which homes to a switch and moves to and fro without a host. The motor is connected only during the
+moves, because its comparators change often.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ MOTOR = Motor(ohm=1.0, henry=4e-3, volt=24.0)
 CURRENT = 1500
 """Motor current in mA."""
 WAY = 64
-"""Full steps of a move."""
+"""Number of full steps of a move."""
 SPEED, START, LEAD = 300, 75, 20
-"""Full steps per second: maximum, start and end; full steps from the start back to the switch."""
+"""Full steps per second (maximum, start and end), and full steps from the start back to the switch."""
 MOVES = ((4, 2), (16, 4), (32, 5))
-"""Microsteps, and the coefficient with which they accelerate at 1700 full steps/s^2."""
+"""Microsteps, and the acceleration coefficient for 1700 full steps/s^2 with these microsteps."""
 FINE = 8
-"""Microsteps of the program."""
+"""Microsteps in the program."""
 LONG = 2_000_000
 """Longest wait in microseconds."""
 PROGRAM = f"""\
@@ -57,7 +57,7 @@ again:  ROT   {50 * FINE}
 
 
 async def run_program(host: MotorHost, demo_log: DemoLog) -> None:
-    """Run the whole program on a part that has just booted."""
+    """Run the complete program on a part that has just booted."""
     host.attach(MOTOR)
     with demo_log.chapter("set", "settings"):
         await host.ask("j")
@@ -81,7 +81,7 @@ async def run_program(host: MotorHost, demo_log: DemoLog) -> None:
 
 
 async def move(host: MotorHost, fine: int, coefficient: int, forward: bool) -> None:
-    """Make a move with this number of microsteps, polled to its end."""
+    """Make a move with this number of microsteps and poll until its end."""
     await host.ok(
         m=fine,
         v=SPEED * fine,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_eeprom_bench: a PMC006B4 and its EEPROM on two open-drain lines. Ports and parameters are those of
-//         pmc006, except that the lines are outputs; ee_on is the power of the device.
+//         pmc006, but the lines are outputs, and ee_on switches the power of the EEPROM.
 `default_nettype none
 
 module pmc006_eeprom_bench #(
@@ -48,7 +48,7 @@ module pmc006_eeprom_bench #(
     output logic            m11,
     output logic            m20,
     output logic            m21,
-    // EEPROM: levels of the lines, driven by part and device; ee_on = 1: the device has power
+    // levels of the I2C lines, driven by part and EEPROM; ee_on = 1: the EEPROM has power
     input  wire logic       ee_on,
     output logic            scl_i,
     output logic            scl_o,

@@ -6,12 +6,12 @@ HEAD, REPLY = 0xA5, 0x7A
 
 
 def number(code: str | int) -> int:
-    """Return the code of an instruction given as letter or number."""
+    """Return the code of an instruction, which is a letter or a number."""
     return ord(code) if isinstance(code, str) else code
 
 
 def checked(*content: int) -> bytes:
-    """Return these bytes and their check byte."""
+    """Return bytes followed by their check byte."""
     return bytes([*content, sum(content) & 0xFF])
 
 
@@ -21,14 +21,14 @@ def command(address: int, code: str | int, data: int = 0) -> bytes:
 
 
 def of_reply(frame: bytes) -> tuple[int, int]:
-    """Return address and data of a reply; raise AssertionError if the frame is not a reply."""
+    """Return address and data of a reply; raise AssertionError if the bytes are not a valid reply."""
     assert len(frame) == 8 and frame[:2] == bytes([HEAD, REPLY]), f"{frame.hex(' ')} is no reply"
     assert frame == checked(*frame[:7]), f"{frame.hex(' ')}: wrong check"
     return frame[2], int.from_bytes(frame[3:7], "little")
 
 
 def reply(address: int, data: int) -> bytes:
-    """Return the reply of a node."""
+    """Return the reply frame of a node."""
     return checked(HEAD, REPLY, address, *(data & 0xFFFFFFFF).to_bytes(4, "little"))
 
 

@@ -1,7 +1,7 @@
-"""Host on the link of a PMC006, which acts on the replies of the part.
+"""Host on the link of a PMC006, which reacts to the replies of the part.
 
-It has its own UART model: replies are decoded from the levels of txd and de, and every edge is
-checked (docs/pmc006/README.md, 3).
+The host has a separate UART model: it decodes replies from the levels of txd and de, and checks every edge
+(docs/pmc006/README.md, 3).
 """
 
 from __future__ import annotations
@@ -23,16 +23,18 @@ from .view import View
 H = TypeVar("H", bound="Host")
 
 SYNC = 2
-"""Cycles from a level of a pin to its effect in the part."""
+"""Cycles from a change of a pin to its effect in the part."""
 STARTS = tuple(b"szN")
 NEAR = 8
 """Tolerance of the edges of de and txd in cycles."""
 ACT = 4
-"""Cycles from e to the effect of a frame if no other instruction is in progress."""
+"""Cycles from e (the stop-bit sample of a frame) to the effect of the frame, if no other instruction is
+executed.
+"""
 EXECUTE = 64
-"""Cycles from the end of a frame to the effect."""
+"""Maximum number of cycles from the end of a frame to its effect."""
 START = 1024
-"""Cycles from the end of a frame to t = 0 of a motion, in addition to 1 us."""
+"""Maximum number of cycles from the end of a frame to t = 0 of a motion, in addition to 1 us."""
 
 
 class Host(View, SerialLine):
@@ -68,14 +70,14 @@ class Host(View, SerialLine):
         error: float = 0,
         chip: Chip | None = None,
     ) -> H:
-        """Return a host with a part just out of reset, and booted unless `boot` is false.
+        """Return a host with a part just out of reset, which has booted unless `boot` is false.
 
         Args:
-            address: address of the part that the host uses.
+            address: node address to which the host sends.
             levels: levels of input pins from edge 0 on.
             error: relative error of the bit time of the host.
-            chip: the EEPROM, for tests in the bench that has one (test_memory.py). Without a chip, SDA is
-                held low, so that the part boots immediately, unless `levels` contains sda_i=1.
+            chip: the EEPROM, for tests whose bench has one (test_memory.py). Without `chip`, SDA is held low,
+                so that the part boots immediately; sda_i=1 in `levels` overrides this.
         """
         idle = {} if chip else {"sda_i": 0}
         bench = await start_bench(
@@ -92,18 +94,18 @@ class Host(View, SerialLine):
     # ------------------------------------------------------------------ time
 
     def pick(self, literal: int, short: int) -> int:
-        """Return a count or time for the golden model, or the short one for the RTL."""
+        """Return a number or time: `literal` on the golden model, `short` on the RTL."""
         return literal if self.literal else short
 
     @property
     def eeprom(self) -> Eeprom:
-        """The EEPROM that `start` received."""
+        """EEPROM that `start` has connected."""
         assert self.plugged is not None, "there is no EEPROM"
         return self.plugged
 
     @property
     def literal(self) -> bool:
-        """Whether the numbers are those of the manual."""
+        """Whether the test uses the numbers of the manual, as on the golden model."""
         return not self.bench.simulated
 
     async def sync(self) -> None:
@@ -115,7 +117,7 @@ class Host(View, SerialLine):
         await self.bench.until(edge)
 
     async def go(self, t: int) -> None:
-        """Run to just before edge t; the next access or pin change is at this edge."""
+        """Run to just before edge t, at which the next access or pin change occurs."""
         self.t = t
         await self.sync()
 
@@ -132,7 +134,7 @@ class Host(View, SerialLine):
         await self.pause(self.us(Fraction(millis) * 1000))
 
     async def boot(self) -> int:
-        """Run to the end of BOOT; return its edge."""
+        """Run to the end of BOOT; return the edge of this end."""
         return await self.until("bridge_a_en", 1)
 
     async def reset(self, clk: int = 12, **levels: int) -> None:
@@ -152,12 +154,14 @@ class Host(View, SerialLine):
         self.t += 1
 
     async def at(self, t: int, **levels: int) -> None:
-        """Set pin levels from edge t on, also before the end of the last stop bit; `t` does not change."""
+        """Set pin levels from edge t on, which may be before the end of the last stop bit; `t` does not
+        change.
+        """
         await self._to(t)
         self.bench.set(**levels)
 
     async def strobe(self, **levels: int) -> None:
-        """Apply adc_data or bemf_level with its valid for one cycle."""
+        """Apply adc_data or bemf_level, with its valid signal high for one cycle."""
         valid = {("adc_valid" if "adc_data" in levels else "bemf_valid"): 1}
         await self.pins(**levels, **valid)
         await self.pins(**dict.fromkeys(valid, 0))
@@ -165,7 +169,7 @@ class Host(View, SerialLine):
     # ------------------------------------------------------------------ frames
 
     async def send_frame(self, code: str | int, data: int = 0, address: int | None = None) -> None:
-        """Send a valid frame. Steps are counted from an s, N 1 or z on."""
+        """Send a valid frame. Instructions s, N 1 and z also restart the count of steps."""
         self._begin(number(code), data)
         address = self.address if address is None else address
         self.bench.accesses.append(Access(self.t, f"{code!r} to {address:02X}, data", 0, data & 0xFFFFFFFF))
@@ -178,21 +182,21 @@ class Host(View, SerialLine):
 
     @property
     def e(self) -> int:
-        """Edge of the stop-bit sample of the last byte sent, to the nearest cycle."""
+        """Edge at which the part samples the stop bit of the last byte sent, to the nearest cycle."""
         return round(self.middle) + SYNC
 
     async def next_de_rise(self) -> int | None:
-        """Return the edge of the next rise of de after the last reply, None if there is no such edge."""
+        """Return the edge of the first rise of de after the last reply, or None if there is no such rise."""
         await self.sync()
         return next((t for t, level in self.edges("de", self._reply_end) if level), None)
 
     async def receive_reply(self) -> int:
-        """Return the data of the reply to the frame that was just sent. Every edge is checked."""
+        """Receive the reply to the frame that was just sent, check each of its edges, and return its data."""
         e, bit = self.e, self.bit
         await self.go(max(self.t, e + ceil(bit) + NEAR + 1))
         rise = await self.next_de_rise()
         assert rise is not None, "no reply"
-        assert abs(rise - e - bit) <= NEAR, f"de rises {rise - e} clk after the frame"
+        assert abs(rise - e - bit) <= NEAR, f"de rises {rise - e} cycles after the frame"
         await self.go(max(self.t, e + ceil(82 * bit) + NEAR + 1))
         fall = next((t for t, level in self.edges("de", rise) if not level), None)
         assert fall is not None and abs(fall - e - 82 * bit) <= NEAR, f"de falls {fall}, the frame ended {e}"
@@ -215,7 +219,7 @@ class Host(View, SerialLine):
         return answer
 
     async def exchange(self, text: str) -> str:
-        """Send a whole frame and return the whole reply, as texts of hexadecimal bytes."""
+        """Send a complete frame and return the complete reply, both as texts of hexadecimal bytes."""
         frame = bytes.fromhex(text)
         self._begin(frame[2], frame[3])
         await self.send(frame)
@@ -223,16 +227,16 @@ class Host(View, SerialLine):
         return self.wire.hex(" ").upper()
 
     async def is_silent(self, clk: int) -> bool:
-        """Return whether nothing is sent for this number of cycles: de = 0 and txd = 1."""
+        """Return whether the part sends nothing for this number of cycles: de = 0 and txd = 1."""
         await self.pause(clk)
         return await self.next_de_rise() is None and not await self.out("de") and bool(await self.out("txd"))
 
     async def ignore_replies(self) -> None:
-        """Ignore all replies up to now; a reply in progress is waited for."""
+        """Ignore all replies up to now; if a reply is in progress, wait for its end."""
         await self.sync()
         self.t = max(self.t, await self.bench.level_is("de", 0))
         self._reply_end = self.t
 
     def accepted(self, count: int) -> int:
-        """Return the reply data of an accepted s."""
+        """Return the reply data of an accepted instruction s."""
         return count if self.echo else 3

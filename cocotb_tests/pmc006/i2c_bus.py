@@ -10,8 +10,8 @@ from openppmc.model.carrier.eeprom import Eeprom24C32
 class I2cBus:
     """Replacement of `model.run_until` that adds the EEPROM.
 
-    A level that the part or the device pulls at edge t is on the lines from edge t + 1 on. The pin changes
-    go through `model.pins`.
+    If the part or the device pulls a line at edge t, the line is low from edge t + 1 on. The levels of the
+    lines reach the model through `model.pins`.
     """
 
     def __init__(self, model: Any, device: Eeprom24C32) -> None:
@@ -28,7 +28,7 @@ class I2cBus:
 
     @property
     def due(self) -> int | None:
-        """The next edge at which a line may change or the device has an event."""
+        """Next edge at which a line may change or the device has an event."""
         levels, own = self.model.log.levels, self._look
         if (levels["scl_oe"], levels["sda_oe"]) != self._pulled:
             own = min(self.model.now + 1, own or self.model.now + 1)

@@ -1,6 +1,6 @@
-"""Two PMC006 on one pair of wires: rxd of both is the AND of the host's level and of every txd.
+"""Two PMC006 on one pair of wires. rxd of each is the AND of the host's level and of all txd.
 
-One is the part under test; the other is a golden model.
+One of them is the part under test; the other is a golden model.
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ from .stepping import Stepping
 
 
 class Line:
-    """Common time and wires of the parts. A level that a part drives at edge t is on the wires at t + 1."""
+    """Common time and wires of the parts. A level that a part drives at edge t is on the wires at edge t +
+    1.
+    """
 
     def __init__(self, *benches: DutBench) -> None:
         self.benches = benches
@@ -27,7 +29,7 @@ class Line:
         """Return two nodes just out of reset.
 
         Args:
-            first: whether the first one is the part under test.
+            first: whether the first node is the part under test.
         """
         part = await start_bench(dut, PMC006, settle=0, sda_i=0)
         other = ModelBench(PMC006, OnModel(part.config), 0, sda_i=0)
@@ -36,17 +38,17 @@ class Line:
 
     @property
     def now(self) -> int:
-        """The next edge of all parts."""
+        """Next edge, which is the same for all parts."""
         return self.benches[0].now
 
     async def drive(self, t: int, level: int) -> None:
-        """Set the level of the host from edge t on."""
+        """Set the level that the host drives from edge t on."""
         await self.until(max(t, self.now))
         self._host = level
         self._settle()
 
     async def until(self, t: int) -> None:
-        """Run all parts to edge t. Each transmission of a part begins with an event of its model."""
+        """Run all parts to edge t. Each transmission of a part begins with an event of its golden model."""
         while self.now < t:
             events = [bench.golden.next_event for bench in self.benches]
             edge = min([t, *(event + 1 for event in events if event is not None)])
@@ -61,7 +63,7 @@ class Line:
 
 
 class Node(Stepping):
-    """The host, connected to one of the parts on the line."""
+    """Host that is connected to one of the parts on the line."""
 
     def __init__(self, line: Line, number: int) -> None:
         self.line = line
@@ -70,7 +72,7 @@ class Node(Stepping):
 
     @property
     def t(self) -> int:  # type: ignore[override]
-        """The next free edge of all nodes."""
+        """Next free edge, which is the same for all nodes."""
         return self.line.t
 
     @t.setter
@@ -85,6 +87,6 @@ class Node(Stepping):
             await self.line.drive(edge, level)
 
     async def ask_other(self, other: Node, code: str, data: int = 0) -> int:
-        """Send a frame to another node on the line after the last frame; return its reply data."""
+        """Send a frame to another node on the same line, after the last frame; return its reply data."""
         other.middle, other._free = self.middle, self._free
         return await other.ask(code, data)

@@ -17,7 +17,7 @@ class Op(NamedTuple):
 
     @property
     def words(self) -> tuple[int, int]:
-        """W0, W1."""
+        """Words W0 and W1 of the instruction."""
         return self.code | self.option << 8, self.operand & 0xFFFFFFFF
 
 
@@ -26,17 +26,17 @@ WAIT_REST = Op(0x10, 8, 0)
 
 
 def rot(count: int) -> Op:
-    """Return a ROT."""
+    """Return a ROT instruction."""
     return Op(0x01, 0, count)
 
 
 def out(number: int, level: int) -> Op:
-    """Return an OUT to GPO `number`."""
+    """Return an OUT instruction for GPO `number`."""
     return Op(0x11, number, level)
 
 
 def goto(target: int, code: int = 0x0D) -> Op:
-    """Return a JMP, or a JNE (0x0E) or JEQ (0x0F)."""
+    """Return a JMP instruction, or a JNE (0x0E) or JEQ (0x0F)."""
     return Op(code, 0, target)
 
 
@@ -52,7 +52,7 @@ P1 = (
     out(1, 1),
     END,
 )
-"""Program P1: the program of docs/pmc006/README.md, 13."""
+"""Program P1, which is the program in docs/pmc006/README.md, 13."""
 
 
 def words(program: Iterable[Op]) -> list[int]:
@@ -67,7 +67,7 @@ def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x
 
 
 def page(**changes: int) -> bytes:
-    """Return the factory page with other bytes at the addresses given as a00..a1e; its sum is correct."""
+    """Return the factory page with other bytes at the addresses a00 to a1e; its sum is correct."""
     content = bytearray(FACTORY_PAGE)
     for name, value in changes.items():
         content[int(name[1:], 16)] = value

@@ -10,14 +10,14 @@ from .random_frames import DATA
 from .random_motion import MotionHost
 
 LIMIT_US = 6_000
-"""Time for which a motion is observed for events, in microseconds."""
+"""Maximum time for which a motion is observed for events, in microseconds."""
 NEAR = 4
-"""Greatest distance of frame and event, in cycles."""
+"""Maximum distance of frame and event, in cycles."""
 SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
 EASY = (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("o", 5))
 MOVE = (("v", 3000), ("L", 3000), ("S", 3000))
 RUN = (("v", 300), ("L", 300), ("S", 65))
-"""Settings with which most motions of all kinds are accepted and end soon: moves and speed runs."""
+"""Settings with which the part accepts most motions of all kinds, which end soon: moves and speed runs."""
 
 Course = tuple[tuple[str, int], ...]
 
@@ -26,7 +26,7 @@ class CollisionHost(MotionHost):
     """Random host that makes two events coincide."""
 
     async def collision(self) -> None:
-        """Make a short motion, then repeat it with a frame or pin edge near an edge of the first one."""
+        """Make a short motion, then repeat it with a frame or pin change near an edge of the first motion."""
         rng, host = self.rng, self.host
         course: Course = (("s", rng.choice((5, 6, 8, 12))),)
         if rng.random() < 0.5:
@@ -36,13 +36,14 @@ class CollisionHost(MotionHost):
                 await self.frame(code, data)
         await host.ignore_replies()
         begin, e = await self._start(course)
-        # A whole frame must fit in after the reply.
+        # A complete frame must fit between the reply and the edge.
         least = e + ceil(82 * host.bit) + e - host.frame_start + 2 * NEAR
         with suppress(TimeoutError):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.bench.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
-        period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # cycles between edges that begin a us
+        # Number of cycles between edges at which a microsecond begins.
+        period = host.clk_hz // gcd(host.clk_hz, 1_000_000)
         for _ in range(4):
             if await host.busy() or not found["mon_busy"]:
                 return
@@ -52,7 +53,9 @@ class CollisionHost(MotionHost):
             await self._collide(course, rng.choice(times))
 
     async def _collide(self, course: Course, after: int) -> None:
-        """Repeat the motion with a frame about `after` cycles after the end of its last frame."""
+        """Repeat the motion and send a frame about `after` cycles after the end of the motion's last
+        frame.
+        """
         rng, host = self.rng, self.host
         _, e = await self._start(course)
         at = e + after + rng.randint(-NEAR, NEAR)
@@ -70,7 +73,10 @@ class CollisionHost(MotionHost):
             await self.frame("I")
 
     async def _start(self, course: Course) -> tuple[int, int]:
-        """Start a motion and wait for the replies; return begin of the first frame, end of the last."""
+        """Start a motion and wait for the replies.
+
+        Return the begin of the first frame and the end of the last one.
+        """
         host, begin = self.host, self.host.t
         for place, (code, data) in enumerate(course):
             await host.go(begin + place * ceil(175 * host.bit))
@@ -80,7 +86,7 @@ class CollisionHost(MotionHost):
         return begin, host.e
 
     def _pins(self, t: int) -> None:
-        """Add a pin change of the machine at edge t."""
+        """Add a change of a switch, comparator or back-EMF input at edge t."""
         pin = self.rng.choice(("ext1", "ext2", "cmp_a", "bemf_valid"))
         level = 1 - self.host.bench.pin(pin)
         self.background.add(t, **{pin: level})

@@ -9,10 +9,10 @@ from .random_frames import FrameHost
 
 
 class FaultHost(FrameHost):
-    """Invalid input and silence."""
+    """Random host that sends invalid frames, or nothing for a time."""
 
     async def bad_frame(self) -> None:
-        """Send an invalid frame: wrong check, too short, too long, random bytes, wrong head."""
+        """Send an invalid frame: wrong check byte, too short, too long, random bytes, or wrong first byte."""
         rng, host = self.rng, self.host
         self.left -= 1
         good = command(host.address, rng.choice("ysivI"), rng.choice((0xF8, 3, 0xA5A5A5A5)))
@@ -34,7 +34,7 @@ class FaultHost(FrameHost):
         await self.await_reply()
 
     async def foreign(self) -> None:
-        """Send traffic of other nodes."""
+        """Send frames and replies of other nodes."""
         rng = self.rng
         self.left -= 1
         other = rng.choice((1, 5, 0x78, 0, 0x7A))
@@ -43,7 +43,7 @@ class FaultHost(FrameHost):
         await self.await_reply()
 
     async def talk_out_of_turn(self) -> None:
-        """Send another frame while the reply to a frame is in progress."""
+        """Send another frame while the part sends a reply."""
         rng, host = self.rng, self.host
         self.left -= 2
         await host.send_frame(rng.choice("cjy"), 0)
@@ -54,7 +54,7 @@ class FaultHost(FrameHost):
             await host.pause(ceil(200 * host.bit))
 
     async def noise(self) -> None:
-        """Apply short low levels and breaks on an idle line."""
+        """Apply short low levels and breaks to an idle line."""
         rng, host = self.rng, self.host
         for _ in range(rng.randint(1, 5)):
             await host.low(rng.choice((0.01, 0.1, 0.48, 0.5, 0.52, 1, 3, 9.3, 9.6, 12, 30)))

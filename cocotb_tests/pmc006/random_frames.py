@@ -41,7 +41,7 @@ READS = "cjOxXKRknqrhU"
 class FrameHost(RandomHost):
     """Random host that sends frames.
 
-    `seen` counts its actions and results, `left` is the work that remains.
+    `seen` counts its actions and their results; `left` is the number of actions that remain.
     """
 
     host: Host
@@ -50,7 +50,7 @@ class FrameHost(RandomHost):
     noisy: bool
 
     async def frame(self, code: str | int, data: int = 0) -> None:
-        """Send a valid frame, with wrong levels if the host is noisy; then wait for its reply."""
+        """Send a valid frame, with wrong levels if the host is noisy, then wait for the reply."""
         rng, host = self.rng, self.host
         self.left -= 1
         if rng.random() < 0.5:
@@ -73,7 +73,9 @@ class FrameHost(RandomHost):
                 await host.pause(rng.choice((5, 70, 900)))
 
     async def await_reply(self) -> None:
-        """Wait for the reply if there is one; in a few cases do not wait, and leave its end unknown."""
+        """Wait for a reply, if there is one; in a few cases do not wait, so the end of the reply is
+        unknown.
+        """
         host = self.host
         await host.go(max(host.t, host.e + ceil(host.bit) + 9))
         if await host.out("de"):
@@ -89,7 +91,7 @@ class FrameHost(RandomHost):
         await self.frame(code, data)
 
     async def read(self) -> None:
-        """Send an instruction without effect."""
+        """Send an instruction that changes nothing."""
         await self.frame(self.rng.choice(READS), self.rng.choice((0, 0, -1)))
 
     async def unknown(self) -> None:
@@ -101,5 +103,5 @@ class FrameHost(RandomHost):
         await self.frame("y", self.rng.choice((0x08, 0xF8, 0x50, 0x87, 0, -1)))
 
     async def save(self) -> None:
-        """Send t or B."""
+        """Send instruction t (save settings) or B (burn program)."""
         await self.frame(self.rng.choice("ttB"))

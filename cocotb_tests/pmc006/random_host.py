@@ -1,6 +1,6 @@
 """Random hosts of the PMC006: valid and invalid frames, motions, stops, programs, changing pins.
 
-A seed decides all of it; `build` returns the build, `play(dut, seed)` plays the seed.
+`build(seed)` returns the build of a seed, and `play(dut, seed)` plays the seed.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ async def play(dut: Any, seed: int) -> Counter[str]:
 
 
 def with_chip(seed: int) -> bool:
-    """Return whether the host of a seed has an EEPROM (or an EEPROM that does not respond)."""
+    """Return whether the host of a seed has an EEPROM (also one that does not respond)."""
     return RandomSerialHost(seed).chip is not None
 
 
 class RandomSerialHost(CollisionHost, PinHost, FaultHost):
-    """One random host. It acts on received data; the golden model only decides when it acts."""
+    """One random host. It reacts to received data; the golden model only decides when the host acts."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("p006", seed)
@@ -66,7 +66,7 @@ class RandomSerialHost(CollisionHost, PinHost, FaultHost):
         self.noisy = rng.random() < 0.25
 
     def _content(self) -> bytes:
-        """Return a content of the EEPROM: programs that start automatically, damaged pages."""
+        """Return the content of an EEPROM, such as a program that starts automatically or a damaged page."""
         rng = self.rng
         params = page(a0B=rng.getrandbits(1), a04=rng.choice((4, 16, 3)), a0A=rng.randrange(4), a06=5, a07=5)
         content = bytearray(image(params, random_program(rng), mark=rng.choice((0x5A, 0x5A, 0x5A, 0))))
@@ -75,7 +75,7 @@ class RandomSerialHost(CollisionHost, PinHost, FaultHost):
         return bytes(content)
 
     async def play(self) -> None:
-        """Perform actions of all kinds; after any of them a valid frame is answered."""
+        """Perform actions of all kinds; check that the part answers a valid frame afterwards."""
         rng = self.rng
         for code, value in (("L", 3000), ("S", 3000), ("v", 3000), ("u", 5), ("o", 5)):
             if rng.random() < 0.9:
@@ -114,7 +114,7 @@ class RandomSerialHost(CollisionHost, PinHost, FaultHost):
         await self.recover()
 
     async def recover(self) -> None:
-        """Check that a host is received again after it has sent nothing for a while."""
+        """Check that the part accepts a frame again after the host has sent nothing for a time."""
         host = self.host
         await host.pause(1)
         self.background.stop()

@@ -13,7 +13,7 @@ class MotionHost(FrameHost):
     """Random host that starts motions and programs."""
 
     async def start(self) -> None:
-        """Start a motion, if the state allows one."""
+        """Start a motion, if the state allows it."""
         rng = self.rng
         if rng.random() < 0.3:
             await self.frame("N", rng.choice((1, 1, 1, 0, 2)))
@@ -32,7 +32,7 @@ class MotionHost(FrameHost):
             await self.frame("g", 0)
 
     async def single(self) -> None:
-        """Execute one instruction by E."""
+        """Execute one program instruction (instruction E)."""
         rng = self.rng
         place = rng.randrange(100)
         await self.frame("A", 2 * place)
@@ -57,7 +57,7 @@ class MotionHost(FrameHost):
             await self.host.pause(rng.choice((2_000, 9_000)))
 
     async def analog(self) -> None:
-        """Set a voltage on GPI1; a motion that follows it is started by E."""
+        """Set a voltage on GPI1, and start the following motion with instruction E."""
         rng = self.rng
         t = self.host.t + 1
         self.background.add(t, adc_data=rng.choice((0, 1, 300, 512, 1023)), adc_valid=1)

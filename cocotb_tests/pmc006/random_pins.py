@@ -1,4 +1,4 @@
-"""Pins of random hosts of the PMC006 that change while it sends frames."""
+"""Input pins of the PMC006 that random hosts change while they send frames."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ class PinHost(FrameHost):
     """Random host with changing input pins."""
 
     async def ext(self) -> None:
-        """Operate emergency switches: press, bounces, an edge near the end of a frame; mostly clear them."""
+        """Operate emergency switches: presses, bounces, an edge near the end of a frame; then mostly clear
+        the flags.
+        """
         rng, t = self.rng, self.host.t
         pin = rng.choice(("ext1", "ext2"))
         level = self.host.bench.pin(pin)

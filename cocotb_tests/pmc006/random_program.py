@@ -11,7 +11,7 @@ SPEEDS = (3000, 3000, 2999, 5000, 9000, 16_000, 1, 0, 500, 16_001, -5)
 
 
 def random_op(rng: random.Random, size: int) -> Op:
-    """Return one instruction of a program of `size`; one in ten has an illegal part."""
+    """Return one instruction for a program of `size` instructions; one in ten has an illegal part."""
     target = rng.randrange(size) if rng.random() < 0.9 else rng.choice((99, 100, -1, 200))
     bit = rng.choice((0, 1, 1, 0, rng.randrange(-3, 9)))
     source = rng.choice((*range(1, 10), 8, 8, 0, 10, 255))
@@ -45,6 +45,6 @@ def random_program(rng: random.Random) -> list[Op]:
     size = rng.randint(3, 10)
     program = [random_op(rng, size) for _ in range(size - 1)]
     if rng.random() < 0.4:
-        # A loop that ends after a few turns, as in the programs of the manual.
+        # A loop that ends after a few iterations, as in the programs of the manual.
         program[-2:] = [Op(0x0B), Op(0x12, 8, rng.randint(1, 3)), goto(rng.randrange(size), 0x0E)]
     return [*program, rng.choice((END, goto(0), goto(rng.randrange(size)), random_op(rng, size)))]

@@ -1,17 +1,19 @@
-"""Phase currents according to P006-EXC-10 to 23, calculated from the sine, for comparison."""
+"""Phase currents according to P006-EXC-10 to 23, calculated from the sine, as reference values."""
 
 from __future__ import annotations
 
 from math import floor, sin, tau
 
 FULL_STEP = 128
-"""Angle units of a full step."""
+"""Angle units per full step."""
 HOME = 64
 """Angle after reset."""
 
 
 def sines(angle: int, peak: int) -> tuple[int, int, int, int]:
-    """Return reference and sign of phase A, then of phase B, at an angle of 512 units (P006-EXC-10..12)."""
+    """Return reference and sign of phase A, then of phase B, at an angle (512 units per period,
+    P006-EXC-10..12).
+    """
 
     def one(units: int) -> tuple[int, int]:
         value = sin(tau * (units % 512) / 512)
@@ -22,21 +24,24 @@ def sines(angle: int, peak: int) -> tuple[int, int, int, int]:
 
 
 def code(current: int) -> int:
-    """Return the peak code of a setting in mA: the nearest of 400 + 150 k, ties up (P006-EXC-20)."""
+    """Return the peak code of a current in mA.
+
+    The current is rounded to the nearest value 400 + 150 k mA, ties up (P006-EXC-20).
+    """
     nearest = min(range(400, 4001, 150), key=lambda drive: (abs(drive - current), -drive))
     return floor(255 * nearest / 4000 + 0.5)
 
 
 def increment(microstepping: int) -> int:
-    """Return the angle units of a step (P006-EXC-01)."""
+    """Return the angle units per step (P006-EXC-01)."""
     return FULL_STEP // max(1, microstepping)
 
 
 def boost(current: int, speed: int, microstepping: int, factor: int) -> int:
-    """Return B of P006-EXC-22."""
+    """Return B, the current compensation (P006-EXC-22)."""
     return code(current) * factor * (speed // max(1, microstepping)) // 2**22
 
 
 def lead(speed: int, microstepping: int, factor: int) -> int:
-    """Return W of P006-EXC-23."""
+    """Return W, the lead angle (P006-EXC-23)."""
     return min(64, factor * (speed // max(1, microstepping)) // 2**16)

@@ -1,4 +1,4 @@
-"""Hosts with models that run together with the part: other parts on the line, a motor."""
+"""Hosts with models that run together with the part: other parts on the line, or a motor."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from .host import Host
 
 
 class Stepping(Host):
-    """Host that advances from event to event of the golden model and updates the other models there."""
+    """Host that advances from event to event of the golden model and updates the other models at each
+    event.
+    """
 
     @abstractmethod
     async def _to(self, edge: int) -> None:
@@ -37,7 +39,7 @@ class Stepping(Host):
 
 
 class _PartView:
-    """The part as seen by the motor: its outputs, and when they may change."""
+    """The part as the motor model uses it: outputs, and times at which they may change."""
 
     def __init__(self, bench: DutBench) -> None:
         self._bench = bench
@@ -45,12 +47,12 @@ class _PartView:
 
     @property
     def now(self) -> int:
-        """The last edge that was run."""
+        """Last edge that was run."""
         return self._bench.now - 1
 
     @property
     def next_event(self) -> int | None:
-        """The next edge with an event of the part."""
+        """Next edge at which the part has an event."""
         event: int | None = self._bench.golden.next_event
         return event
 
@@ -75,7 +77,7 @@ class _Levels(dict[str, int]):
 
 
 class MotorHost(Stepping):
-    """Host of a part whose bridges drive a motor after `attach` has been called."""
+    """Host of a part whose bridges drive a motor after a call of `attach`."""
 
     plant: Plant | None = None
 

@@ -24,11 +24,11 @@ from .moves import (
 )
 
 STOP = 5
-"""Cycles from an edge of EXT to the last possible step."""
+"""Maximum number of cycles from an edge of EXT to the last step."""
 
 
 async def stopped(host: Host, edge: int) -> bool:
-    """Return whether no step is made later than 5 cycles after this edge."""
+    """Return whether no step is made more than 5 cycles after this edge."""
     return await is_stopped(host, host.us(5_000)) and not host.steps(edge + STOP + 1)
 
 
@@ -106,18 +106,20 @@ async def p006_ac_30(dut: Any) -> None:
 
 
 async def to_cruise(host: Host, y: int) -> None:
-    """Write Z 256, T 5, N 1, and wait until the speed is constant."""
+    """Set the stall level (Z) to 256 and length (T) to 5, start the speed mode, and wait until the speed is
+    constant.
+    """
     await host.ok(Z=256, T=5, Y=y)
     if not host.literal:
         await set_constant_speed(host, 2900)
     await run(host)
     await cruise(host, 312.5 if host.literal else 345)
-    # The end of an S-curve is flat.
+    # The S-curve is flat near its end.
     await host.ms(host.pick(20, 1))
 
 
 async def samples(host: Host, *levels: int) -> None:
-    """Apply samples of the BEMF, 20 us apart."""
+    """Apply samples of the back EMF, 20 us apart."""
     for level in levels:
         await host.strobe(bemf_level=level)
         await host.wait_us(20)
@@ -191,7 +193,7 @@ async def p006_ac_55(dut: Any) -> None:
 
 
 async def towards_the_switch(host: Host, count: int) -> int:
-    """Run AC-56 up to the second b; return the number of steps."""
+    """Run AC-56 up to its second instruction b; return the number of steps."""
     await set_constant_speed(host, 2500, f=1, d=0)
     assert (await host.exchange("A5 FF 73 FF FF FF 7F 93"))[
         9:20

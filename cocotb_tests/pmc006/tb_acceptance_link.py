@@ -89,7 +89,7 @@ async def p006_ac_09(dut: Any) -> None:
 
 @directed("P006-AC-10", "P006-UART-05")
 async def p006_ac_10(dut: Any) -> None:
-    """de and txd frame the reply: `receive_reply` checks every edge."""
+    """de and txd frame the reply: `receive_reply` checks each of their edges."""
     host = await ready(dut)
     assert await host.ask("j") == 8
     (up, _), (down, _) = host.edges("de", host.frame_start)
@@ -183,11 +183,14 @@ async def p006_ac_54(dut: Any) -> None:
 @cocotb.parametrize(first=[True, False])
 @directed("P006-AC-61", "P006-FRM-10", "P006-FRM-06")
 async def p006_ac_61(dut: Any, first: bool) -> None:
-    """Two parts on one bus answer only their own frames; the DUT is the first or the second of them."""
+    """Of two parts on one bus, each answers only its own frames; the part under test is the first or the
+    second.
+    """
     ten, twenty = await Line.start(dut, first)
     for host in (ten, twenty):
         await host.boot()
-    # The addresses are set one after the other: both are FF at first, and the second part is held in reset.
+    # The addresses are set one after the other, because both are FF at first. During the first setting, the
+    # second part is in reset.
     await twenty.pins(rst_n=0)
     assert await ten.ask("w", 10) == 10
     await twenty.pins(rst_n=1)

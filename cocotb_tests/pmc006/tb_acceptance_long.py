@@ -1,4 +1,7 @@
-"""Acceptance checks that last seconds, on the model alone. Other modules check the same rules in short."""
+"""Acceptance checks that last seconds, on the golden model only.
+
+Other modules check the same rules with shorter times.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Acceptance checks of a part with an EEPROM: saving, restoring, storing a program."""
+"""Acceptance checks of a part with an EEPROM: save, restore, and storage of a program."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ async def p006_ac_66(dut: Any) -> None:
     await host.ok(F=0)
     assert await host.ask("I") == 0
     assert await host.ask("A", 0) == 0 and await host.ask("W", 0) == 0 and await host.ask("B") == 1
-    # The part writes the mark, then pages of the program. The reset occurs in the middle of the fourth write.
+    # The part writes the mark, then pages of the program. The reset occurs during the fourth write.
     while len(host.eeprom.writes) < 4:
         await host.wait_us(500)
     await host.pins(rst_n=0)
@@ -139,7 +139,9 @@ async def p006_ac_66(dut: Any) -> None:
 
 @directed("P006-AC-41", "P006-EEP-23")
 async def p006_a_program_that_never_rests_blocks_nothing(dut: Any) -> None:
-    """After the autostart of a JMP to itself frames are served, and F 0 and t end it permanently."""
+    """If a program that jumps to itself has started automatically, frames are served, and F 0 and t (save)
+    end the program permanently.
+    """
     host = await Host.start(dut, chip=Chip(image(page(a0B=1), [Op(0x0D, 0, 0)]), write_us=500))
     assert await host.ask("W", 5) == 0 and await host.ask("z") == 0
     await setup(host)

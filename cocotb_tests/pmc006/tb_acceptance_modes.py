@@ -1,4 +1,4 @@
-"""Acceptance checks with other parameters: the other reply to s."""
+"""Acceptance checks with other parameters, which select the other reply to instruction s."""
 
 from __future__ import annotations
 

@@ -14,15 +14,20 @@ from .programs import goto, out
 
 FLAT = {"v": 600, "L": 600, "S": 600, "u": 0}
 STEEP = {"v": 16_000, "L": 65, "S": 65, "u": 5}
-"""Speeds of a motion at one rate, and of one whose rate changes for a long time."""
+"""Settings for a motion with a constant rate, and for a motion whose rate changes for a long time."""
 LONG = 1_000_000
 LOOP, OUT = 0, 2
-"""Places in the program: a jump to itself, and an instruction that the host may execute."""
+"""Program pointer for a jump to itself, and for an instruction that the host may execute."""
 PROGRAM = (goto(0), out(1, 1))
 
 
 class State(NamedTuple):
-    """speeds: active settings. begun: frames that lead from standstill into the state."""
+    """A state of the part.
+
+    Attributes:
+        begun: codes of the frames that lead from standstill into the state.
+        speeds: settings that are written before.
+    """
 
     begun: str = ""
     speeds: dict[str, int] = FLAT
@@ -48,11 +53,11 @@ REPLIES: dict[str, int | None] = {
     # The replies to these codes depend on the state; the golden model checks them.
     **dict.fromkeys("OcjxLSuvqrs"),
 }
-"""Code -> reply to its data at standstill. H is an undefined code."""
+"""Code -> reply to the code with its data at standstill. Code H is undefined."""
 UNLIKE = {"R": 1, "T": -1, "y": 7, "w": 0, "H": 1}
-"""Code -> data to send; the reply has another value."""
+"""Code -> data to send, for codes whose reply is not the data."""
 AT = {"E": OUT, "G": OUT, "W": OUT, "z": LOOP}
-"""PP that a code requires."""
+"""Code -> value that the program pointer must have."""
 DISTURBS = "BEFINgstz"
 
 
@@ -68,7 +73,7 @@ def reply(code: str, name: str, speeds: dict[str, int], accepted: int) -> int | 
 
 
 async def enter(host: Host, state: State) -> None:
-    """Enter a state from any other."""
+    """Enter a state from any other state."""
     assert await host.ask("I", 1) == 1
     await host.ok(F=0, g=0, A=LOOP)
     while await host.ask("V"):
@@ -82,7 +87,7 @@ async def enter(host: Host, state: State) -> None:
     "P006-CMD-02", "P006-CMD-06", "P006-CMD-18", "P006-CMD-41", "P006-CMD-53", "P006-CMD-56", "P006-BAD-07"
 )
 async def p006_every_code(dut: Any, name: str) -> None:
-    """Each code has the reply that the rules require, and only codes that end a motion end it."""
+    """Each code has the reply that the rules require, and only codes that end a motion end the motion."""
     host = await Host.start(dut, chip=Chip(write_us=4_000))
     state = STATES[name]
     await download(host, PROGRAM)

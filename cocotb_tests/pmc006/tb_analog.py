@@ -1,4 +1,4 @@
-"""The speed that follows the voltage on GPI1, and the time bases."""
+"""Speed that follows the voltage on GPI1, and the time bases."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .programs import END, Op, rot
 
 
 async def regulated(dut: Any, full: int, value: int) -> Host:
-    """Return a host of a part with ANALOG = 1, set by E; `value` is the last sample."""
+    """Return a host of a part with ANALOG = 1, which instruction E has set; `value` is the last sample."""
     host = await constant_speed_host(dut)
     await host.ok(u=5, o=5)
     await download(host, [Op(0x08, 1, full)])
@@ -33,14 +33,14 @@ async def regulated(dut: Any, full: int, value: int) -> Host:
 
 
 def target(full: int, value: int) -> int:
-    """Return the live target (P006-MOT-51)."""
+    """Return the present target speed (P006-MOT-51)."""
     return full * (value + (value >> 9)) // 1024
 
 
 @cocotb.parametrize(value=[1023, 511, 512, 700])
 @directed("P006-MOT-51", "P006-MOT-50", "P006-STA-02", "P006-STA-04")
 async def p006_targets(dut: Any, value: int) -> None:
-    """With a target below VSTART the motion runs at the target from its first step on."""
+    """If the target is below VSTART, the motion runs at the target from its first step on."""
     assert [target(8000, h) for h in (0, 1, 511, 512, 1023)] == [0, 7, 3992, 4007, 8000]
     host = await regulated(dut, 3000, value)
     await run(host)
@@ -55,7 +55,7 @@ async def p006_targets(dut: Any, value: int) -> None:
 async def p006_move_below_its_start_speed(dut: Any) -> None:
     """A move below the start speed has no acceleration or deceleration: exactly N steps at the target.
 
-    The check of s uses VMAX.
+    Instruction s is checked with VMAX.
     """
     host = await regulated(dut, 3000, 990)
     await start(host, 256)
@@ -69,9 +69,9 @@ async def p006_move_below_its_start_speed(dut: Any) -> None:
 
 @directed("P006-MOT-31", "P006-MOT-51", "P006-STA-10", "P006-BAD-20")
 async def p006_voltage_of_zero(dut: Any) -> None:
-    """At a voltage of 0 no steps are made, and BUSY stays set.
+    """At a voltage of 0, no steps are made, and BUSY stays set.
 
-    The voltage is sampled every 10 ms, and I ends the motion.
+    The voltage is sampled every 10 ms; instruction I ends the motion.
     """
     host = await regulated(dut, 3000, 0)
     await start(host, 400)
@@ -80,7 +80,7 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     await host.strobe(adc_data=800)
     await cruise(host, 1_000_000 / target(3000, 800), 90_000)
     begun = host.steps(mark)[0] - host.edges("mon_busy", mark)[0][0]
-    # By 1 = a t² / 2, the first step takes 6 ms more.
+    # The first step is at 1 = a t² / 2, which is 6 ms later.
     assert host.us(15_500) < begun < host.us(17_500)
     await host.strobe(adc_data=0)
     await host.ms(12)
@@ -91,7 +91,7 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     assert await host.busy()
     assert await host.ask("I") == 0
     assert not await host.busy()
-    # A short move does not use the voltage, and without samples since the reset there is no voltage.
+    # A short move does not use the voltage. Without a sample since the reset, there is no voltage to use.
     await start(host, 5)
     await wait_stopped(host)
     assert host.step_count() == 5

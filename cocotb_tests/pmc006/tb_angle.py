@@ -12,7 +12,7 @@ from .moves import after_steps, constant_speed_host, move, run, set_constant_spe
 from .reference import HOME, boost, code, increment, lead, sines
 
 REFS = 64
-"""Cycles from a cause to the references."""
+"""Maximum number of cycles from a cause to the change of the references."""
 NAMES = ("phase_a_ref", "phase_a_sign", "phase_b_ref", "phase_b_sign")
 
 
@@ -28,7 +28,7 @@ def references_at(host: Host, t: int) -> tuple[int, ...]:
 async def p006_angle_of_every_step(dut: Any, m: int) -> None:
     """The references follow each step within 64 cycles, and all four outputs change in the same cycle.
 
-    At least a full step is made in both directions.
+    The test makes at least a full step in both directions.
     """
     host = await set_constant_speed(
         await Host.start(dut), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300
@@ -79,7 +79,9 @@ async def p006_table_of_angles(dut: Any) -> None:
 
 @directed("P006-EXC-03", "P006-CMD-54")
 async def p006_nothing_but_steps_moves_the_angle(dut: Any) -> None:
-    """Only steps move the angle: it keeps its grid with a coarser MSTEP, and settings and stops keep it."""
+    """Only steps change the angle: settings and stops do not, and after a change to a coarser MSTEP the angle
+    is not rounded.
+    """
     host = await set_constant_speed(await Host.start(dut), 3000, m=128, a=0)
     await move(host, 5)
     await host.pause(REFS)
@@ -99,7 +101,10 @@ async def p006_nothing_but_steps_moves_the_angle(dut: Any) -> None:
 
 @directed("P006-EXC-20", "P006-CMD-26", "P006-CMD-35")
 async def p006_currents(dut: Any) -> None:
-    """Each current selects the drive index of its range; both ends of several ranges are tested."""
+    """Each current selects the drive index of its range.
+
+    The test uses both ends of several ranges.
+    """
     host = await Host.start(dut)
     await host.ok(a=0)
     printed = (26, 35, 45, 54, 64, 73, 83, 92, 102, 112, 121, 131, 140, 150, 159, 169, 179, 188, 198, 207)
@@ -124,7 +129,9 @@ async def p006_currents(dut: Any) -> None:
 )
 @directed("P006-EXC-21", "P006-EXC-22", "P006-EXC-23", "P006-EXC-24", "P006-CMD-10", "P006-CMD-13")
 async def p006_compensation(dut: Any, case: Any) -> None:
-    """Compensation is 0 up to the first update tick, then that of the active speed, 0 at standstill."""
+    """The compensation is 0 until the first update tick, then that of the active speed, and 0 at
+    standstill.
+    """
     m, e, ccomp, scomp, speed, forward = case
     host = await set_constant_speed(await Host.start(dut), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
     await run(host)
@@ -147,7 +154,7 @@ async def p006_compensation(dut: Any, case: Any) -> None:
 
 @directed("P006-EXC-22", "P006-EXC-23", "P006-CMD-54", "P006-CMD-10", "P006-CMD-13")
 async def p006_factors_act_at_once(dut: Any) -> None:
-    """CCOMP, SCOMP and CUR act on a running motion; MSTEP does not."""
+    """CCOMP, SCOMP and CUR take effect during a motion; MSTEP does not."""
     host = await set_constant_speed(await Host.start(dut), 2000, m=0, a=0, e=1000)
     await run(host)
     mark = host.mark
@@ -165,9 +172,10 @@ async def p006_factors_act_at_once(dut: Any) -> None:
 
 @directed("P006-EXC-30", "P006-EXC-31", "P006-EXC-32", "P006-CMD-14", "P006-CMD-22", "P006-STA-03")
 async def p006_decay(dut: Any) -> None:
-    """The current is reduced 100 ms after the fall of BUSY by the selected coefficient.
+    """The current is reduced by the selected coefficient 100 ms after the fall of BUSY.
 
-    a, Q and an accepted motion act immediately, a rejected s has no effect.
+    Instructions a and Q and an accepted motion take effect immediately; a rejected instruction s has no
+    effect.
     """
     host = await constant_speed_host(dut)
     await start(host, 1)
@@ -198,7 +206,9 @@ async def p006_decay(dut: Any) -> None:
 
 @directed("P006-STA-12", "P006-EXC-30", "P006-CMD-28")
 async def p006_free(dut: Any) -> None:
-    """g 1 switches everything off immediately; g 0 restores the hold current at the kept angle."""
+    """Instruction g 1 switches all outputs off immediately; g 0 restores the hold current at the same
+    angle.
+    """
     host = await constant_speed_host(dut)
     await host.ok(e=2000)
     await start(host, 500)

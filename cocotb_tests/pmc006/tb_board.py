@@ -1,4 +1,4 @@
-"""A board with a PMC006B4: both lines, strobes of the converter, LEDs, the button, content of the EEPROM."""
+"""A board with a PMC006B4: both lines, strobes of the converter, LEDs, button, content of the EEPROM."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from cocotb_tests.harness.line import UartBfm
 from cocotb_tests.pmc006.frames import command, of_reply
 
 BAUD, ADDRESS = 115_200, 255
-ACCEPTED = 3  # reply to s
+ACCEPTED = 3  # reply to an accepted instruction s
 INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "cmp": 0, "ext1": 1, "ext2": 1, "gpi": 31}
 INPUTS |= {"conv": 0, "adc_stb": 0, "bemf_stb": 0}
 LINE, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
 class Host(UartBfm):
-    """A PC on one of the two lines."""
+    """PC on one of the two lines."""
 
     def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
         super().__init__(rxd, txd, BAUD)
@@ -30,7 +30,7 @@ class Host(UartBfm):
         self._whole = Event()
 
     def on_char(self, byte: int) -> None:
-        """Collect a reply; DE must be asserted."""
+        """Collect a byte of a reply; DE must be asserted."""
         same("DE", int(self._de.value), 1)
         self.bytes.append(byte)
         if len(self.bytes) == 8:
@@ -64,12 +64,12 @@ class Board:
         return int(self.dut.lamps.value) >> which & 1
 
     async def boot(self) -> None:
-        """Wait until the bridges are on, which ends the boot; the LED "running" is on before."""
+        """Wait until the bridges are on, which is the end of the boot; the LED "running" is lit then."""
         await with_timeout(RisingEdge(self.dut.bridge_a_en), 60, "ms")
         same("running", self.led(RUNNING), 1)
 
     async def strobe(self, name: str, level: int) -> None:
-        """Make one conversion on the bus of the converter, as short as allowed, then apply another level."""
+        """Make one conversion of minimum length on the bus of the converter, then apply another level."""
         pin = getattr(self.dut, name)
         self.dut.conv.value, pin.value = level, 1
         await ClockCycles(self.dut.clk, 4)
@@ -78,7 +78,7 @@ class Board:
 
 
 async def start(dut: Any) -> Board:
-    """Power on and boot the board; both lines are recorded from then on."""
+    """Power on and boot the board; record both lines from then on."""
     board = Board(dut)
     await board.boot()
     await ClockCycles(dut.clk, 10)
@@ -89,7 +89,7 @@ async def start(dut: Any) -> Board:
 
 @cocotb.test()
 async def board006_both_lines(dut: Any) -> None:
-    """Either host receives its reply on both lines; DE frames the reply, and the LED of the line is on."""
+    """If either host sends a frame, both lines carry the reply, DE frames it, and the LED "line" is lit."""
     board = await start(dut)
     same("LED before", board.led(LINE), 0)
     for host, other in ((board.usb, board.rs485), (board.rs485, board.usb)):
@@ -103,7 +103,9 @@ async def board006_both_lines(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_motion_and_leds(dut: Any) -> None:
-    """A move lights its LED until its last step; the switches have an LED, and the outputs follow y."""
+    """A move lights its LED until its last step, the switches light their LED, and the outputs follow
+    instruction y.
+    """
     board = await start(dut)
     usb, steps = board.usb, 0
     same("y", await usb.ask("y", 0b10110 << 3), 0b10110 << 3)
@@ -128,15 +130,15 @@ async def board006_motion_and_leds(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_converter(dut: Any) -> None:
-    """On one bus with two strobes, the speed uses only the first, the stall detector only the second."""
+    """Of two strobes on one bus, the speed uses only the first and the stall detector only the second."""
     board = await start(dut)
     usb = board.usb
-    # VSET selects the analog speed with full scale 1198. With the sample 512 it is 1198 * 513 // 1024 = 600
-    # pps, the start speed, so the move has this speed throughout.
+    # VSET selects the analog speed with full scale 1198. With the sample 512 the speed is 1198 * 513 // 1024
+    # = 600 pps, which is the start speed, so the whole move has this speed.
     for code, data in (("A", 0), ("W", 0x0108), ("W", 1198), ("A", 0), ("E", 0)):
         await usb.ask(code, data)
     same("VMAX", await usb.ask("q"), 1198)
-    for code, data in (("T", 2), ("Y", 1), ("Z", 100)):  # two samples below 100 make a stall
+    for code, data in (("T", 2), ("Y", 1), ("Z", 100)):  # two samples below 100 cause a stall
         same(code, await usb.ask(code, data), data)
     await board.strobe("adc_stb", 512)
     await board.strobe("bemf_stb", 1000)
@@ -145,7 +147,7 @@ async def board006_converter(dut: Any) -> None:
     for _ in range(4):
         await with_timeout(RisingEdge(dut.mon_step), 10, "ms")
         times.append(get_sim_time("us"))
-        for _ in range(3):  # the levels are low, but on the other input
+        for _ in range(3):  # the levels are low, but the strobe of the other input is used
             await board.strobe("adc_stb", 30)
     period = (times[-1] - times[0]) / 3
     assert abs(period - 1e6 / 600) <= 1, f"{period} us from step to step"
@@ -160,12 +162,14 @@ async def board006_converter(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_button_and_eeprom(dut: Any) -> None:
-    """The button resets part and bridges immediately; saved settings are restored, others are not."""
+    """The button resets part and bridges immediately. Saved settings are restored, unsaved settings are
+    not.
+    """
     board = await start(dut)
     rs485 = board.rs485
     for code, data in (("m", 32), ("v", 2000), ("t", 0)):
         await rs485.ask(code, data)
-    await Timer(4, "ms")  # a page at 400 kHz and the write time of the device
+    await Timer(4, "ms")  # time for a page at 400 kHz, and the write time of the device
     dut.btn_n.value = 0
     await with_timeout(FallingEdge(dut.bridge_a_en), 1, "us")
     same("bridges", int(dut.bridge_b_en.value), 0)

@@ -16,7 +16,9 @@ SAVED = page(
     a03=0x78, a04=0, a06=5, a07=4, a08=0, a09=4, a0A=3, a0B=0, a0C=0xB8, a0D=0x0B, a0E=65, a0F=0,
     a10=0xB0, a11=4, a12=0xD0, a13=7, a14=0xA0, a15=0x0F,
 )  # fmt: skip
-"""Address 120, m 0, u 5, o 4, a 0, Q 4, J 3, L 3000, S 65, M 1200, P 2000, e 4000: ends of their ranges."""
+"""Valid page with the ends of the ranges: address 120, m 0, u 5, o 4, a 0, Q 4, J 3, L 3000, S 65, M 1200, P
+2000, e 4000.
+"""
 VALUES = {"k": 0, "r": 5, "h": 4, 0x55: 4, "K": 3, "L": 3000, "S": 65, "M": 1200, "P": 2000, "n": 4000}
 FACTORY = {"k": 16, "r": 0, "h": 0, 0x55: 1, "K": 0, "L": 600, "S": 600, "M": 300, "P": 1250, "n": 800}
 BLINK = (out(1, 1), goto(1))
@@ -24,7 +26,7 @@ BLINK = (out(1, 1), goto(1))
 
 
 async def values(host: Host) -> dict[str | int, int]:
-    """Return the registers that are saved."""
+    """Return the values of the registers that are saved."""
     return {code: await host.ask(code) for code in FACTORY}
 
 
@@ -34,7 +36,7 @@ async def booted(dut: Any, content: bytes, address: int = 0xFF, **more: Any) -> 
 
 
 async def unread(host: Host) -> bool:
-    """Return whether nothing was written and the values of the page are not used."""
+    """Return whether no byte was written and the values of the page are not in the registers."""
     return not host.eeprom.writes and await host.ask("k") == 16 and host.replied == 0xFF
 
 
@@ -46,12 +48,14 @@ async def p006_all_registers_of_the_page(dut: Any) -> None:
 
 
 ILLEGAL = ({"a03": 121}, {"a04": 6}, {"a08": 2}, {"a0C": 64, "a0D": 0}, {"a13": 8}, {"a15": 0x10}, {"a02": 2})
-"""One byte or field of a valid block changed; the sum is correct."""
+"""Changes of one byte or field of a valid block whose sum is correct."""
 
 
 @directed("P006-BAD-14", "P006-EEP-01")
 async def p006_one_bad_field_makes_the_block_bad(dut: Any) -> None:
-    """One invalid field makes the block invalid: factory values apply, no write, the program is kept."""
+    """One invalid field makes the block invalid: factory values apply, nothing is written, and the program is
+    kept.
+    """
     for changes in ILLEGAL:
         host = await booted(dut, image(page(a06=3, a07=4, **changes), BLINK))
         assert await unread(host), changes
@@ -75,8 +79,8 @@ async def p006_sum_and_unused_bytes_of_the_block(dut: Any) -> None:
 async def p006_a_copy_replaces_a_bad_block(dut: Any) -> None:
     """A valid copy replaces a block with an invalid sum, head or field.
 
-    The copy is checked in the same way, and nothing is written. With a valid block the copy is not used. The
-    program is checked independently.
+    The copy is validated in the same way, and nothing is written. If the block is valid, the copy is not
+    used. The program is validated independently.
     """
     old, new = page(a04=4, a03=7), page(a04=32, a03=9, a0B=1)
     torn, wild, short = bytearray(old), page(a04=6), page(a02=2)
@@ -106,9 +110,9 @@ async def p006_a_copy_replaces_a_bad_block(dut: Any) -> None:
 
 @directed("P006-BAD-15", "P006-PRG-11", "P006-PRG-01", "P006-EEP-11")
 async def p006_which_programs_count(dut: Any) -> None:
-    """A program is valid if its own sum and its end mark are correct.
+    """A program is valid if its sum and its end mark are correct.
 
-    An invalid program leaves 200 words of 0 and is not started.
+    After an invalid program, all 200 words are 0, and no program is started.
     """
     good = image(page(a0B=1, a04=4), BLINK)
     host = await booted(dut, good)
@@ -127,7 +131,9 @@ async def p006_which_programs_count(dut: Any) -> None:
 
 @directed("P006-PRG-11", "P006-PRG-01")
 async def p006_a_good_program_without_a_good_block(dut: Any) -> None:
-    """A valid program without a valid block is loaded, but the OFFLINE of the factory does not start it."""
+    """If the program is valid and the block is not, the program is loaded, but the factory value of OFFLINE
+    does not start it.
+    """
     host = await booted(dut, image(b"\xff" * 32, BLINK))
     assert await unread(host) and await host.out("gpo") == 0 and await host.ask("G") == words(BLINK)[0]
     await host.ok(A=0)
@@ -145,9 +151,9 @@ async def p006_last_instruction_and_high_bytes_are_loaded(dut: Any) -> None:
 @cocotb.parametrize(fault=["missing", "other", "scl"])
 @directed("P006-BAD-13", "P006-EEP-01", "P006-BAD-12")
 async def p006_without_a_device(dut: Any, fault: str) -> None:
-    """Without a device the part works after it has called for 10 ms, or 1 ms with the clock held low.
+    """Without a device, the part works after 10 ms of unanswered transfers, or after 1 ms if SCL is held low.
 
-    Save instructions are accepted without effect.
+    Save instructions are accepted and have no effect.
     """
     faults: dict[str, Any] = {"stuck": "scl"} if fault == "scl" else {fault: True}
     chip = Chip(image(SAVED), **faults)
@@ -166,9 +172,9 @@ async def p006_without_a_device(dut: Any, fault: str) -> None:
 
 @directed("P006-BAD-24", "P006-BAD-13", "P006-EEP-01")
 async def p006_a_device_that_holds_sda(dut: Any) -> None:
-    """A device that holds SDA after a reset during a read is released with up to 9 pulses.
+    """If a device holds SDA low after a reset during a read, up to 9 pulses release it.
 
-    If it never releases SDA, it is absent immediately.
+    If it never releases SDA, the part immediately treats it as absent.
     """
     host = await booted(dut, image(SAVED), 120)
     for clk in range(0, 80, 23):

@@ -27,14 +27,14 @@ class Times:
 
 
 async def ready(dut: Any) -> tuple[Host, Times]:
-    """Return a part that holds its full current."""
+    """Return a host of a part that holds its full current."""
     host = await Host.start(dut)
     await host.ok(a=0, e=4000)
     return host, Times(host)
 
 
 def never_both(host: Host) -> bool:
-    """Return whether the two halves of a bridge are never high together."""
+    """Return whether the two half-bridges of a bridge are never high together."""
     for pair in (("m10", "m11"), ("m20", "m21")):
         times = sorted({t for name in pair for t, _ in host.edges(name)})
         if any(all(host.level_at(name, t) for name in pair) for t in times[:400]):
@@ -44,9 +44,9 @@ def never_both(host: Host) -> bool:
 
 @directed("P006-CHP-02", "P006-CHP-03", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20", builds=BUILDS)
 async def p006_stuck_comparators(dut: Any) -> None:
-    """A comparator stuck at 1 alternates OFF and FAST, one stuck at 0 stays ON indefinitely.
+    """With a comparator stuck at 1, OFF and FAST alternate; with one stuck at 0, ON lasts indefinitely.
 
-    The phases are independent.
+    The phases are independent of each other.
     """
     host, times = await ready(dut)
     assert (await host.out("m10"), await host.out("m11"), await host.out("m20"), await host.out("m21")) == (
@@ -76,14 +76,16 @@ async def p006_stuck_comparators(dut: Any) -> None:
 
 @directed("P006-CHP-03", "P006-CHP-05", builds=BUILDS)
 async def p006_lengths_of_the_pulses(dut: Any) -> None:
-    """ON lasts at least the blanking time, then until the comparator rises.
+    """ON lasts at least the blanking time, and after it until the comparator rises.
 
     FAST ends when the comparator falls, or after TF.
     """
     host, times = await ready(dut)
 
     async def cycle(rise: int, fall: int) -> tuple[int, int]:
-        """Raise cmp_a `rise` cycles after an ON begins, lower it `fall` cycles after the next pulse."""
+        """Raise cmp_a `rise` cycles after an ON begins; lower it `fall` cycles after the next pulse
+        begins.
+        """
         await host.pins(cmp_a=1)
         await host.pause(2 * times.off + 2 * times.fast)
         await host.pins(cmp_a=0)
@@ -117,9 +119,9 @@ async def p006_lengths_of_the_pulses(dut: Any) -> None:
 
 @directed("P006-CHP-04", "P006-CHP-02", "P006-CHP-06", builds=BUILDS)
 async def p006_reversals(dut: Any) -> None:
-    """A change of sign causes an OFF of TOFF; no bridge reverses directly.
+    """A change of the sign causes an OFF of TOFF; no bridge reverses directly.
 
-    With a reference of 0 nothing is switched on.
+    With a reference of 0, no ON occurs.
     """
     host, times = await ready(dut)
     await set_constant_speed(host, 500, m=2, P=300)
@@ -147,7 +149,7 @@ async def p006_reversals(dut: Any) -> None:
 async def p006_reference_of_0(dut: Any) -> None:
     """At a reference of 0, FAST reduces the remaining current to 0.
 
-    Then OFF follows OFF, exact to the cycle, until the reference is not 0.
+    Then one OFF follows another, exact to the cycle, until the reference is not 0.
     """
     host, times = await ready(dut)
     await set_constant_speed(host, 500, m=2)
@@ -155,7 +157,7 @@ async def p006_reference_of_0(dut: Any) -> None:
     await wait_stopped(host)
     await host.pause(64)
     assert not await host.out("phase_b_ref") and not await host.out("phase_b_sign")
-    # The previous ON ends with the comparator, which falls in the middle of the second FAST.
+    # The previous ON ends because the comparator is high. The comparator falls during the second FAST.
     await host.pins(cmp_b=1)
     since = host.t
     await host.pause(2 * times.off + times.fast + times.blank)
@@ -164,14 +166,14 @@ async def p006_reference_of_0(dut: Any) -> None:
     (first, _), (over, _), (second, _), (fall, _) = host.edges("m21", since)
     assert (over - first, second - over) == (times.fast, times.off)
     assert times.blank <= fall - second <= times.fast
-    # Now there is a current again: FAST follows at the next end of an OFF.
+    # The comparator reports a current again, so FAST follows at the next end of an OFF.
     await host.pins(cmp_b=1)
     await host.pause(times.off + 4)
     await host.pins(cmp_b=0)
     again = host.edges("m21", fall + 1)[0][0]
     assert (again - fall) % times.off == 0
     assert [level for _, level in host.edges("m20", since)] == [0], "on without a reference"
-    # The next step has a new sign and therefore a separate OFF.
+    # The next step changes the sign and therefore causes another OFF.
     await start(host, 1)
     await host.pause(2 * times.off + 64)
     turned = host.edges("phase_b_sign", again)[0][0]
@@ -198,7 +200,9 @@ async def p006_bridges_off(dut: Any) -> None:
 
 @directed("P006-CHP-03", "P006-CHP-04", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20", builds=BUILDS)
 async def p006_restless_comparators(dut: Any) -> None:
-    """With comparator edges at any time during a motion, the outputs equal the model and never overlap."""
+    """With comparator edges at any time during a motion, the outputs equal the model, and no half-bridges
+    overlap.
+    """
     host, times = await ready(dut)
     await set_constant_speed(host, 2500, m=4)
     await run(host)

@@ -1,4 +1,4 @@
-"""Times at a clock that is not a multiple of 1 MHz: each deviates by at most one cycle."""
+"""Times at a clock that is not a multiple of 1 MHz, each of which deviates by at most one cycle."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ BUILDS = (ODD,)
 
 @directed("P006-PAR-01", "P006-MOT-03", "P006-MOT-20", "P006-MOT-05", "P006-AC-45", builds=BUILDS)
 async def p006_intervals(dut: Any) -> None:
-    """M13 is exact: `intervals` checks every interval, the sum checks the drift."""
+    """The worked example M13 is exact: `intervals` checks each interval, and the sum excludes a drift."""
     host = await Host.start(dut)
     await host.ok(u=3, o=3, v=3200)
     await start(host, 256)

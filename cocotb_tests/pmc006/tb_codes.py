@@ -1,4 +1,4 @@
-"""Every instruction code with data inside and outside of its range, and its replies."""
+"""Every instruction code with data inside and outside its range, and the replies."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ from .moves import (
 from .programs import END, Op, out, rot
 
 BEYOND = (0x7FFFFFFF, -0x80000000, -1, 0x10000, 0x100)
-"""Data that few registers accept; their low bytes would be legal for many."""
+"""Data that few registers accept, although the low bytes alone would be legal for many."""
 
 
 class Row(NamedTuple):
-    """Register: code, factory value, accepted data, rejected data, code that reads it."""
+    """For each register: code, factory value, accepted data, rejected data, code that reads the register."""
 
     code: str
     factory: int
@@ -72,7 +72,7 @@ IDS += tuple(f"P006-CMD-{n:02}" for n in (30, 32, 34, 35, 36, 38, 39, 42, 43, 49
 @cocotb.parametrize(row=REGISTERS)
 @directed(*IDS, "P006-BAD-08", "P006-BAD-09")
 async def p006_register(dut: Any, row: Row) -> None:
-    """Accepted data is echoed; rejected data does not change the register, whose value is the reply."""
+    """Accepted data is echoed. Rejected data does not change the register, whose value is the reply."""
     host = await Host.start(dut)
 
     async def check_value(value: int) -> None:
@@ -95,7 +95,9 @@ async def p006_register(dut: Any, row: Row) -> None:
 
 @directed("P006-CMD-48", "P006-BAD-07", "P006-FRM-03")
 async def p006_unknown_codes(dut: Any) -> None:
-    """Each undefined code, with data that would be legal for many codes, has one reply and no effect."""
+    """Each undefined code has the same reply and no effect, also with data that would be legal for many
+    codes.
+    """
     known = {ord(letter) for letter in "ABEFGIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"}
     host = await Host.start(dut)
     unknown = [code for code in range(256) if code not in known]
@@ -187,7 +189,7 @@ async def p006_speed_mode(dut: Any) -> None:
     assert await host.ask("N", 0) == 0 and not await host.ask("O") & SPEED_MODE
     await wait_stopped(host)
     assert set(host.intervals(mark)) <= {333, 334}
-    # A displacement is not the speed mode: N 1 is rejected, N 0 has no effect.
+    # A move is not the speed mode: N 1 is rejected, and N 0 has no effect.
     await start(host, 40)
     mark = host.mark
     assert await host.ask("N", 1) == 0 and await host.ask("N", 0) == 0

@@ -22,14 +22,14 @@ from .moves import (
 from .programs import Op, goto, out
 
 NEAR = range(-3, 4)
-"""Distances in cycles."""
+"""Distances of two events in cycles."""
 TICKS = 1001
-"""Microsecond ticks of a filter."""
+"""Number of microsecond ticks of a key filter."""
 HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D
 
 
 async def collide(host: Host, code: str, data: int, shift: int, **levels: int) -> int:
-    """Send a frame; the pins take effect inside `shift` cycles after the frame. Return the reply."""
+    """Send a frame; pins change so that they take effect `shift` cycles after the frame. Return the reply."""
     begin = host.t
     await host.send_frame(code, data)
     await host.at(begin + frame_clk(host) + ACT + shift - 2, **levels)
@@ -37,19 +37,21 @@ async def collide(host: Host, code: str, data: int, shift: int, **levels: int) -
 
 
 def frame_clk(host: Host) -> int:
-    """Return the cycles from the begin of a frame to its e, including the synchronisers."""
+    """Return the cycles from the begin of a frame to e (its last stop-bit sample), including the
+    synchronisers.
+    """
     return 7 * ceil(10 * host.bit) + 2 + ceil(9.5 * host.bit) - 1
 
 
 async def say_at(host: Host, t: int, code: str, data: int = 0) -> int:
-    """Send a frame that takes effect at edge t if nothing is in progress. Return the reply."""
+    """Send a frame that takes effect at edge t if no instruction is in progress then; return the reply."""
     await host.go(t - ACT - frame_clk(host))
     await host.send_frame(code, data)
     return await host.receive_reply()
 
 
 def key_event(host: Host, edge: int) -> int:
-    """Return the edge of the event of a key that edge `edge` has sampled low."""
+    """Return the edge of a key event if edge `edge` is the first that samples the key low."""
     first = -(-(edge + 2 - 1) * 1_000_000 // host.clk_hz)
     return 1 - (-(first + TICKS - 1) * host.clk_hz // 1_000_000)
 
@@ -58,7 +60,7 @@ def key_event(host: Host, edge: int) -> int:
 async def p006_start_and_emergency_stop(dut: Any) -> None:
     """An emergency stop near a start always sets the flag and stops the motor.
 
-    The reply is 0 or that of an accepted start.
+    The reply is 0 or the reply of an accepted start.
     """
     host = await constant_speed_host(dut)
     await host.ok(f=1)
@@ -69,7 +71,7 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
             assert not await host.busy() and reply in (0, good) and await host.status() == DECAY | EXT1
             replies.append(bool(reply))
             assert await host.ask("b") == 0
-            # The level of one pin together with a change of another pin is not an edge.
+            # If one pin is active and another pin changes, this is not an edge.
             await host.pins(gpi=KEY1)
             await host.pins(gpi=HIGH)
             assert await host.status() == DECAY
@@ -80,9 +82,9 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-EXT-08", "P006-CMD-23", "P006-CMD-27")
 async def p006_flag_and_its_clearing(dut: Any) -> None:
-    """If the flag is set and cleared in the same cycle, it is set.
+    """If the flag is set and cleared in the same cycle, it is set afterwards.
 
-    An edge in the cycle of its own enable is detected, too.
+    An edge in the cycle in which its input is enabled is detected, too.
     """
     host = await Host.start(dut)
     await host.ok(f=1)
@@ -97,7 +99,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
         await host.ok(f=int(code == "J"), J=0)
         seen = []
         for shift in NEAR:
-            # The input is enabled, or changed to the rising edge, near a falling edge.
+            # The test enables the input, or selects its rising edge, near a falling edge.
             assert await collide(host, code, data, shift, ext1=0) == data
             seen.append(bool(await host.status() & EXT1))
             assert await host.ask("f", 0) == 0
@@ -126,7 +128,9 @@ async def p006_position_and_step(dut: Any) -> None:
 
 @directed("P006-MOT-42", "P006-STA-14", "P006-CMD-11", "P006-MOT-41")
 async def p006_speed_mode_restarted_at_its_end(dut: Any) -> None:
-    """N 1 up to the edge at which the motion would end prolongs it; after this edge it starts another."""
+    """If N 1 is sent before or at the edge at which the speed mode would end, the motion continues; after
+    this edge, N 1 starts another motion.
+    """
     host = await Host.start(dut)
     await host.ok(v=300, L=300, S=65, o=5)
     length = 0
@@ -144,7 +148,7 @@ async def p006_speed_mode_restarted_at_its_end(dut: Any) -> None:
 
 
 async def ready_for_reset(host: Host) -> int:
-    """Run the program from its begin and press GPI1; return the edge of the event."""
+    """Run the program from its first instruction and press GPI1; return the edge of the key event."""
     await host.ok(A=0)
     assert await host.ask("z") == 1
     await host.pins(gpi=KEY1)
@@ -153,7 +157,9 @@ async def ready_for_reset(host: Host) -> int:
 
 @directed("P006-PRG-31", "P006-STA-14", "P006-PRG-15", "P006-BAD-23")
 async def p006_reset_key_and_frames(dut: Any) -> None:
-    """Starts, F 0 and z near the event of the RESET key have valid replies, and RESET is executed."""
+    """Starts and instruction F 0 near the event of the RESET key have valid replies, and RESET is
+    executed.
+    """
     host = await constant_speed_host(dut, 2500)
     await host.wait_us(1_010)
     await download(host, [Op(0x13, 1, 3), Op(0x10, 3, 0), goto(1), out(1, 1), goto(4)])
@@ -173,7 +179,9 @@ async def p006_reset_key_and_frames(dut: Any) -> None:
 
 @directed("P006-PRG-31", "P006-PRG-15", "P006-PRG-16", "P006-PRG-32")
 async def p006_keys_in_every_clk_of_an_instruction(dut: Any) -> None:
-    """RESET cancels the instruction in progress or follows it; PAUSE lets it end."""
+    """RESET cancels the instruction in progress or is executed after it; PAUSE lets the instruction
+    complete.
+    """
     host = await constant_speed_host(dut, 2500)
     await host.wait_us(1_010)
     loop = (Op(0x13, 1, 5), Op(0x14, 1, 0), out(1, 1), out(1, 0), goto(2), goto(5))
@@ -195,7 +203,9 @@ async def p006_keys_in_every_clk_of_an_instruction(dut: Any) -> None:
 
 @directed("P006-PRG-15", "P006-PRG-16", "P006-FRM-03", "P006-CMD-46")
 async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
-    """A y between two OUTs sets the pins, and the last instruction determines their levels."""
+    """Instruction y between two OUT instructions of the program sets the pins; afterwards the last
+    instruction determines their levels.
+    """
     host = await Host.start(dut)
     await load(host, out(1, 1), out(2, 1), out(1, 0), out(2, 0), goto(0))
     begin = host.t + frame_clk(host) + 100
@@ -209,7 +219,9 @@ async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
 
 @directed("P006-PRG-20", "P006-CMD-03", "P006-STA-14")
 async def p006_single_try_and_emergency_stop(dut: Any) -> None:
-    """A stop before the ROT of E rejects it, a stop after it ends it: no step is made."""
+    """If a stop occurs before the ROT that instruction E executes, the ROT is rejected; a later stop ends its
+    motion. No step is made.
+    """
     host = await constant_speed_host(dut)
     await host.ok(f=1)
     await download(host, [Op(1, 0, 50)])
@@ -222,7 +234,7 @@ async def p006_single_try_and_emergency_stop(dut: Any) -> None:
 
 @directed("P006-BAD-12", "P006-EEP-22", "P006-EEP-20")
 async def p006_restore_and_save(dut: Any) -> None:
-    """If the FSET event is near t, one of them is first: both are executed, or t is rejected."""
+    """If the FSET event occurs near instruction t (save), either both are executed or t is rejected."""
     host = await Host.start(dut)
     await host.wait_us(100)
     replies = []
@@ -240,9 +252,10 @@ async def p006_restore_and_save(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-BAD-06", "P006-FRM-10")
 async def p006_bytes_about_the_end_of_a_reply(dut: Any) -> None:
-    """A byte that begins before the middle of the last stop bit of a reply is ignored, a later one is not.
+    """If a byte begins before the middle of the last stop bit of a reply, it is ignored; a later byte is
+    received.
 
-    The line need not be idle.
+    The line need not be idle before this byte.
     """
     host = await Host.start(dut)
     heard = []
@@ -263,7 +276,9 @@ async def p006_bytes_about_the_end_of_a_reply(dut: Any) -> None:
 
 @directed("P006-STA-10", "P006-MOT-05", "P006-EXT-02", "P006-STA-14")
 async def p006_emergency_stop_and_step(dut: Any) -> None:
-    """An emergency stop some cycles before or after a step, also the last one, keeps the position exact."""
+    """If an emergency stop occurs some cycles before or after a step (also the last step), the position is
+    exact.
+    """
     host = await Host.start(dut)
     await set_constant_speed(host, 3000, f=1)
     for count in (1, 3):

@@ -1,4 +1,4 @@
-"""The choppers regulate the current of a motor model, which replaces constant comparators."""
+"""Choppers that regulate the current of a motor model, which replaces constant comparators."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .stepping import MotorHost
 
 
 async def ready(dut: Any, motor: Motor | None = None, **settings: int) -> tuple[MotorHost, Plant]:
-    """Return a part that holds its full current in a motor."""
+    """Return a host of a part that holds its full current in a motor."""
     host = await MotorHost.start(dut)
     await host.ok(a=0, **settings)
     return host, host.attach(motor)
 
 
 async def off_by(host: MotorHost, plant: Plant, since: int, until: int | None = None) -> float:
-    """Return the largest difference of a current and its reference between two edges, in amperes."""
+    """Return the maximum difference between a current and its reference between two edges, in amperes."""
     await host.sync()
     times = [t / host.clk_hz for t in range(since, until or host.t, 40)]
     return max(abs(one.current(t) - one.reference(t)) for one in plant.windings.values() for t in times)
@@ -28,7 +28,7 @@ async def off_by(host: MotorHost, plant: Plant, since: int, until: int | None = 
 
 @directed("P006-CHP-02", "P006-CHP-03", "P006-CHP-04", "P006-CHP-06")
 async def p006_regulated_at_rest_and_after_a_fall(dut: Any) -> None:
-    """At standstill the currents stay at the reference; fast decay reduces them to a smaller one."""
+    """At standstill the currents stay at the reference; fast decay reduces them to a lower reference."""
     host, plant = await ready(dut, e=2000)
     await host.ms(1)
     since = host.t
@@ -40,13 +40,13 @@ async def p006_regulated_at_rest_and_after_a_fall(dut: Any) -> None:
     await host.ms(0.5)
     assert await off_by(host, plant, since) < 0.04
     pulses = {pin: len(host.edges(pin, since)) // 2 for pin in ("m10", "m11", "m20", "m21")}
-    # There is one on or fast pulse in slightly more than 20 us.
+    # Each phase has one ON or FAST pulse per period of slightly more than 20 us.
     assert all(15 < pulses[a] + pulses[b] < 26 for a, b in (("m10", "m11"), ("m20", "m21")))
 
 
 @directed("P006-CHP-03", "P006-CHP-04", "P006-EXC-13")
 async def p006_regulated_in_motion(dut: Any) -> None:
-    """In half steps with back EMF, forward and backward, the currents reach their references."""
+    """In half steps with back EMF, in both directions, the currents reach their references."""
     host, plant = await ready(dut, e=1000, m=2)
     await set_constant_speed(host, 2000)
     plant.spin(4.0, 250, 1.0)
@@ -55,7 +55,7 @@ async def p006_regulated_in_motion(dut: Any) -> None:
         await start(host, 10)
         since = host.t
         await host.until("mon_busy", 0)
-        # Between two steps of 0.5 ms each current reaches its reference.
+        # The current reaches its reference before the next step, which occurs after 0.5 ms.
         for before, after in pairwise(host.steps(since)):
             assert after - before == host.us(500)
             assert await off_by(host, plant, after - host.us(50), after) < 0.1
@@ -65,7 +65,7 @@ async def p006_regulated_in_motion(dut: Any) -> None:
 
 @directed("P006-CHP-04", "P006-CHP-03")
 async def p006_nothing_is_left_at_a_reference_of_0(dut: Any) -> None:
-    """Fast decay removes the current when the reference falls from 71 % to 0 without a new sign."""
+    """If the reference falls from 71 % to 0 without a change of sign, fast decay removes the current."""
     host, plant = await ready(dut, e=2000, m=2, P=300)
     await set_constant_speed(host, 1000)
     await start(host, 3)
@@ -78,7 +78,9 @@ async def p006_nothing_is_left_at_a_reference_of_0(dut: Any) -> None:
 
 @directed("P006-CHP-01", "P006-STA-12")
 async def p006_released_and_excited_again(dut: Any) -> None:
-    """With the bridges off the current decays in the diodes; it returns in the next cycle."""
+    """While the bridges are off, the current decays through the diodes; afterwards it returns in the next
+    period.
+    """
     host, plant = await ready(dut, Motor(2.0, 1e-3, 12.0), e=3000)
     await set_constant_speed(host, 3000)
     await run(host)

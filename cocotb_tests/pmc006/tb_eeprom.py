@@ -1,4 +1,6 @@
-"""The EEPROM of the benches in both languages: with equal lines, both pull equally in every cycle."""
+"""The EEPROM models of the benches in SystemVerilog and Python: with equal lines, both pull the same
+lines.
+"""
 
 from __future__ import annotations
 
@@ -17,19 +19,19 @@ Levels = tuple[int, int]
 
 
 class Master:
-    """Source of (cycles, SCL, SDA) as a master pulls them: valid transfers, and incomplete ones."""
+    """Source of (cycles, SCL, SDA) of a master: complete transfers, and incomplete ones."""
 
     def __init__(self, rng: random.Random, device: int) -> None:
         self.rng, self.device = rng, device
         self.sda = 1
 
     def hold(self, scl: int, sda: int) -> tuple[int, int, int]:
-        """Return the levels and a random time between two changes."""
+        """Return (random time, SCL, SDA) for the next levels."""
         self.sda = sda
         return self.rng.choice((2, 3, 5, 9)), scl, sda
 
     def start(self) -> Iterator[tuple[int, int, int]]:
-        """Yield a START, repeated or not."""
+        """Yield a START, which may be a repeated one."""
         yield self.hold(0, 1)
         yield self.hold(1, 1)
         yield self.hold(1, 0)
@@ -42,7 +44,7 @@ class Master:
         yield self.hold(1, 1)
 
     def bits(self, byte: int, acknowledge: int, count: int = 9) -> Iterator[tuple[int, int, int]]:
-        """Yield a byte and its acknowledge bit, or its first bits."""
+        """Yield a byte and its acknowledge bit, or only its first bits."""
         for level in [*(byte >> place & 1 for place in reversed(range(8))), acknowledge][:count]:
             yield self.hold(0, level)
             yield self.hold(1, level)
@@ -81,7 +83,7 @@ class Master:
 
 @cocotb.test()
 async def p006_eeprom_device(dut: Any) -> None:
-    """With random traffic, both devices pull the lines in the same cycles."""
+    """With random traffic, both devices pull the same lines in the same cycles."""
     rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
     stretch = int(dut.StretchCycles.value)
     model = Eeprom24C32(CLK_HZ, device=int(dut.Device.value), write_us=WRITE_CLK, stretch_us=stretch)
@@ -105,7 +107,7 @@ async def p006_eeprom_device(dut: Any) -> None:
                     model.on_lines(t, *lines)
                 before = lines
                 pulls = int(dut.scl_oe_o.value), int(dut.sda_oe_o.value)
-                assert pulls == (model.scl, model.sda), f"clk {t}: {pulls}, model {(model.scl, model.sda)}"
+                assert pulls == (model.scl, model.sda), f"cycle {t}: {pulls}, model {(model.scl, model.sda)}"
                 seen["scl"] += pulls[0]
                 seen["sda"] += pulls[1]
                 t += 1

@@ -1,4 +1,4 @@
-"""Emergency stops, port word; events in the same cycle."""
+"""Emergency stops, port word, and events in the same cycle."""
 
 from __future__ import annotations
 
@@ -34,7 +34,9 @@ CLEAR = {"ext1": "b", "ext2": "l"}
     "P006-EXT-01", "P006-EXT-02", "P006-EXT-05", "P006-EXT-06", "P006-EXT-08", "P006-STA-10", "P006-STA-18"
 )
 async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
-    """The selected edge stops any motion within 5 cycles; the other edge and the other pin have no effect."""
+    """The selected edge stops any motion within 5 cycles; the opposite edge and the other EXT pin have no
+    effect.
+    """
     other = "ext2" if pin == "ext1" else "ext1"
     host = await constant_speed_host(dut, levels={"sda_i": 0, pin: 1 - rising})
     mask = 1 if pin == "ext1" else 2
@@ -66,7 +68,9 @@ async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
 
 @directed("P006-EXT-02", "P006-EXT-03", "P006-EXT-04", "P006-EXT-07", "P006-EXT-09", "P006-BAD-26")
 async def p006_levels_never_stop(dut: Any) -> None:
-    """A switch that is active when it is enabled or when the mode changes sets no flag and stops nothing."""
+    """If a switch is already active when it is enabled or when the mode changes, no flag is set and no motion
+    stops.
+    """
     for level in (0, 1):
         host = await constant_speed_host(dut, levels={"sda_i": 0, "ext1": level, "ext2": level})
         await start(host, 2_000)
@@ -89,7 +93,7 @@ async def p006_edges_with_the_enable_off_are_forgotten(dut: Any) -> None:
     await host.pause(10)
     await host.pins(ext1=0)
     assert await host.status() == DECAY | EXT1
-    # f 0 does not clear the flag; b clears it.
+    # Instruction f 0 does not clear the flag; instruction b clears it.
     await host.ok(f=0)
     assert await host.status() == DECAY | EXT1 and await host.ask("s", 1) == 0
     assert await host.ask("b") == 0 and len(await move(host, 2)) == 1
@@ -126,7 +130,9 @@ async def p006_locked_part_answers_everything_else(dut: Any) -> None:
 
 @directed("P006-EXT-10", "P006-EXT-08", "P006-EXT-07")
 async def p006_homing(dut: Any) -> None:
-    """After homing to the switch and a fixed count off it, settings and position are exact."""
+    """After homing to the switch and a move of a fixed number of steps away from it, settings and position
+    are exact.
+    """
     host = await constant_speed_host(dut)
     await host.ok(f=1, d=0)
     await start(host, 0x7FFFFFFF)
@@ -161,7 +167,9 @@ async def p006_ext_around_the_last_step(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-17", "P006-EXT-02")
 async def p006_flag_set_and_cleared_in_one_clk(dut: Any) -> None:
-    """If the flag is set and cleared in the same cycle, it is set; a b that is executed later clears it."""
+    """If the flag is set and cleared in the same cycle, it is set afterwards; a later instruction b clears
+    it.
+    """
     host = await constant_speed_host(dut)
     await host.ok(f=1)
     outcomes = set()
@@ -202,7 +210,7 @@ async def p006_port_word(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-15", "P006-STA-10")
 async def p006_frames_executed_around_a_step(dut: Any) -> None:
-    """i, I and g near a step neither lose nor double a step, and no step follows a stop."""
+    """Instructions i, I and g near a step neither lose nor repeat a step, and no step follows a stop."""
     for code, data in (("i", 500), ("I", 0), ("g", 1)):
         for offset in range(-2, 5):
             host = await constant_speed_host(dut)

@@ -1,4 +1,4 @@
-"""The keys of a user program on GPI1 and GPI2, their filters, their effect in each state."""
+"""Keys of a user program on GPI1 and GPI2: filters, and effect in each state."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from .programs import END, Op, out, rot
 RESET_TO = 3
 HIGH, KEY1, KEY2, BOTH = 0x1F, 0x1E, 0x1D, 0x1C
 FILTER = 1000
-"""Filter time of a key in us; the event follows 0 .. 2 us later."""
+"""Filter time of a key in us; the event occurs 0 to 2 us later."""
 LATE = 60
-"""Cycles from an event to the effect of the instruction that it starts."""
+"""Maximum number of cycles from an event to the effect of the instruction that the event starts."""
 
 
 def reset_en(target: int, on: int = 1) -> Op:
-    """Return a RESET_EN."""
+    """Return a RESET_EN instruction."""
     return Op(0x13, on, target)
 
 
@@ -35,7 +35,7 @@ async def level(host: Host, gpi: int) -> int:
 
 
 async def press(host: Host, gpi: int, us: int = FILTER + 10) -> int:
-    """Press a key for `us`, then release it and wait for the filter; return the edge of the fall."""
+    """Press a key for `us` microseconds, release it, and wait for the filter; return the edge of the fall."""
     edge = await level(host, gpi)
     await host.wait_us(us)
     await level(host, HIGH)
@@ -44,7 +44,7 @@ async def press(host: Host, gpi: int, us: int = FILTER + 10) -> int:
 
 
 async def armed(dut: Any, **options: Any) -> Host:
-    """Return a host whose keys are armed."""
+    """Return a host whose program has armed the keys."""
     host = await constant_speed_host(dut, 2500, **options)
     await host.wait_us(FILTER + 10)
     return host
@@ -52,7 +52,7 @@ async def armed(dut: Any, **options: Any) -> Host:
 
 @directed("P006-PRG-30", "P006-PRG-31")
 async def p006_length_of_the_filter(dut: Any) -> None:
-    """Presses of 999 us are no event; one of 1003 us is one event, and the motion stops at its edge."""
+    """A press of 999 us is not an event. A press of 1003 us is one event, on whose edge the motion stops."""
     host = await armed(dut)
     await load(host, reset_en(RESET_TO), rot(100_000), END, out(1, 1), END)
     await after_steps(host, 2)
@@ -80,7 +80,7 @@ async def p006_reset_moves_to_its_target_after_the_release(dut: Any) -> None:
     edge = await level(host, KEY1)
     await host.wait_us(5 * FILTER)
     assert not await host.busy() and await is_stopped(host, 100) and not await host.out("gpo")
-    # The key bounces while it is released.
+    # The key bounces when it is released.
     for us in (300, FILTER - 1):
         await level(host, HIGH)
         await host.wait_us(us)
@@ -97,7 +97,9 @@ async def p006_reset_moves_to_its_target_after_the_release(dut: Any) -> None:
 
 @directed("P006-PRG-31")
 async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
-    """After a RESET the second round finds the counter at 1, and FLAG set by the first round."""
+    """After a RESET, the counter is 1 in the second iteration, and FLAG still has the value of the first
+    one.
+    """
     program = (
         reset_en(4),
         Op(0x0B),
@@ -118,13 +120,13 @@ async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
     await press(host, KEY1)
     assert await host.out("gpo") == 0b11 and await host.busy()
     await press(host, KEY1)
-    # CNTI increments the counter to 3 now, and CMP clears FLAG.
+    # CNTI now increments the counter to 3, and CMP clears FLAG.
     assert await host.out("gpo") == 0b11 and not await host.busy() and await host.ask("z") == 1
 
 
 @directed("P006-PRG-30")
 async def p006_a_key_active_at_power_up_has_no_effect(dut: Any) -> None:
-    """A key that is held at reset or when it is enabled has no effect until it has been released."""
+    """If a key is pressed at reset or when it is enabled, it has no effect until it has been released."""
     host = await constant_speed_host(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
     await host.wait_us(3 * FILTER)
     await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), END)
@@ -142,7 +144,7 @@ async def p006_a_key_active_at_power_up_has_no_effect(dut: Any) -> None:
 @cocotb.parametrize(held=[False, True])
 @directed("P006-PRG-30")
 async def p006_enabling_after_the_event(dut: Any, held: bool) -> None:
-    """An event before RESET_EN has no effect, though the key is still pressed."""
+    """An event before RESET_EN has no effect, although the key is still pressed."""
     host = await armed(dut)
     await level(host, KEY1)
     await host.wait_us(2 * FILTER)
@@ -155,7 +157,9 @@ async def p006_enabling_after_the_event(dut: Any, held: bool) -> None:
 
 @directed("P006-PRG-32", "P006-PRG-14")
 async def p006_pause(dut: Any) -> None:
-    """PAUSE toggles; during a pause a motion continues, no WAIT ends, and no instruction starts."""
+    """Each PAUSE event toggles the pause. During a pause a motion continues, no WAIT ends, and no instruction
+    starts.
+    """
     host = await armed(dut)
     await load(host, PAUSE_EN, rot(30), Op(0x10, 8, 0), out(1, 1), Op(0x10, 3, 0), out(2, 1), END)
     edge = await press(host, KEY2)
@@ -184,9 +188,9 @@ async def p006_pause(dut: Any) -> None:
 
 @directed("P006-PRG-32", "P006-PRG-12", "P006-CMD-04")
 async def p006_frames_while_paused(dut: Any) -> None:
-    """While paused the program is not halted: z, E and W are rejected.
+    """A paused program is not halted: instructions z, E and W are rejected.
 
-    F 0 ends the program, and a new start is not paused.
+    F 0 ends the program; a program that is started afterwards is not paused.
     """
     host = await armed(dut)
     await load(host, PAUSE_EN, WAIT_GPI3, out(1, 1), END)
@@ -203,7 +207,9 @@ async def p006_frames_while_paused(dut: Any) -> None:
 
 @directed("P006-PRG-32", "P006-BAD-23", "P006-PRG-31")
 async def p006_both_keys(dut: Any) -> None:
-    """RESET has priority and discards the event of PAUSE; while RESET is held, PAUSE is ignored."""
+    """RESET has priority and discards the event of PAUSE; while the RESET key is pressed, PAUSE is
+    ignored.
+    """
     host = await armed(dut)
     await load(host, reset_en(4), PAUSE_EN, rot(100_000), WAIT_GPI3, out(1, 1), END)
     edge = await level(host, BOTH)
@@ -228,9 +234,9 @@ async def p006_reset_ends_a_pause(dut: Any) -> None:
 
 @directed("P006-PRG-31", "P006-PRG-14")
 async def p006_reset_in_halt_stops_every_motion(dut: Any) -> None:
-    """RESET in HALT stops every motion, also one that the host has started.
+    """While the program is halted, the RESET key stops every motion, also one that the host has started.
 
-    The program stays at its place. F 0 disarms the key.
+    The program stays halted. Instruction F 0 disarms the key.
     """
     host = await armed(dut)
     await load(host, reset_en(2), END, out(1, 1), END)
@@ -270,7 +276,7 @@ async def p006_keys_are_off_after_a_start_and_when_switched_off(dut: Any) -> Non
 
 @directed("P006-PRG-33", "P006-PRG-30")
 async def p006_key_pins_are_inputs_as_before(dut: Any) -> None:
-    """WAIT, CMP and x sample the key pins immediately, without the filter."""
+    """WAIT, CMP and instruction x sample the key pins directly, without the filter."""
     host = await armed(dut)
     await load(
         host, reset_en(0), PAUSE_EN, Op(0x10, 1, 0), out(1, 1), Op(0x10, 2, 0), out(2, 1), Op(0x12, 9, BOTH)

@@ -1,4 +1,4 @@
-"""Bytes and frames on the link, valid and invalid; the times of replies, and frames without a reply."""
+"""Valid and invalid bytes and frames on the link; times of replies, and frames without a reply."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ async def p006_all_levels_of_all_bits(dut: Any) -> None:
 @cocotb.parametrize(error=[0.025, -0.025, 0.012, -0.012])
 @directed("P006-UART-04", builds=BUILDS)
 async def p006_wrong_bit_rate(dut: Any, error: float) -> None:
-    """Frames without gaps are received with a bit rate that is 2.5 % too high or too low.
+    """Frames without gaps are received if the bit rate is 2.5 % too high or too low.
 
-    The last sample of a frame has the accumulated error.
+    At the last sample of a frame, the errors of its bits have added up.
     """
     await echo(await Host.start(dut, error=error), *PATTERNS[:3])
 
@@ -56,7 +56,7 @@ async def p006_gaps_between_bytes(dut: Any) -> None:
 
 @directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
 async def p006_spikes_on_an_idle_line(dut: Any) -> None:
-    """Spikes shorter than half a bit on an idle line have no effect."""
+    """Low levels shorter than half a bit on an idle line have no effect."""
     host = await Host.start(dut)
     half = host.bit / 2
     for clk in (1, 2, 3, int(half) - 2):
@@ -76,7 +76,7 @@ async def p006_spikes_on_an_idle_line(dut: Any) -> None:
 
 @directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
 async def p006_noise_away_from_the_samples(dut: Any) -> None:
-    """Wrong levels for a fifth of a bit have no effect if they are not at the sampling times."""
+    """A wrong level for a fifth of a bit has no effect unless it is at the sampling time."""
     host = await Host.start(dut)
     clk = int(host.bit / 5)
     for byte in command(0xFF, "i", 0x0FF0A55A):
@@ -88,7 +88,7 @@ async def p006_noise_away_from_the_samples(dut: Any) -> None:
 @cocotb.parametrize(place=range(8))
 @directed("P006-UART-03", "P006-BAD-05", builds=BUILDS)
 async def p006_framing_error_in_each_byte(dut: Any, place: int) -> None:
-    """A framing error in any byte discards the frame; the rest of the frame does not start another one."""
+    """A framing error in any byte discards the frame, whose remaining bytes do not begin another frame."""
     host = await Host.start(dut)
     for number, byte in enumerate(command(0xFF, "i", 0xA5A5)):
         await host.character(byte, stop=int(number != place))
@@ -100,12 +100,15 @@ async def p006_framing_error_in_each_byte(dut: Any, place: int) -> None:
 @cocotb.parametrize(bits=[9.3, 9.7, 12, 60, 2000])
 @directed("P006-UART-03", "P006-BAD-05", builds=BUILDS)
 async def p006_breaks(dut: Any, bits: float) -> None:
-    """A break of any length discards at most the frame that it disturbs; the next frame needs no pause."""
+    """A break of any length discards at most the frame that it disturbs. The next frame needs no pause before
+    it.
+    """
     host = await Host.start(dut)
     await host.send(J[:4])
     await host.low(bits)
     if bits < 9.5:
-        # The low level is shorter than a break: a valid byte 00, like J[4]. The rest of the frame follows.
+        # The low level is shorter than a break, so it is a valid byte 00, like J[4]. The remaining bytes of
+        # the frame follow.
         await host.send(J[5:])
         assert await host.receive_reply() == DECAY
     assert await host.ask("j") == DECAY
@@ -113,7 +116,7 @@ async def p006_breaks(dut: Any, bits: float) -> None:
 
 @directed("P006-UART-03", "P006-BAD-24", builds=BUILDS)
 async def p006_line_low_during_reset(dut: Any) -> None:
-    """No byte begins before the line has been high after a reset."""
+    """After a reset, no byte begins before the line has been high."""
     host = await Host.start(dut, levels={"sda_i": 0, "rxd": 0}, boot=False)
     await host.boot()
     await host.pause(ceil(30 * host.bit))
@@ -135,7 +138,7 @@ async def p006_bytes_before_a_frame(dut: Any) -> None:
 
 @directed("P006-FRM-02", "P006-FRM-08", "P006-BAD-02", builds=BUILDS)
 async def p006_every_wrong_bit_of_a_frame(dut: Any) -> None:
-    """A frame with one wrong bit is never executed; its eight bytes are discarded, and no others."""
+    """A frame with one wrong bit is never executed; exactly its eight bytes are discarded."""
     host = await Host.start(dut)
     good = command(0xFF, "y", 0xF8)
     for place in range(1, 8):
@@ -161,7 +164,9 @@ async def p006_own_address_only(dut: Any) -> None:
 
 @directed("P006-FRM-06", "P006-FRM-10", "P006-BAD-03", builds=BUILDS)
 async def p006_traffic_of_other_nodes(dut: Any) -> None:
-    """Commands to other nodes and their replies have no effect with any data; a frame may follow at once."""
+    """Commands to other nodes, and replies of other nodes, have no effect with any data. A frame may follow
+    without a pause.
+    """
     host = await Host.start(dut)
     assert await host.ask("w", 5) == 5
     for data in (0, 0xA505A505, 0x050505A5):
@@ -172,7 +177,9 @@ async def p006_traffic_of_other_nodes(dut: Any) -> None:
 
 @directed("P006-UART-02", "P006-UART-05", "P006-FRM-04", builds=BUILDS)
 async def p006_start_bits_about_the_middle_of_a_stop_bit(dut: Any) -> None:
-    """A stop bit may end after its middle; the next character is sampled relative to its own start edge."""
+    """A stop bit may end just after its middle; the next character is sampled relative to its own start
+    edge.
+    """
     host = await Host.start(dut)
     data, heard = 0x55AA33CC, []
     *first, last = command(0xFF, "i", data)
@@ -191,13 +198,13 @@ async def p006_start_bits_about_the_middle_of_a_stop_bit(dut: Any) -> None:
 
 @directed("P006-FRM-04", "P006-BAD-04", builds=BUILDS)
 async def p006_silence_within_a_frame(dut: Any) -> None:
-    """A silence of less than 192 bit times within a frame has no effect; a longer one ends the frame.
+    """A silence of less than 192 bit times within a frame has no effect; a longer silence ends the frame.
 
-    It is counted from the stop-bit sample to the next start bit.
+    The silence is counted from the sample of the stop bit to the next start bit.
     """
     host = await Host.start(dut)
     for after, answered in ((-12, True), (-5, True), (6, False), (40, False)):
-        # The silence counts from the middle of the stop bit, when half a bit remains.
+        # The silence is counted from the middle of the stop bit, after which half a bit remains.
         gap = ceil(192 * host.bit) - int(host.bit / 2) + after
         await host.send(command(0xFF, "i", 0x77)[:4])
         await host.pause(gap)
@@ -212,7 +219,9 @@ async def p006_silence_within_a_frame(dut: Any) -> None:
 
 @directed("P006-FRM-04", builds=BUILDS)
 async def p006_the_very_end_of_the_silence(dut: Any) -> None:
-    """Within a few cycles of the end of the silence, model and RTL agree; both results are allowed."""
+    """If a byte arrives within a few cycles of the end of the silence, model and RTL agree; both results are
+    legal.
+    """
     host = await Host.start(dut)
     for after in range(-4, 5):
         await host.send(J[:4])
@@ -235,7 +244,7 @@ async def p006_frames_cut_short(dut: Any, count: int) -> None:
 
 @directed("P006-FRM-07", "P006-BAD-06", builds=BUILDS)
 async def p006_talking_while_the_reply_is_sent(dut: Any) -> None:
-    """A frame sent during a reply is ignored, also its rest after the reply."""
+    """A frame sent during a reply is ignored completely, also its bytes after the reply."""
     for start in (0, 0.4, 1.2, 5, 40):
         host = await Host.start(dut)
         await host.send_frame("c")
@@ -251,7 +260,7 @@ async def p006_talking_while_the_reply_is_sent(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-UART-02", "P006-BAD-06", builds=BUILDS)
 async def p006_line_that_is_low_when_the_reply_ends(dut: Any) -> None:
-    """After a reply no byte begins before the line has been high; a frame soon afterwards is received."""
+    """After a reply, no byte begins before the line has been high; a frame shortly afterwards is received."""
     for gap in (2, 4, 8):
         host = await Host.start(dut)
         await host.send_frame("c")
@@ -266,7 +275,7 @@ async def p006_line_that_is_low_when_the_reply_ends(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-BAD-06", builds=BUILDS)
 async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
-    """A frame that begins in or after the middle of the last stop bit of a reply is received."""
+    """A frame that begins in the middle of the last stop bit of a reply, or later, is received."""
     for late in (-1, 0, 1, 9, 25, 33):
         host = await Host.start(dut)
         await host.send_frame("c")
@@ -279,7 +288,7 @@ async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
         await host.send_frame("y", 0xF8)
         await host.pause(ceil(90 * host.bit))
         heard = late >= 0
-        assert await host.out("gpo") == (0x1F if heard else 0), f"{late} clk after the middle"
+        assert await host.out("gpo") == (0x1F if heard else 0), f"{late} cycles after the middle"
         assert len(host.edges("de", rise)) == (4 if heard else 2)
 
 
@@ -309,7 +318,7 @@ async def p006_reply_shows_the_moment_of_execution(dut: Any) -> None:
 
 @directed("P006-FRM-09", "P006-CMD-40", builds=BUILDS)
 async def p006_worked_frames(dut: Any) -> None:
-    """The six frames of the old manual have the replies stated there (P006-FRM-09)."""
+    """The six frames of the old manual have the replies that the manual states (P006-FRM-09)."""
     host = await Host.start(dut)
     assert await host.ask("w", 1) == 1
     await host.ok(v=3000, L=3000, S=3000)
@@ -322,7 +331,9 @@ async def p006_worked_frames(dut: Any) -> None:
 
 @directed("P006-UART-03", "P006-FRM-02", "P006-BAD-24", builds=BUILDS)
 async def p006_reset_in_the_middle_of_a_reply(dut: Any) -> None:
-    """A reset during a reply sets the outputs to their reset levels at once; the next frame is answered."""
+    """A reset during a reply sets the outputs to their reset levels immediately; the next frame is
+    answered.
+    """
     for bits in (0.5, 1.5, 2.5, 30):
         host = await Host.start(dut)
         await host.send_frame("j")

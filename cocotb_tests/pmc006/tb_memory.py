@@ -1,4 +1,4 @@
-"""A part with an EEPROM on its link: frames during the boot, jobs in the background, another rate."""
+"""A part with an EEPROM on its link: frames during the boot, background jobs, another line rate."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .programs import image, page
 
 @directed("P006-FRM-07", "P006-EEP-01", "P006-BAD-06", builds=(F8B, ODD))
 async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
-    """The part ignores frames until the end of the boot, with or without an EEPROM.
+    """The part ignores frames until the end of the boot, with and without an EEPROM.
 
     A frame that begins before this end is discarded, too.
     """
@@ -36,7 +36,9 @@ async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
 
 @directed("P006-CMD-02", "P006-CMD-41", "P006-CMD-53", "P006-BAD-12")
 async def p006_eeprom_codes(dut: Any) -> None:
-    """t and B reply immediately and are executed in the background; another one is rejected until then."""
+    """Instructions t (save) and B (burn) reply immediately and are executed in the background; until a job
+    ends, another one is rejected.
+    """
     host = await Host.start(dut, chip=Chip(write_us=6_000))
     assert await host.ask("t", -1) == 1 and await host.ask("t") == 0 and await host.ask("B") == 0
     await host.ms(14)
@@ -55,7 +57,7 @@ async def p006_eeprom_codes(dut: Any) -> None:
 
 @directed("P006-PAR-01", "P006-EEP-01", "P006-EEP-10", builds=(ODD,))
 async def p006_eeprom_at_another_rate_and_address(dut: Any) -> None:
-    """SCL keeps its rate during the whole transfer, within one cycle of its quarter ticks."""
+    """The rate of SCL is constant during the whole transfer, within one cycle of its quarter ticks."""
     host = await Host.start(dut, chip=Chip(image(page(a04=32)), write_us=300))
     assert await host.ask("k") == 32
     hz = int(str(host.params["I2C_HZ"]))
@@ -66,7 +68,7 @@ async def p006_eeprom_at_another_rate_and_address(dut: Any) -> None:
     period = host.clk_hz / hz
     edges = host.edges("scl_oe", host.frame_start)
     falls = [t for t, level in edges if level]
-    # START and STOP are longer than a bit.
+    # START and STOP take longer than a bit.
     assert {abs(b - a - period) <= 1 for a, b in pairwise(falls) if b - a < 1.2 * period} == {True}
     lows = [b - a for (a, level), (b, _) in pairwise(edges) if level]
     assert len(lows) > 600 and all(0 <= low - 0.55 * period < 2 for low in lows)

@@ -23,7 +23,9 @@ from .moves import (
 
 
 class Move(NamedTuple):
-    """Move with known intervals: count, settings, time of the last step, first and last intervals in us."""
+    """A move whose intervals are known: count, settings, time of the last step, first and last intervals in
+    us.
+    """
 
     count: int
     settings: tuple[int, int, int, int, int]
@@ -65,7 +67,7 @@ async def p006_moves_of_the_table(dut: Any, row: Move) -> None:
 
 @directed("P006-MOT-04", "P006-STA-18", "P006-CMD-53")
 async def p006_when_a_motion_begins(dut: Any) -> None:
-    """BUSY is set before the reply; the first interval counts from t = 0, at most 1024 cycles later."""
+    """BUSY is set before the reply; the first interval begins at t = 0, at most 1024 cycles later."""
     for count, speed in ((1, 3000), (255, 3000), (256, 3000), (100_000, 16_000), (0x7FFFFFFF, 16_000)):
         host = await Host.start(dut)
         await host.ok(L=3000, S=3000, v=speed, u=5, o=5)
@@ -79,7 +81,7 @@ async def p006_when_a_motion_begins(dut: Any) -> None:
 
 @directed("P006-MOT-03", "P006-MOT-40", "P006-MOT-01")
 async def p006_constant_speeds_have_no_jitter(dut: Any) -> None:
-    """At a constant speed, each step is at the next whole us after its exact time."""
+    """At a constant speed, each step occurs at the first whole us after its exact time."""
     for speed in (2999, 1601, 700):
         host = await constant_speed_host(dut, speed)
         await run(host)
@@ -104,7 +106,7 @@ async def p006_the_highest_speed(dut: Any) -> None:
 
 @directed("P006-MOT-40", "P006-MOT-41", "P006-MOT-15", "P006-STA-13")
 async def p006_stop_in_the_middle_of_the_ramp(dut: Any) -> None:
-    """W10: with an N 0 that is effective at t = 100,000, the speed mode stops as calculated."""
+    """Worked example W10: if N 0 takes effect at t = 100,000, the speed mode stops as calculated."""
     host = await Host.start(dut)
     await host.ok(e=1000, u=3, o=3, v=3200)
     await run(host)
@@ -122,7 +124,7 @@ async def p006_stop_in_the_middle_of_the_ramp(dut: Any) -> None:
 
 @directed("P006-MOT-41", "P006-MOT-40", "P006-STA-02")
 async def p006_stop_when_already_slow(dut: Any) -> None:
-    """W8 and W14: without a ramp the motion ends at the next update tick."""
+    """Worked examples W8 and W14: without a ramp, the motion ends at the next update tick."""
     for speed, stop in ((50, 600), (2500, 2500)):
         host = await Host.start(dut)
         await host.ok(v=speed, S=stop, L=max(65, speed))
@@ -137,7 +139,7 @@ async def p006_stop_when_already_slow(dut: Any) -> None:
 
 @directed("P006-MOT-30", "P006-MOT-50", "P006-CMD-43", "P006-CMD-54")
 async def p006_retargets(dut: Any) -> None:
-    """A new VMAX is the target from the next update on, higher or lower, in a ramp and at constant speed."""
+    """A new VMAX, higher or lower, is the target from the next update on, in a ramp and at constant speed."""
     host = await Host.start(dut)
     await host.ok(L=2000, S=2000, v=2200, u=5, o=5)
     await run(host)
@@ -157,9 +159,9 @@ async def p006_retargets(dut: Any) -> None:
 
 @directed("P006-MOT-30", "P006-MOT-15", "P006-MOT-20")
 async def p006_retargets_of_a_move(dut: Any) -> None:
-    """A move makes exactly N steps with any changes of VMAX.
+    """A move makes exactly N steps regardless of changes of VMAX.
 
-    With a target below VSTOP the motion keeps the target to its last step.
+    If the target is below VSTOP, the motion keeps the target speed until its last step.
     """
     host = await Host.start(dut)
     await host.ok(L=2000, S=2000, v=2600, u=5, o=5)
@@ -184,7 +186,7 @@ async def p006_retargets_of_a_move(dut: Any) -> None:
 
 @directed("P006-MOT-30", "P006-MOT-23")
 async def p006_motions_that_ignore_a_retarget(dut: Any) -> None:
-    """A short move and the last deceleration of a long one ignore a new VMAX."""
+    """A short move, and the last deceleration of a long move, ignore a new VMAX."""
     host = await constant_speed_host(dut, 2500)
     await start(host, 60)
     mark = host.mark
@@ -204,7 +206,7 @@ async def p006_motions_that_ignore_a_retarget(dut: Any) -> None:
 
 @directed("P006-MOT-42", "P006-STA-16", "P006-CMD-11")
 async def p006_speed_mode_switched_on_again(dut: Any) -> None:
-    """N 1 in STOPPING returns to the target, during the ramp and after its end."""
+    """Instruction N 1 during STOPPING returns to the target speed, both during the ramp and after its end."""
     host = await Host.start(dut)
     await host.ok(L=2800, S=2800, v=3000, u=5, o=5)
     await run(host)
@@ -240,7 +242,7 @@ async def p006_position_wraps_and_long_moves(dut: Any) -> None:
 
 @directed("P006-MOT-23", "P006-MOT-20", "P006-STA-01", "P006-STA-04")
 async def p006_the_border_of_short_moves(dut: Any) -> None:
-    """A move of 255 steps does not use VMAX, a move of 256 steps does."""
+    """A move of 255 steps does not use VMAX; a move of 256 steps does."""
     host = await Host.start(dut)
     await host.ok(L=3000, S=3000, v=3300, u=5, o=5)
     await start(host, 255)
@@ -258,7 +260,7 @@ async def p006_the_border_of_short_moves(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-10", "P006-MOT-04")
 async def p006_stop_before_the_first_step(dut: Any) -> None:
-    """A stop between acceptance and t = 0 or in the first interval cancels the motion without a step."""
+    """A stop between acceptance and t = 0, or in the first interval, cancels the motion without a step."""
     host = await set_constant_speed(await Host.start(dut), 3000, f=1)
     for after in (1, 20, 300, 1000, 2000):
         await host.send_frame("s", 1000)

@@ -1,4 +1,4 @@
-"""The user program: download, every opcode with legal and illegal operands, jumps, E (P006-PRG)."""
+"""User program: download, each opcode with legal and illegal operands, jumps, E (P006-PRG)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .programs import END, WAIT_REST, Op, goto, out, rot
 JMP, JNE, JEQ, WAIT, OUT, CMP = 0x0D, 0x0E, 0x0F, 0x10, 0x11, 0x12
 HIGH = 0x1F
 SLOT = 64
-"""Largest number of cycles of an instruction, and until WAIT samples its source."""
+"""Maximum number of cycles of an instruction, and until WAIT samples its source."""
 
 
 async def go(host: Host, *program: Op) -> int:
@@ -25,7 +25,7 @@ async def go(host: Host, *program: Op) -> int:
 
 
 class Case(NamedTuple):
-    """An instruction, and the reply of the code that reads its register afterwards."""
+    """An instruction, and the later reply of the code that reads its register."""
 
     op: Op
     after: int
@@ -34,11 +34,11 @@ class Case(NamedTuple):
 READ = {0x02: "k", 0x03: "O", 0x04: "O", 0x05: "O", 0x08: "q", 0x09: "r", 0x0A: "K", OUT: "y"}
 RESTORE = {0x02: ("m", 16), 0x03: ("d", 1), 0x04: ("f", 0), 0x05: ("g", 0), 0x08: ("v", 1000)}
 RESTORE |= {0x09: ("u", 0), 0x0A: ("J", 0), OUT: ("y", 0)}
-"""By opcode: the code that reads the register, and the code and data that restore it."""
+"""Opcode -> code that reads the register; opcode -> code and data that restore the register."""
 
 
 def cases(opcode: int, *rows: tuple[int, int], option: int = 0) -> list[Case]:
-    """Return the cases of an opcode from (operand, reply)."""
+    """Return the cases of an opcode for pairs (operand, reply)."""
     return [Case(Op(opcode, option, operand), after) for operand, after in rows]
 
 
@@ -61,7 +61,9 @@ CASES = (
 @cocotb.parametrize(part=range(2))
 @directed("P006-BAD-17", "P006-PRG-20", "P006-CMD-03", "P006-BAD-09", "P006-BAD-08")
 async def p006_operands(dut: Any, part: int) -> None:
-    """With E, an instruction with an illegal operand changes nothing and has the reply 1, too."""
+    """An instruction with an illegal operand also changes nothing if instruction E executes it; the reply is
+    1.
+    """
     host = await Host.start(dut)
     chosen = CASES[part::2]
     await download(host, [case.op for case in chosen])
@@ -77,7 +79,7 @@ async def p006_operands(dut: Any, part: int) -> None:
 
 @directed("P006-PRG-01", "P006-PRG-02", "P006-CMD-01", "P006-CMD-05", "P006-CMD-18", "P006-BAD-11")
 async def p006_words_and_pointer(dut: Any) -> None:
-    """After reset all words are 0; the pointer advances automatically and stops after the last word."""
+    """After reset all words are 0. The pointer is incremented automatically and stops after the last word."""
     host = await Host.start(dut)
     values = {0: 0x12345678, 1: 0xFFFFFFFF, 2: 0x80000000, 199: 0xA5A5A5A5}
     for place in (0, 1, 100, 199):
@@ -100,7 +102,9 @@ async def p006_words_and_pointer(dut: Any) -> None:
 
 @directed("P006-BAD-11", "P006-CMD-03", "P006-CMD-47", "P006-PRG-12", "P006-PRG-20", "P006-BAD-18")
 async def p006_what_is_refused_while_a_program_runs(dut: Any) -> None:
-    """While a jump to itself runs, W, E and z are rejected, G and A work, and F 0 ends the program."""
+    """While a program jumps to itself, instructions W, E and z are rejected, G and A work, and F 0 ends the
+    program.
+    """
     host = await Host.start(dut)
     await load(host, goto(0))
     for code in "WEz":
@@ -121,14 +125,14 @@ async def p006_jumps(dut: Any) -> None:
     assert await go(host, goto(2), END, out(1, 1), goto(5, JEQ), goto(6, JNE), END, out(2, 1)) == 0b00011
     assert await go(host, Op(CMP, 8, 0), goto(3, JNE), goto(4, JEQ), END, out(3, 1), END) == 0b00111
     await host.ok(y=0)
-    # FLAG is 0 at a start, regardless of its previous value.
+    # FLAG is 0 at the start, regardless of its previous value.
     assert await go(host, goto(3, JEQ), out(1, 1), END, out(2, 1)) == 0b00001
 
 
 @cocotb.parametrize(code=[JMP, JNE, JEQ])
 @directed("P006-BAD-16", "P006-PRG-14")
 async def p006_bad_targets(dut: Any, code: int) -> None:
-    """A jump to an illegal target halts the program if it is taken; a motion continues."""
+    """If a jump to an illegal target is taken, it halts the program; a motion continues."""
     host = await constant_speed_host(dut)
     flag = Op(CMP, 8, int(code == JNE))
     against = Op(CMP, 8, int(code == JEQ))
@@ -152,7 +156,7 @@ async def p006_bad_opcodes(dut: Any, opcode: int) -> None:
 
 @directed("P006-PRG-13", "P006-BAD-16", "P006-PRG-12", "P006-CMD-47")
 async def p006_after_the_last_instruction(dut: Any) -> None:
-    """z starts at PP >> 1; the program halts after instruction 99."""
+    """Instruction z starts the program at instruction number PP >> 1; the program halts after number 99."""
     host = await Host.start(dut)
     await download(host, [out(1, 1), out(2, 1)], first=98)
     await host.ok(A=199)
@@ -177,15 +181,15 @@ async def p006_spare_fields_are_ignored(dut: Any) -> None:
     assert await host.ask("z") == 1
     await host.pause(3 * SLOT)
     assert await host.out("gpo") == 1
-    # These instructions have no option, but the word has one.
+    # These instructions have no option, but the option field of the word is not 0.
     assert await go(host, Op(0x0C, 0xFF), Op(0x0B, 7, 99), Op(CMP, 8, 1), goto(5, JNE), out(2, 1)) == 0b11
 
 
 @directed("P006-PRG-10", "P006-PRG-20")
 async def p006_counter_and_flag_between_single_tries(dut: Any) -> None:
-    """Counter and flag keep their values from E to E and are cleared by z.
+    """Counter and flag keep their values from one instruction E to the next; instruction z clears them.
 
-    Instructions that control the program have no effect with E.
+    Instructions that control the program have no effect if instruction E executes them.
     """
     host = await Host.start(dut)
     program = (
@@ -207,8 +211,8 @@ async def p006_counter_and_flag_between_single_tries(dut: Any) -> None:
     for place in (4, 5, 6, 7, 8):
         await host.ok(A=2 * place)
         assert await host.ask("E") == 1 and await host.ask("A", 200) == 2 * place
-    # FLAG is 1 now. An illegal option of CMP clears FLAG; only a conditional jump in a program shows this.
-    # z clears counter and FLAG.
+    # FLAG is 1 now. CMP with an illegal option clears FLAG, which only a conditional jump in a program can
+    # show.
     await download(
         host, [Op(CMP, 8, 3), goto(12, JNE), out(1, 1), Op(CMP, 8, 0), goto(14, JNE), out(2, 1)], first=10
     )

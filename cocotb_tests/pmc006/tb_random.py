@@ -34,5 +34,5 @@ from . import random_host
     least=200,
 )
 async def p006_random_host(dut: Any, seed: int) -> None:
-    """With the pins of random hosts, all outputs change as in the golden model."""
+    """With the pin changes of random hosts, all outputs change as in the golden model."""
     await random_host.play(dut, seed)

@@ -1,4 +1,4 @@
-"""A reset in any activity, and a factory restore, of a part without an EEPROM."""
+"""Resets during all activities, and a factory restore, for a part without an EEPROM."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .tb_save import FSET_US
 
 @directed("P006-BAD-24", "P006-PORT-01", "P006-PRG-01", "P006-IO-03")
 async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
-    """A reset sets all outputs to their reset levels immediately and restores registers, flags and words."""
+    """A reset immediately sets all outputs to their reset levels, and restores registers, flags and words."""
     host = await constant_speed_host(dut)
     await host.ok(f=3, y=0xF8)
     await host.ok(A=0)
@@ -44,7 +44,7 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 @directed("P006-BAD-24", "P006-CMD-15")
 @probe("u_control.u_settings.u_reply_ram.count_q")
 async def p006_reset_restores_any_state(dut: Any) -> None:
-    """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
+    """After a reset the replies are correct, regardless of the levels of the register copies at power-up."""
     host = await Host.start(dut)
     if host.bench.simulated:
         for state in range(64):
@@ -69,7 +69,7 @@ async def p006_restore_without_a_device(dut: Any) -> None:
     await host.pins(fset_n=1)
     assert await values(host) == FACTORY and await host.status() == DECAY
     host = await constant_speed_host(dut)
-    # With sda_i = 1, the line has no acknowledge.
+    # With sda_i = 1, no device acknowledges.
     await host.pins(fset_n=0, sda_i=1)
     await host.wait_us(FSET_US + 100)
     assert await host.ask("V") == 2 and await host.ask("t") == 1

@@ -1,4 +1,4 @@
-"""Writes to the EEPROM: save, burn, factory restore; and their rejection (P006-EEP-10 to 23)."""
+"""Writes to the EEPROM: save, burn, factory restore, and cases that are rejected (P006-EEP-10 to 23)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def written(host: Host) -> list[tuple[int, bytes]]:
 
 @directed("P006-EEP-10", "P006-CMD-41", "P006-BAD-12")
 async def p006_save(dut: Any) -> None:
-    """t writes two pages with all saved registers, the copy first, and nothing else."""
+    """Instruction t writes two pages with all saved registers (the copy first) and nothing else."""
     host = await Host.start(dut, chip=Chip(write_us=3_000))
     await host.ok(m=0, u=5, o=4, a=0, Q=4, J=3, L=3000, S=65, M=1200, P=2000, e=4000, w=120)
     await host.ok(v=5, d=0, f=3, y=0xF8, T=3, Y=7, Z=99, i=12, A=7)
@@ -45,18 +45,18 @@ async def p006_save(dut: Any) -> None:
 
 @directed("P006-EEP-10", "P006-CMD-54")
 async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
-    """A save contains the old or the new VSTART, never a mix of both, and its sum is correct.
+    """A save contains the old or the new VSTART, never a mixture, and its sum is correct.
 
-    VSTART changes before, between and after its two bytes; each of the two pages reads it again. The device
-    stretches the clock, so that a byte lasts longer than a frame.
+    The test changes VSTART before, between and after the writes of its two bytes; each of the two pages reads
+    VSTART again. The device stretches the clock, so that a byte takes longer than a frame.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     host.eeprom.stretch(host.us(900))
     old, seen = 600, []
     for place, new in ((13.4, 0x0A0B), (14.3, 0x0201), (14.8, 0x0A0B), (15.6, 0x0201)):
         assert await host.ask("t") == 1
-        # Three bytes precede those of the page. Each lasts 22.5 us longer than the stretch and is read
-        # when the previous one has been acknowledged, before the stretch.
+        # Three bytes precede the bytes of the page. Each byte takes 22.5 us longer than the stretch. Its
+        # value is read after the acknowledge of the previous byte, before the stretch.
         await host.go(host.e + host.us(922.5 * place) - int(79.5 * host.bit))
         assert await host.ask("L", new) == new
         await host.ms(58)
@@ -72,9 +72,9 @@ async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
 
 @directed("P006-EEP-11", "P006-CMD-02", "P006-BAD-12", "P006-BAD-11", "P006-PRG-02")
 async def p006_burn(dut: Any) -> None:
-    """B clears the mark and writes 25 pages, then sum and mark.
+    """Instruction B clears the mark, writes 25 pages, then writes sum and mark.
 
-    During this time W is rejected, a program runs, and the buffer does not change.
+    During this time instruction W is rejected, a program runs, and the buffer does not change.
     """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await download(host, P1)
@@ -94,7 +94,9 @@ async def p006_burn(dut: Any) -> None:
 @cocotb.parametrize(count=[1, 26, 27])
 @directed("P006-EEP-11", "P006-BAD-15", "P006-BAD-13")
 async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
-    """If the device fails, the job ends after 10 ms of polling; without the last write no mark is set."""
+    """If the device fails, the job ends after 10 ms of polling; if the last write fails, the mark is not
+    set.
+    """
     host = await booted(dut, image(SAVED, BLINK), 120)
     assert await host.ask("B") == 1
     while len(host.eeprom.writes) < count:
@@ -109,9 +111,9 @@ async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
 
 @directed("P006-BAD-13", "P006-BAD-12", "P006-EEP-10")
 async def p006_lines_that_stick_while_saving(dut: Any) -> None:
-    """With SCL held low a job ends after 1 ms and reports an error.
+    """If SCL is held low, a job ends after 1 ms and reports an error.
 
-    SDA held low looks like acknowledges: the job ends without an error, and nothing is written.
+    If SDA is held low, it looks like acknowledges: the job ends without an error, and nothing is written.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     chip = host.eeprom
@@ -133,7 +135,7 @@ async def p006_lines_that_stick_while_saving(dut: Any) -> None:
 
 @directed("P006-EEP-10", "P006-CMD-41", "P006-CMD-48")
 async def p006_a_failed_save_is_reported(dut: Any) -> None:
-    """V returns 1 while the EEPROM is in use, 2 if it did not respond, 0 after success."""
+    """Instruction V returns 1 while the EEPROM is in use, 2 if it did not respond, and 0 after success."""
     host = await Host.start(dut, chip=Chip(write_us=2_000))
     chip = host.eeprom
     assert await host.ask("V") == 0
@@ -173,14 +175,14 @@ NEW = {
 
 
 BOOTED = {"k": 4, "r": 1, "h": 2, 0x55: 2, "K": 1, "L": 0x145, "S": 0x246, "M": 300, "P": 1250, "n": 0x3E8}
-"""Code -> value that is read after a boot with the settings NEW instead of SAVED."""
+"""Code -> value that the part returns after a boot with the settings NEW instead of SAVED."""
 
 
 PLACES = 7
 
 
 async def answering(host: Host) -> int:
-    """Return the address of the part after a boot."""
+    """Return the address to which the part responds after a boot."""
     for address in (120, 5, 0xFF):
         await host.send_frame("k", address=address)
         await host.pause(int(3 * host.bit))
@@ -192,9 +194,9 @@ async def answering(host: Host) -> int:
 
 @directed("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
 async def p006_reset_while_settings_are_saved(dut: Any) -> None:
-    """After a reset at any time of t, the next boot has either all old or all new settings.
+    """After a reset at any time during a save, the next boot restores either all old or all new settings.
 
-    This test cuts at some places, each with the whole part; tests/pmc006/model/test_cuts.py tests every edge.
+    This test resets the complete part at some times; tests/pmc006/model/test_cuts.py tests every edge.
     """
     seen: list[bool] = []
     for number in range(PLACES):
@@ -213,7 +215,9 @@ async def p006_reset_while_settings_are_saved(dut: Any) -> None:
 
 @directed("P006-EEP-20", "P006-EEP-21", "P006-EEP-22", "P006-BAD-22")
 async def p006_restore_in_operation(dut: Any) -> None:
-    """FSET low for 20 ms without interruption is one event of any length; active settings do not change."""
+    """FSET low for 20 ms without interruption is one event, however long it stays low; active settings do not
+    change.
+    """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await host.ok(v=3000)
     await start(host, 100_000)
@@ -239,7 +243,9 @@ async def p006_restore_in_operation(dut: Any) -> None:
 
 @directed("P006-EEP-22", "P006-BAD-12")
 async def p006_restore_waits_for_a_job(dut: Any) -> None:
-    """A factory restore waits for the end of a burn; t and B are rejected until both are done."""
+    """A factory restore waits for the end of a burn; until both have ended, instructions t and B are
+    rejected.
+    """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await host.pins(fset_n=0)
     await host.wait_us(FSET_US - 5_000)
@@ -271,7 +277,9 @@ async def p006_restore_at_power_up(dut: Any, low_us: int) -> None:
 
 @directed("P006-EEP-21", "P006-EEP-20")
 async def p006_restore_at_the_end_of_power_up(dut: Any) -> None:
-    """If the FSET event occurs during BOOT, factory values are active; after it the saved ones are."""
+    """If the FSET event occurs during BOOT, the factory values are active afterwards; if it occurs after
+    BOOT, the saved values are active.
+    """
     late_us = 6_000
     saved = image(SAVED, BLINK)
     chip = Chip(saved, busy_us=late_us)

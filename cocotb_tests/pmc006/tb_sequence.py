@@ -20,9 +20,8 @@ BUILDS = (F8B, F16, D8E)
     "P006-UART-01", "P006-FRM-02", "P006-FRM-03", "P006-MOT-03", "P006-MOT-05", "P006-EXC-12", builds=BUILDS
 )
 async def p006_sequence(dut: Any) -> None:
-    """All kinds of blocks of the part work in one sequence.
-
-    It has a register, a frame with an error, a move, a stop by EXT1, and a program.
+    """All kinds of blocks of the part work in one sequence: a register, a frame with an error, a move, a stop
+    by EXT1, and a program.
     """
     host = await Host.start(dut)
     assert await host.ask("R") == 0x123 and await host.ask("n") == 800

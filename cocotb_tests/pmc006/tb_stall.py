@@ -1,4 +1,4 @@
-"""The stall detector: conditions of a stall and its effects."""
+"""Stall detector: conditions of a stall, and its effects."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .moves import (
 )
 
 STOP = 5
-"""Cycles from a cause to the last possible step."""
+"""Maximum number of cycles from a cause to the last step."""
 
 
 async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> Host:
@@ -33,7 +33,7 @@ async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> H
 
 
 async def samples(host: Host, *levels: int) -> None:
-    """Apply samples of the BEMF."""
+    """Apply samples of the back EMF."""
     for level in levels:
         await host.strobe(bemf_level=level)
         await host.pause(30)
@@ -53,7 +53,9 @@ async def p006_stall_length(dut: Any, case: Any) -> None:
 
 @directed("P006-STL-06", "P006-STL-05", "P006-STL-01", "P006-CMD-20", "P006-CMD-21")
 async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
-    """The length is 64 after reset; at level 0 no sample is below it; without Y bit 0 samples are ignored."""
+    """The number of low samples for a stall is 64 after reset. With level 0, no sample is below the level. If
+    bit 0 of the configuration Y is 0, samples are ignored.
+    """
     host = await constant_speed_host(dut)
     await host.ok(Z=511, Y=1)
     await run(host)
@@ -76,9 +78,9 @@ async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
 
 @directed("P006-STL-01", "P006-STL-02", "P006-BAD-20")
 async def p006_samples_off_constant_speed(dut: Any) -> None:
-    """In a ramp no sample is counted, and the count restarts.
+    """During a ramp no sample counts, and the count restarts.
 
-    A strobe that stays asserted is a sample in each cycle.
+    If a strobe stays asserted, each cycle is a sample.
     """
     host = await Host.start(dut)
     await host.ok(L=1000, S=1000, v=1500, u=5, o=5, Z=100, T=3, Y=1)
@@ -103,7 +105,9 @@ async def p006_samples_off_constant_speed(dut: Any) -> None:
 
 @directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
 async def p006_the_count_of_low_samples_restarts(dut: Any) -> None:
-    """The count restarts with each start, also without samples in between, and with any idle sample."""
+    """The count restarts at each start (also without a sample in between) and with any sample at
+    standstill.
+    """
     host = await constant_speed_host(dut, 2500)
     await host.ok(L=2500, S=2500, Z=256, T=3, Y=1)
     for between in ((), (1,)):
@@ -134,7 +138,7 @@ async def p006_what_a_stall_does(dut: Any) -> None:
     assert await host.ask("y", 0x10) == 0x10
     assert await host.out("gpo") == 0x12
     stalled_at = await host.ask("X")
-    # Bit 1 set after the stall stops the motion, too.
+    # If bit 1 is set after the stall, it also stops the motion.
     await host.ok(Y=7)
     assert not await host.busy() and await host.out("gpo") == 0x12
     await host.ok(Y=3)

@@ -1,4 +1,4 @@
-"""The acceptance of each instruction in each state, and its effect on the motion (P006-STA)."""
+"""Acceptance of each instruction in each state, and its effect on the motion (P006-STA)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ EXTS = {"ext1": EXT1, "ext2": EXT2}
 
 
 class State(NamedTuple):
-    """State: motion ("", "move", "speed", "stopping"), FREE, EXT flags as in status 1."""
+    """A state: motion ("", "move", "speed", "stopping"), FREE, and EXT flags as in status 1."""
 
     motion: str = ""
     free: bool = False
@@ -53,7 +53,7 @@ STATES = {
 
 
 async def enter(host: Host, state: State) -> None:
-    """Enter a state from any other."""
+    """Enter a state from any other state."""
     for code in "Ibl":
         await host.ask(code)
     await host.ok(g=0)
@@ -73,7 +73,7 @@ async def enter(host: Host, state: State) -> None:
 
 
 async def read_status(host: Host) -> tuple[int, int]:
-    """Return status 1 without the decay, and the mode bits of status 2."""
+    """Return status 1 without the bit of the current decay, and the mode bits of status 2."""
     return await host.status() & ~DECAY, await host.ask("O") & (SPEED_MODE | FREE_RUN)
 
 
@@ -133,7 +133,9 @@ async def p006_every_row_in_every_state(dut: Any, name: str) -> None:
 @cocotb.parametrize(name=["idle", "move", "ext1", "free"])
 @directed("P006-PRG-17", "P006-PRG-20", "P006-STA-01")
 async def p006_rot_is_accepted_like_s(dut: Any, name: str) -> None:
-    """A ROT by E is accepted in the same states as s; the reply is 1 in any case."""
+    """A ROT that instruction E executes is accepted in the same states as instruction s; the reply is 1 in
+    all states.
+    """
     host = await Host.start(dut)
     await set_constant_speed(host, 3000, f=3)
     await download(host, [rot(LONG)])
@@ -145,7 +147,9 @@ async def p006_rot_is_accepted_like_s(dut: Any, name: str) -> None:
 
 @directed("P006-STA-01", "P006-STA-02", "P006-BAD-10", "P006-CMD-43")
 async def p006_speeds_against_the_maximum(dut: Any) -> None:
-    """s is accepted if VSTART and VSTOP do not exceed VMAX; N 1 ignores them."""
+    """Instruction s is accepted if VSTART and VSTOP do not exceed VMAX; N 1 is accepted regardless of
+    them.
+    """
     host = await Host.start(dut)
     for low, high, limit, good in (
         (600, 600, 599, False),
@@ -165,9 +169,9 @@ async def p006_speeds_against_the_maximum(dut: Any) -> None:
 
 @directed("P006-STA-04", "P006-MOT-52", "P006-STA-01")
 async def p006_analog_speed_does_not_refuse(dut: Any) -> None:
-    """With analog speed, s is checked with the full-scale speed, even if the present speed is 0.
+    """With analog speed, instruction s is checked with the full-scale speed, even if the present speed is 0.
 
-    With a full scale of 0, every start is rejected.
+    If the full scale is 0, every start is rejected.
     """
     host = await Host.start(dut)
     await download(host, [Op(0x08, 1, 600), Op(0x08, 0, 0)])
@@ -219,7 +223,7 @@ async def p006_abort_stops_within_its_window(dut: Any) -> None:
 
 @directed("P006-STA-15", "P006-CMD-30", "P006-CMD-24", "P006-CMD-52")
 async def p006_position_set_on_the_run(dut: Any) -> None:
-    """A position set at any time during an interval loses or doubles no step."""
+    """If the position is set at any time during an interval, no step is lost or counted twice."""
     host = await constant_speed_host(dut, 3000)
     await run(host)
     await after_steps(host, 3)

@@ -36,7 +36,7 @@ def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
 @rtl_only("the golden model's record leaves them out; test_ac_29 counts its ones")
 @directed("P006-EXC-40", "P006-AC-29")
 async def p006_streams(dut: Any) -> None:
-    """For references of many sizes and both signs, the streams are the carries of their sums."""
+    """For references of many values and both signs, each stream is the carry of its running sum."""
     host = await Host.start(dut, boot=False)
     assert isinstance(host.bench, RtlBench)
     for name in PMC006.unwatched:

@@ -1,4 +1,4 @@
-"""Timing of the user program: slots, WAIT and CMP on every source, concurrent frames and motions."""
+"""Timing of the user program: slots, WAIT and CMP with each source, concurrent frames and motions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ HIGH = 0x1F
 
 @directed("P006-PRG-16", "P006-PRG-15", "P006-PRG-17")
 async def p006_time_of_instructions(dut: Any) -> None:
-    """An instruction takes at most 64 cycles; ROT sets BUSY before the next one; a second ROT is ignored."""
+    """An instruction takes at most 64 cycles. ROT sets BUSY before the next instruction; a second ROT is
+    ignored.
+    """
     host = await constant_speed_host(dut)
     assert await go(host, out(1, 1), out(2, 1), rot(5), rot(100), out(3, 1), WAIT_REST, out(4, 1)) == 0b111
     times = [t for t, _ in host.edges("gpo")]
@@ -34,7 +36,7 @@ SOURCES = ((1, 0x1E), (2, 0x1D), (3, 0x1B), (4, 0x17), (5, 0x0F))
 async def p006_wait_for_pins(dut: Any) -> None:
     """WAIT works with each input and both levels; only bit 0 of the operand is used.
 
-    An illegal option passes immediately.
+    A WAIT with an illegal option ends immediately.
     """
     host = await Host.start(dut)
     for option, low in SOURCES:
@@ -106,7 +108,7 @@ BAD = ((0, 0), (10, 0), (0x18, 0), (0xFF, 1))
 @cocotb.parametrize(case=[(RIGHT, 1), (WRONG, 0), (BAD, 0)])
 @directed("P006-BAD-17", "P006-PRG-33", "P006-IO-01")
 async def p006_compare(dut: Any, case: Any) -> None:
-    """CMP compares all 32 bits of every source, and an illegal option clears FLAG.
+    """CMP compares all 32 bits of each source; with an illegal option it clears FLAG.
 
     The program stops at the first wrong result.
     """
@@ -131,7 +133,7 @@ async def p006_compare(dut: Any, case: Any) -> None:
 
 @directed("P006-PRG-10", "P006-PRG-15", "P006-CMD-06", "P006-STA-10")
 async def p006_abort_during_a_program(dut: Any) -> None:
-    """I ends the motion, and the program continues after its WAIT."""
+    """Instruction I ends the motion, and the program continues after its WAIT."""
     host = await constant_speed_host(dut)
     await load(host, rot(100_000), WAIT_REST, out(1, 1), rot(3), WAIT_REST, out(2, 1))
     await after_steps(host, 5)
@@ -156,7 +158,9 @@ async def p006_offline_0_leaves_everything_else(dut: Any) -> None:
 
 @directed("P006-PRG-15", "P006-PRG-16", "P006-CMD-52")
 async def p006_frames_at_any_time_of_an_instruction(dut: Any) -> None:
-    """Frames at any cycle of an instruction are executed, and both sources execute whole instructions."""
+    """Frames at any cycle of an instruction are executed; frames and program both execute complete
+    instructions.
+    """
     host = await Host.start(dut)
     await load(host, Op(0x0B), out(1, 1), out(1, 0), goto(0))
     for shift in range(0, 40):

@@ -20,7 +20,9 @@ ARGS = ("-Wno-fatal", "--public-flat-rw")
 @pytest.mark.parametrize("item", ITEMS)
 @pytest.mark.parametrize("stretch", [11])
 def test_both_devices(item: Item, stretch: int, sim_options: SimOptions) -> None:
-    """With random traffic, both devices pull the lines in the same cycles and have equal content then."""
+    """With random traffic, both devices pull the lines in the same cycles and have equal contents
+    afterwards.
+    """
     params = {"WriteCycles": WRITE_CLK, "StretchCycles": stretch, "Device": 0x53}
     source = ROOT / "tb" / "pmc006" / f"{TOP}.sv"
     run_item(item, sim_options, design=Design(TOP, [source], params=params, args=ARGS))

@@ -1,4 +1,4 @@
-"""Ports and parameters of the top module, read from its source and by elaboration."""
+"""Ports and parameters of the top module, checked with its source and by elaboration."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ RANGES = {
 def test_p006_ports() -> None:
     """The top has exactly the ports of docs/pmc006/README.md, 2.
 
-    There is no port for supply or CAN; mon_* are additional to those of the original.
+    It has no port for supply or CAN; the mon_* ports do not exist in the original.
     """
     found = ports(part_design("pmc006", F8B))
     expected = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}
@@ -29,5 +29,5 @@ def test_p006_ports() -> None:
 
 @verifies("P006-PAR-01")
 def test_p006_parameter_ranges() -> None:
-    """Values outside of the ranges of docs/pmc006/README.md, 2 do not elaborate."""
+    """Parameter values outside the ranges of docs/pmc006/README.md, 2 fail at elaboration."""
     check_ranges("P006-PAR-01", part_design("pmc006", F8B), RANGES)

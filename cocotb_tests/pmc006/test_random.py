@@ -1,7 +1,7 @@
-"""Random hosts compared with the golden model: a fixed list of seeds; `--seed N` plays seed N only.
+"""Compares random hosts with the golden model: a fixed list of seeds, or one seed with `--seed N`.
 
-One simulation plays several seeds of one build one after the other, each from a reset.
-`make soak PART=pmc006` plays any number of other seeds.
+One simulation plays several seeds of one build one after the other, each from a reset. `make soak
+PART=pmc006` plays any number of other seeds.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ pytest_generate_tests = generating(test_random=random_item, test_random_with_eep
 
 
 class Either:
-    """Seeds of `make soak`: a seed decides whether its host has an EEPROM."""
+    """Seeds of `make soak`; each seed determines whether its host has an EEPROM."""
 
     def some(self, seeds: Sequence[int]) -> Played:
         """Run seeds in this process."""
@@ -48,12 +48,14 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_random_with_eeprom(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """With hosts that have an EEPROM, also one that does not respond, every output edge is the model's."""
+    """With hosts that have an EEPROM (also one that does not respond), every output edge equals that of the
+    golden model.
+    """
     chip_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """The fixed seeds use every build, each seed once; the same seed selects the same build."""
+    """The fixed seeds use each build, contain no seed twice, and always select the same build for a seed."""
     assert {build(seed).name for seed in SEEDS} == build.names
     assert random_item.complete and chip_item.complete
     assert sorted([*ALONE, *WITH_CHIP]) == list(SEEDS) and len(SEEDS) >= 150 and len(WITH_CHIP) >= 10
@@ -65,11 +67,11 @@ LEAST = {
     **{"ext": 8, "stall": 3, "analog": 2, "keys": 1, "chopper": 4, "bad_frame": 5, "foreign": 2},
     **{"talk_out_of_turn": 2, "collisions": 20, "noise": 2, "unknown": 2, "bridge_a_en": 25},
 }
-"""Least number of such events in every third host of `make test`."""
+"""Minimum number of each event in the hosts of every third seed of `make test`."""
 
 
 def test_hosts_are_rich() -> None:
-    """Each kind of event is frequent enough, and the part is active."""
+    """Each kind of event occurs often enough, and the part is active."""
     seen: Counter[str] = Counter()
     for seed in SEEDS[::3]:
         seen += on_model(play(OnModel(build(seed), seed), seed))

@@ -1,4 +1,4 @@
-"""Outputs of a PMC006 as a host of the tests reads them: edges, steps, references, frequent registers."""
+"""Outputs of a PMC006 as the hosts of tests use them: edges, steps, references, frequently read registers."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from .frames import signed
 
 
 class View(ABC):
-    """Read access of `Host`.
+    """Functions of `Host` that read outputs and registers.
 
     Attributes:
-        t: its next free edge.
-        mark: steps are counted from here.
+        t: next free edge.
+        mark: edge from which steps count.
     """
 
     bench: DutBench
@@ -36,7 +36,7 @@ class View(ABC):
     # ------------------------------------------------------------------ outputs
 
     def edges(self, signal: str, since: int = 0) -> list[tuple[int, int]]:
-        """Return the changes (t, level) of an output from edge `since` to the present."""
+        """Return the changes (t, level) of an output from edge `since` to the present edge."""
         return self.bench.edges(signal, since)
 
     def level_at(self, signal: str, t: int) -> int:
@@ -67,16 +67,16 @@ class View(ABC):
     def in_us(self, clk: int) -> int:
         """Convert cycles to whole us.
 
-        The call raises AssertionError if the cycles deviate from whole us by more than one cycle.
+        Raises AssertionError if the cycles deviate from whole us by more than one cycle.
         """
         micros = round(Fraction(clk * 1_000_000, self.clk_hz))
-        assert abs(clk - Fraction(micros * self.clk_hz, 1_000_000)) <= 1, f"{clk} clk are not whole us"
+        assert abs(clk - Fraction(micros * self.clk_hz, 1_000_000)) <= 1, f"{clk} cycles are not whole us"
         return micros
 
     # ------------------------------------------------------------------ steps
 
     def steps(self, since: int | None = None) -> list[int]:
-        """Return the edges with mon_step since `mark`."""
+        """Return the edges of steps (rising edges of mon_step) since `mark`."""
         return self.bench.rises("mon_step", self.mark if since is None else since)
 
     def step_count(self, since: int | None = None) -> int:
@@ -84,12 +84,12 @@ class View(ABC):
         return len(self.steps(since))
 
     def intervals(self, since: int | None = None) -> list[int]:
-        """Return the distances of the steps in us; each must be whole us within one cycle."""
+        """Return the intervals of the steps in us; each must be a whole number of us within one cycle."""
         edges = self.steps(since)
         return [self.in_us(b - a) for a, b in zip(edges, edges[1:], strict=False)]
 
     async def next_steps(self, limit: int) -> list[int]:
-        """Run to the next step, before edge `limit`, at least to the present edge.
+        """Run to the next step, which must occur before edge `limit`, and at least to the present edge.
 
         Returns:
             The new steps, one or more.
@@ -120,11 +120,11 @@ class View(ABC):
         return await self.ask("j")
 
     async def position(self) -> int:
-        """Return POS, signed."""
+        """Return the signed position POS."""
         return signed(await self.ask("c"))
 
     async def ok(self, **settings: int) -> None:
-        """Write settings by their letters; each reply must echo the data."""
+        """Write settings, which are named by their letters; each reply must echo the data."""
         for code, value in settings.items():
             got = signed(await self.ask(code, value))
             assert got == value, f"{code} {value} -> {got}"

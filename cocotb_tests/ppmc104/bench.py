@@ -1,4 +1,6 @@
-"""Test bench of the PPMC-104: the meaning of its pins. Pins and levels are those of the golden model."""
+"""Test bench of the PPMC-104: functions of its pins. Names and levels of the pins are those of the golden
+model.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Measurements of `make bench` in cycles: table builds, and commands with their answers, at the pins."""
+"""Measurements of `make bench` at the pins, in cycles: table builds, and commands with their answers."""
 
 from __future__ import annotations
 
@@ -21,9 +21,7 @@ AUX_ON, AUX_OFF = 0xC1, 0xC2
 
 
 async def build(host: HostBus, ramp: tuple[int, int, int]) -> int:
-    """Return the cycles from the end of the strobe of the last data byte until a waiting command is
-    executed.
-    """
+    """Return the cycles from the end of the last data strobe until a waiting command is executed."""
     bench, (slow, fast, pulses) = host.bench, ramp
     await host.send(INIT, [slow, fast, pulses & 0xFF])
     begin = await host.data(pulses >> 8, poll=False)
@@ -36,9 +34,7 @@ async def build(host: HostBus, ramp: tuple[int, int, int]) -> int:
 
 @cocotb.test()
 async def count_costs(dut: Any) -> None:
-    """The cycles of initialisations and of commands with answers after a reset are written to
-    costs.json.
-    """
+    """The cycles of initialisations, and of commands with answers, are measured and written to costs.json."""
     host = HostBus(await RtlBench.start(dut, PPMC104))
     found = {name: await build(host, ramp) for name, ramp in RAMPS.items()}
     for name, (code, count) in ANSWERS.items():

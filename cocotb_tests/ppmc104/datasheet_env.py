@@ -1,4 +1,4 @@
-"""`DatasheetEnv`: an `Env` for the DATASHEET timing model, with the measurements of its tests."""
+"""`DatasheetEnv`: an `Env` for the DATASHEET timing model, with the measurements that its tests use."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ US = 16
 
 
 class DatasheetEnv(Env):
-    """`Env` with the measurements that all these tests use."""
+    """`Env` with the measurements that the DATASHEET tests use."""
 
     def after(self, rule: str, what: str, got: int, xtal_cycles: int, pin: int = PIN) -> None:
         """Check that `got` cycles are CYC(xtal_cycles), -0/+16, plus the delay to the pin."""
@@ -26,8 +26,9 @@ class DatasheetEnv(Env):
         return await self.go(code, n, rate, poll=False) + WRITE_EVENT
 
     async def opens(self, rule: str, since: int, xtal_cycles: int, code: int = 0xC1) -> int:
-        """Check that a command written now is accepted `xtal_cycles` after `since` and not before;
-        return that edge.
+        """Write a command now and check that it is accepted `xtal_cycles` after `since` and not before.
+
+        Return the edge at which the host has read IBF = 0.
         """
         nominal = since + self.cfg.cyc(xtal_cycles)
         await self.host.command(code, poll=False)
@@ -41,7 +42,7 @@ class DatasheetEnv(Env):
         return self.bench.now
 
     def full_on_phase(self, rule: str, start: int, off: int, slack: int = 0) -> None:
-        """Check that the first OFF phase begins a default ON phase after `start`, within 1 quantum
+        """Check that the first OFF phase begins one default ON phase after `start`, within 1 quantum
         (P104-SW-06).
         """
         nominal, quantum = self.cfg.quanta(260), self.cfg.quanta(1) + 1

@@ -1,6 +1,4 @@
-"""The stimulus of `make demo`: a host that initialises a PPMC-104 and makes two moves, followed by a
-standstill.
-"""
+"""Stimulus of `make demo`: a host initialises a PPMC-104 and makes two moves; a standstill follows."""
 
 from __future__ import annotations
 
@@ -19,7 +17,7 @@ SLOW, FAST, RAMP = 199, 19, 250  # 2.5 kpps to 25 kpps within 250 pulses
 ACC_DEC, CONTINUOUS = 0x43, 0x45
 RATE = 49  # 10 kpps
 PULSES_TO_LIMIT = 60
-INTERRUPT_LATENCY = 800  # cycles, 50 us: the processing time of an old host
+INTERRUPT_LATENCY = 800  # cycles: processing time of an old host, 50 us
 
 
 async def results(host: HostBus) -> None:
@@ -35,7 +33,9 @@ async def results(host: HostBus) -> None:
 
 @cocotb.test()
 async def demo_move(dut: Any) -> None:
-    """A host that moves 1000 pulses and then runs into L1 is recorded from reset to the end."""
+    """A host that moves 1000 pulses, and then moves until L1 ends the motion, is recorded from reset to the
+    end.
+    """
     bench = await RtlBench.start(dut, PPMC104)
     host = HostBus(bench)
     demo_log = DemoLog(bench)
@@ -45,7 +45,8 @@ async def demo_move(dut: Any) -> None:
     with demo_log.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
-        # The table build keeps this command in the buffer: IBF indicates when the chip is ready.
+        # During the table build this command stays in the buffer, so IBF = 0 indicates that the chip is
+        # ready.
         await host.fetch(0x82)
     with demo_log.chapter("move", "1000 pulses with ramps"):
         await host.move(ACC_DEC, 1000)

@@ -1,4 +1,4 @@
-"""`Env`: a PPMC-104 on the test bench with its host, and the helpers that all tests of this part use."""
+"""`Env`: a PPMC-104 on the test bench with its host, and the functions that all tests of this part use."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ PINS_LATEST = 12
 
 
 class Env(AxisDriver):
-    """Test bench and host; created with `await Env.start(dut, INIT_A)`.
+    """Test bench and host; create it with `await Env.start(dut, INIT_A)`.
 
-    `None` leaves the core in its reset state.
+    With `None` instead of INIT_A, the core stays in its reset state.
     """
 
     def __init__(self, bench: DutBench) -> None:
@@ -28,9 +28,7 @@ class Env(AxisDriver):
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = INIT_A, **pins: int) -> Env:
-        """Reset with the input levels `pins`, then initialise (code, RL, RH, PA) if an initialisation
-        is given.
-        """
+        """Reset with the input levels `pins`, then initialise with (code, RL, RH, PA) unless this is None."""
         env = cls(await start_bench(dut, PPMC104, **pins))
         if init:
             await env.init(*init)
@@ -42,17 +40,19 @@ class Env(AxisDriver):
         await self.built()
 
     async def built(self) -> None:
-        """Wait until the mailbox is open again: until a command without effect on the state is accepted."""
+        """Wait until the mailbox is open again: send a command that changes no state, and wait until it is
+        accepted.
+        """
         await self.host.command(0xC2 if self.bench.level("aux_n") else 0xC1)
         if self.cfg.datasheet:
             # This command closes the mailbox again for 14 us.
             await self.bench.clocks(self.cfg.us(14) + 20)
 
     async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
-        """Call `go`, wait for the end and return the pulses."""
+        """Call `go`, wait for the end of the motion, and return the pulses."""
         await self.go(code, n, rate)
         if self.cfg.datasheet:
-            # BUSY rises long after IBF has fallen (P104-DS-03).
+            # In DATASHEET, BUSY rises long after IBF has fallen (P104-DS-03).
             await self.host.poll(BUSY, BUSY, timeout=self.cfg.us(150), dense=1000)
         await self.idle()
         return self.pulses

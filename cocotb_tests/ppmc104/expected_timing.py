@@ -1,4 +1,4 @@
-"""Expected values for the PPMC-104 tests: its initialisations, and the formulas of the motion core."""
+"""Expected values of the PPMC-104 tests: initialisations, and the formulas of the motion core."""
 
 from __future__ import annotations
 
@@ -40,9 +40,8 @@ __all__ = [
 
 INIT_A = (0x0A, 9, 4, 4)
 INIT_B = (0x0A, 19, 9, 10)
-# Initialisation with the external clock, otherwise as A, and with a short ramp of small rates, for tests that
-# control each clock edge.
+# As A, but with the external clock and a short ramp of small rates, for tests that control each clock edge.
 INIT_EXT = (0x1A, 1, 0, 4)
 
-# Initialisation codes, positive logic, of each step list; bit 3 = 0 selects negative logic.
+# Initialisation code of each step list, for positive logic; with bit 3 = 0 the logic is negative.
 STEP_CODES = {"3 full": 0x09, "3 half": 0x0D, "4 full": 0x0A, "4 half": 0x0E, "5 full": 0x0B, "5 half": 0x0F}

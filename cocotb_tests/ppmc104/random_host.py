@@ -1,9 +1,8 @@
-"""Constrained-random hosts for the PPMC-104: a seed becomes a list of actions before the simulation
-starts.
+"""Constrained-random hosts of the PPMC-104: a seed determines a list of actions before the simulation starts.
 
-`scenario(seed)` is a pure function: the same seed yields the same configuration and the same actions.
-`random_player` executes the list on a test bench; the actions are those of `common.player` and
-("finish", cycles).
+`scenario(seed)` is a pure function: the same seed returns the same configuration and the same actions.
+`random_player` executes the list on a test bench. The actions are those of `harness.player`, and ("finish",
+cycles).
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from cocotb_tests.harness.config import D25X8
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 from cocotb_tests.harness.random_host import HostWriter
 
-# The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
+# Builds of the random tests with their weights. Few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]
 DATASHEET_WEIGHTS: list[tuple[Config, int]] = [(D16, 7), (D11, 4), (D25X8, 3)]
 
@@ -31,7 +30,7 @@ def scenario(seed: int) -> Scenario:
 
 
 class _Writer(HostWriter):
-    """Builds one scenario; one generator makes all random decisions in one order."""
+    """Creates one scenario. A single generator makes all random decisions, in a fixed order."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("ppmc104", seed, WEIGHTS, DATASHEET_WEIGHTS)
@@ -55,7 +54,7 @@ class _Writer(HostWriter):
             self.add("fetch", code, count)
         self.add("wait", rng.choice((50, 3_000)))
         if rng.random() < 0.03 and not self.external and self.config.clk_hz <= 16_000_000:
-            self.add("wait", self.config.cyc(544_000))  # the hold timer expires
+            self.add("wait", self.config.cyc(544_000))  # long enough for the hold timer to expire
         pins = {}
         if rng.random() < 0.4:
             pins = {"csel": rng.getrandbits(1), "vsel": rng.getrandbits(1), "auxi": rng.getrandbits(4)}
@@ -64,7 +63,7 @@ class _Writer(HostWriter):
         )
 
     def clock(self) -> ExternalClock:
-        """Return the waveform of the clock pin, if this host uses it."""
+        """Return the segments of the clock pin, if this host uses it."""
         return random_clock(self.rng, self.scale, CLOCK_PERIODS) if self.external else ExternalClock()
 
     # ------------------------------------------------------------ set-up commands
@@ -102,7 +101,7 @@ class _Writer(HostWriter):
             self.add("send", self.init_code(), data)
         else:
             self.blind([(1, self.init_code()), *((0, byte) for byte in data)])
-        if rng.random() < 0.3:  # sends bytes during the table build
+        if rng.random() < 0.3:  # send bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))
@@ -160,8 +159,8 @@ class _Writer(HostWriter):
             self.add("pins", dict.fromkeys(LIMIT_PINS, 1))
 
     def parameters(self, code: int) -> list[int]:
-        """Return the data bytes of an operation: short moves, small rates, sometimes too few or too
-        many bytes.
+        """Return the data bytes of an operation: short moves, small rates, in some cases too few or too many
+        bytes.
         """
         rng, kind = self.rng, code & 7
         n = rng.choice((1, 1, 2, 3, 4, 5, 7, 8, 9, 10, 13, 21, 22, 30, 60, 1000))
@@ -176,7 +175,7 @@ class _Writer(HostWriter):
         return data
 
     def disturb(self) -> None:
-        """Add an action that happens during a motion."""
+        """Add an action that takes place during a motion."""
         rng = self.rng
         self.add("wait", self.clk(1, 4_000))
         rng.choices(

@@ -1,5 +1,5 @@
-"""Puts the core into each state of the state table and keeps it there, by controlling each edge of an
-external clock.
+"""Puts the core into each state of the state table and keeps it there, by control of each external clock
+edge.
 """
 
 from __future__ import annotations
@@ -7,7 +7,7 @@ from __future__ import annotations
 from .env import Env
 from .expected_timing import INIT_EXT
 
-# Ramp PA of INIT_EXT: interval I(PA + 1), the one after pulse PA + 1, is the first on the plateau.
+# Ramp length PA of INIT_EXT: interval I(PA + 1), which follows pulse PA + 1, is the first on the plateau.
 PLATEAU = INIT_EXT[3] + 1
 
 IDLE = ("UNINIT", "READY")
@@ -23,10 +23,10 @@ async def fresh(env: Env) -> None:
 
 
 async def enter(env: Env, state: str, ramp_code: int = 0x43, constant_code: int = 0x44) -> None:
-    """Reset and enter `state`; a moving state stays until more clock edges follow.
+    """Reset and enter `state`. A moving state does not change until further clock edges are driven.
 
-    FIN lasts only the W cycles of the last low time: use it immediately. Raises KeyError for an unknown
-    state.
+    The state FIN lasts only W cycles, the last low time, so use it immediately. Raises KeyError for an
+    unknown state.
     """
     await fresh(env)
     if state == "UNINIT":

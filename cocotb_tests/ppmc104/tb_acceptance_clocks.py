@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-45 to AC-60: stimulus and values as in the acceptance table."""
+"""Acceptance checks AC-45 to AC-60 at the pins; stimulus and values are those of the acceptance table."""
 
 from __future__ import annotations
 
@@ -14,9 +14,7 @@ A_DATA = (9, 4, 4)
 
 @directed("AC-45", "P104-SW-01", "P104-SW-03", "P104-SW-04", "P104-SW-05", "P104-SW-06", "P104-SW-07")
 async def p104_ac_45_chopping(dut):
-    """With S = 1, the chopper follows the parameters and vsel; a step switches to the full pattern
-    (AC-45).
-    """
+    """With S = 1, the chopper uses the parameters and vsel, and a step energises the full pattern (AC-45)."""
     env = await Env.start(dut, (0x2A, *A_DATA))
     on, off = 0b00011, 0b00000
     await env.bench.clocks(9000)
@@ -56,7 +54,7 @@ async def p104_ac_46_chopper_starts_with_on(dut):
 
 @directed("AC-47", "P104-INI-08")
 async def p104_ac_47_chopping_ends(dut):
-    """A re-initialisation with S = 0 ends the chopping at its completion, with the pattern on (AC-47)."""
+    """When a re-initialisation with S = 0 completes, chopping ends with the pattern on (AC-47)."""
     env = await Env.start(dut, (0x2A, *A_DATA))
     await env.bench.edge("s", 0)
     await env.init(*INIT_A)
@@ -69,7 +67,7 @@ async def p104_ac_47_chopping_ends(dut):
 
 @directed("AC-48", "P104-END-08")
 async def p104_ac_48_hold(dut):
-    """Of two single steps 20 ms apart, hold rises 34 ms after the second (AC-48)."""
+    """If a second single step follows 20 ms after the first, hold rises 34 ms after the second (AC-48)."""
     env = await Env.start(dut, INIT_A)
     await env.move(0x42)
     first = env.pulses[0]
@@ -94,7 +92,7 @@ async def p104_ac_48_hold_after_one_step(dut):
 
 @directed("AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04")
 async def p104_ac_49_external_clock(dut):
-    """With external clocks and rate 9, intervals are 640, 760, 1600 or 1400 cycles, depending on period
+    """With external clocks and rate 9, intervals are 640, 760, 1600 or 1400 cycles, depending on clock period
     and vsel (AC-49).
     """
     env = await Env.start(dut, (0x1A, *A_DATA))
@@ -110,7 +108,7 @@ async def p104_ac_49_external_clock(dut):
         env.check("AC-49", "pulses", len(env.pulses), 10)
         for interval in env.intervals:
             env.window(
-                "AC-49", f"interval at {period} clk, vsel {vsel}", interval, expected - 2, expected + 2
+                "AC-49", f"interval at {period} cycles, vsel {vsel}", interval, expected - 2, expected + 2
             )
         env.check("AC-49", "sum of intervals", sum(env.intervals), 9 * expected)
         env.check("AC-49", "low times", env.low_times, [80] * 10)
@@ -130,7 +128,7 @@ async def p104_ac_50_external_clock_missing(dut):
 
 @directed("AC-51", "P104-BCK-03", "P104-EX-12", builds=(F11,))
 async def p104_ac_51_no_drift(dut):
-    """With CLK_HZ = 11 059 200, each of 1001 pulses at rate 0 is on the edge that the formula states
+    """With CLK_HZ = 11 059 200, each of 1001 pulses at rate 0 occurs on the edge that the formula states
     (AC-51).
     """
     env = await Env.start(dut, INIT_A)
@@ -143,14 +141,13 @@ async def p104_ac_51_no_drift(dut):
 
 @directed("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_ac_52_init_time(dut):
-    """In DATASHEET, if C1 and C2 are written while the mailbox is closed, only C2 is accepted, 16.5 ms
+    """In DATASHEET, if 0xC1 and 0xC2 are written while the mailbox is closed, only 0xC2 is accepted, 16.5 ms
     after the initialisation (AC-52).
     """
     env = await Env.start(dut, None)
     await env.host.run("c 0A d 09 d 04 d 04")
     event = await env.host.data(0x00, poll=False) + 2
-    # The status is read directly after the byte: the byte is accepted immediately, and the mailbox closes
-    # after it.
+    # The status is read directly after the byte, which is accepted immediately; the mailbox closes after it.
     await env.host.poll(IBF, 0)
     await env.host.command(0xC1, poll=False)
     await env.host.command(0xC2, poll=False)
@@ -165,8 +162,8 @@ async def p104_ac_52_init_time(dut):
 
 @directed("AC-53", "P104-DS-03", "P104-DS-04", "P104-DS-07", builds=(D16,))
 async def p104_ac_53_constant_speed_times(dut):
-    """In DATASHEET, BUSY, pulse 1, INT and the next command of a 0x44 with 3 pulses occur at their
-    documented times (AC-53).
+    """In DATASHEET, after a 0x44 with 3 pulses, BUSY, pulse 1, INT and the acceptance of the next command
+    occur at their documented times (AC-53).
     """
     env = await Env.start(dut, INIT_A)
     env.since = env.bench.now
@@ -192,7 +189,7 @@ async def p104_ac_53_constant_speed_times(dut):
 
 @directed("AC-54", "P104-DS-06", builds=(D16,))
 async def p104_ac_54_single_step_times(dut):
-    """In DATASHEET, the pulse of 0x42 occurs after 86 us and INT after 112 us (AC-54)."""
+    """In DATASHEET, the pulse of 0x42 occurs after 86 us, and INT after 112 us (AC-54)."""
     env = await Env.start(dut, INIT_A)
     event = await env.go(0x42, poll=False) + 2
     env.window("AC-54", "pulse", await env.pulse(1) - event, 1376, 1392)
@@ -201,7 +198,7 @@ async def p104_ac_54_single_step_times(dut):
 
 @directed("AC-55", "P104-DS-05", builds=(D16,))
 async def p104_ac_55_ramp_times(dut):
-    """In DATASHEET, pulse 1 of trapezoidal and triangular profiles occurs at its documented time
+    """In DATASHEET, pulse 1 of trapezoidal and of triangular profiles occurs at its documented time
     (AC-55).
     """
     env = await Env.start(dut, INIT_B)
@@ -215,7 +212,9 @@ async def p104_ac_55_ramp_times(dut):
 
 @directed("AC-56", "P104-DS-12", builds=(D16,))
 async def p104_ac_56_too_fast_for_commands(dut):
-    """In DATASHEET with 20 us intervals, C1 waits for the end of the move; 0x40 does not wait (AC-56)."""
+    """In DATASHEET with intervals of 20 us, a 0xC1 waits for the end of the move; a 0x40 does not wait
+    (AC-56).
+    """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 100, rate=9)
     await env.pulse(20, 10)
@@ -235,7 +234,7 @@ async def p104_ac_56_too_fast_for_commands(dut):
 
 @directed("AC-57", "P104-BAD-19")
 async def p104_ac_57_reset_in_motion(dut):
-    """When rst_n falls between two edges during a move, all outputs take their reset levels (AC-57)."""
+    """If rst_n falls between two clock edges during a move, all outputs take their reset levels (AC-57)."""
     env = await Env.start(dut, INIT_A)
     bench = env.bench
     await env.host.run("c C1 c 86 d 0F")
@@ -256,7 +255,7 @@ async def p104_ac_57_reset_in_motion(dut):
 
 @directed("AC-58", "P104-BUS-02")
 async def p104_ac_58_both_strobes(dut):
-    """If both strobes are low together and end together, no access takes place (AC-58)."""
+    """If both strobes fall together and rise together, no access occurs (AC-58)."""
     env = await Env.start(dut, None)
     before = await env.host.command(0x86)
     await env.bench.clocks(4)
@@ -282,7 +281,7 @@ async def p104_ac_59_single_step_needs_no_clock(dut):
 
 @directed("AC-60", "P104-TIM-05", "P104-END-02")
 async def p104_ac_60_limit_in_short_low_time(dut):
-    """If L1 falls 2 cycles after pulse 10 at rate 0, this pulse keeps its 16 cycles and is the last one
+    """If L1 falls 2 cycles after pulse 10 at rate 0, this pulse still lasts 16 cycles and is the last one
     (AC-60).
     """
     env = await Env.start(dut, INIT_A)

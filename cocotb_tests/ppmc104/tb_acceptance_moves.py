@@ -1,4 +1,6 @@
-"""Black-box acceptance checks AC-01 to AC-24: stimulus and values as in the acceptance table."""
+"""Acceptance checks AC-01 to AC-24 and AC-40 at the pins; stimulus and values are those of the acceptance
+table.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]
 
 
 def kind_of(code: int) -> str:
-    """Return the kind of a command code; it follows from the code map alone (P104-CMD-01)."""
+    """Return the kind of a command code, derived from the code map only (P104-CMD-01)."""
     low = code & 7
     if code < 0x40:
         return "init" if code & 3 else "undefined"
@@ -25,7 +27,7 @@ def kind_of(code: int) -> str:
 
 
 async def stopped_after_ten(env: Env) -> None:
-    """Run the stimulus of AC-20: 1000 pulses at rate 99, stopped 400 cycles after the tenth."""
+    """Run the stimulus of AC-20: 1000 pulses at rate 99, stopped 400 cycles after the tenth pulse."""
     await env.go(0x44, 1000, rate=0x63)
     await env.pulse(10, 400)
     await env.host.run("c 40")
@@ -60,7 +62,7 @@ async def p104_ac_02_read_strobe(dut):
 
 @directed("AC-03", "P104-ERR-01", "P104-FSM-01")
 async def p104_ac_03_not_initialised(dut):
-    """Before initialisation, operations return error 2 and stops error 0, and nothing moves (AC-03)."""
+    """Before initialisation, operations return error 2, stops return error 0, and no output moves (AC-03)."""
     env = await Env.start(dut, None)
     got = await env.statuses("c 42 c 40 c 41 c 46 c C3 d 00")
     env.check("AC-03", "statuses", got, [0xA0, 0x80, 0x80, 0xA0, 0xA0, 0xB0])
@@ -87,7 +89,7 @@ async def p104_ac_04_all_codes(dut):
 
 @directed("AC-05", "P104-INI-02", "P104-STA-05")
 async def p104_ac_05_init_counts_down(dut):
-    """NUM counts 4, 3, 2, 1, 0 during the bytes of initialisation A (AC-05)."""
+    """NUM returns 4, 3, 2, 1, 0 during the bytes of initialisation A (AC-05)."""
     env = await Env.start(dut, None)
     got = await env.statuses(f"c 0A {A_DATA}")
     env.check("AC-05", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0x00])
@@ -95,7 +97,7 @@ async def p104_ac_05_init_counts_down(dut):
 
 @directed("AC-06", "P104-INI-05", "P104-RD-06")
 async def p104_ac_06_first_pattern(dut):
-    """When initialisation A is accepted, s has pattern 0, and 0x82 returns it (AC-06)."""
+    """When initialisation A has been accepted, s has pattern 0, and 0x82 returns it (AC-06)."""
     env = await Env.start(dut, None)
     await env.host.run(f"c 0A {A_DATA}")
     env.check("AC-06", "s", env.bench.level("s"), 0b00011)
@@ -155,7 +157,7 @@ async def p104_ac_11_long_move(dut):
 
 @directed("AC-12", "P104-RMP-03")
 async def p104_ac_12_half_rounds_up(dut):
-    """With RL 4, RH 0, PA 8, the exact half at index 1 is rounded up (AC-12)."""
+    """With RL 4, RH 0, PA 8, the value at index 1, exactly n + 1/2, is rounded up (AC-12)."""
     env = await Env.start(dut, None)
     await env.host.run("c 0A d 04 d 00 d 08 d 00 c 43 d 13 d 00 d 00")
     await env.idle()
@@ -198,7 +200,7 @@ async def p104_ac_15_csel_vsel(dut):
 
 @directed("AC-16", "P104-BCK-02", "P104-BAD-16")
 async def p104_ac_16_latched_at_start(dut):
-    """The intervals of a move do not change when csel and vsel fall after pulse 2 (AC-16)."""
+    """If csel and vsel fall after pulse 2, the intervals of the move do not change (AC-16)."""
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 5, rate=0x63)
     await env.pulse(2, 10)
@@ -223,7 +225,7 @@ async def p104_ac_17_int_and_finish(dut):
 
 @directed("AC-18", "P104-CMD-02")
 async def p104_ac_18_masked_interrupt(dut):
-    """With I = 1, int_n stays 1 at the end of a move, and the finish status is still marked as new
+    """With I = 1, int_n stays 1 at the end of a move; the finish status is nevertheless marked as new
     (AC-18).
     """
     env = await Env.start(dut, INIT_A)
@@ -234,7 +236,7 @@ async def p104_ac_18_masked_interrupt(dut):
 
 @directed("AC-19", "P104-END-07")
 async def p104_ac_19_pending_interrupt(dut):
-    """A pending INT stays pending through a masked step until 0x80 (AC-19)."""
+    """A pending INT stays pending until 0x80, also during a single step with I = 1 (AC-19)."""
     env = await Env.start(dut, INIT_A)
     await env.move(0x42)
     await env.move(0x52)
@@ -245,7 +247,7 @@ async def p104_ac_19_pending_interrupt(dut):
 
 @directed("AC-20", "P104-EX-10", "P104-END-06")
 async def p104_ac_20_immediate_stop(dut):
-    """In a move of 1000 pulses, 0x40 after pulse 10 ends it there, and the remaining pulses read as 989
+    """In a move of 1000 pulses, 0x40 after pulse 10 ends the move, and the remaining pulses read as 989
     (AC-20).
     """
     env = await Env.start(dut, INIT_A)
@@ -257,7 +259,9 @@ async def p104_ac_20_immediate_stop(dut):
 
 @directed("AC-40", "P104-HSK-08", "P104-HSK-06")
 async def p104_ac_40_queue_replaced(dut):
-    """When 0x80 is executed with two unread bytes after AC-20, its byte replaces them (AC-40)."""
+    """If 0x80 is executed after the stimulus of AC-20, while two bytes of an answer are unread, its byte
+    replaces them (AC-40).
+    """
     env = await Env.start(dut, INIT_A)
     await stopped_after_ten(env)
     await env.host.run("c 80 r c 83 rrr")
@@ -269,7 +273,7 @@ async def p104_ac_40_queue_replaced(dut):
 
 @directed("AC-21", "P104-END-06")
 async def p104_ac_21_one_left(dut):
-    """In a move of 2 pulses, 0x40 after pulse 1 leaves one pulse, and the remaining pulses read as 0
+    """In a move of 2 pulses, 0x40 after pulse 1 ends the move with one pulse left, which reads as 0
     (AC-21).
     """
     env = await Env.start(dut, INIT_A)
@@ -281,7 +285,9 @@ async def p104_ac_21_one_left(dut):
 
 @directed("AC-22", "P104-FDC-02", "P104-EX-04")
 async def p104_ac_22_forced_in_acceleration(dut):
-    """With initialisation B, 0x41 after pulse 4 or 1 mirrors the ramp to 8 or 2 pulses (AC-22)."""
+    """With initialisation B, 0x41 after pulse 4 or 1 mirrors the ramp, which results in 8 or 2 pulses
+    (AC-22).
+    """
     env = await Env.start(dut, INIT_B)
     for pulse, intervals in ((4, [640, 576, 512, 480, 512, 576, 640]), (1, [640])):
         await env.go(0x43, 1000)
@@ -293,7 +299,7 @@ async def p104_ac_22_forced_in_acceleration(dut):
 
 @directed("AC-23", "P104-EX-04", "P104-STP-04")
 async def p104_ac_23_forced_from_plateau(dut):
-    """With initialisation B, 0x41 after pulse 29 leads to 40 pulses; 0x41 again after pulse 33 returns
+    """With initialisation B, 0x41 after pulse 29 results in 40 pulses; another 0x41 after pulse 33 returns
     error 7 (AC-23).
     """
     env = await Env.start(dut, INIT_B)
@@ -309,7 +315,7 @@ async def p104_ac_23_forced_from_plateau(dut):
 
 @directed("AC-24", "P104-PRO-05", "P104-STP-04")
 async def p104_ac_24_natural_deceleration(dut):
-    """With initialisation A and N = 14, 0x41 after pulse 11 returns error 7, and the move is complete
+    """With initialisation A and N = 14, 0x41 after pulse 11 returns error 7, and the move outputs all pulses
     (AC-24).
     """
     env = await Env.start(dut, INIT_A)

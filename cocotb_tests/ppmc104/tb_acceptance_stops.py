@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-25 to AC-44: stimulus and values as in the acceptance table."""
+"""Acceptance checks AC-25 to AC-44 (except AC-40) at the pins, with the values of the acceptance table."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ async def p104_ac_26_start_on_slow_down_limit(dut):
 
 @directed("AC-27", "P104-FDC-01", "P104-FDC-04")
 async def p104_ac_27_short_slow_down_limit(dut):
-    """With initialisation B, L3 low for 10 cycles after pulse 4 starts a deceleration that runs to its
+    """With initialisation B, L3 low for 10 cycles after pulse 4 starts a deceleration, which continues to its
     end (AC-27).
     """
     env = await Env.start(dut, INIT_B)
@@ -45,7 +45,7 @@ async def p104_ac_27_short_slow_down_limit(dut):
 
 @directed("AC-28", "P104-EX-05")
 async def p104_ac_28_pout_mode_limit(dut):
-    """In POUT mode with L3 always low, 0xC3 reaches the plateau before L3 acts (AC-28)."""
+    """In POUT mode with L3 always low, 0xC3 reaches the plateau before L3 takes effect (AC-28)."""
     env = await Env.start(dut, INIT_B)
     env.bench.set(l3_n=0)
     await env.go(0xC3, 1000)
@@ -56,7 +56,7 @@ async def p104_ac_28_pout_mode_limit(dut):
 
 @directed("AC-29", "P104-LIM-04")
 async def p104_ac_29_pout_mode_missed_limit(dut):
-    """In POUT mode, L3 low only between pulses 3 and 8 has no effect: all 1000 pulses are output
+    """In POUT mode, L3 has no effect if it is low only between pulses 3 and 8: all 1000 pulses are output
     (AC-29).
     """
     env = await Env.start(dut, INIT_B)
@@ -83,8 +83,8 @@ async def p104_ac_30_limits_of_the_direction(dut):
 
 @directed("AC-31", "P104-LIM-03", "P104-END-02")
 async def p104_ac_31_hard_limit(dut):
-    """During 0x45, L1 after pulse 5 ends the motion within 8 cycles; after that only CCW operations
-    move (AC-31).
+    """During 0x45, L1 after pulse 5 ends the motion within 8 cycles; afterwards only CCW operations output
+    pulses (AC-31).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x45, rate=0x63)
@@ -103,7 +103,7 @@ async def p104_ac_31_hard_limit(dut):
 
 @directed("AC-32", "P104-LIM-05")
 async def p104_ac_32_alarm(dut):
-    """ALM after pulse 6 of 0x46 ends it with 6 pulses (AC-32)."""
+    """ALM after pulse 6 of 0x46 ends the operation with 6 pulses (AC-32)."""
     env = await Env.start(dut, INIT_A)
     await env.go(0x46)
     await env.pulse(6, 100)
@@ -113,8 +113,8 @@ async def p104_ac_32_alarm(dut):
 
 @directed("AC-33", "P104-LIM-07", "P104-LIM-09")
 async def p104_ac_33_causes_at_start(dut):
-    """With L1 and ALM low at the start, 0x43 and 0x42 output no pulse; both cause bits, the full
-    remaining count and INT are set each time (AC-33).
+    """With L1 and ALM low at the start, 0x43 and 0x42 output no pulse. Each operation sets both cause bits,
+    the full remaining count, and INT (AC-33).
     """
     env = await Env.start(dut, INIT_A)
     env.bench.set(l1_n=0, alm_n=0)
@@ -153,7 +153,7 @@ async def p104_ac_35_too_late(dut):
 
 @directed("AC-36", "P104-CMD-04", "P104-RD-01")
 async def p104_ac_36_commands_while_busy(dut):
-    """During a move, commands that BUSY forbids return errors 1, 0 and 6, and the move is not affected
+    """During a move, commands that are not allowed return errors 1, 0 and 6, and the move is not affected
     (AC-36).
     """
     env = await Env.start(dut, INIT_A)
@@ -212,8 +212,8 @@ async def p104_ac_39_cancelled_command(dut):
 
 @directed("AC-41", "P104-INI-03", "P104-INI-06")
 async def p104_ac_41_rejected_inits(dut):
-    """After initialisation A, four illegal ones return errors 5, 5, 4, 4, and the old ramp stays active
-    (AC-41).
+    """After initialisation A, four illegal initialisations return errors 5, 5, 4 and 4, and the old ramp
+    stays active (AC-41).
     """
     env = await Env.start(dut, INIT_A)
     cases = (((5, 6, 100), 0xD0), ((9, 4, 3), 0xD0), ((9, 4, 11221), 0xC0), ((5, 6, 11221), 0xC0))
@@ -226,7 +226,9 @@ async def p104_ac_41_rejected_inits(dut):
 
 @directed("AC-42", "P104-INI-03", "P104-EX-11")
 async def p104_ac_42_extreme_inits(dut):
-    """The extreme legal values of an initialisation are accepted; RL = RH runs at one rate (AC-42)."""
+    """The extreme legal values of an initialisation are accepted; with RL = RH, all intervals have one rate
+    (AC-42).
+    """
     env = await Env.start(dut, None)
     for values in ((9, 4, 4), (9, 4, 11220), (10, 10, 4), (255, 0, 4)):
         env.check("AC-42", f"status of {values}", await env.host.init(0x0A, *values), 0x00)
@@ -237,8 +239,8 @@ async def p104_ac_42_extreme_inits(dut):
 
 @directed("AC-43", "P104-INI-05", "P104-AUX-04")
 async def p104_ac_43_frozen_until_excitation_off(dut):
-    """After initialisation A, a 5-phase re-initialisation does not change the motor type until
-    Excitation OFF (AC-43).
+    """A re-initialisation for 5 phases after initialisation A changes the motor type only after Excitation
+    OFF (AC-43).
     """
     env = await Env.start(dut, INIT_A)
     await env.host.run(f"c 0F {A_DATA}")
@@ -259,9 +261,7 @@ async def p104_ac_43_frozen_until_excitation_off(dut):
 
 @directed("AC-44", "P104-PHS-01", "P104-PHS-06", "P104-OPR-05")
 async def p104_ac_44_step_lists(dut):
-    """For each motor type and logic, s follows its list through two electrical turns CW and back
-    (AC-44).
-    """
+    """For each motor type and logic, s follows its list through two electrical turns CW and back (AC-44)."""
     env = await Env.start(dut, None)
     for name, code in STEP_CODES.items():
         for positive in (True, False):

@@ -1,4 +1,4 @@
-"""Bad input (P104-BAD): illegal bytes, wrong order, misuse of every pin, and the recovery from it."""
+"""Bad input (P104-BAD): illegal bytes, wrong order, misuse of every pin, and recovery from them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .tb_acceptance_moves import kind_of
 
 @directed("P104-BAD-01", "P104-CMD-03", "P104-HSK-07")
 async def p104_bad_01_undefined_codes(dut):
-    """Each undefined code returns error 0 and cancels an incomplete command, at standstill and in motion
+    """Each undefined code returns error 0 and cancels an incomplete command, both at standstill and in motion
     (P104-BAD-01).
     """
     env = await Env.start(dut, INIT_A)
@@ -35,8 +35,8 @@ async def p104_bad_01_undefined_codes(dut):
 
 @directed("P104-BAD-03", "P104-BAD-04", "P104-BAD-11")
 async def p104_bad_11_operation_before_init(dut):
-    """Before initialisation, operations return error 2, each of their parameters returns error 3, and
-    nothing moves (P104-BAD-11).
+    """Before initialisation, operations return error 2, each of their parameters returns error 3, and no
+    output moves (P104-BAD-11).
     """
     env = await Env.start(dut, None)
     for code, count in (
@@ -62,8 +62,8 @@ async def p104_bad_11_operation_before_init(dut):
 
 @directed("P104-BAD-05", "P104-BAD-02", "P104-BAD-12")
 async def p104_bad_05_too_many_parameters(dut):
-    """Surplus bytes after a command return error 6 in motion or 3 at standstill and have no other effect
-    (P104-BAD-05).
+    """Surplus bytes after a command return error 6 in motion and error 3 at standstill; they have no other
+    effect (P104-BAD-05).
     """
     env = await Env.start(dut, INIT_A)
     env.since = env.bench.now
@@ -83,8 +83,8 @@ async def p104_bad_05_too_many_parameters(dut):
 
 @directed("P104-BAD-07", "P104-BAD-22", "P104-HSK-06", "P104-HSK-08")
 async def p104_bad_22_queue_never_read(dut):
-    """If the host never reads a full queue, everything else still works, and the queue does not change
-    (P104-BAD-22).
+    """If the host never reads a full output queue, all other functions still work, and the queue does not
+    change (P104-BAD-22).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 9, 9)
@@ -106,8 +106,8 @@ async def p104_bad_22_queue_never_read(dut):
 
 @directed("P104-BAD-13", "P104-TIM-03", "P104-OPR-06")
 async def p104_bad_13_clock_stops_in_motion(dut):
-    """If the external clock stops during a motion, stops and limits still act; decelerations wait for
-    edges (P104-BAD-13).
+    """If the external clock stops during a motion, stops and limits still take effect; decelerations wait for
+    clock edges (P104-BAD-13).
     """
     env = await Env.start(dut, (0x1A, 9, 4, 4))
     for cause, bits in (("40", 0xC0), ("l1_n", 0x90), ("alm_n", 0xA0)):
@@ -148,8 +148,8 @@ async def p104_bad_13_clock_stops_in_motion(dut):
 
 @directed("P104-BAD-15", "P104-LIM-07", "P104-LIM-09")
 async def p104_bad_15_everything_active(dut):
-    """With all inputs active at its start or during it, an operation outputs no further pulse and sets
-    bits 5 and 4 (P104-BAD-15).
+    """If all inputs become active at the start of an operation or during it, no further pulse is output, and
+    bits 5 and 4 are set (P104-BAD-15).
     """
     env = await Env.start(dut, INIT_A)
     pins = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")
@@ -178,8 +178,8 @@ async def p104_bad_15_everything_active(dut):
 
 @directed("P104-BAD-19", "P104-PORT-03", builds=(F16, F100))
 async def p104_bad_19_reset_in_every_state(dut):
-    """A reset in START, in a low pulse, between pulses or in a table build leaves the core in UNINIT
-    with its reset levels (P104-BAD-19).
+    """After a reset in START, in a low pulse, between pulses or in a table build, the core is in UNINIT with
+    its reset levels (P104-BAD-19).
     """
     env = await Env.start(dut, None)
     expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
@@ -209,7 +209,7 @@ async def p104_bad_19_reset_in_every_state(dut):
 
 @directed("P104-BAD-18", "P104-BUS-06")
 async def p104_bad_18_cs_ends_the_strobe(dut):
-    """If cs_n rises before wr_n or rd_n, the write is stored and the read ends (P104-BAD-18)."""
+    """If cs_n rises before wr_n or rd_n, the write is stored, or the read ends (P104-BAD-18)."""
     env = await Env.start(dut, None)
     bench = env.bench
     bench.set(a0=1, d_i=0xC1, cs_n=0, wr_n=0)
@@ -232,8 +232,8 @@ async def p104_bad_18_cs_ends_the_strobe(dut):
 
 @directed("P104-BAD-20", "P104-LIM-03")
 async def p104_bad_20_hard_limit_chatters(dut):
-    """If the hard limit bounces during a deceleration, the first low level that is sampled ends the
-    motion permanently (P104-BAD-20).
+    """If the hard limit bounces during a deceleration, the first sampled low level ends the motion
+    permanently (P104-BAD-20).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x43, 100)
@@ -270,8 +270,8 @@ async def abuse(env: Env, rng: random.Random, rounds: int) -> None:
 
 @directed("P104-BAD-23", "P104-FSM-01", builds=(F8, F16, F100, D16))
 async def p104_bad_23_always_a_way_back(dut):
-    """After random abuse, with or without a clock, 0x40, 0xC0 and an initialisation make the core work
-    again (P104-BAD-23).
+    """After random input, with or without an external clock, 0x40, 0xC0 and an initialisation make the core
+    work again (P104-BAD-23).
     """
     env = await Env.start(dut, None)
     rng = env.bench.rng
@@ -279,11 +279,11 @@ async def p104_bad_23_always_a_way_back(dut):
         clock = env.bench.external_clock(iter(lambda: rng.randrange(4, 90), 0), high=2) if turn % 2 else None
         await abuse(env, rng, 60)
         env.bench.set(l1_n=1, l2_n=1, l3_n=1, l4_n=1, cnp_n=1, alm_n=1, csel=1, vsel=1)
-        # A byte of the random abuse may still wait in the mailbox, so one operation may still start.
+        # A random byte may still wait in the mailbox, so one operation may still start.
         for _ in range(3):
             await env.host.poll(IBF, 0, timeout=3_000_000)
             if env.cfg.datasheet:
-                # BUSY of a start may rise later (P104-DS-03).
+                # In DATASHEET, BUSY may rise after the start of this operation (P104-DS-03).
                 await env.bench.clocks(env.cfg.us(120))
             if await env.host.status() & BUSY:
                 await env.host.command(0x40)

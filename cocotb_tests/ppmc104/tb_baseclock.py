@@ -14,7 +14,7 @@ EXTERNAL = (0x1A, 9, 4, 4)
 
 
 def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) -> list[int]:
-    """Return the pulse times with vsel = L on external edges, with pulse 1 on edges[first]
+    """Return the pulse times with vsel = L for external edges, where pulse 1 is on edges[first]
     (P104-INT-03).
 
     All times include the same constant delay from a pin edge to its effect.
@@ -41,7 +41,7 @@ def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) 
     builds=(F16, F8, F11, F25, F50, F100, F16X1),
 )
 async def p104_bck_01_internal_clocks(dut):
-    """For each core clock, crystal, csel and vsel, every pulse is on its quantum tick (P104-BCK-01)."""
+    """For each core clock, crystal, csel and vsel, every pulse occurs on its quantum tick (P104-BCK-01)."""
     env = await Env.start(dut, INIT_A)
     for csel, vsel in ((1, 1), (0, 1), (1, 0), (0, 0)):
         env.bench.set(csel=csel, vsel=vsel)
@@ -57,7 +57,9 @@ async def p104_bck_01_internal_clocks(dut):
 
 @directed("P104-BCK-02", "P104-BAD-16", "P104-INI-09")
 async def p104_bck_02_latched(dut):
-    """If csel and vsel toggle during a motion, only their levels at its start apply (P104-BCK-02)."""
+    """If csel and vsel change during a motion, only their levels at the start of the motion apply
+    (P104-BCK-02).
+    """
     env = await Env.start(dut, INIT_A)
     for csel, vsel in ((1, 1), (0, 1), (1, 0), (0, 0)):
         env.bench.set(csel=csel, vsel=vsel)
@@ -72,8 +74,8 @@ async def p104_bck_02_latched(dut):
 
 @directed("P104-BCK-03", "P104-GEN-03", "P104-EX-12", builds=(F11, F25, F50))
 async def p104_bck_03_cumulative(dut):
-    """With a fractional number of cycles per quantum, pulses do not drift, and each interval is within
-    1 cycle (P104-BCK-03).
+    """With a fractional number of cycles per quantum, pulses do not drift, and each interval is accurate to 1
+    cycle (P104-BCK-03).
     """
     env = await Env.start(dut, (0x0A, 40, 0, 23))
     await env.move(0x43, 300)
@@ -89,7 +91,7 @@ async def p104_bck_03_cumulative(dut):
 
 @directed("P104-BCK-03")
 async def p104_bck_03_phase_restart(dut):
-    """At any phase of the free-running quantum at the start, intervals are counted from pulse 1
+    """For any phase of the free-running quantum at the start, intervals are counted from pulse 1
     (P104-BCK-03).
     """
     env = await Env.start(dut, INIT_A)
@@ -101,7 +103,7 @@ async def p104_bck_03_phase_restart(dut):
 
 @directed("P104-BCK-04", "P104-INT-01", "P104-INI-01", "P104-TIM-03", builds=(F16, F25, F100))
 async def p104_bck_04_external_edges(dut):
-    """With external clocks of any duty cycle and jitter, every pulse follows its own clock edge
+    """With external clocks of any duty cycle and jitter, each pulse follows the clock edge that belongs to it
     (P104-BCK-04).
     """
     env = await Env.start(dut, EXTERNAL)
@@ -132,8 +134,8 @@ async def p104_bck_04_external_edges(dut):
     uncompared="P104-BCK-05 lets intervals of less than 16 clk grow by whole periods",
 )
 async def p104_bck_05_too_fast_clock(dut):
-    """With an external clock period of 4 to 15 cycles at rate 0, count, phases and results are right,
-    and no interval is too short (P104-BCK-05).
+    """With an external clock period of 4 to 15 cycles at rate 0, count, phases and results are correct, and
+    no interval is too short (P104-BCK-05).
     """
     env = await Env.start(dut, (0x1A, 3, 0, 4))
     for period in (4, 5, 7, 9, 12, 15):
@@ -141,7 +143,7 @@ async def p104_bck_05_too_fast_clock(dut):
         for code, rate in ((0x44, 0), (0x43, None), (0xC3, None)):
             before = env.bench.level("s")
             await env.move(code, 25, rate)
-            env.check("P104-BCK-05", f"pulses at {period} clk", len(env.pulses), 25)
+            env.check("P104-BCK-05", f"pulses at {period} cycles", len(env.pulses), 25)
             env.check("P104-BCK-05", "shortest interval", min(env.intervals) >= period, True)
             env.check("P104-BCK-05", "intervals are whole periods", {i % period for i in env.intervals}, {0})
             turns = 25 if code != 0xC3 else 0
@@ -165,7 +167,9 @@ async def p104_bck_05_too_fast_clock(dut):
 
 @directed("P104-INT-03", "P104-INT-04", builds=(F16, F25))
 async def p104_int_03_vsel_low_external(dut):
-    """With vsel = L and constant or changing external clocks, each pulse is where P104-INT-03 states."""
+    """With vsel = L and a constant or changing external clock, each pulse occurs at the time in
+    P104-INT-03.
+    """
     env = await Env.start(dut, EXTERNAL, vsel=0)
     rng = env.bench.rng
     us = env.cfg.us
@@ -192,15 +196,15 @@ async def p104_int_03_vsel_low_external(dut):
             delay = env.pulses[0] - edges[first]
             got = [t - delay for t in env.pulses]
             expected = carried(env.cfg, edges, first, rate_list)
-            same = f"pulses at {gaps[:3]} clk, {code:#x}"
+            same = f"pulses at {gaps[:3]} cycles, {code:#x}"
             env.check("P104-INT-03", same, differences(got), differences(expected))
             await env.bench.clocks(20)
 
 
 @directed("P104-INT-04", "P104-EX-08", builds=(F16, F100))
 async def p104_int_04_steady_consequences(dut):
-    """With vsel = L, constant external periods up to 7.5 us add 7.5 us to an interval, periods from 9
-    us on add nothing (P104-INT-04).
+    """With vsel = L, constant external periods up to 7.5 us add 7.5 us to an interval; periods of 9 us or
+    more add nothing (P104-INT-04).
     """
     env = await Env.start(dut, EXTERNAL, vsel=0)
     us = env.cfg.us
@@ -220,8 +224,8 @@ async def p104_int_04_steady_consequences(dut):
 
 @directed("P104-INT-05", "P104-BAD-17", "P104-TIM-05", builds=(F16, F11, F100))
 async def p104_int_05_no_speed_limit(dut):
-    """With RH = 0, every interval of a ramp is exact at top speed, and commands are executed
-    (P104-INT-05).
+    """With RH = 0, every interval of a ramp is exact at the maximum speed, and commands are executed during
+    it (P104-INT-05).
     """
     env = await Env.start(dut, (0x0A, 7, 0, 9))
     await env.go(0x43, 200)
@@ -236,7 +240,7 @@ async def p104_int_05_no_speed_limit(dut):
 
 @directed("P104-TIM-03", "P104-BAD-13", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", "P104-FDC-03")
 async def p104_tim_03_waiting_for_the_clock(dut):
-    """Without an external clock, operations wait in START, and all stop causes act (P104-TIM-03)."""
+    """Without an external clock, operations wait in START, and all stop causes take effect (P104-TIM-03)."""
     env = await Env.start(dut, EXTERNAL)
     causes = {"l1_n": 0x90, "alm_n": 0xA0, "cnp_n": 0x80}
     for code, rate in ((0x44, 9), (0x45, 9), (0x47, 9), (0x43, None), (0x46, None)):
@@ -271,7 +275,7 @@ async def p104_tim_03_waiting_for_the_clock(dut):
 
 @directed("P104-TIM-03", "P104-BCK-04", builds=(F16, F100))
 async def p104_tim_03_first_edge(dut):
-    """The first external edge at W after the start, or later, makes pulse 1 (P104-TIM-03)."""
+    """The first external edge at least W after the start causes pulse 1 (P104-TIM-03)."""
     env = await Env.start(dut, EXTERNAL)
     w = env.cfg.w
     for offset in (-20, -8, 0, 8, 20):
@@ -279,7 +283,7 @@ async def p104_tim_03_first_edge(dut):
         env.since = env.bench.now
         await env.host.write(0, 0)
         fell = await env.bench.edge("hold", 0) if env.bench.level("hold") else env.bench.falls("hold")[-1]
-        # An edge driven at t is effective 2 to 3 cycles later, its pins 1 cycle after that.
+        # An edge driven at t takes effect 2 to 3 cycles later; the pins follow 1 cycle after that.
         at = fell + w - 3 + offset
         await env.bench.until(at)
         await env.ticks(1, 4)
@@ -300,7 +304,7 @@ async def p104_tim_03_first_edge(dut):
 
 @directed("P104-BCK-04", "P104-BAD-13")
 async def p104_bck_04_clock_stops_and_resumes(dut):
-    """If the external clock stops for 50 us in an interval, no edge is missed or added when it resumes
+    """If the external clock stops for 50 us within an interval, no edge is missed or added when it continues
     (P104-BCK-04).
     """
     env = await Env.start(dut, EXTERNAL)

@@ -15,7 +15,10 @@ from .expected_timing import INIT_A
 
 
 async def strobe(env: Env, ps: int, gap_ps: int, **levels: int) -> None:
-    """Make one host access that is asynchronous to clk: levels for `ps`, then strobes off for `gap_ps`."""
+    """Make one host access that is asynchronous to `clk`.
+
+    The levels last for `ps`; then the strobes are inactive for `gap_ps`.
+    """
     env.bench.set_between_edges(**levels)
     await Timer(ps, "ps")
     env.bench.set_between_edges(cs_n=1, wr_n=1, rd_n=1)
@@ -23,17 +26,16 @@ async def strobe(env: Env, ps: int, gap_ps: int, **levels: int) -> None:
 
 
 def off_edge(env: Env, part: int) -> int:
-    """Return an even number of ps of the given eighths of a cycle, with a small offset that avoids the
-    edges of `clk`.
+    """Return the duration of this number of eighths of a cycle as an even number of ps.
+
+    A small offset avoids the edges of `clk`.
     """
     return env.bench.period * part // 16 * 2 + 2 * (env.bench.period // 64)
 
 
 @directed("P104-BUS-01", "P104-GEN-01")
 async def p104_bus_01_register_map(dut):
-    """For all combinations of cs_n, a0 and strobes, only the selected register is accessed
-    (P104-BUS-01).
-    """
+    """For each combination of cs_n, a0 and strobes, only the selected register is accessed (P104-BUS-01)."""
     env = await Env.start(dut, None)
     bench, host = env.bench, env.host
     env.check("P104-BUS-01", "a0 = 0 writes data: error 3", await host.data(0x86), 0xB0)
@@ -60,7 +62,7 @@ async def p104_bus_01_register_map(dut):
 
 @directed("P104-BUS-02", "P104-BAD-08")
 async def p104_bus_02_overlapping_strobes(dut):
-    """If a read strobe interrupts a write, the byte sampled before is stored once (P104-BUS-02)."""
+    """If a read strobe interrupts a write, the byte that was sampled before is stored once (P104-BUS-02)."""
     env = await Env.start(dut, None)
     bench = env.bench
     since = bench.set(a0=COMMAND, d_i=0x86, cs_n=0, wr_n=0)
@@ -89,7 +91,7 @@ async def p104_bus_02_overlapping_strobes(dut):
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
 async def p104_bus_03_shortest_strobes(dut):
-    """With the shortest legal strobes at any phase, no byte is missed or corrupted (P104-BUS-03)."""
+    """With the shortest legal strobes at any phase to `clk`, no byte is missed or corrupted (P104-BUS-03)."""
     env = await Env.start(dut, None)
     bench = env.bench
     clk = bench.period
@@ -97,13 +99,15 @@ async def p104_bus_03_shortest_strobes(dut):
     for part in range(8):
         await bench.align()
         await Timer(off_edge(env, part), "ps")
-        # Of two writes back to back, the newer byte may replace the older one, but must be stored.
+        # If two writes follow each other without a pause, the newer byte must be stored; it may replace the
+        # older one.
         await strobe(env, short, short, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
         await strobe(env, short, 14 * clk, a0=1, d_i=0xC1, cs_n=0, wr_n=0)
         env.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 0)
         await strobe(env, short, 14 * clk, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
         env.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 1)
-        # The levels of d_i and a0 are invalid until 1 cycle + 10 ns before the end of a longer strobe.
+        # In longer strobes, the levels of d_i and a0 are invalid until 1 cycle + 10 ns before the end of the
+        # strobe.
         bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
         await Timer(3 * clk, "ps")
         await strobe(env, short, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
@@ -137,11 +141,11 @@ async def p104_bus_05_snapshot(dut):
         after = bench.set(cs_n=1, rd_n=1)
         await bench.clocks(8)
         (on, _), (off, _) = bench.edges("d_oe", first)
-        env.window("P104-BUS-05", f"d_oe rise, {length} clk", on - first, 0, 2)
-        env.window("P104-BUS-05", f"d_oe fall, {length} clk", off - after, 0, 2)
-        env.check("P104-BUS-05", f"status, {length} clk", byte, 0x04)
+        env.window("P104-BUS-05", f"d_oe rise, {length} cycles", on - first, 0, 2)
+        env.window("P104-BUS-05", f"d_oe fall, {length} cycles", off - after, 0, 2)
+        env.check("P104-BUS-05", f"status, {length} cycles", byte, 0x04)
         moved = [t for t, _ in bench.edges("d_o", first + 3) if t <= after + 2]
-        env.check("P104-BUS-05", f"d_o edges up to edge 2', {length} clk", moved, [])
+        env.check("P104-BUS-05", f"d_o edges up to edge 2', {length} cycles", moved, [])
         await env.idle()
     ended = bench.set(a0=STATUS, cs_n=0, rd_n=0)
     await bench.clocks(5)
@@ -153,8 +157,8 @@ async def p104_bus_05_snapshot(dut):
 
 @directed("P104-BUS-06", "P104-GEN-06", "P104-TIM-01", "P104-BAD-18", builds=(F16, F100))
 async def p104_bus_06_last_sample_counts(dut):
-    """If d_i and a0 change every cycle, the last sample of the write strobe is the byte, always with
-    the same latency (P104-BUS-06).
+    """If d_i and a0 change in every cycle, the last sample in the write strobe is the byte, always with the
+    same latency (P104-BUS-06).
     """
     env = await Env.start(dut, None)
     bench = env.bench
@@ -169,12 +173,12 @@ async def p104_bus_06_last_sample_counts(dut):
             edge0 = bench.set(a0=0, d_i=0x86, **ends)
             await bench.clocks(14)
             (t, level) = bench.edges("aux_n", edge0)[0]
-            env.check("P104-BUS-06", f"aux_n, {length} clk, {ends}", level, 1 - on)
+            env.check("P104-BUS-06", f"aux_n, {length} cycles, {ends}", level, 1 - on)
             latencies.add(t - edge0)
             await env.host.idle()
             bench.set(cs_n=1, wr_n=1, rd_n=1)
             await bench.clocks(12)
-            env.check("P104-BUS-06", f"status, {length} clk, {ends}", await env.host.status(), 0x00)
+            env.check("P104-BUS-06", f"status, {length} cycles, {ends}", await env.host.status(), 0x00)
     env.check("P104-BUS-06", "number of different latencies", len(latencies), 1)
     env.window("P104-TIM-01", "edge 0 to pin", latencies.pop(), 2, PINS_LATEST)
 
@@ -208,7 +212,7 @@ async def p104_bus_07_no_invisible_byte(dut):
 @rtl_only("glitches between two clk edges, which the model never sees")
 @directed("P104-PORT-02", builds=(F16, F50))
 async def p104_port_02_registers_only(dut):
-    """During short glitches between clk edges, outputs change only on rising edges (P104-PORT-02)."""
+    """During short glitches between edges of `clk`, outputs change only on rising edges (P104-PORT-02)."""
     env = await Env.start(dut, INIT_A)
     bench = env.bench
     rising = (int(get_sim_time("ps")) + bench.half) % bench.period
@@ -244,7 +248,7 @@ async def p104_port_02_registers_only(dut):
 
 @directed("P104-PORT-03", "P104-PORT-01", "P104-PHS-02", "P104-PAR-01", builds=(F16, F50))
 async def p104_port_03_reset(dut):
-    """Bytes written during reset are not stored; the write sampled on edge 4 after the release is
+    """Bytes written during reset are not stored; a write that is sampled on edge 4 after the release is
     accepted (P104-PORT-03).
     """
     env = await Env.start(dut, INIT_A)
@@ -277,7 +281,9 @@ async def p104_port_03_reset(dut):
 
 @directed("P104-PORT-04")
 async def p104_port_04_tied_inputs(dut):
-    """With unused inputs tied as documented, and clock at 0 or 1, moves run undisturbed (P104-PORT-04)."""
+    """If unused inputs are tied as documented, and the clock pin is at 0 or 1, moves are not affected
+    (P104-PORT-04).
+    """
     env = await Env.start(dut, INIT_A)
     for clock in (0, 1):
         env.bench.set(clock=clock)
@@ -290,8 +296,8 @@ async def p104_port_04_tied_inputs(dut):
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BAD-09")
 async def p104_bad_09_too_short_strobes(dut):
-    """With strobes and gaps below the limits, at any phase, each byte is stored completely or not at
-    all (P104-BAD-09).
+    """If strobes and gaps are shorter than the limits, at any phase, each byte is either stored completely or
+    not at all (P104-BAD-09).
     """
     env = await Env.start(dut, None)
     bench = env.bench
@@ -300,7 +306,8 @@ async def p104_bad_09_too_short_strobes(dut):
         for part in range(8):
             await bench.clocks(4)
             await Timer(off_edge(env, part), "ps")
-            # The nibbles are complementary: half a byte of each would be a third value on auxo.
+            # The nibbles of each byte are complementary, so a mixture of two bytes would cause a third value
+            # on auxo.
             await strobe(env, length // 2 * 2, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
             status = await env.host.status()
             env.check("P104-BAD-09", f"status {status:#x} is one of 0x00, 0x10", status in (0x00, 0x10), True)

@@ -1,5 +1,5 @@
-"""Code map, don't-care bits, response to each command in each state (P104-CMD, P104-FSM), operation
-starts (P104-OPR).
+"""Code map, don't-care bits, response to each command in each state (P104-CMD, P104-FSM), and starts of
+operations (P104-OPR).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ PARAMETERS = {0x42: 0, 0x43: 3, 0x44: 4, 0x45: 1, 0x46: 0, 0x47: 1, 0xC3: 3, 0xC
 
 @directed("P104-CMD-01", "P104-CMD-03", "P104-OPR-03")
 async def p104_cmd_01_all_codes_ready(dut):
-    """After initialisation, each of the 256 codes sets its parameter count or has its effect
+    """After initialisation, each of the 256 codes sets its number of parameters or has its effect
     (P104-CMD-01).
     """
     env = await Env.start(dut, INIT_A)
@@ -44,9 +44,7 @@ async def p104_cmd_01_all_codes_ready(dut):
 
 @directed("P104-CMD-04", "P104-CMD-03", "P104-AUX-05", "P104-OPR-12", "P104-RD-01", "P104-INI-04")
 async def p104_cmd_04_all_codes_busy(dut):
-    """During a move, only the commands that BUSY allows are executed, out of all 256 codes
-    (P104-CMD-04).
-    """
+    """During a move, of all 256 codes, only the commands that BUSY allows are executed (P104-CMD-04)."""
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 10, rate=255)
     for code in range(256):
@@ -69,7 +67,7 @@ async def p104_cmd_04_all_codes_busy(dut):
 
 @directed("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
 async def p104_cmd_04_stop_codes_busy(dut):
-    """Every code of the two stops ends a move; I of the move determines INT (P104-CMD-04)."""
+    """Every code of the two stops ends a move; bit I of the move determines INT (P104-CMD-04)."""
     env = await Env.start(dut, INIT_A)
     for code in (c for c in range(0x40, 0x80) if c & 7 < 2):
         masked = bool(code & 0x20)
@@ -83,7 +81,7 @@ async def p104_cmd_04_stop_codes_busy(dut):
 
 @directed("P104-CMD-02", "P104-OPR-01", "P104-PHS-07")
 async def p104_cmd_02_bits_of_operations(dut):
-    """For every operation with all values of X, I and D, dir is D, INT is NOT I, and X is ignored
+    """For every operation and all values of X, I and D, dir is D, INT is NOT I, and X is ignored
     (P104-CMD-02).
     """
     env = await Env.start(dut, INIT_A)
@@ -164,8 +162,8 @@ async def p104_fsm_01_table(dut):
 
 @directed("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
 async def p104_fsm_01_stops(dut):
-    """In each state, a stop command ends the motion, sets the flag, returns an error or has no effect, as
-    the table states (P104-FSM-01).
+    """In each state, a stop command ends the motion, sets the flag, returns an error or has no effect, as the
+    table of chapter 7 states (P104-FSM-01).
     """
     env = await Env.start(dut, None)
     for state in ("UNINIT", "READY"):
@@ -202,8 +200,8 @@ async def p104_fsm_01_stops(dut):
 
 @directed("P104-FSM-01", "P104-OPR-12", "P104-BAD-12", "P104-CMD-04")
 async def p104_fsm_01_parameters_of_refused_operations(dut):
-    """During a move, a second operation returns error 1, its parameters error 6, and the move is not
-    affected (P104-FSM-01).
+    """During a move, a second operation returns error 1, each of its parameters returns error 6, and the move
+    is not affected (P104-FSM-01).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 8, rate=99)
@@ -216,8 +214,8 @@ async def p104_fsm_01_parameters_of_refused_operations(dut):
 
 @directed("P104-FSM-03", "P104-AUX-02")
 async def p104_fsm_03_parameter_across_the_end(dut):
-    """If 0x86 is accepted during a move and its data byte is sent after the end, the byte is still its
-    parameter (P104-FSM-03).
+    """If 0x86 is accepted during a move and the next data byte is sent after its end, the byte is still the
+    parameter of 0x86 (P104-FSM-03).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 2, rate=99)

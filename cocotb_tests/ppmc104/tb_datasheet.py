@@ -1,6 +1,6 @@
 """Processing times of the old chip, TIMING = "DATASHEET" (P104-DS).
 
-All times: CYC(16·us), -0/+16 cycles.
+All times are CYC(16·us), -0/+16 cycles.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from .expected_timing import INIT_A
 
 @directed("P104-DS-01", "P104-INI-07", builds=(D16, D11))
 async def p104_ds_01_phase_outputs(dut):
-    """After the last byte of the first initialisation, s has pattern 0 44 us later; a re-initialisation
-    does not change it (P104-DS-01).
+    """44 us after the last byte of the first initialisation, s changes to pattern 0; a re-initialisation does
+    not change s (P104-DS-01).
     """
     env = await DatasheetEnv.start(dut, None)
     await env.host.send(0x0A, [9, 4, 4])
@@ -35,8 +35,8 @@ async def p104_ds_01_phase_outputs(dut):
 
 @directed("P104-DS-02", "P104-INI-08", "P104-HSK-01", builds=(D16, D25X8))
 async def p104_ds_02_init_time(dut):
-    """For PA 4 and 104, the mailbox opens 264000 + 209·(PA - 4) crystal cycles after the
-    initialisation, then chopping starts (P104-DS-02).
+    """For PA 4 and 104, the mailbox opens 264000 + 209·(PA - 4) crystal cycles after the initialisation, and
+    chopping starts then (P104-DS-02).
     """
     env = await DatasheetEnv.start(dut, None)
     for pa in (4, 104):
@@ -54,7 +54,7 @@ async def p104_ds_02_init_time(dut):
 
 @directed("P104-DS-02", "P104-DS-13", "P104-INI-06", builds=(D16,))
 async def p104_ds_13_no_time_for_the_rest(dut):
-    """After a rejected initialisation, reads, 0x84 and errors, further bytes are accepted as in FAST
+    """After a rejected initialisation, reads, 0x84 and errors, the next bytes are accepted as in FAST
     (P104-DS-13).
     """
     env = await DatasheetEnv.start(dut, None)
@@ -83,7 +83,7 @@ async def p104_ds_13_no_time_for_the_rest(dut):
 
 @directed("P104-DS-03", "P104-DS-04", "P104-DS-05", "P104-TIM-04", builds=(D16, D11))
 async def p104_ds_03_start_times(dut):
-    """For every operation, BUSY, hold, dir, s and pulse 1 occur at their times after the last byte
+    """For every operation, BUSY, hold, dir, s and pulse 1 change at the documented times after the last byte
     (P104-DS-03, P104-DS-04, P104-DS-05).
     """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))
@@ -151,8 +151,9 @@ async def p104_ds_03_clock_of_the_c_event(dut):
 
 @directed("P104-DS-05", builds=(D16,))
 async def p104_ds_05_long_triangles(dut):
-    """With PA = 300, the delay of pulse 1 is proportional to N only for D below 2·PA: tried with
-    D = 599, 600, 300 (P104-DS-05).
+    """With PA = 300, the delay of pulse 1 is proportional to N only for D below 2·PA (P104-DS-05).
+
+    The test uses D = 599, 600 and 300.
     """
     env = await DatasheetEnv.start(dut, (0x0A, 40, 9, 300))
     for n, first in ((600, 3200 + 123 * 600 // 16), (601, 3200), (301, 3200 + 123 * 301 // 16)):
@@ -164,8 +165,8 @@ async def p104_ds_05_long_triangles(dut):
 
 @directed("P104-DS-03", "P104-HSK-01", builds=(D16,))
 async def p104_ds_03_closed_until_busy(dut):
-    """AUX ON that waits for a start is accepted when BUSY has risen; the chopper is off then
-    (P104-DS-03).
+    """If AUX ON waits for the start of an operation, it is accepted when BUSY has risen; the chopper is off
+    then (P104-DS-03).
     """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))
     for code, n, rate, busy in ((0x44, 3, 99, 27), (0x43, 9, None, 112)):
@@ -182,7 +183,9 @@ async def p104_ds_03_closed_until_busy(dut):
 
 @directed("P104-DS-06", "P104-SW-02", builds=(D16, D25X8))
 async def p104_ds_06_single_step(dut):
-    """The pulse of 0x42 occurs at 86 us; INT, chopper and mailbox follow at 112 us (P104-DS-06)."""
+    """The pulse of 0x42 occurs after 86 us; INT falls, chopping begins, and the mailbox opens after 112 us
+    (P104-DS-06).
+    """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))
     event = await env.event(0x42)
     fall = await env.pulse(1)
@@ -199,8 +202,8 @@ async def p104_ds_06_single_step(dut):
 
 @directed("P104-DS-07", "P104-END-01", "P104-SW-02", "P104-DS-09", builds=(D16, D11))
 async def p104_ds_07_normal_end(dut):
-    """After the last pulse of a complete move, INT follows 26 us later and the mailbox opens 156 us
-    later (P104-DS-07).
+    """After the last pulse of a complete move, INT falls 26 us later, and the mailbox opens 156 us later
+    (P104-DS-07).
     """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))
     for code, n, rate in ((0x44, 3, 99), (0x43, 9, None), (0xC3, 12, None)):
@@ -220,8 +223,8 @@ async def p104_ds_07_normal_end(dut):
 
 @directed("P104-DS-08", "P104-DS-14", "P104-END-02", builds=(D16, D11))
 async def p104_ds_08_immediate_end(dut):
-    """After 0x40, ALM, or 0x41 at constant speed, INT follows the decision by 26 or 200 us, and the
-    mailbox opens 156 or 200 us after it (P104-DS-08).
+    """After 0x40, ALM, or 0x41 at constant speed decides the end, INT falls 26 or 200 us later, and the
+    mailbox opens 156 or 200 us later (P104-DS-08).
     """
     env = await DatasheetEnv.start(dut, INIT_A)
     for code, n, rate, quiet, closed in (
@@ -266,8 +269,8 @@ async def p104_ds_08_immediate_end(dut):
 
 @directed("P104-DS-08", "P104-LIM-07", "P104-DS-03", builds=(D16,))
 async def p104_ds_08_cause_at_start(dut):
-    """With ALM low at the start, BUSY rises at its time, and the operation ends 26 or 200 us later
-    (P104-DS-08).
+    """If ALM is low at the start, BUSY rises at its documented time, and the operation ends 26 or 200 us
+    later (P104-DS-08).
     """
     env = await DatasheetEnv.start(dut, INIT_A)
     env.bench.set(alm_n=0)

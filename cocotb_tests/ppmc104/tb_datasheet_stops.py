@@ -1,5 +1,5 @@
-"""Processing times of the old chip, second part: decelerating stops, aux commands, speed limit,
-external clock.
+"""Processing times of the old chip, second part: decelerating stops, aux commands, speed limit, external
+clock.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from .expected_timing import INIT_B, forced, rates
 
 @directed("P104-DS-08", "P104-DS-10", "P104-END-03", "P104-FDC-02", builds=(D16, D11))
 async def p104_ds_10_decelerating_stop(dut):
-    """The flag of 0x41 in I(4) is set 17 us later: I(4) or I(5) is the last interval of the
-    acceleration; INT follows the end by 200 us (P104-DS-10).
+    """The flag of 0x41 in I(4) is set 17 us later, so I(4) or I(5) is the last interval of the acceleration.
+    INT follows the end by 200 us (P104-DS-10).
     """
-    # These intervals are so long that none of them closes the mailbox (P104-DS-12).
+    # All intervals are long enough to keep the mailbox open (P104-DS-12).
     ramp = (60, 30, 10)
     env = await DatasheetEnv.start(dut, (0x0A, *ramp))
     fourth = env.cfg.quanta(8 * (rates(ramp, [3])[0] + 1))
@@ -42,9 +42,11 @@ async def p104_ds_10_decelerating_stop(dut):
 
 @directed("P104-DS-10", "P104-FDC-01", "P104-LIM-04", builds=(D16,))
 async def p104_ds_10_slow_down_limit(dut):
-    """L3 low for 10 cycles in START, ACC or HIGH sets the flag 12 or 17 us later (P104-DS-10)."""
+    """L3 low for 10 cycles sets the flag 12 us later in START or ACC, and 17 us later in HIGH
+    (P104-DS-10).
+    """
     env = await DatasheetEnv.start(dut, INIT_B)
-    # j: interval in which L3 falls; its length and the delay of the flag, in cycles at 16 MHz.
+    # j: interval in which L3 falls; then its length and the delay of the flag, in cycles at 16 MHz.
     for j, length, delay in ((4, 480, 192), (13, 320, 272)):
         for early in (40, -40):
             await env.event(0x43, 200)
@@ -66,13 +68,13 @@ async def p104_ds_10_slow_down_limit(dut):
 
 @directed("P104-DS-10", "P104-END-05", "P104-FDC-05", builds=(D16,))
 async def p104_ds_10_flag_too_late(dut):
-    """If the flag of 0x41 or L3 would be set only after the natural deceleration or the end began, it
-    has no effect, on this and on the next operation (P104-DS-10).
+    """If 0x41 or L3 would set the flag only after the natural deceleration or the end has begun, it has no
+    effect on this operation or the next one (P104-DS-10).
     """
     env = await DatasheetEnv.start(dut, INIT_B)
     for cause in ("41", "l3_n", "none"):
-        # With N = 8, natural deceleration begins at pulse 5, and I(4) is 480 cycles. With N = 2, I(1) is 640
-        # cycles.
+        # With N = 8, natural deceleration begins at pulse 5, and I(4) is 480 cycles long. With N = 2, I(1) is
+        # 640 cycles long.
         for n, j, length in ((8, 4, 480), (2, 1, 640)):
             await env.event(0x43, n)
             fall = await env.pulse(j)
@@ -91,8 +93,8 @@ async def p104_ds_10_flag_too_late(dut):
 
 @directed("P104-DS-11", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05", builds=(D16, D11))
 async def p104_ds_11_aux_times(dut):
-    """AUX ON/OFF, auxiliary output and 0xC0 change their pins 14 or 18 us after the write; until then
-    the mailbox is closed (P104-DS-11).
+    """AUX ON/OFF, auxiliary outputs and 0xC0 change their pins 14 or 18 us after the write; until then the
+    mailbox is closed (P104-DS-11).
     """
     env = await DatasheetEnv.start(dut, (0x02, 9, 4, 4))
     for code, pin in ((0xC1, "aux_n"), (0xC2, "aux_n")):
@@ -120,8 +122,8 @@ async def p104_ds_11_aux_times(dut):
 
 @directed("P104-DS-12", "P104-STP-01", builds=(D16,))
 async def p104_ds_12_speed_limit(dut):
-    """C1 waits during intervals below 148 q (phase mode) or 100 q (POUT mode) and is accepted in longer
-    ones (P104-DS-12).
+    """0xC1 waits during intervals below 148 q (phase mode) or 100 q (POUT mode); it is accepted in longer
+    intervals (P104-DS-12).
     """
     env = await DatasheetEnv.start(dut, None)
     # The intervals are just below and just above the limit: 144 q and 152 q in phase mode, 96 q and 104 q in
@@ -152,15 +154,15 @@ async def p104_ds_12_speed_limit(dut):
 
 @directed("P104-DS-12", "P104-LIM-01", "P104-STP-04", builds=(D16,))
 async def p104_ds_12_ends_with_the_fast_part(dut):
-    """C1 that waits during a fast plateau is accepted in the first slow interval; 0x41 and limits act
-    immediately (P104-DS-12).
+    """If 0xC1 waits during a fast plateau, it is accepted in the first slow interval; 0x41 and limits take
+    effect immediately (P104-DS-12).
     """
     env = await DatasheetEnv.start(dut, INIT_B)
     await env.event(0x43, 60)
     await env.pulse(15, 40)
     await env.host.command(0xC1, poll=False)
-    # Rates while decelerating: 9,10,10,11,12,12,14,15,17,19. I(58) has rate 17 and lasts 144 q; I(59), the
-    # last interval, has rate 19 and lasts 160 q.
+    # The rates while decelerating are 9,10,10,11,12,12,14,15,17,19. I(58) has rate 17 and lasts 144 q; I(59),
+    # the last interval, has rate 19 and lasts 160 q.
     await env.pulse(58, 100)
     env.check("P104-DS-12", "IBF in I(58), 144 q", await env.host.status() & IBF, IBF)
     await env.pulse(59, 60)
@@ -184,7 +186,7 @@ async def p104_ds_12_ends_with_the_fast_part(dut):
 
 @directed("P104-DS-04", "P104-DS-05", "P104-DS-12", "P104-TIM-03", builds=(D16,))
 async def p104_ds_04_external_clock(dut):
-    """With an external clock, pulse 1 is the first edge after 194 or 200 us, and no speed limit applies
+    """With an external clock, the first edge after 194 or 200 us causes pulse 1, and no speed limit applies
     (P104-DS-04, P104-DS-05, P104-DS-12).
     """
     env = await DatasheetEnv.start(dut, (0x1A, 9, 4, 4))

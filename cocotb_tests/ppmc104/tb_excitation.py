@@ -1,4 +1,4 @@
-"""Excitation (P104-PHS) and stop-time switching (P104-SW)."""
+"""Excitation (P104-PHS) and switching at standstill (P104-SW)."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ A_VALUES = (9, 4, 4)
 
 @directed("P104-PHS-01", "P104-PHS-06", "P104-OPR-05", "P104-EX-09", builds=(F16, F50))
 async def p104_phs_01_lists_in_motion(dut):
-    """For all motors and logics, each pulse selects the next row of the list, also across its wrap in
-    both directions (P104-PHS-01).
+    """For all motors and logics, each pulse selects the next row of the list in both directions; the list
+    wraps around (P104-PHS-01).
     """
     env = await Env.start(dut, None)
     for name, code in STEP_CODES.items():
@@ -35,7 +35,7 @@ async def p104_phs_01_lists_in_motion(dut):
 
 @directed("P104-PHS-06", "P104-PHS-01")
 async def p104_phs_06_half_step_alignment(dut):
-    """Every second half step is a row of the full-step list (P104-PHS-06)."""
+    """The full-step list consists of every second row of the half-step list (P104-PHS-06)."""
     env = await Env.start(dut, None)
     for phases in (3, 4, 5):
         await env.host.command(0xC0)
@@ -53,7 +53,7 @@ async def p104_phs_06_half_step_alignment(dut):
 
 @directed("P104-PHS-02", "P104-PHS-03", "P104-PAR-01", builds=(F16, F50))
 async def p104_phs_02_idle_level(dut):
-    """Until the first initialisation, s has the level PHASE_IDLE, regardless of any command
+    """Until the first initialisation, s has the level PHASE_IDLE, regardless of all commands
     (P104-PHS-02).
     """
     env = await Env.start(dut, None)
@@ -88,8 +88,8 @@ async def p104_phs_04_held_at_every_stop(dut):
 
 @directed("P104-SW-01", "P104-SW-04", "P104-SW-06", "P104-GEN-04", builds=(F16, F8, F11, F25, F50))
 async def p104_sw_06_accuracy(dut):
-    """For each core clock, 12 periods of the chopper have phases within one quantum and no drift
-    (P104-SW-06).
+    """For each core clock, each phase in 12 periods of the chopper is accurate to one quantum, and there is
+    no drift (P104-SW-06).
     """
     env = await Env.start(dut, (0x2E, *A_VALUES))
     quantum = 4 * env.cfg.clk_hz / env.cfg.xtal_hz
@@ -145,8 +145,8 @@ async def p104_sw_01_off_phase_levels(dut):
 
 @directed("P104-SW-02", "P104-SW-03", "P104-SW-04", builds=(F16, F25))
 async def p104_sw_02_start_and_stop(dut):
-    """With S = 1, the pattern is full from the start of a motion on, and a complete ON phase follows
-    the fall of BUSY (P104-SW-02).
+    """With S = 1, the full pattern is on from the start of a motion; after the fall of BUSY, a complete ON
+    phase follows (P104-SW-02).
     """
     env = await Env.start(dut, (0x2A, *A_VALUES))
     us, w = env.cfg.us, env.cfg.w
@@ -168,8 +168,8 @@ async def p104_sw_02_start_and_stop(dut):
 
 @directed("P104-SW-05")
 async def p104_sw_05_sampled_at_phase_starts(dut):
-    """When parameters or vsel change within a phase, this phase keeps its length and the next one has
-    the new length (P104-SW-05).
+    """If parameters or vsel change within a phase, this phase keeps its length, and the next phase has the
+    new length (P104-SW-05).
     """
     env = await Env.start(dut, (0x2A, *A_VALUES))
     await env.host.send(0x84, [5, 5])
@@ -190,7 +190,9 @@ async def p104_sw_05_sampled_at_phase_starts(dut):
 
 @directed("P104-SW-07", "P104-SW-01", "P104-SW-03")
 async def p104_sw_07_others_do_not_see_it(dut):
-    """Chopping at standstill does not change pout_n, dir, hold and 0x82; 0xC0 ends it (P104-SW-07)."""
+    """Chopping at standstill does not change pout_n, dir, hold or 0x82; 0xC0 ends the chopping
+    (P104-SW-07).
+    """
     env = await Env.start(dut, (0x2A, *A_VALUES))
     await env.move(0x4A)
     await env.finish()

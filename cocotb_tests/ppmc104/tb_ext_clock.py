@@ -1,4 +1,4 @@
-"""Fast external clocks compared with the formula, thresholds of their period (P104-BCK-05, -TIM-05,
+"""Fast external clocks, compared with the formula, and thresholds of their period (P104-BCK-05, -TIM-05,
 -INT-03).
 """
 
@@ -15,7 +15,7 @@ from .tb_baseclock import EXTERNAL, carried
 
 @directed("P104-BCK-05", "P104-TIM-05", "P104-BAD-14", builds=(F16, F8))
 async def p104_bck_05_first_deceleration_interval(dut):
-    """With edges 8 cycles apart, the low time at the deceleration point is cut and the interval is
+    """With edges 8 cycles apart, the low time at the deceleration point is shortened, and the interval is
     exact (P104-BCK-05).
     """
     ramp = (255, 1, 4)
@@ -51,8 +51,10 @@ async def p104_bck_05_sweep(dut):
 
 @directed("P104-TIM-05", builds=(F16, F8, F25))
 async def p104_tim_05_brisk_threshold(dut):
-    """At rate 0 the high time of the clock cuts the low time only for periods below CYC(128): tried
-    with CYC(128) - 1, 0, + 1 cycles (P104-TIM-05).
+    """At rate 0, the high time of the clock limits the low time only for periods below CYC(128)
+    (P104-TIM-05).
+
+    The test uses periods of CYC(128) - 1, CYC(128) and CYC(128) + 1 cycles.
     """
     env = await Env.start(dut, EXTERNAL)
     moves = await ExtMoves.of(env, INIT_A[1:], "l3_n")
@@ -64,8 +66,9 @@ async def p104_tim_05_brisk_threshold(dut):
 
 @directed("P104-INT-03", builds=(F16, F8, F25))
 async def p104_int_03_long_threshold(dut):
-    """With vsel = L, the extra time is omitted only if the clock period exceeds H (H - 1, H, H + 1
-    cycles and mixed).
+    """With vsel = L, the extra time is omitted only if the clock period exceeds H (P104-INT-03).
+
+    The test uses periods of H - 1, H and H + 1 cycles, constant and mixed.
     """
     env = await Env.start(dut, EXTERNAL, vsel=0)
     h = (272 * env.cfg.clk_hz // env.cfg.xtal_hz + 1) // 2
@@ -77,6 +80,6 @@ async def p104_int_03_long_threshold(dut):
             edges = env.clock_edges(env.since)
             first = max(i for i, t in enumerate(edges) if t < env.pulses[0] - 1)
             expected = carried(env.cfg, edges, first, [rate] * 5)
-            same = f"intervals at {gaps[:4]} clk, rate {rate}"
+            same = f"intervals at {gaps[:4]} cycles, rate {rate}"
             env.check("P104-INT-03", same, env.intervals, differences(expected))
             await env.bench.clocks(20)

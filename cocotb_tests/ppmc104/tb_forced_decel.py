@@ -13,7 +13,9 @@ LIMITS = {0: "l3_n", 1: "l4_n"}
 
 @directed("P104-EX-04", "P104-FDC-02", "P104-FDC-03")
 async def p104_ex_04_stop_in_each_phase(dut):
-    """0x41 or L3 in acceleration, I(1), plateau or START leads to the values of P104-EX-04."""
+    """0x41 or L3 in the acceleration, in I(1), on the plateau or in START results in the values of
+    P104-EX-04.
+    """
     env = await Env.start(dut, INIT_B)
     cases = ((4, 8, [19, 17, 15, 14, 15, 17, 19], 0x3DF), (1, 2, [19], 0x3E5))
     for j, count, expected, rest in cases:
@@ -41,7 +43,7 @@ async def p104_ex_04_stop_in_each_phase(dut):
 
 @directed("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04", builds=(F16, F100))
 async def p104_fdc_01_limit_in_each_interval(dut):
-    """The slow-down limit of the direction, in each interval of a phase-mode move, mirrors the ramp
+    """In each interval of a phase-mode move, the slow-down limit of the direction mirrors the ramp
     (P104-FDC-01).
     """
     env = await Env.start(dut, INIT_B)
@@ -61,8 +63,8 @@ async def p104_fdc_01_limit_in_each_interval(dut):
 
 @directed("P104-FDC-01", "P104-STP-04", "P104-GEN-07")
 async def p104_fdc_01_running_interval_unaltered(dut):
-    """A slow-down limit anywhere in an interval does not change this interval; the remaining ones are
-    always the same (P104-FDC-01).
+    """A slow-down limit does not change the interval in which it occurs. The remaining intervals are the same
+    for each position within this interval (P104-FDC-01).
     """
     env = await Env.start(dut, INIT_B)
     for delay in (1, 2, 3, 79, 80, 81, 300, 470):
@@ -94,7 +96,7 @@ async def p104_fdc_03_flag_in_start(dut):
 
 @directed("P104-FDC-04", "P104-BAD-20", "P104-LIM-04")
 async def p104_fdc_04_never_withdrawn(dut):
-    """After the flag is set, a bouncing or released limit does not change the deceleration
+    """After the flag is set, a limit that bounces or is released does not change the deceleration
     (P104-FDC-04).
     """
     env = await Env.start(dut, INIT_B)
@@ -111,13 +113,13 @@ async def p104_fdc_04_never_withdrawn(dut):
 
 @directed("P104-FDC-05", "P104-END-05", "P104-PRO-04")
 async def p104_fdc_05_complete_all_the_same(dut):
-    """With N equal to the length of the mirrored ramp, 0x41 or L3 is accepted and the motion is still
+    """If N equals the length of the mirrored ramp, 0x41 or L3 is accepted, and the motion is nevertheless
     complete (P104-FDC-05).
     """
     env = await Env.start(dut, INIT_B)
     for j in (1, 4, 10):
-        # A deceleration forced at index j - 1 leads to 2j pulses. Natural deceleration of N = 2j begins
-        # later, at the next pulse.
+        # A deceleration forced at index j - 1 results in 2j pulses. The natural deceleration for N = 2j
+        # begins later, at the next pulse.
         for stop in ("41", "l3"):
             await env.go(0x43, 2 * j)
             await env.pulse(j, 20)
@@ -131,8 +133,8 @@ async def p104_fdc_05_complete_all_the_same(dut):
 
 @directed("P104-FDC-06", "P104-LIM-01", builds=(F16, F25))
 async def p104_fdc_06_latency(dut):
-    """A slow-down limit that falls 4 cycles before a pulse event already makes this event decelerate
-    (P104-FDC-06).
+    """If a slow-down limit falls at least 4 cycles before a pulse event, the deceleration begins with this
+    event (P104-FDC-06).
     """
     env = await Env.start(dut, INIT_B)
     fifth = env.cfg.quanta(8 * (20 + 18 + 16 + 15))
@@ -148,7 +150,7 @@ async def p104_fdc_06_latency(dut):
         count = len(env.pulses)
         outcomes.append(count)
         env.check("P104-FDC-06", "8 pulses in time, 10 too late", count in (8, 10), True)
-        # The pin changes at most 2 cycles after a pulse event.
+        # The pin changes at most 2 cycles after the pulse event.
         if before >= 4 + 2:
             env.check("P104-FDC-06", f"pulses, {before} cycles before", count, 8)
         await env.result("P104-FDC-06", count, 0x8B, 200 - count - 1)
@@ -158,8 +160,8 @@ async def p104_fdc_06_latency(dut):
 
 @directed("P104-FDC-06", "P104-STP-03")
 async def p104_fdc_06_latency_of_the_command(dut):
-    """0x41 with its C-event 4 cycles before a pulse event already makes this event decelerate
-    (P104-FDC-06).
+    """If the C-event of 0x41 occurs at least 4 cycles before a pulse event, the deceleration begins with this
+    event (P104-FDC-06).
     """
     env = await Env.start(dut, INIT_B)
     fifth = 32 * (20 + 18 + 16 + 15)
@@ -172,8 +174,8 @@ async def p104_fdc_06_latency_of_the_command(dut):
         await env.idle()
         count = len(env.pulses)
         outcomes.append(count)
-        # Edge 0 is `before` cycles early; the C-event follows it by 2 to 10 cycles, the pin follows the
-        # event by 2.
+        # Edge 0 is `before` cycles before the pin changes. The C-event follows edge 0 by 2 to 10 cycles; the
+        # pin follows the pulse event by 2 cycles.
         if before >= 10 + 4 + 2:
             env.check("P104-FDC-06", f"pulses, {before} cycles before", count, 8)
         await env.result("P104-FDC-06", count, 0xC3, 200 - count - 1)

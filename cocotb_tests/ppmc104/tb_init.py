@@ -18,7 +18,7 @@ def off_level(code: int) -> int:
 
 @directed("P104-INI-01", "P104-PHS-01", "P104-PHS-03", "P104-INI-05")
 async def p104_ini_01_code_bits(dut):
-    """The bits of all 48 codes select motor type, method, logic, clock and chopping (P104-INI-01)."""
+    """In all 48 codes, the bits select motor type, method, logic, clock and chopping (P104-INI-01)."""
     env = await Env.start(dut, None)
     for code in (c for c in range(0x40) if c & 3):
         table = steps(f"{(code & 3) + 2} {'half' if code & 4 else 'full'}", bool(code & 8))
@@ -48,7 +48,7 @@ async def p104_ini_01_code_bits(dut):
 
 @directed("P104-INI-05", "P104-INI-07", "P104-TIM-01", "P104-INI-02")
 async def p104_ini_07_pattern_at_the_last_byte(dut):
-    """With the longest table, s has pattern 0 as soon as the 4th byte is accepted, and not before
+    """With the longest table build, s has pattern 0 as soon as the 4th byte is accepted, and not before
     (P104-INI-07).
     """
     env = await Env.start(dut, None)
@@ -66,8 +66,8 @@ async def p104_ini_07_pattern_at_the_last_byte(dut):
 
 @directed("P104-INI-06", "P104-BAD-10", "P104-ERR-02", "P104-PHS-02", builds=(F16, F50))
 async def p104_ini_06_rejected(dut):
-    """A rejected initialisation leaves an uninitialised core uninitialised and changes nothing in an
-    initialised one (P104-INI-06).
+    """After a rejected initialisation, an uninitialised core is still uninitialised, and an initialised core
+    is unchanged (P104-INI-06).
     """
     env = await Env.start(dut, None)
     idle = env.bench.part.reset_levels(env.cfg.params)["s"]
@@ -114,7 +114,7 @@ async def p104_ini_09_reinit(dut):
 
 @directed("P104-INI-05", "P104-PHS-03", "P104-PHS-04", "P104-PHS-05", "P104-AUX-04")
 async def p104_ini_05_index_kept(dut):
-    """A re-initialisation keeps index and pattern; after 0xC0 an initialisation begins with index 0
+    """A re-initialisation does not change index and pattern; an initialisation after 0xC0 begins with index 0
     (P104-INI-05).
     """
     env = await Env.start(dut, INIT_A)
@@ -143,7 +143,7 @@ async def p104_ini_05_index_kept(dut):
 
 @directed("P104-INI-08", "P104-SW-02", "P104-SW-03")
 async def p104_ini_08_chopping_and_completion(dut):
-    """During a re-initialisation chopping continues with the old S until completion; with S = 1 it
+    """During a re-initialisation chopping continues with the old S until completion; then, with S = 1, it
     restarts with an ON phase (P104-INI-08).
     """
     env = await Env.start(dut, None)
@@ -184,8 +184,8 @@ async def p104_ini_08_chopping_and_completion(dut):
 
 @directed("P104-INI-10", "P104-AUX-04", "P104-AUX-06")
 async def p104_ini_10_leaves_the_rest(dut):
-    """Initialisation and Excitation OFF change only the excitation: pins and registers in use keep
-    their values (P104-INI-10).
+    """Initialisation and Excitation OFF change only the excitation; all other pins and registers keep their
+    values (P104-INI-10).
     """
     env = await Env.start(dut, INIT_B)
     await env.host.run("c C1 c 86 d 05 c 84 d 01 d 02")

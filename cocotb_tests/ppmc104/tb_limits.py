@@ -1,4 +1,4 @@
-"""Limit, alarm and origin inputs (P104-LIM): their effect on each operation, priorities, timing."""
+"""Limit, alarm and origin inputs (P104-LIM): effect on each operation, priorities, timing."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ def bit(pin: str) -> int:
     builds=(F16, F50),
 )
 async def p104_lim_02_matrix_in_motion(dut):
-    """Each input that falls on the plateau of each operation, CW and CCW, ends it, decelerates it or
-    has no effect (P104-LIM-02).
+    """If an input falls on the plateau of an operation, CW or CCW, it ends the operation, decelerates it or
+    has no effect, as the rules state (P104-LIM-02).
     """
     env = await Env.start(dut, INIT_A)
     for base, n, rate in OPERATIONS[1:]:
@@ -96,8 +96,8 @@ async def p104_lim_02_matrix_in_motion(dut):
     builds=(F16, F50),
 )
 async def p104_lim_07_matrix_at_start(dut):
-    """With each input low at the start, each operation outputs no pulse, one pulse or all pulses, as
-    the rules state (P104-LIM-07).
+    """If an input is low at the start, the operation outputs no pulse, one pulse or all pulses, as the rules
+    state (P104-LIM-07).
     """
     env = await Env.start(dut, INIT_A)
     for base, n, rate in OPERATIONS:
@@ -114,7 +114,8 @@ async def p104_lim_07_matrix_at_start(dut):
                     await env.result(what, 0, 0x80 | bit(pin) | low, count - 1)
                     env.check(what, "s", env.bench.level("s"), pattern)
                 elif kind == "slow":
-                    # In POUT mode, the first plateau interval is I(5), then 5 + 1 + 4 pulses (P104-LIM-04).
+                    # In POUT mode, the first plateau interval is I(5); this results in 5 + 1 + 4 pulses
+                    # (P104-LIM-04).
                     pulses = 1 if base < 0xC0 else 10
                     await env.result(what, pulses, 0x88 | low, count - pulses - 1)
                 elif count < ALL:
@@ -129,8 +130,8 @@ async def p104_lim_07_matrix_at_start(dut):
 
 @directed("P104-LIM-03", "P104-LIM-05", "P104-LIM-09", "P104-END-02", "P104-BAD-20")
 async def p104_lim_03_every_phase(dut):
-    """ALM or the hard limit of the direction ends a motion immediately in START, ACC, HIGH, DEC and
-    CONST (P104-LIM-03, P104-LIM-05).
+    """ALM or the hard limit of the direction ends a motion immediately in START, ACC, HIGH, DEC and CONST
+    (P104-LIM-03, P104-LIM-05).
     """
     env = await Env.start(dut, None)
     states = {"START ramp": 0, "ACC": 2, "HIGH": PLATEAU, "DEC": PLATEAU, "DEC natural": 6}
@@ -151,7 +152,9 @@ async def p104_lim_03_every_phase(dut):
 
 @directed("P104-LIM-04", "P104-FDC-01", "P104-FDC-04")
 async def p104_lim_04_per_state(dut):
-    """L3 sampled for 3 cycles acts in the states that P104-LIM-04 lists, in phase mode and in POUT mode."""
+    """L3 low for 3 cycles takes effect in exactly the states that P104-LIM-04 lists, in phase mode and in
+    POUT mode.
+    """
     env = await Env.start(dut, None)
     for code in (0x43, 0x46, 0xC3, 0xC6):
         for state, flags in (
@@ -182,7 +185,9 @@ async def p104_lim_04_per_state(dut):
 
 @directed("P104-LIM-04", "P104-PRO-06", "P104-EX-05")
 async def p104_lim_04_pout_mode_plateau(dut):
-    """In POUT mode, L3 that is low from any interval on acts when the plateau is reached (P104-LIM-04)."""
+    """In POUT mode, if L3 is low from any interval on, it takes effect when the plateau is reached
+    (P104-LIM-04).
+    """
     env = await Env.start(dut, INIT_B)
     for j in (1, 5, 9, 10, 11, 12, 15):
         await env.go(0xC3, 60)
@@ -194,7 +199,8 @@ async def p104_lim_04_pout_mode_plateau(dut):
         which = forced(1000, 10, at)
         env.check_train("P104-LIM-04", rates(INIT_B[1:], which))
         await env.result("P104-LIM-04", len(which) + 1, 0x8B, 60 - len(which) - 2)
-    # HIGH begins with pulse 11, I(10) lasts 320 cycles. A level that ends before HIGH has no effect.
+    # HIGH begins with pulse 11, after I(10), which lasts 320 cycles. A level that ends before HIGH has no
+    # effect.
     for release, pulses, finish in ((314, 60, 0x83), (326, 22, 0x8B)):
         await env.go(0xC3, 60)
         await env.pulse(2, 60)
@@ -206,7 +212,7 @@ async def p104_lim_04_pout_mode_plateau(dut):
 
 @directed("P104-LIM-01", "P104-GEN-07", builds=(F16, F100))
 async def p104_lim_01_two_clk_levels(dut):
-    """Levels of 2 cycles at every phase of an interval act, each exactly once (P104-LIM-01)."""
+    """A level of 2 cycles takes effect exactly once, at any time within an interval (P104-LIM-01)."""
     env = await Env.start(dut, INIT_A)
     for pin, bits in (("l1_n", 0x94), ("alm_n", 0xA4)):
         for delay in (1, 2, 17, env.cfg.w - 1, env.cfg.w, env.cfg.w + 9):
@@ -214,7 +220,7 @@ async def p104_lim_01_two_clk_levels(dut):
             await env.pulse(3, delay)
             await env.bench.pulse_pin(pin, 0, 2)
             await env.result("P104-LIM-01", 3, bits, 26)
-    # This also holds in START; a level that ended before the start has no effect.
+    # This also applies to START; a level that ended before the start has no effect.
     await env.bench.pulse_pin("l1_n", 0, 8)
     await env.bench.clocks(2)
     await env.go(0x44, 3, 9)
@@ -226,8 +232,8 @@ async def p104_lim_01_two_clk_levels(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-LIM-01")
 async def p104_lim_09_priority_at_a_pulse(dut):
-    """If ALM falls in any cycle around a pulse event, either the pulse or the alarm has priority,
-    without other results (P104-LIM-09).
+    """If ALM falls in any cycle near a pulse event, either the pulse or the alarm has priority, and no other
+    result occurs (P104-LIM-09).
     """
     env = await Env.start(dut, INIT_A)
     outcomes = []
@@ -240,7 +246,7 @@ async def p104_lim_09_priority_at_a_pulse(dut):
         env.bench.set(alm_n=1)
         count = len(env.pulses)
         outcomes.append(count)
-        # Pulse 4 is the last: when it was output, the move is complete.
+        # Pulse 4 is the last: once it has been output, the move is complete.
         await env.result("P104-LIM-09", count, 0x84 if count == 4 else 0xA4, 0)
         if before >= 6:
             env.check("P104-LIM-09", f"pulses, ALM {before} cycles before", count, 3)
@@ -250,8 +256,8 @@ async def p104_lim_09_priority_at_a_pulse(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-FDC-01", "P104-STP-04")
 async def p104_lim_09_two_requests_on_one_edge(dut):
-    """Of 0x41 and L3 some cycles apart, the first sets its bit; on the same edge both bits are set,
-    without an error (P104-LIM-09).
+    """If 0x41 and L3 occur some cycles apart, only the first sets its bit; on the same edge, both bits are
+    set, without an error (P104-LIM-09).
     """
     env = await Env.start(dut, INIT_B)
     kinds = []
@@ -282,8 +288,8 @@ async def p104_lim_09_two_requests_on_one_edge(dut):
 
 @directed("P104-LIM-09", "P104-END-04")
 async def p104_lim_09_limit_and_alarm_on_one_edge(dut):
-    """If L1 and ALM fall on the same edge, both bits are set: in each operation, while accelerating, at
-    the top, while decelerating (P104-LIM-09).
+    """If L1 and ALM fall on the same edge, both bits are set in each operation, while accelerating, at
+    constant speed and while decelerating (P104-LIM-09).
     """
     env = await Env.start(dut, INIT_A)
     await two_causes(env, "P104-LIM-09", ("l1_n", "alm_n"))
@@ -294,8 +300,8 @@ async def p104_lim_09_limit_and_alarm_on_one_edge(dut):
 
 @directed("P104-LIM-09", "P104-LIM-04", "P104-LIM-06", "P104-END-04")
 async def p104_lim_09_causes_on_the_external_clock(dut):
-    """With vsel = L and an external clock, L3, CNP, and L1 with ALM act as with an internal clock
-    (P104-LIM-09).
+    """With vsel = L and an external clock, L3, CNP, and L1 with ALM have the same effect as with an internal
+    clock (P104-LIM-09).
     """
     env = await Env.start(dut, (0x1A, 9, 4, 4), vsel=0)
     period = env.cfg.us(4)
@@ -312,8 +318,8 @@ async def p104_lim_09_causes_on_the_external_clock(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-STP-03")
 async def p104_lim_09_stop_command_and_hard_limit(dut):
-    """If a stop command and L1 act on the same edge of a ramped move, 0x40 sets its bit in addition to
-    that of the limit; 0x41 is too late for its bit (P104-LIM-09).
+    """If a stop command and L1 take effect on the same edge of a ramped move, 0x40 sets its bit in addition
+    to the bit of the limit; 0x41 is too late to set its bit (P104-LIM-09).
     """
     env = await Env.start(dut, INIT_B)
     kinds = {}
@@ -329,7 +335,7 @@ async def p104_lim_09_stop_command_and_hard_limit(dut):
             await env.idle()
             env.bench.set(l1_n=1)
             kinds[code].append(await env.finish())
-            await env.host.write(1, 0x80)  # clears the error of a stop command at standstill
+            await env.host.write(1, 0x80)  # clear the error of a stop command at standstill
     both = [place for place, finish in enumerate(kinds[0x40]) if finish == 0xD3]
     env.check("P104-LIM-09", "0x40 and L1 coincide on one edge", len(both), 1)
     late = both[0]
@@ -340,7 +346,7 @@ async def p104_lim_09_stop_command_and_hard_limit(dut):
 
 @directed("P104-LIM-10", "P104-RD-05")
 async def p104_lim_10_nothing_at_rest(dut):
-    """At rest, toggling inputs change no output and do not affect later moves (P104-LIM-10)."""
+    """At standstill, changes of the inputs change no output and do not affect later moves (P104-LIM-10)."""
     env = await Env.start(dut, INIT_A)
     since = env.bench.now
     for _ in range(60):

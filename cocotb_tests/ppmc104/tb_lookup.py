@@ -1,4 +1,4 @@
-"""Steep ramps, whose rates are looked up during an interval: every edge compared with the golden model."""
+"""Steep ramps, whose rates are looked up during an interval; every edge is compared with the golden model."""
 
 from __future__ import annotations
 
@@ -11,9 +11,7 @@ from .bench import PPMC104
 
 @directed("P104-DS-12", builds=(D16,))
 async def p104_ds_12_opens_in_a_steep_deceleration(dut):
-    """In DATASHEET with steep ramps, a byte that waits is accepted as soon as the rules allow
-    (P104-DS-12).
-    """
+    """In DATASHEET with steep ramps, a waiting byte is accepted as soon as the rules allow (P104-DS-12)."""
     bench = await start_bench(dut, PPMC104)
     host = HostBus(bench)
     await host.init(0x0A, 120, 3, 12)
@@ -28,7 +26,7 @@ async def p104_ds_12_opens_in_a_steep_deceleration(dut):
 
 @directed("P104-TIM-05", "P104-BCK-04", builds=(F16, F8))
 async def p104_tim_05_external_cuts_on_steep_ramps(dut):
-    """With external clocks of short high times, every low time of a ramp that skips rates is right
+    """With external clocks of short high times, every low time of a ramp that skips rates is correct
     (P104-TIM-05).
     """
     bench = await start_bench(dut, PPMC104)

@@ -1,4 +1,4 @@
-"""Runs the sessions of docs/ppmc104/examples.md on the core: every byte must be the printed one."""
+"""Runs the sessions of docs/ppmc104/examples.md on the core: every byte must equal the printed byte."""
 
 from __future__ import annotations
 

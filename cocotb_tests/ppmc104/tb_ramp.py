@@ -12,7 +12,9 @@ from .expected_timing import INIT_A, INIT_B, forced, indices, rate, rates
 
 
 async def whole_ramp(env: Env, rule: str, ramp: tuple[int, int, int], code: int = 0xC3) -> None:
-    """Run a trapezoidal profile with a short plateau through the complete table and check every pulse."""
+    """Run a trapezoidal profile with a short plateau, which uses the complete table, and check every
+    pulse.
+    """
     n = 2 * ramp[2] + 4
     await env.init(0x0A, *ramp)
     await env.move(code, n)
@@ -21,7 +23,7 @@ async def whole_ramp(env: Env, rule: str, ramp: tuple[int, int, int], code: int 
 
 @directed("P104-RMP-01", "P104-RMP-02", builds=(F8, F16))
 async def p104_rmp_01_corner_ramps(dut):
-    """For ramps at the limits of the legal values, every rate of the table is exact (P104-RMP-01)."""
+    """For ramps whose values are at their legal limits, every rate of the table is exact (P104-RMP-01)."""
     env = await Env.start(dut, None)
     for ramp in (
         (255, 0, 4),
@@ -47,7 +49,7 @@ async def p104_rmp_01_random_ramps(dut):
 
 @directed("P104-RMP-01", "P104-RMP-04", "P104-RMP-05", "P104-PRO-02", builds=(F8,))
 async def p104_rmp_04_longest_ramp(dut):
-    """With RL 255, RH 0 and PA 11220, 22444 pulses are exact: the largest values of the computation
+    """With RL 255, RH 0 and PA 11220, all 22444 pulses are exact, with the largest values in the computation
     (P104-RMP-04).
     """
     env = await Env.start(dut, None)
@@ -61,7 +63,7 @@ async def p104_rmp_04_longest_ramp(dut):
 
 @directed("P104-RMP-02", "P104-RMP-05")
 async def p104_rmp_02_thresholds(dut):
-    """The first index of each rate, computed by thresholds, is that of a move (P104-RMP-02)."""
+    """The first index of each rate in a move equals the index that the thresholds state (P104-RMP-02)."""
     env = await Env.start(dut, None)
     for rl, rh, pa in ((9, 4, 4), (90, 81, 40), (30, 2, 33), (12, 0, 77)):
         await env.init(0x0A, rl, rh, pa)
@@ -75,7 +77,7 @@ async def p104_rmp_02_thresholds(dut):
 
 
 def half_cases() -> list[tuple[int, int, int]]:
-    """Return small ramps in which x(k) is exactly n + 1/2 for some k: they make the rounding visible."""
+    """Return small ramps in which x(k) is exactly n + 1/2 for some k, so that the rounding is visible."""
     found = []
     for rl in range(2, 12):
         for rh in range(rl):
@@ -92,7 +94,7 @@ def half_cases() -> list[tuple[int, int, int]]:
 
 @directed("P104-RMP-03", "P104-RMP-01")
 async def p104_rmp_03_exact_halves(dut):
-    """In ramps with x(k) exactly on a half, the half is rounded up (P104-RMP-03)."""
+    """In ramps where x(k) is exactly n + 1/2, the half is rounded up (P104-RMP-03)."""
     env = await Env.start(dut, None)
     cases = half_cases()
     env.check("P104-RMP-03", "the example of the rule is among them", (4, 0, 8) in cases, True)
@@ -103,7 +105,7 @@ async def p104_rmp_03_exact_halves(dut):
 
 @directed("P104-PRO-01", "P104-PRO-02", "P104-PRO-03", "P104-PRO-04", "P104-EX-02", builds=(F16, F100))
 async def p104_pro_01_all_lengths(dut):
-    """With a ramp of 6, the profiles for N = 1 to 24 are symmetric in both modes (P104-PRO-01)."""
+    """With a ramp of 6 pulses, the profiles for N = 1 to 24 are symmetric in both modes (P104-PRO-01)."""
     env = await Env.start(dut, (0x0A, 30, 3, 6))
     ramp = (30, 3, 6)
     for n in range(1, 25):
@@ -115,7 +117,7 @@ async def p104_pro_01_all_lengths(dut):
 
 @directed("P104-PRO-02", "P104-PRO-03", "P104-EX-02")
 async def p104_pro_03_shapes_in_full(dut):
-    """With initialisation A, N = 2, 3, 6, 7, 9, 10, 11 lead to the index lists that the rules print
+    """With initialisation A, N = 2, 3, 6, 7, 9, 10, 11 result in the index lists that the rules print
     (P104-PRO-03).
     """
     env = await Env.start(dut, INIT_A)
@@ -129,7 +131,7 @@ async def p104_pro_03_shapes_in_full(dut):
 
 @directed("P104-PRO-04", "P104-FDC-02", "P104-FDC-05")
 async def p104_pro_04_forced_coincides_with_the_end(dut):
-    """With N near the length of the mirrored ramp, a forced deceleration ends by index or by count
+    """With N near the length of the mirrored ramp, either the index or the count ends a forced deceleration
     (P104-PRO-04).
     """
     env = await Env.start(dut, INIT_B)
@@ -155,7 +157,9 @@ async def p104_pro_04_forced_coincides_with_the_end(dut):
 
 @directed("P104-PRO-05", "P104-STP-04")
 async def p104_pro_05_natural_deceleration_begins(dut):
-    """For several N, 0x41 returns error 7 from exactly the interval on that P104-PRO-05 states."""
+    """For several N, 0x41 returns error 7 from exactly the interval on that P104-PRO-05 states, and not
+    before.
+    """
     env = await Env.start(dut, INIT_A)
     for n in (5, 8, 10, 12):
         running = indices(n, 4)
@@ -175,7 +179,7 @@ async def p104_pro_05_natural_deceleration_begins(dut):
 
 @directed("P104-PRO-06", "P104-LIM-04")
 async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
-    """In POUT mode with L3 low, L3 acts in a move of 2·PA+2 pulses, but not in one of 2·PA+1
+    """In POUT mode with L3 low, L3 takes effect in a move of 2·PA+2 pulses, but not in a move of 2·PA+1
     (P104-PRO-06).
     """
     env = await Env.start(dut, INIT_A)
@@ -186,15 +190,17 @@ async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
         await env.go(0xC3, n)
         env.bench.set(l3_n=0)
         await env.idle()
-        # The flag is set in the first plateau interval I(5): 5 + 1 + 4 pulses, which is the whole move for N
-        # = 10.
+        # The flag is set in the first plateau interval I(5): this results in 5 + 1 + 4 pulses, the whole move
+        # for N = 10.
         complete = n == 10
         await env.result("P104-PRO-06", 10, 0x83 if complete else 0x8B, 0 if complete else n - 11)
 
 
 @directed("P104-EX-01", "P104-EX-07", "P104-EX-11", "P104-INT-02")
 async def p104_ex_07_worked_examples(dut):
-    """The examples with vsel = L and with RL = RH have the printed intervals (P104-EX-07)."""
+    """In the examples with vsel = L and with RL = RH, the intervals are those that are printed
+    (P104-EX-07).
+    """
     env = await Env.start(dut, INIT_A, vsel=0)
     await env.move(0x43, 14)
     expected = [440, 376, 312, 312, 280, 280, 280, 280, 280, 312, 312, 376, 440]
@@ -211,7 +217,7 @@ async def p104_ex_07_worked_examples(dut):
 
 @directed("P104-EX-03", builds=(F8,))
 async def p104_ex_03_slow_base_clock(dut):
-    """With csel = L, every interval at the start of EX-03 is four times as long (P104-EX-03)."""
+    """With csel = L, the intervals at the start of EX-03 are four times as long (P104-EX-03)."""
     env = await Env.start(dut, (0x0A, 199, 49, 100), csel=0)
     env.check(
         "P104-EX-03",

@@ -1,4 +1,4 @@
-"""Constrained-random hosts, compared with the golden model edge by edge, and noise on all pins."""
+"""Constrained-random hosts, compared with the golden model edge by edge; and noise on all pins."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ async def random_noise(dut: Any, seed: int) -> None:
     host = HostBus(bench, timeout=bench.config.us(200_000))
     for _ in range(4):
         await host.poll(IBF, 0)
-        # In DATASHEET timing, an operation that was just accepted raises BUSY up to 112 us later.
+        # In DATASHEET, BUSY of an operation that was just accepted rises up to 112 us later.
         await bench.clocks(bench.config.us(300))
         if not await host.poll(IBF, 0) & BUSY:
             break

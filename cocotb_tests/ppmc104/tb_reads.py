@@ -11,7 +11,7 @@ READS = (0x80, 0x81, 0x82, 0x83, 0x85)
 
 
 def output_signals(s: int, hold: int, direction: int) -> int:
-    """Return the byte of 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, HOLD, DIR
+    """Return the byte of 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, then HOLD, DIR
     (P104-RD-06).
     """
     bits = sum((s >> i & 1) << (7 - i) for i in range(5))
@@ -20,7 +20,7 @@ def output_signals(s: int, hold: int, direction: int) -> int:
 
 @directed("P104-RD-01", "P104-AUX-03")
 async def p104_rd_01_when_allowed(dut):
-    """Reads and 0x84 are rejected only while BUSY = 1, and accepted before and after initialisation
+    """Reads and 0x84 are rejected only while BUSY = 1; they are accepted before and after initialisation
     (P104-RD-01).
     """
     env = await Env.start(dut, None)
@@ -43,7 +43,7 @@ async def p104_rd_01_when_allowed(dut):
 
 @directed("P104-RD-02", "P104-RD-05", "P104-LIM-10")
 async def p104_rd_02_sampled_at_the_c_event(dut):
-    """A byte that is read later holds the pin levels at the time of its command (P104-RD-02)."""
+    """A byte that the host reads later contains the pin levels at the time of its command (P104-RD-02)."""
     env = await Env.start(dut, INIT_A)
     await env.host.command(0x81)
     env.bench.set(alm_n=0, l1_n=0)
@@ -59,8 +59,8 @@ async def p104_rd_02_sampled_at_the_c_event(dut):
 
 @directed("P104-RD-05", "P104-RD-08", "P104-LIM-10")
 async def p104_rd_05_input_bits(dut):
-    """For single inputs and random combinations, each bit of 0x81 and 0x85 is its own pin (P104-RD-05,
-    P104-RD-08).
+    """For single inputs and random combinations, each bit of 0x81 and 0x85 is the level of its pin
+    (P104-RD-05, P104-RD-08).
     """
     env = await Env.start(dut, None)
     place = {"cnp_n": 7, "alm_n": 6, "l1_n": 3, "l2_n": 2, "l3_n": 1, "l4_n": 0}
@@ -79,7 +79,9 @@ async def p104_rd_05_input_bits(dut):
 
 @directed("P104-RD-06", "P104-SW-07")
 async def p104_rd_06_output_bits(dut):
-    """For all patterns, both logics, hold and dir, 0x82 returns the unchopped pin levels (P104-RD-06)."""
+    """For all patterns, both logics, and all levels of hold and dir, 0x82 returns the pin levels without
+    chopping (P104-RD-06).
+    """
     env = await Env.start(dut, None)
     for name, code in STEP_CODES.items():
         for positive in (True, False):
@@ -106,7 +108,7 @@ async def p104_rd_06_output_bits(dut):
 
 @directed("P104-RD-03", "P104-RD-04", "P104-END-07", builds=(F16, F25))
 async def p104_rd_04_read_finish_status(dut):
-    """When 0x80 is accepted, INT is released without a data read, and bit 7 is set in one read only
+    """When 0x80 is accepted, INT is released without a data read, and bit 7 is set in this read only
     (P104-RD-04).
     """
     env = await Env.start(dut, INIT_A)
@@ -127,8 +129,8 @@ async def p104_rd_04_read_finish_status(dut):
 
 @directed("P104-RD-07", "P104-END-06", "P104-EX-10")
 async def p104_rd_07_remaining_resumes(dut):
-    """If the remaining count of a stopped move is sent back, both parts have the complete number of
-    pulses (P104-RD-07).
+    """If the remaining count of a stopped move is sent as D of another move, both moves together have the
+    complete number of pulses (P104-RD-07).
     """
     env = await Env.start(dut, INIT_A)
     env.check("P104-RD-07", "after reset", await env.remaining(), 0)
@@ -165,7 +167,7 @@ async def p104_aux_01_aux_pin(dut):
 
 @directed("P104-AUX-02")
 async def p104_aux_02_all_values(dut):
-    """For all 256 data bytes of 0x86, auxo is the inverted low nibble, changed on one edge
+    """For all 256 data bytes of 0x86, auxo is the inverted low nibble, and all bits change on one edge
     (P104-AUX-02).
     """
     env = await Env.start(dut, None)
@@ -205,7 +207,7 @@ async def p104_aux_03_switching_parameters(dut):
 
 @directed("P104-AUX-04", "P104-AUX-06", "P104-PHS-05", "P104-END-08")
 async def p104_aux_04_excitation_off(dut):
-    """0xC0 in an ON or OFF phase switches all pins off permanently; the hold timer continues
+    """0xC0 in an ON or OFF phase switches all phase pins off permanently; the hold timer continues
     (P104-AUX-04).
     """
     env = await Env.start(dut, None)

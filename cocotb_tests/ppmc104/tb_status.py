@@ -13,7 +13,7 @@ LONGEST_BUILD = (0x0A, 255, 0, 11220)
 
 @directed("P104-STA-01", "P104-STA-02", "P104-STA-03", "P104-STA-04", "P104-STA-05", "P104-GEN-01")
 async def p104_sta_01_status_bits(dut):
-    """Each bit of the status has its own condition only: tried with bytes, reads and a motion
+    """Each bit of the status follows only its own condition, during bytes, reads and a motion
     (P104-STA-01).
     """
     env = await Env.start(dut, None)
@@ -48,7 +48,7 @@ async def p104_sta_01_status_bits(dut):
 
 @directed("P104-STA-06", "P104-ERR-00", "P104-ERR-03", "P104-STA-05")
 async def p104_sta_06_errors_replace(dut):
-    """After each error number in turn, ERR and NUM are those of the last byte that was accepted
+    """After any sequence of errors, ERR and NUM are those of the byte that was accepted last
     (P104-STA-06).
     """
     env = await Env.start(dut, None)
@@ -96,8 +96,8 @@ async def p104_sta_06_errors_replace(dut):
 
 @directed("P104-ERR-01")
 async def p104_err_01_check_order(dut):
-    """Commands with several faults are checked in this order: undefined, stop at standstill, BUSY, not
-    initialised, error 7 (P104-ERR-01).
+    """If a command has several faults, they are checked in this order: undefined, stop at standstill, BUSY,
+    not initialised, error 7 (P104-ERR-01).
     """
     env = await Env.start(dut, None)
     for code, status in ((0xC4, 0x80), (0x00, 0x80), (0x40, 0x80), (0x46, 0xA0), (0xC6, 0xA0)):
@@ -119,8 +119,8 @@ async def p104_err_01_check_order(dut):
 
 @directed("P104-ERR-02", "P104-INI-03")
 async def p104_err_02_init_checks(dut):
-    """Illegal initialisation values are checked with the 4th byte, not before; error 4 has priority
-    over 5 (P104-ERR-02).
+    """Illegal initialisation values are checked when the 4th byte is accepted, not before; error 4 has
+    priority over error 5 (P104-ERR-02).
     """
     env = await Env.start(dut, None)
     cases = {(5, 6, 100): 0xD0, (0, 255, 11220): 0xD0, (9, 4, 3): 0xD0, (9, 4, 0): 0xD0, (9, 4, 11221): 0xC0}
@@ -133,8 +133,8 @@ async def p104_err_02_init_checks(dut):
 
 @directed("P104-ERR-03", "P104-BAD-01", "P104-BAD-02")
 async def p104_err_03_faulty_bytes_are_harmless(dut):
-    """During a motion with INT pending, faulty bytes do not change pulses, INT, outputs and the output
-    queue (P104-ERR-03).
+    """During a motion with INT pending, faulty bytes do not change pulses, INT, outputs or the output queue
+    (P104-ERR-03).
     """
     env = await Env.start(dut, INIT_B)
     await env.move(0x42)
@@ -165,7 +165,7 @@ async def p104_err_03_faulty_bytes_are_harmless(dut):
 
 @directed("P104-HSK-01", "P104-HSK-04", "P104-INI-07", "P104-FSM-02", "P104-BAD-06")
 async def p104_hsk_04_table_build_window(dut):
-    """During the build of the longest ramp table, bytes wait and only the newest is accepted
+    """During the build of the longest ramp table, bytes wait, and only the newest byte is accepted
     (P104-HSK-04).
     """
     env = await Env.start(dut, None)
@@ -191,12 +191,13 @@ async def p104_hsk_04_table_build_window(dut):
 
 @directed("P104-HSK-02", "P104-BAD-06", builds=(F16, F100))
 async def p104_hsk_02_replacement(dut):
-    """Of two writes 2 to 16 cycles apart, around a C-event, the second is kept and none is executed
+    """Of two writes 2 to 16 cycles apart near a C-event, the second byte is kept, and no byte is executed
     twice (P104-HSK-02).
     """
     env = await Env.start(dut, None)
-    # Gap and strobe of the second write. Its edge 0 follows that of the first write by gap + strobe. From 8
-    # cycles on, the first byte was certainly accepted: its C-event is at most 8 cycles after its write event.
+    # Gap and strobe of the second write. Its edge 0 follows that of the first write by gap + strobe. If this
+    # is 8 cycles or more, the first byte was certainly accepted: its C-event is at most 8 cycles after its
+    # write event.
     spacings = [(1, 1), (1, 2), *((gap, 2) for gap in range(2, 15))]
     sure = next(i for i, pair in enumerate(spacings) if sum(pair) == C_EVENT_LATEST - WRITE_EVENT)
     first_seen = []
@@ -211,7 +212,7 @@ async def p104_hsk_02_replacement(dut):
     env.check("P104-HSK-01", "first byte taken", set(first_seen[sure:]), {1})
     outcomes = []
     for gap, strobe in spacings:
-        # Data follow a command: the command/data flag of the byte is replaced, too.
+        # A data byte follows a command, so that the command/data flag is replaced, too.
         await env.host.command(0x84)
         await env.host.write(COMMAND, 0x86, gap=gap)
         await env.host.write(DATA, 0x0F, strobe=strobe)
@@ -225,7 +226,7 @@ async def p104_hsk_02_replacement(dut):
 
 @directed("P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_hsk_02_replacement_when_closed(dut):
-    """While the mailbox is closed, command and data bytes replace each other, and only the last is
+    """While the mailbox is closed, command and data bytes replace each other, and only the last byte is
     accepted (P104-HSK-02).
     """
     env = await Env.start(dut, INIT_A)
@@ -243,7 +244,7 @@ async def p104_hsk_02_replacement_when_closed(dut):
 
 @directed("P104-HSK-03", "P104-GEN-07", "P104-OPR-01", builds=(F16, F100))
 async def p104_hsk_03_all_on_one_edge(dut):
-    """When a CCW step starts in an OFF phase of the chopper, hold, dir and s change on the same edge
+    """If a CCW step starts in an OFF phase of the chopper, hold, dir and s change on the same edge
     (P104-HSK-03).
     """
     env = await Env.start(dut, (0x2A, 9, 4, 4))
@@ -277,8 +278,8 @@ async def p104_hsk_03_all_on_one_edge(dut):
 
 @directed("P104-HSK-05", "P104-STA-02", "P104-RD-07", builds=(F16, F100))
 async def p104_hsk_05_output_queue(dut):
-    """After a 3-byte read, data reads at any distance return the bytes, and OBF is 0 or 1 as documented
-    (P104-HSK-05).
+    """After a 3-byte read command, data reads at any distance return the bytes, and OBF is 0 or 1 as
+    documented (P104-HSK-05).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x45, rate=9)
@@ -294,7 +295,7 @@ async def p104_hsk_05_output_queue(dut):
                 got.append(await env.host.read(DATA, strobe=length, gap=gap))
                 soon = await env.host.read(1)
                 if gap >= 7:
-                    # The read clears OBF on edge 2', and the next byte sets it again at most 4 cycles later.
+                    # The read clears OBF on edge 2'; the next byte sets OBF again at most 4 cycles later.
                     env.check("P104-HSK-05", "OBF 8 cycles after the read", soon & OBF, int(len(got) < 3))
             env.check("P104-HSK-05", f"bytes, gap {gap}, strobe {length}", got, [0xFD, 0xFF, 0xFF])
             env.check("P104-HSK-05", "OBF after the third byte", await env.host.status() & OBF, 0)
@@ -321,7 +322,7 @@ async def p104_hsk_06_empty_read(dut):
 
 @directed("P104-HSK-07", "P104-BAD-03", "P104-BAD-04", "P104-INI-02")
 async def p104_hsk_07_cancel(dut):
-    """Any command cancels an incomplete command and is then checked as usual (P104-HSK-07)."""
+    """Any command cancels an incomplete command, and is then checked as usual (P104-HSK-07)."""
     env = await Env.start(dut, INIT_A)
     await env.host.send(0x43, [0x09])
     await env.bench.clocks(40_000)

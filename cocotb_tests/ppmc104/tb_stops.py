@@ -12,7 +12,7 @@ ALL = 1 << 24
 
 @directed("P104-STP-01", "P104-END-02", "P104-PHS-04", "P104-TIM-01", builds=(F16, F100))
 async def p104_stp_01_immediate(dut):
-    """0x40 during the high or low time of a pulse ends each kind of move there, with bit 6, and the
+    """0x40 during the high or low time of a pulse ends each kind of move at this pulse, with bit 6, and the
     phases stay energised (P104-STP-01).
     """
     env = await Env.start(dut, INIT_A)
@@ -43,8 +43,8 @@ async def p104_stp_01_immediate(dut):
 
 @directed("P104-STP-01", "P104-LIM-09")
 async def p104_stp_01_no_pulse_after_the_c_event(dut):
-    """With 0x40 in each cycle around a pulse event, no pulse is output after the C-event, and the
-    remaining count is right (P104-STP-01).
+    """With 0x40 in each cycle near a pulse event, no pulse is output after the C-event, and the remaining
+    count is correct (P104-STP-01).
     """
     env = await Env.start(dut, INIT_A)
     seen = set()
@@ -66,7 +66,7 @@ async def p104_stp_01_no_pulse_after_the_c_event(dut):
 
 @directed("P104-STP-02", "P104-STP-06", "P104-ERR-01")
 async def p104_stp_02_at_rest(dut):
-    """A stop at standstill returns error 0 and has no effect: before and after initialisation, and after a
+    """A stop at standstill returns error 0 and has no effect, before and after initialisation and after a
     move (P104-STP-02).
     """
     env = await Env.start(dut, None)
@@ -118,7 +118,7 @@ async def p104_stp_03_decelerating(dut):
 
 @directed("P104-STP-05", "P104-OPR-09", "P104-OPR-11", "P104-OPR-08")
 async def p104_stp_05_decelerating_at_constant_speed(dut):
-    """During 0x42, 0x44, 0x45 and 0x47, 0x41 acts like 0x40, without an error (P104-STP-05)."""
+    """During 0x42, 0x44, 0x45 and 0x47, 0x41 has the effect of 0x40, without an error (P104-STP-05)."""
     env = await Env.start(dut, INIT_A)
     for code, n, rate in ((0x44, 300, 30), (0x45, None, 30), (0x47, None, 30)):
         await env.go(code, n, rate)
@@ -138,7 +138,7 @@ def await_end(env: Env) -> int:
 
 @directed("P104-STP-07", "P104-END-07")
 async def p104_stp_07_mask_is_of_the_operation(dut):
-    """After a stop, INT follows bit I of the move; bit 4 of the stop is ignored (P104-STP-07)."""
+    """After a stop, bit I of the move determines INT; bit 4 of the stop code is ignored (P104-STP-07)."""
     env = await Env.start(dut, INIT_A)
     for operation in (0x45, 0x55, 0x46, 0x56):
         for stop in (0x40, 0x50, 0x41, 0x51):
@@ -177,7 +177,7 @@ async def p104_stp_08_in_fin(dut):
 
 @directed("P104-OPR-02", "P104-OPR-03", "P104-GEN-05", "P104-END-06")
 async def p104_opr_02_counts(dut):
-    """If a move is stopped early, the remaining count shows that all three bytes of D were used
+    """If a move is stopped early, the remaining count proves that all three bytes of D were used
     (P104-OPR-02).
     """
     env = await Env.start(dut, INIT_A)
@@ -203,9 +203,7 @@ async def p104_opr_02_counts(dut):
 
 @directed("P104-OPR-04", "P104-OPR-08", "P104-INT-01", "P104-INT-05", "P104-BAD-17")
 async def p104_opr_04_all_rates(dut):
-    """For every rate byte 0..255, the intervals and low times of 3 pulses follow the formula
-    (P104-OPR-04).
-    """
+    """For each rate 0 to 255, the intervals and low times of 3 pulses follow the formula (P104-OPR-04)."""
     env = await Env.start(dut, INIT_A)
     for r in range(256):
         await env.move(0x44, 3, rate=r)
@@ -215,8 +213,9 @@ async def p104_opr_04_all_rates(dut):
 
 @directed("P104-OPR-05", "P104-EX-09", "P104-TIM-04", "P104-PHS-01")
 async def p104_opr_05_phase_and_pout_mode(dut):
-    """Only phase mode changes s: tried with a 5-phase half-step motor and moves in both directions
-    (P104-OPR-05).
+    """Only phase mode changes s (P104-OPR-05).
+
+    The test uses a 5-phase half-step motor and moves in both directions.
     """
     env = await Env.start(dut, (0x0F, 9, 4, 4))
     since = env.bench.now
@@ -249,7 +248,7 @@ async def p104_opr_05_pout_mode_unchopped(dut):
 
 @directed("P104-OPR-06", "P104-TIM-02", "P104-TIM-05", builds=(F16, F8, F100))
 async def p104_opr_06_single_step(dut):
-    """Single steps are the same for any csel, vsel, clock source and ramp (P104-OPR-06)."""
+    """Single steps are the same for each csel, vsel, clock source and ramp (P104-OPR-06)."""
     env = await Env.start(dut, (0x0A, 255, 200, 4))
     for external in (False, True):
         if external:
@@ -269,8 +268,8 @@ async def p104_opr_06_single_step(dut):
 
 @directed("P104-OPR-11", "P104-LIM-06", "P104-END-06")
 async def p104_opr_11_origin_search(dut):
-    """CNP, at the start or between pulses, ends 0x47 CW and CCW without a cause bit and keeps the
-    remaining count (P104-OPR-11).
+    """CNP, at the start or between pulses, ends 0x47 CW and CCW without a cause bit; the remaining count is
+    correct (P104-OPR-11).
     """
     env = await Env.start(dut, INIT_A)
     for code in (0x47, 0x4F):
@@ -286,8 +285,8 @@ async def p104_opr_11_origin_search(dut):
 
 @directed("P104-OPR-01", "P104-RD-07", "P104-RD-03")
 async def p104_opr_01_status_of_old_move_replaced(dut):
-    """A complete move after a stopped one has no cause bit and no remaining count of the old move
-    (P104-OPR-01).
+    """If a complete move follows a stopped move, it has no cause bit and no remaining count of the stopped
+    move (P104-OPR-01).
     """
     env = await Env.start(dut, INIT_A)
     for stop_first in (True, False, True):

@@ -22,7 +22,7 @@ OPERATIONS += ((0x47, None, 9), (0xC3, 6, None), (0xC6, None, None))
     builds=(F16, F8, F11, F25, F50, F100),
 )
 async def p104_tim_02_start(dut):
-    """At the CCW start of every operation, hold and dir change together; pulse 1 and s follow W..W+2
+    """At the CCW start of each operation, hold and dir change together; pulse 1 and s follow W to W + 2
     cycles later (P104-TIM-02).
     """
     env = await Env.start(dut, INIT_A)
@@ -46,8 +46,8 @@ async def p104_tim_02_start(dut):
 
 @directed("P104-TIM-05", "P104-TIM-04", builds=(F16, F25))
 async def p104_tim_05_external_low_times(dut):
-    """With external clocks and vsel = H, low times at rates 0..9 are W or end at their clock edge
-    (P104-TIM-05).
+    """With external clocks and vsel = H, low times at rates 0 to 9 are W or end at the clock edge in
+    P104-TIM-05.
     """
     env = await Env.start(dut, (0x1A, 9, 4, 4))
     w, us = env.cfg.w, env.cfg.us
@@ -61,14 +61,14 @@ async def p104_tim_05_external_low_times(dut):
                 env.bench.set(clock=0)
                 cut = (rate + 1) // 2 * period if rate else (high if period < us(8) else w)
                 expected = [min(w, cut)] * 4 + [w]
-                what = f"low times at {period}/{high} clk, rate {rate}"
+                what = f"low times at {period}/{high} cycles, rate {rate}"
                 env.check("P104-TIM-05", what, env.bench.low_times(env.since), expected)
                 await env.bench.clocks(8)
 
 
 @directed("P104-TIM-05", "P104-INT-03", builds=(F16, F25))
 async def p104_tim_05_vsel_low(dut):
-    """With vsel = L, every low time is W, for any rate and clock (P104-TIM-05)."""
+    """With vsel = L, each low time is W, for any rate and clock (P104-TIM-05)."""
     env = await Env.start(dut, (0x1A, 9, 4, 4), vsel=0)
     for period in (env.cfg.us(1), env.cfg.us(4), env.cfg.us(12)):
         for rate in (0, 1, 3):
@@ -89,7 +89,9 @@ async def p104_tim_05_vsel_low(dut):
 
 @directed("P104-TIM-05", "P104-END-02", "P104-LIM-03", builds=(F16, F11))
 async def p104_tim_05_end_in_the_low_time(dut):
-    """A limit in any cycle of a low time, short or long, does not change its length (P104-TIM-05)."""
+    """A limit in any cycle of a low time, long or shortened, does not change the length of the low time
+    (P104-TIM-05).
+    """
     env = await Env.start(dut, INIT_A)
     for rate in (0, 1, 2, 9):
         expected = env.cfg.cyc(16 * (rate + 1)) if rate <= 2 else env.cfg.w
@@ -112,7 +114,7 @@ async def p104_tim_05_end_in_the_low_time(dut):
 
 @directed("P104-TIM-05", "P104-END-03", "P104-FDC-02")
 async def p104_tim_05_last_pulse_of_a_deceleration(dut):
-    """With high rates at both ends of the ramp, the last low time of a forced deceleration is W
+    """If the ramp has high rates at both ends, the last low time of a forced deceleration is W
     (P104-TIM-05).
     """
     env = await Env.start(dut, (0x0A, 1, 0, 6))
@@ -131,9 +133,7 @@ async def p104_tim_05_last_pulse_of_a_deceleration(dut):
 
 @directed("P104-TIM-06", "P104-PHS-07", "P104-STP-01")
 async def p104_tim_06_dir(dut):
-    """Only the start of a move changes dir: tried with moves CW and CCW, stops and rejected commands
-    (P104-TIM-06).
-    """
+    """Only the start of a move changes dir; stops and rejected commands do not (P104-TIM-06)."""
     env = await Env.start(dut, INIT_B)
     levels, starts = [], []
     for bit in (1, 0, 1, 1, 0):
@@ -154,8 +154,8 @@ async def p104_tim_06_dir(dut):
 
 @directed("P104-END-01", "P104-TIM-05", "P104-RD-07", builds=(F16, F25, F100))
 async def p104_end_01_normal_end(dut):
-    """At the end of each counted move, BUSY, INT, finish status and remaining count follow the last
-    rise by at most 4 cycles (P104-END-01).
+    """At the end of each counted move, BUSY, INT, finish status and remaining count change at most 4 cycles
+    after the last rise of pout_n (P104-END-01).
     """
     env = await Env.start(dut, INIT_A)
     for code, n, rate in ((0x42, None, None), (0x43, 9, None), (0x44, 3, 0), (0x44, 3, 30), (0xC3, 9, None)):
@@ -187,8 +187,8 @@ async def p104_end_05_too_late(dut):
 
 @directed("P104-END-02", "P104-LIM-01", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", builds=(F16, F100))
 async def p104_end_02_reaction_time(dut):
-    """A cause ends the motion within 8 cycles if pout_n is high, else within 4 cycles of its rise
-    (P104-END-02).
+    """A cause ends the motion within 8 cycles if pout_n is high, and otherwise within 4 cycles of the rise of
+    pout_n (P104-END-02).
     """
     env = await Env.start(dut, INIT_A)
     w = env.cfg.w
@@ -210,7 +210,7 @@ async def p104_end_02_reaction_time(dut):
 
 @directed("P104-END-04", "P104-LIM-09", "P104-BAD-15")
 async def p104_end_04_cause_bits(dut):
-    """If several causes apply at or before the end of a move, exactly their bits are set (P104-END-04)."""
+    """If several causes apply at the end of a move or before, exactly their bits are set (P104-END-04)."""
     env = await Env.start(dut, INIT_B)
     for pins, bits in (
         ({"l1_n": 0, "alm_n": 0}, 0x30),
@@ -224,8 +224,8 @@ async def p104_end_04_cause_bits(dut):
         await env.idle()
         env.bench.set(**dict.fromkeys(pins, 1))
         await env.result("P104-END-04", 3, 0x83 | bits, 96)
-    # The hard limit acts while the motor decelerates for L3: bits 3 and 4. ALM acts while it decelerates for
-    # 0x41: bits 6 and 5.
+    # If the hard limit occurs while the motor decelerates for L3, bits 3 and 4 are set. If ALM occurs while
+    # it decelerates for 0x41, bits 6 and 5 are set.
     await env.go(0x43, 100)
     await env.pulse(5, 100)
     env.bench.set(l3_n=0)
@@ -242,7 +242,7 @@ async def p104_end_04_cause_bits(dut):
     await env.idle()
     env.bench.set(alm_n=1)
     await env.result("P104-END-04", 7, 0xE3, 92)
-    # A slow-down limit that was released has set bit 3; 0x40 on the flagged move adds bit 6.
+    # A slow-down limit that was released again has set bit 3; 0x40 during the deceleration also sets bit 6.
     await env.go(0x43, 100)
     await env.pulse(5, 100)
     await env.bench.pulse_pin("l3_n", 0, 5)
@@ -253,8 +253,8 @@ async def p104_end_04_cause_bits(dut):
 
 @directed("P104-END-06", "P104-END-05", "P104-RD-07")
 async def p104_end_06_one_left_or_none(dut):
-    """The cause bits distinguish a move that ended one pulse early from a complete one; both have a
-    remaining count of 0 (P104-END-06).
+    """Both a move that ended one pulse early and a complete move have a remaining count of 0; their cause
+    bits differ (P104-END-06).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 4, rate=9)
@@ -272,7 +272,9 @@ async def p104_end_06_one_left_or_none(dut):
 
 @directed("P104-END-07", "P104-CMD-02")
 async def p104_end_07_int(dut):
-    """With I = 0 and 1 in any order, only 0x80 or reset releases a pending INT (P104-END-07)."""
+    """After ends with I = 0 and I = 1 in any order, only 0x80 or reset releases a pending INT
+    (P104-END-07).
+    """
     env = await Env.start(dut, INIT_A)
     expected = 1
     for code in (0x52, 0x52, 0x42, 0x52, 0x42, 0x42):
@@ -296,7 +298,7 @@ async def p104_end_07_int(dut):
 
 @directed("P104-END-08", "P104-DS-09", "P104-LIM-07", builds=(F8, F11))
 async def p104_end_08_hold(dut):
-    """hold rises 34.0 ms after BUSY falls: after a masked move without a pulse, and after a normal one
+    """hold rises 34.0 ms after BUSY falls, both after a masked move without a pulse and after a normal move
     (P104-END-08).
     """
     env = await Env.start(dut, INIT_A)
@@ -315,7 +317,9 @@ async def p104_end_08_hold(dut):
 
 @directed("P104-END-08", "P104-OPR-01", builds=(F8,))
 async def p104_end_08_hold_restarts(dut):
-    """If a second operation starts within 34 ms, hold is timed from the second end (P104-END-08)."""
+    """If a second operation starts within 34 ms, the hold time is counted from the second end
+    (P104-END-08).
+    """
     env = await Env.start(dut, INIT_A)
     us = env.cfg.us
     await env.go(0x42)

@@ -35,7 +35,7 @@ ITEMS = cocotb_items(
     part=PPMC104,
 )
 
-# A row has a parameter, the extremes of its legal range, and values just outside the range.
+# A row contains a parameter, the bounds of its legal range, and values just outside the range.
 RANGES = {
     "CLK_HZ": (("8_000_000", "200_000_000"), ("7_999_999", "200_000_001")),
     "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001")),
@@ -52,7 +52,5 @@ def test_ppmc104(item, sim_options):
 
 @verifies("P104-PAR-01")
 def test_p104_par_01_ranges():
-    """The elaboration accepts each parameter at its bounds and rejects the values just outside
-    (P104-PAR-01).
-    """
+    """The elaboration accepts each parameter at its bounds and rejects values just outside (P104-PAR-01)."""
     check_ranges("P104-PAR-01", part_design("ppmc104", F16), RANGES)

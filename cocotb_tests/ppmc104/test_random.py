@@ -1,4 +1,4 @@
-"""Random hosts against the golden model: a fixed list of seeds; `--seed N` runs seed N only.
+"""Compares random hosts with the golden model: a fixed list of seeds, or one seed with `--seed N`.
 
 `python -m scripts.measure.soak --seed S --count N` runs any number of other seeds.
 """
@@ -56,7 +56,7 @@ def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
-    """If the golden model has another crystal than the RTL, a failing run is reduced to a few bytes."""
+    """If golden model and RTL have different crystals, a failing run is reduced to a few bytes."""
 
     async def run(bench: ModelBench) -> None:
         host = HostBus(bench)
@@ -82,7 +82,7 @@ def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """The same seed yields the same list; the fixed seeds together use every kind of action and every
+    """The same seed returns the same list; all fixed seeds together use each kind of action and each
     build.
     """
     assert scenario(5) == scenario(5) != scenario(6)

@@ -1,4 +1,6 @@
-"""Test bench of the PPMC-2104: its two bus styles. Pins and levels are those of the golden model."""
+"""Test bench of the PPMC-2104: its two bus styles. Names and levels of the pins are those of the golden
+model.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ STROBES_WRS_RDS = BusStyle(
     read_on={"cs_n": 0, "ds_wrs_n": 1, "rw_rds_n": 0},
     read_off={"cs_n": 1, "rw_rds_n": 1},
 )
-# R/W* keeps its level after the strobe, as with a processor until its next access.
+# R/W* keeps its level after the strobe, as in a processor that changes it only for the next access.
 STROBES_DS_RW = BusStyle(
     write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 0},
     write_off={"cs_n": 1, "ds_wrs_n": 1},
@@ -22,11 +24,11 @@ STROBES_DS_RW = BusStyle(
 PPMC2104 = Part.of_model(
     "ppmc2104",
     codes,
-    more={"clk_o": (1, 0)},  # runs freely and depends on no input, so it is not in the model
+    more={"clk_o": (1, 0)},  # free-running and independent of all inputs, so it is not in the model
     styles=(STROBES_WRS_RDS, STROBES_DS_RW),
     style_pin="busc",
     clock="extck",
-    # Ports with one bit per axis: bit 1 for axis 1 and bit 2 for axis 2.
+    # In ports with one bit per axis, bit 1 belongs to axis 1 and bit 2 to axis 2.
     lowest=dict.fromkeys((*codes.AXIS_INPUTS, *codes.AXIS_OUTPUTS, "s1_n", "s2_n"), 1),
     unwatched=frozenset({"clk_o"}),
 )

@@ -1,6 +1,6 @@
 """Coverage crosses of the manual, counted in the golden model.
 
-Operation, cause, phase and clock; error and state; bus style and access.
+The crosses are operation, cause, phase and clock; error and state; and bus style and access.
 """
 
 from __future__ import annotations

@@ -8,20 +8,20 @@ from cocotb_tests.harness import IBF
 
 from .env import C_EVENT_LATEST, WRITE_EVENT, Axis, Env
 
-# Cycles by which a documented time may be exceeded, and by which a pin may follow the internal event.
+# Cycles by which a documented time may be exceeded, and cycles by which a pin may follow the internal event.
 TOLERANCE = 16
 PIN = 2
-# Maximum cycles from the fall of a status bit to the end of the read that returns it.
+# Maximum number of cycles from the fall of a status bit to the end of the read that returns it.
 READ = 12
 # Default ON phase in units of 2 quanta.
 ON = 0x53
 
 REGULAR, SETTING, CONSTANT = 35, 71_000, 38
-"""us: regular polling cycle, processing of an initial setting, of a pulse at constant speed."""
+"""Times in us: polling cycle, processing of an initial setting, processing of a pulse at constant speed."""
 
 
 def detection(processing: int, first: int, second: int, period: int = 0) -> int:
-    """Return T_max of the polling formula in the data sheet: the longest time to detect a limit, in us.
+    """Return T_max, the maximum time to detect a limit, in us (polling formula of the data sheet).
 
     Args:
         processing: Ti in us.
@@ -35,17 +35,17 @@ def detection(processing: int, first: int, second: int, period: int = 0) -> int:
 
 
 def after(env: Env, rule: str, what: str, got: int, edge0: int, micros: int, extra: int = 0) -> None:
-    """Check that edge `got` is `micros` us plus `extra` cycles after the C-event of the byte with that
-    edge 0.
+    """Check that edge `got` is `micros` us plus `extra` cycles after the C-event of the byte with this edge
+    0.
     """
     nominal = env.cfg.us(micros) + extra
     env.window(rule, what, got - edge0, WRITE_EVENT + nominal, C_EVENT_LATEST + nominal + TOLERANCE + PIN)
 
 
 async def opens(env: Env, rule: str, edge0: int, micros: int) -> None:
-    """Check that a byte written now waits until `micros` us have passed since the C-event."""
+    """Write a byte now and check that it waits until `micros` us have passed since the C-event."""
     nominal = edge0 + WRITE_EVENT + env.cfg.us(micros)
-    # An undefined code is rejected and has no processing window.
+    # An undefined code is rejected without a processing window.
     await env.host.command(0x87, poll=False)
     await env.bench.until(max(env.bench.now, nominal - 60))
     while env.bench.now < nominal - 2:
@@ -53,7 +53,7 @@ async def opens(env: Env, rule: str, edge0: int, micros: int) -> None:
     await env.host.poll(IBF, 0, dense=100)
     latest = C_EVENT_LATEST - WRITE_EVENT + TOLERANCE + READ
     env.window(
-        rule, f"clk beyond {micros} us until the next byte is taken", env.bench.now - nominal, 0, latest
+        rule, f"cycles beyond {micros} us until the next byte is taken", env.bench.now - nominal, 0, latest
     )
 
 
@@ -72,5 +72,5 @@ async def rest(env: Env) -> None:
     for axis in env.axes:
         await axis.finish()
         await axis.error()
-    # Wait for the windows of these reads.
+    # Wait until the windows of these reads are over.
     await env.bench.clocks(env.cfg.us(60))

@@ -1,4 +1,4 @@
-"""The stimulus of `make demo PART=ppmc2104`: a straight line of two axes, then separate moves."""
+"""Stimulus of `make demo PART=ppmc2104`: a straight line of two axes, then separate moves."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from cocotb_tests.harness.sessions import DemoLog
 
 from .bench import PPMC2104
 
-# Axis 1 has a 4-phase motor in full step, axis 2 one in half step. Both have the internal clock and switch
+# Axis 1 has a 4-phase motor in full step, axis 2 in half step. Both axes use the internal clock and switch
 # their phases at standstill.
 SETTINGS = {1: (0x12, 127, 39, 200), 2: (0x36, 255, 79, 100)}  # code, RL, RH, PA
 PULSES = {1: 1000, 2: 500}
 CW, CCW = 0x43, 0x6B  # ramped moves: axis 1 clockwise, axis 2 counterclockwise
-CONTINUOUS, HIGH_SPEED = 0x45, 0x66  # axis 1 until its limit, axis 2 until its slow-down limit
+CONTINUOUS, HIGH_SPEED = 0x45, 0x66  # axis 1 moves until its limit, axis 2 until its slow-down limit
 RATE = 49  # 10 kpps
 PULSES_TO_LIMIT, PULSES_TO_SLOW_DOWN = {1: 150}, {2: 130}
 BUSY = {1: 0x04, 2: 0x08}
 CMND = 0x30
-INTERRUPT_LATENCY = 2400  # cycles, 150 us: latency of a busy host; both axes have ended by then
+INTERRUPT_LATENCY = 2400  # cycles, 150 us: latency of a busy host, in which both axes end
 BETWEEN_AXES = 320  # cycles, 20 us: time in which the host processes the answers of one axis
 LONG = 4_000_000
 
 
 async def serve(host: HostBus, pending: set[int]) -> None:
-    """Wait for the interrupt; read end status and remaining pulses of each axis of `pending` that is at
-    rest.
+    """Wait for the interrupt, then read end status and remaining pulses of each axis of `pending` that is at
+    standstill.
     """
     bench = host.bench
     if bench.level("int_n"):
@@ -45,7 +45,7 @@ async def serve(host: HostBus, pending: set[int]) -> None:
 
 @cocotb.test()
 async def demo_two_axes(dut: Any) -> None:
-    """A host that starts both axes by RUN and then moves them separately is recorded from reset to the
+    """A host that starts both axes with RUN and then moves them separately is recorded from reset to the
     end.
     """
     bench = await RtlBench.start(dut, PPMC2104, run=0b00)

@@ -23,7 +23,8 @@ from .expected_timing import ALL, BUSY1, CMND1, INIT_A, Init
 WRITE_EVENT = 2
 C_EVENT_LATEST = 10
 PINS_LATEST = 12
-# Maximum cycles from a decision, or from the last rise of pout_n, to the fall of BUSY (P2104-END-01/02).
+# Maximum number of cycles from a decision, or from the last rise of pout_n, to the fall of BUSY
+# (P2104-END-01/02).
 END_LATEST = 4
 
 
@@ -40,7 +41,7 @@ class Axis(AxisDriver):
         return f"{name}[{self.n}]"
 
     def set(self, **levels: int) -> int:
-        """Drive input pins of this axis and return the stamp."""
+        """Drive input pins of this axis and return the stamp of the change."""
         return self.bench.set(**{self.pin(name): level for name, level in levels.items()})
 
     def at(self, edge: int, **levels: int) -> Any:
@@ -48,7 +49,7 @@ class Axis(AxisDriver):
         return self.bench.at(edge, **{self.pin(name): level for name, level in levels.items()})
 
     async def blip(self, name: str, clocks: int, level: int = 0) -> int:
-        """Drive an input of this axis to `level` for some cycles; return the first stamp."""
+        """Hold an input of this axis at `level` for some cycles; return the first stamp."""
         return await self.bench.pulse_pin(self.pin(name), level, clocks)
 
     def level(self, name: str) -> int:
@@ -61,16 +62,17 @@ class Axis(AxisDriver):
         return self.bench.level(self.phases)
 
     def edges(self, name: str, since: int | None = None) -> list[tuple[int, int]]:
-        """Return the edges of pout_n, dir or hold since the last `go`, or since an edge."""
+        """Return the edges of pout_n, dir or hold since an edge (default: since the last `go`)."""
         return self.bench.edges(self.pin(name), self.since if since is None else since)
 
     # ---------------------------------------------------------------- instructions
 
     async def init(self, code: int, rl: int, rh: int, pa: int) -> None:
-        """Send the initial setting and wait until the ramp table is ready."""
+        """Send the initial setting and wait until the ramp table is complete."""
         await self.host.init(code | self.axis_bit, rl, rh, pa)
         if self.cfg.datasheet:
-            # The setting takes 71 ms (P2104-DS-01): polling all the time would be slow.
+            # In DATASHEET the setting takes 71 ms (P2104-DS-01), during which continuous polling would be
+            # slow.
             await self.bench.clocks(self.cfg.us(70_990))
         await self.ready()
 
@@ -105,14 +107,14 @@ class Axis(AxisDriver):
     async def outcome(
         self, rule: str, pulses: int, finish: int, total: int = ALL, rates: Sequence[int] | None = None
     ) -> None:
-        """Check `result` of an operation of `total` pulses, and its pulse train."""
+        """Check the result of an operation of `total` pulses, and its pulse train."""
         await self.result(rule, pulses, finish, max(total - pulses - 1, 0))
         if rates is not None:
             self.check_train(rule, rates)
 
 
 class Env:
-    """Test bench, host and axes `x1`, `x2`; created with `await Env.start(dut)`."""
+    """Test bench, host and axes `x1`, `x2`; create it with `await Env.start(dut)`."""
 
     def __init__(self, bench: DutBench) -> None:
         self.bench = bench
@@ -132,7 +134,7 @@ class Env:
         return cls(await start_bench(dut, PPMC2104, **pins))
 
     async def ready(self, n: int, init: Init = INIT_A) -> Axis:
-        """Send the initial setting to axis n and return it."""
+        """Send the initial setting to axis n and return the axis."""
         axis = self.axes[n - 1]
         await axis.init(*init)
         return axis
@@ -144,19 +146,21 @@ class Env:
         return self.axes
 
     async def style(self, busc: int) -> None:
-        """Select the bus style with the strobes off, and wait until it is effective (P2104-BUS-04)."""
+        """Select the bus style while the strobes are inactive, and wait until it takes effect
+        (P2104-BUS-04).
+        """
         await self.host.idle()
         self.bench.set(busc=busc)
         await self.host.idle()
         await self.bench.clocks(4)
 
     async def run(self, script: str) -> list[int]:
-        """Run a script of the acceptance table: `HostBus.run`, with e1, e2 for the Error code reads."""
+        """Run a script of the acceptance table as `HostBus.run` does; e1 and e2 are Error code reads."""
         words = {"e1": "c 86 r", "e2": "c A6 r"}
         return await self.host.run(" ".join(words.get(w, w) for w in script.replace(";", " ").split()))
 
     async def errors(self) -> tuple[int, int]:
-        """Read both error registers; a read clears its register."""
+        """Read both error registers, which clears them."""
         return await self.x1.error(), await self.x2.error()
 
     async def reset(self) -> None:
@@ -172,7 +176,7 @@ class Env:
         self.check(rule, "outputs in reset", levels, {name: reset[name] for name in names})
 
     def quiet(self, rule: str, since: int, *others: str) -> None:
-        """Check that neither a motor pin nor int_n changed since that edge; `others` are further outputs."""
+        """Check that no motor pin, int_n or output in `others` has changed since that edge."""
         names = ("pout_n", "dir", "hold", "s1_n", "s2_n", "int_n", *others)
         moved = {name: edges for name in names if (edges := self.bench.edges(name, since))}
         self.check(rule, f"edges of outputs since {since}", moved, {})

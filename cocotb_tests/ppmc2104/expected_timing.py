@@ -1,4 +1,4 @@
-"""Expected values for the PPMC-2104AFP tests: its settings and codes."""
+"""Expected values of the PPMC-2104AFP tests: settings and codes."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ Init = tuple[int, int, int, int]
 INIT_A: Init = (0x02, 9, 4, 4)
 # Settings of the acceptance table, ramp "B" of P2104-EX-01.
 INIT_B: Init = (0x02, 0x63, 0x13, 0x0A)
-# External base clock with a short ramp of small rates, for tests that control each clock edge.
+# Setting with the external base clock and a short ramp of small rates, for tests that control each clock
+# edge.
 INIT_EXT: Init = (0x0A, 2, 0, 4)
 
-# Setting codes of each step list (E and MM), axis 1, internal clock, no switching.
+# Setting code of each step list (E and MM), for axis 1 with internal clock and without switching.
 STEP_CODES = {"3 full": 0x01, "3 half": 0x05, "4 full": 0x02, "4 half": 0x06, "5 full": 0x03, "5 half": 0x07}
 
 OBF, IBF, BUSY1, BUSY2, CMND1, CMND2, ERROR = 0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x80
 
 ALL = 1 << 24
 
-# Maximum duration of the ramp-table build in cycles (P2104-HSK-05).
+# Maximum number of cycles of a ramp-table build (P2104-HSK-05).
 BUILD_LATEST = 40_000
 
 
 def slowed(ramp: Ramp, n: int, j: int) -> list[int]:
-    """Return the rates of all intervals when deceleration is requested in I(j), j >= 1
-    (P2104-FDC-02/03).
+    """Return the rates of all intervals if deceleration is requested in I(j), j >= 1 (P2104-FDC-02/03).
 
-    At the start-up rate the motion ends there: I(j) is the running interval and does not complete.
+    If I(j) has the start-up rate, the motion ends during I(j), which is not included then.
     """
     rl, _, pa = ramp
     which = forced(n, pa, j)
@@ -38,7 +38,7 @@ def slowed(ramp: Ramp, n: int, j: int) -> list[int]:
 
 
 def kind_of(code: int) -> str:
-    """Return the kind of a code; it follows from the code map alone (P2104-CMD-01)."""
+    """Return the kind of a code, derived from the code map only (P2104-CMD-01)."""
     group, low = code >> 6, code & 7
     if group == 0:
         return "setting" if code & 3 else "undefined"
@@ -61,5 +61,5 @@ OPERATIONS = frozenset({"step", "ramp", "constant", "rate", "high"})
 
 
 def axis_of(code: int) -> int:
-    """Return the axis whose error register gets the error of a faulty code (P2104-ERR-01)."""
+    """Return the axis whose error register records the error of a faulty code (P2104-ERR-01)."""
     return 1 if kind_of(code) in ("auxout", "auxin") else (code >> 5 & 1) + 1

@@ -1,4 +1,4 @@
-"""Tests that `make test-gates` runs for the PPMC-2104, and the tests that it omits, with the reason."""
+"""Tests of the PPMC-2104 that `make test-gates` runs, and the tests that it omits, with the reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A host that is asynchronous to clk: accesses with the bus timing of the old chip in nanoseconds."""
+"""A host that is asynchronous to `clk`: accesses with the bus timing of the old chip in nanoseconds."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from .env import Env
 # Limits of the old chip in ns (P2104-BUS-20).
 WIDTH, DATA_SETUP, DATA_HOLD, ADDRESS_SETUP, ADDRESS_HOLD = 120, 80, 10, 20, 5
 ACCESS, RELEASE = 100, 90
-# Starts of an access, in sixteenths of a cycle.
+# Times at which an access starts, in sixteenths of a cycle.
 PHASES = range(16)
 
 
 def ps(ns: float) -> int:
-    """Return an even number of ps, as the time steps of the simulator require."""
+    """Return a time in ns as an even number of ps, as the time steps of the simulator require."""
     return int(ns * 500) * 2
 
 
 class SlowBus:
-    """Accesses with the given times; unlike in `HostBus`, each pin changes at its own time."""
+    """Accesses with adjustable times. In contrast to `HostBus`, each pin changes at a separate time."""
 
     def __init__(self, env: Env) -> None:
         self.env = env
@@ -29,7 +29,7 @@ class SlowBus:
 
     @property
     def style(self) -> BusStyle:
-        """Present meaning of the strobe pins."""
+        """Levels of the strobe pins in the present bus style."""
         return self.env.host.style
 
     async def wait(self, ns: float) -> None:
@@ -38,13 +38,13 @@ class SlowBus:
             await Timer(ps(ns), "ps")
 
     async def phase(self, sixteenth: int) -> None:
-        """Wait until that sixteenth of a cycle; no edge of `clk` is exactly there."""
+        """Wait until this sixteenth of a cycle; a small offset avoids the edges of `clk`."""
         await self.bench.align()
         await Timer(self.bench.period * sixteenth // 32 * 2 + 2 * (self.bench.period // 128), "ps")
 
     async def _open(self, register: int, on: dict[str, int]) -> dict[str, int]:
-        """Drive chip select, address and R/W* first; return the strobe itself, which is still to be
-        driven.
+        """Drive chip select, address and R/W*; return the level of the strobe pin, which the caller drives
+        later.
         """
         strobe = {pin: 0 for pin in ("ds_wrs_n", "rw_rds_n") if on[pin] == 0}
         if self.bench.pins["busc"]:
@@ -57,8 +57,8 @@ class SlowBus:
     async def write(
         self, register: int, byte: int, width: float = WIDTH, setup: float = DATA_SETUP, rest: float = 0
     ) -> int:
-        """Make one write with a strobe of `width`; d_i is valid from `setup` before its end; then wait
-        `rest`.
+        """Make one write with a strobe of `width`, then wait `rest`. d_i is valid from `setup` before its
+        end.
 
         Return the first edge that samples the end of the strobe.
         """
@@ -87,7 +87,7 @@ class SlowBus:
     ) -> list[tuple[int, int]]:
         """Make one read; return (d_oe, d_o) after the access time and at the end of the strobe.
 
-        Check that the bus is released `release` after the strobe, then wait `rest`.
+        Check that the bus is released within `release` after the strobe, then wait `rest`.
         """
         bench = self.bench
         strobe = await self._open(register, dict(self.style.read_on))

@@ -1,6 +1,4 @@
-"""Instructions with their data for the random hosts of the PPMC-2104AFP: mostly legal and of short
-duration.
-"""
+"""Instructions with data for the random hosts of the PPMC-2104AFP; most are legal and of short duration."""
 
 from __future__ import annotations
 
@@ -28,7 +26,7 @@ class Codes:
     """Generator of instructions.
 
     Args:
-        external: for each axis, whether its external clock is running.
+        external: for each axis, whether its external clock runs.
     """
 
     def __init__(self, rng: random.Random, datasheet: bool, external: tuple[bool, bool]) -> None:
@@ -37,7 +35,7 @@ class Codes:
         self.external = external
 
     def setting(self, axis: int, wrong: float) -> Instruction:
-        """Return an initial setting; with probability `wrong` one that may be rejected."""
+        """Return an initial setting; with the probability `wrong` it may be one that is rejected."""
         rng = self.rng
         external = self.external[axis - 1] and rng.random() < 0.8
         code = rng.choice((1, 2, 3)) | rng.getrandbits(1) << 2 | external << 3 | rng.getrandbits(1) << 4
@@ -56,7 +54,7 @@ class Codes:
         if kind < 0.65:
             rl = rng.choice((3, 5, 9, 12, 19, 25))
             return rl, rng.randint(lowest, rl - 2), rng.choice((4, 4, 5, 6, 8, 10, 15))
-        if kind < 0.75:  # the ramp begins flat: several indices at RL
+        if kind < 0.75:  # the ramp begins flat: several indices have the rate RL
             rl = rng.randint(4, 16)
             return rl, rl - 2, rng.randint(4, 24)
         if kind < 0.9 or self.datasheet:
@@ -65,9 +63,7 @@ class Codes:
         return rng.choice(((255, 1, 4), (255, 1, 11220), (255, 253, 11220), (3, 1, 4), (40, 1, 1000)))
 
     def operation(self, axis: int) -> Instruction:
-        """Return an operation with short moves and small rates, sometimes with too few or too many data
-        bytes.
-        """
+        """Return an operation: short moves, small rates, in some cases too few or too many data bytes."""
         rng = self.rng
         code = rng.choice(OPERATIONS) | rng.getrandbits(1) << 3 | (rng.random() < 0.3) << 4 | (axis - 1) << 5
         d = rng.choice(COUNTS) - 1

@@ -1,9 +1,9 @@
-"""Constrained-random hosts for the PPMC-2104AFP: a seed becomes a list of actions before the simulation
+"""Constrained-random hosts of the PPMC-2104AFP: a seed determines a list of actions before the simulation
 starts.
 
-`scenario(seed)` is a pure function: the same seed yields the same configuration and the same actions.
-`random_player` executes the list on a test bench; the actions are those of `common.player` and
-("finish", [axes], cycles). `random_codes` creates the instructions and their data.
+`scenario(seed)` is a pure function: the same seed returns the same configuration and the same actions.
+`random_player` executes the list on a test bench. The actions are those of `harness.player`, and ("finish",
+[axes], cycles). `random_codes` creates the instructions and their data.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 from cocotb_tests.harness.random_host import HostWriter
 from cocotb_tests.ppmc2104.random_codes import KNOWN_CODES, Codes
 
-# The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
+# Builds of the random tests with their weights. Few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]
 DATASHEET_WEIGHTS: list[tuple[Config, int]] = [(D16, 7), (D11, 4), (D25X8, 3)]
 
@@ -29,7 +29,7 @@ def scenario(seed: int) -> Scenario:
 
 
 class _Writer(HostWriter):
-    """Builds one scenario; one generator makes all random decisions in one order."""
+    """Creates one scenario. A single generator makes all random decisions, in a fixed order."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("ppmc2104", seed, WEIGHTS, DATASHEET_WEIGHTS, external=(0.25, 0.25))
@@ -61,7 +61,7 @@ class _Writer(HostWriter):
                 self.add("fetch", base | code, count)
         self.add("wait", rng.choice((50, 3_000)))
         if rng.random() < 0.05 and self.config.clk_hz <= 16_000_000:
-            self.add("wait", self.config.cyc(2048 * 26))  # the hold timers expire
+            self.add("wait", self.config.cyc(2048 * 26))  # long enough for the hold timers to expire
         return Scenario(
             self.seed, self.config, self.first_pins(), self.actions, self.clocks(),
             rng.random() < 0.5, self.limit_clk,
@@ -75,7 +75,7 @@ class _Writer(HostWriter):
         return pins
 
     def clocks(self) -> tuple[ExternalClock, ExternalClock]:
-        """Return the waveforms of the external clocks: constant, with jitter, or stopping."""
+        """Return the segments of the external clocks: constant, with jitter, or with stops."""
         one, two = (
             random_clock(self.rng, self.scale, CLOCK_PERIODS) if external else ExternalClock()
             for external in self.externals
@@ -86,7 +86,7 @@ class _Writer(HostWriter):
         return self.rng.choice((1, 2))
 
     def near(self) -> int:
-        """Return the axis started last in most cases, else any axis."""
+        """Return an axis: in most cases the axis that was started last."""
         return self.moving if self.rng.random() < 0.75 else self.axis()
 
     def switch(self, axis: int) -> str:
@@ -99,7 +99,7 @@ class _Writer(HostWriter):
         self.set_up.add(axis)
         code, data = self.codes.setting(axis, wrong=0.08 if first else 0.3)
         self.send_command(code, data, 0.8)
-        if rng.random() < 0.3:  # sends bytes during the table build
+        if rng.random() < 0.3:  # send bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))
@@ -156,7 +156,7 @@ class _Writer(HostWriter):
         self.ended([axis] if rng.random() < 0.4 else [1, 2])
 
     def pair(self) -> None:
-        """Start both axes, released by RUN or one directly after the other."""
+        """Start both axes, either released together by RUN or one directly after the other."""
         rng = self.rng
         gated = rng.random() < 0.6
         if gated:
@@ -190,7 +190,7 @@ class _Writer(HostWriter):
             self.release()
 
     def release(self) -> None:
-        """Release all switches and let both axes run."""
+        """Release all switches and set RUN of both axes."""
         self.add("pins", {**dict.fromkeys(SWITCHES, 3), "run": 3})
 
     def disturbances(self, most: int = 5) -> None:
@@ -198,7 +198,7 @@ class _Writer(HostWriter):
             self.disturb()
 
     def disturb(self) -> None:
-        """Add an action that happens during a motion."""
+        """Add an action that takes place during a motion."""
         rng = self.rng
         self.add("wait", self.clk(1, 4_000))
         rng.choices(
@@ -239,7 +239,7 @@ class _Writer(HostWriter):
         return rng.getrandbits(1), rng.getrandbits(8)
 
     def bad_strobes(self) -> None:
-        """Add both strobes together, a strobe cut by cs_n, or a strobe that changes direction
+        """Add an illegal access: both strobes, a strobe that cs_n ends, or a change of direction
         (P2104-BAD-11..13).
         """
         rng = self.rng

@@ -1,7 +1,7 @@
-"""Two runs of one axis: a plan for axis 2, and traffic to axis 1 that fits between its accesses.
+"""Two runs of axis 2, one of them with traffic to axis 1 between the accesses to axis 2.
 
-A plan is a pure function of a seed. Times are cycles after the beginning of a slot; every slot begins
-with an operation of axis 2.
+A plan for axis 2 is a pure function of a seed. Times are cycles after the beginning of a slot; each slot
+begins with an operation of axis 2.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from cocotb_tests.ppmc2104.random_codes import Codes
 from cocotb_tests.ppmc2104.random_host import SWITCHES
 
 SLOT = 24_000
-# An instruction of axis 2 is complete long before this time; switches and stops follow later.
+# An instruction of axis 2 is complete long before this time; switches and stops follow it.
 FIRST_EVENT = 400
 
 Write = tuple[int, int]
@@ -23,7 +23,7 @@ Event = tuple[int, str, int]
 
 @dataclass(frozen=True)
 class Slot:
-    """One operation of axis 2: its bytes, pin changes and stops (cycles, pin or "code", level or code)."""
+    """One operation of axis 2: bytes, pin changes, and stops (cycles, pin or "code", level or code)."""
 
     writes: tuple[Write, ...]
     events: tuple[Event, ...]
@@ -31,8 +31,9 @@ class Slot:
 
 @dataclass(frozen=True)
 class Pair:
-    """Build, bus style, setting of axis 2, slots; `period` of extck[2] in cycles, 0 for the internal
-    clock.
+    """Build, bus style, setting of axis 2, slots.
+
+    `period` is the period of extck[2] in cycles, or 0 for the internal clock.
     """
 
     config: Config
@@ -68,7 +69,7 @@ def pair(seed: int) -> Pair:
 
 
 def traffic(seed: int, count: int) -> list[list[Write] | tuple[str, int]]:
-    """Return instructions with all their data bytes, and pin changes, for axis 1."""
+    """Return instructions for axis 1 with all their data bytes, and pin changes."""
     rng = random.Random(f"ppmc2104 traffic {seed}")
     codes = Codes(rng, False, (False, False))
     made: list[list[Write] | tuple[str, int]] = [list(_writes(*codes.setting(1, wrong=0)))]

@@ -10,8 +10,8 @@ BUSY = {1: 0x04, 2: 0x08}
 class HostPlayer(Player):
     """Plays one scenario: `await HostPlayer(bench, scenario).run()`.
 
-    Adds ("finish", axes, cycles): poll until BUSY of these axes is 0; after this number of cycles stop
-    them.
+    Adds the action ("finish", axes, cycles): poll until BUSY of these axes is 0; after this number of cycles
+    without success, stop them.
     """
 
     async def _finish(self, axes: list[int], clk: int) -> None:

@@ -1,7 +1,6 @@
 """Puts an axis into each state of P2104-FSM-01 and keeps it there.
 
-If the state is part of a motion, the external clock is stopped, so that the state lasts as long as a
-test needs.
+For a state within a motion, the external clock is stopped, so that the state lasts as long as a test needs.
 """
 
 from __future__ import annotations
@@ -9,11 +8,11 @@ from __future__ import annotations
 from .env import Axis
 from .expected_timing import INIT_EXT
 
-# After pulse PA + 1 of the ramp of INIT_EXT the motion is on the plateau.
+# After pulse PA + 1 of the ramp of INIT_EXT, the motion is on the plateau.
 PLATEAU = INIT_EXT[3] + 1
 NATURAL = 8
 
-# Columns of the table: the states with BUSY = 0, then those with BUSY = 1.
+# Columns of the table: first the states with BUSY = 0, then the states with BUSY = 1.
 RESTING = ("INITIAL", "INITP", "NORMAL")
 RAMP = ("START", "ACC", "HIGH")
 STEADY = ("START constant", "CONST", "FIN", "FIN ramp")
@@ -23,7 +22,7 @@ MOVING = ("RUNWAIT", *RAMP, "DEC", "DEC natural", "START flagged", *STEADY)
 async def enter(axis: Axis, state: str, ccw: int = 0) -> None:
     """Bring an axis without a setting into a state.
 
-    INITP is the build of a long table; FIN lasts only for the low time of the last pulse.
+    INITP is the build of a long table. FIN lasts only for the low time of the last pulse.
     """
     if state == "INITIAL":
         return

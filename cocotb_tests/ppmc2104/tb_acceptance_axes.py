@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-45 to AC-63: RUN, two axes, phases, switching, waiting codes."""
+"""Acceptance checks AC-45 to AC-63 at the pins: RUN, two axes, phases, switching, waiting codes."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ US = 16
 
 @directed("AC-45", "P2104-OPR-02", "P2104-TIM-02", "P2104-STA-04", "P2104-BAD-21")
 async def p2104_ac_45_run(dut: Any) -> None:
-    """With run low, an accepted move waits; run high starts it, and later changes of run have no effect
-    (AC-45).
+    """With run low, an accepted move waits. When run rises, the move starts; later changes of run have no
+    effect (AC-45).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -39,8 +39,8 @@ async def p2104_ac_45_run(dut: Any) -> None:
 
 @directed("AC-46", "P2104-STP-01", "P2104-END-07", "P2104-FSM-01")
 async def p2104_ac_46_stop_in_run_wait(dut: Any) -> None:
-    """In RUN wait, 40 ends the move without a pulse: end status C3, D remains, hold rises after 3.2 ms
-    (AC-46).
+    """In RUN wait, code 40 ends the move without a pulse: the end status is C3, the remaining value is D, and
+    hold rises after 3.2 ms (AC-46).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -58,7 +58,7 @@ async def p2104_ac_46_stop_in_run_wait(dut: Any) -> None:
 
 @directed("AC-47", "P2104-LIM-03", "P2104-LIM-07")
 async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
-    """In RUN wait of an origin search, ORG has no effect, and BL ends it (AC-47)."""
+    """In RUN wait of an origin search, ORG has no effect, and BL ends the search (AC-47)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(run=0)
@@ -72,7 +72,9 @@ async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
 
 @directed("AC-48", "P2104-LIM-07")
 async def p2104_ac_48_origin_when_run_rises(dut: Any) -> None:
-    """An origin search that waits for run on the origin ends without a pulse when run rises (AC-48)."""
+    """If an origin search waits for run while ORG is active, it ends without a pulse when run rises
+    (AC-48).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(run=0)
@@ -85,7 +87,7 @@ async def p2104_ac_48_origin_when_run_rises(dut: Any) -> None:
 
 @directed("AC-49", "P2104-LIM-05", "P2104-FDC-01", "P2104-FDC-04")
 async def p2104_ac_49_slow_down_limit_in_run_wait(dut: Any) -> None:
-    """If FHL is low for 10 cycles in RUN wait, run starts a motion of one pulse (AC-49)."""
+    """If FHL is low for 10 cycles in RUN wait, run then starts a motion of one pulse (AC-49)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(run=0)
@@ -99,7 +101,7 @@ async def p2104_ac_49_slow_down_limit_in_run_wait(dut: Any) -> None:
 
 @directed("AC-50", "P2104-TIM-02", "P2104-OPR-10", "P2104-BCK-05")
 async def p2104_ac_50_both_axes_together(dut: Any) -> None:
-    """When run rises for both waiting axes, their pulses 1 are on the same edge (AC-50)."""
+    """When run rises for two waiting axes, they output pulse 1 on the same edge (AC-50)."""
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)
     env.bench.set(run=0)
@@ -128,7 +130,7 @@ async def p2104_ac_51_origin(dut: Any) -> None:
 
 @directed("AC-52", "P2104-OPR-08", "P2104-CMD-02")
 async def p2104_ac_52_pout_mode(dut: Any) -> None:
-    """In POUT mode, C3 and C6 output the usual pulses, and s1_n does not change (AC-52)."""
+    """In POUT mode, codes C3 and C6 output the usual pulses, and s1_n does not change (AC-52)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.move(0xC3, 25)
@@ -162,8 +164,8 @@ async def p2104_ac_53_step_lists(dut: Any) -> None:
 
 @directed("AC-54", "P2104-SW-02", "P2104-SW-03", "P2104-SW-04", "P2104-SW-05", "P2104-INI-07")
 async def p2104_ac_54_switching(dut: Any) -> None:
-    """With S = 1, the axis chops at standstill with the documented times and moves with the full
-    pattern (AC-54).
+    """With S = 1, the axis chops at standstill with the documented times, and moves with the full pattern
+    (AC-54).
     """
     env = await Env.start(dut)
     axis = env.x1
@@ -172,7 +174,7 @@ async def p2104_ac_54_switching(dut: Any) -> None:
     spans = axis.stretches(env.bench.now - 9_000)
     for pattern, span in spans:
         nominal = {0b11100: 664, 0b11111: 1328}[pattern]
-        env.window("AC-54", f"clk of {pattern:05b}", span, nominal - 5, nominal + 5)
+        env.window("AC-54", f"cycles of {pattern:05b}", span, nominal - 5, nominal + 5)
     env.window("AC-54", "number of phases", len(spans), 7, 10)
     await axis.send(0x84, [0x40, 0x80])
     await env.bench.clocks(3_000)
@@ -184,7 +186,7 @@ async def p2104_ac_54_switching(dut: Any) -> None:
     env.check("AC-54", "82", set(reads), {0x3C})
     for pattern, span in axis.stretches(since):
         nominal = {0b11100: 512, 0b11111: 1024}[pattern]
-        env.window("AC-54", f"new clk of {pattern:05b}", span, nominal - 5, nominal + 5)
+        env.window("AC-54", f"new cycles of {pattern:05b}", span, nominal - 5, nominal + 5)
     await env.bench.edge("s1_n", 0b11111)
     await axis.go(0x42)
     (pulse,) = [await axis.pulse(1)]
@@ -195,12 +197,12 @@ async def p2104_ac_54_switching(dut: Any) -> None:
     end = await axis.wait_end()
     off = await env.bench.edge("s1_n", 0b11111)
     env.window("AC-54", "end to OFF", off - end, 502, 522)
-    env.check("AC-54", "clk of OFF", await env.bench.edge("s1_n", 0b11001) - off, 1024)
+    env.check("AC-54", "cycles of OFF", await env.bench.edge("s1_n", 0b11001) - off, 1024)
 
 
 @directed("AC-55", "P2104-END-07", "P2104-AUX-05", "P2104-HLD-01")
 async def p2104_ac_55_hold_delay(dut: Any) -> None:
-    """With n = 18h, 00, FF, hold rises 3.2, 0.128, 32.768 ms after a step (AC-55)."""
+    """With hold delays n = 18h, 00 and FF, hold rises 3.2, 0.128 and 32.768 ms after a step (AC-55)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for n, clocks in ((None, 51_200), (0x00, 2_048), (0xFF, 524_288)):
@@ -221,7 +223,7 @@ async def p2104_ac_55_hold_delay(dut: Any) -> None:
 
 @directed("AC-56", "P2104-AUX-02", "P2104-AUX-03")
 async def p2104_ac_56_auxiliary(dut: Any) -> None:
-    """In all states, C1, D1, E1 and F1 set the output pins and C2 reads the input pins (AC-56)."""
+    """In all states, codes C1, D1, E1 and F1 set the output pins, and C2 reads the input pins (AC-56)."""
     env = await Env.start(dut)
     for state in ("initial", "moving"):
         for code, level in ((0xC1, 3), (0xD1, 2), (0xE1, 1), (0xF1, 0)):
@@ -242,7 +244,9 @@ async def p2104_ac_56_auxiliary(dut: Any) -> None:
 
 @directed("AC-57", "P2104-AUX-01", "P2104-PHS-02", "P2104-PHS-03")
 async def p2104_ac_57_excitation_off(dut: Any) -> None:
-    """C0 switches the phases off and leads to error 4; a new setting begins with its index 0 (AC-57)."""
+    """After code C0 the phases are off and operations set error 4; the next setting begins with its index 0
+    (AC-57).
+    """
     env = await Env.start(dut)
     await env.run(B1)
     axis = env.x1
@@ -265,7 +269,7 @@ async def p2104_ac_57_excitation_off(dut: Any) -> None:
 
 @directed("AC-58", "P2104-INI-05")
 async def p2104_ac_58_setting_again(dut: Any) -> None:
-    """A second setting of axis 1 with 1F changes only the ramp (AC-58)."""
+    """A second setting of axis 1, with code 1F, changes only the ramp (AC-58)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.init(0x1F, 9, 4, 4)
@@ -279,8 +283,8 @@ async def p2104_ac_58_setting_again(dut: Any) -> None:
 
 @directed("AC-59", "P2104-BCK-04", "P2104-TIM-03", "P2104-BAD-18")
 async def p2104_ac_59_external_clock(dut: Any) -> None:
-    """With 250 kHz on extck, rate 9 has intervals of 640 cycles; without edges the axis waits until 40
-    (AC-59).
+    """With 250 kHz on extck, rate 9 results in intervals of 640 cycles; without edges the axis waits until
+    code 40 (AC-59).
     """
     env = await Env.start(dut)
     axis = env.x1
@@ -301,8 +305,8 @@ async def p2104_ac_59_external_clock(dut: Any) -> None:
 
 @directed("AC-60", "P2104-EX-14", "P2104-TIM-05")
 async def p2104_ac_60_external_clock_of_1_mhz(dut: Any) -> None:
-    """With 1 MHz on extck, rate 0 has intervals of 16 cycles and low times of 8, the last one of 80
-    (AC-60).
+    """With 1 MHz on extck, rate 0 results in intervals of 16 cycles, and low times of 8 cycles (the last one:
+    80) (AC-60).
     """
     env = await Env.start(dut)
     axis = env.x1
@@ -318,7 +322,7 @@ async def p2104_ac_60_external_clock_of_1_mhz(dut: Any) -> None:
 
 @directed("AC-61", "P2104-HSK-07", "P2104-BAD-10", "P2104-BAD-25")
 async def p2104_ac_61_unread_answer(dut: Any) -> None:
-    """Two unread bytes stay during a step; 80 replaces them (AC-61)."""
+    """Two unread bytes stay in the queue during a step; code 80 replaces them (AC-61)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.go(0x43, 1000)
@@ -335,7 +339,7 @@ async def p2104_ac_61_unread_answer(dut: Any) -> None:
 
 @directed("AC-62", "P2104-HSK-04", "P2104-HSK-05", "P2104-STA-05")
 async def p2104_ac_62_what_waits(dut: Any) -> None:
-    """While the table of axis 1 is built, F1 and 72 are accepted and only 42 waits (AC-62)."""
+    """While the table of axis 1 is built, codes F1 and 72 are accepted, and only code 42 waits (AC-62)."""
     env = await Env.start(dut)
     first, second = env.axes
     await env.ready(2, INIT_B)
@@ -357,7 +361,7 @@ async def p2104_ac_62_what_waits(dut: Any) -> None:
 
 @directed("AC-63", "P2104-HSK-02", "P2104-BAD-08")
 async def p2104_ac_63_written_over(dut: Any) -> None:
-    """If 52 replaces a waiting 42, one pulse and no interrupt follow (AC-63)."""
+    """If code 52 replaces a waiting code 42, one pulse and no interrupt follow (AC-63)."""
     env = await Env.start(dut)
     axis = env.x1
     await env.run(B1)

@@ -1,4 +1,6 @@
-"""Black-box acceptance checks AC-64 to AC-66 and AC-77 to AC-85: clocks, bus, reset, stops in a data wait."""
+"""Acceptance checks AC-64 to AC-66 and AC-77 to AC-85 at the pins: clocks, bus, reset, stops in a data
+wait.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +18,8 @@ from .tb_acceptance_moves import AC_09
 
 @directed("AC-64", "P2104-BCK-03", "P2104-EX-12", "P2104-GEN-04", builds=(F11,))
 async def p2104_ac_64_no_drift(dut: Any) -> None:
-    """With CLK_HZ = 11 059 200 and rate 1, fall t + 1 occurs ceil(44.2368 t) cycles after fall 1
-    (AC-64).
+    """With CLK_HZ = 11 059 200 and rate 1, fall number t + 1 occurs ceil(44.2368 t) cycles after the first
+    fall (AC-64).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -31,7 +33,7 @@ async def p2104_ac_64_no_drift(dut: Any) -> None:
 
 @directed("AC-65", "P2104-GEN-03", "P2104-GEN-04", builds=(F16X8,))
 async def p2104_ac_65_crystal_of_8_mhz(dut: Any) -> None:
-    """With XTAL_HZ = 8 MHz, all times of AC-09 and of a step are doubled (AC-65)."""
+    """With XTAL_HZ = 8 MHz, all times of AC-09 and of a step are twice as long (AC-65)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.move(0x43, 25)
@@ -46,7 +48,7 @@ async def p2104_ac_65_crystal_of_8_mhz(dut: Any) -> None:
 @rtl_only("clk_o is not in the model: it never stops and depends on nothing")
 @directed("AC-66", "P2104-PORT-06", builds=(F16, F48, F11, F8, F100, F16X8))
 async def p2104_ac_66_clk_o(dut: Any) -> None:
-    """For each clock, toggle t of clk_o occurs CYC(2 t) after reset (AC-66)."""
+    """For each clock, toggle number t of clk_o occurs CYC(2 t) after reset (AC-66)."""
     env = await Env.start(dut)
     bench = env.bench
     await bench.reset(settle=0)
@@ -67,7 +69,9 @@ async def p2104_ac_66_clk_o(dut: Any) -> None:
 
 @directed("AC-77", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-13")
 async def p2104_ac_77_strobes_together(dut: Any) -> None:
-    """Both strobes low make no access; if cs_n rises first, the byte is stored (AC-77)."""
+    """If both strobes are low, there is no access; if cs_n rises before the strobe, the byte is stored
+    (AC-77).
+    """
     env = await Env.start(dut)
     bench = env.bench
     bench.set(a0=1, d_i=0xF1, cs_n=0, ds_wrs_n=0, rw_rds_n=0)
@@ -88,7 +92,9 @@ async def p2104_ac_77_strobes_together(dut: Any) -> None:
 
 @directed("AC-78", "P2104-BAD-23", "P2104-PORT-03", "P2104-AUX-06", "P2104-HLD-01")
 async def p2104_ac_78_reset_in_motion(dut: Any) -> None:
-    """If rst_n falls between two edges while both axes move, all is as after power-on (AC-78)."""
+    """If rst_n falls between two edges while both axes move, the state afterwards is that after power-on
+    (AC-78).
+    """
     env = await Env.start(dut)
     bench = env.bench
     axes = await env.both(INIT_B)
@@ -121,7 +127,7 @@ async def p2104_ac_78_reset_in_motion(dut: Any) -> None:
 
 @directed("AC-79", "P2104-BUS-08", "P2104-BUS-09", "P2104-HSK-06", "P2104-BAD-09", "P2104-STA-02")
 async def p2104_ac_79_three_bytes(dut: Any) -> None:
-    """After 83 of a stopped move, 2-cycle strobes read the low, middle and high byte, then the last
+    """After code 83 for a stopped move, 2-cycle strobes read the low, middle and high byte, then the last
     byte again (AC-79).
     """
     env = await Env.start(dut)
@@ -145,7 +151,7 @@ async def p2104_ac_79_three_bytes(dut: Any) -> None:
 
 @directed("AC-80", "P2104-OPR-06", "P2104-EX-10")
 async def p2104_ac_80_thousand_pulses(dut: Any) -> None:
-    """At constant speed, FL after 1000 pulses leads to end status 95 and 16 776 215 remaining pulses
+    """At constant speed, FL after 1000 pulses results in end status 95 and 16 776 215 remaining pulses
     (AC-80).
     """
     env = await Env.start(dut)
@@ -160,7 +166,7 @@ async def p2104_ac_80_thousand_pulses(dut: Any) -> None:
 
 @directed("AC-81", "P2104-RD-04", "P2104-LIM-10")
 async def p2104_ac_81_control_input(dut: Any) -> None:
-    """81 returns 0 in the bit of an active input of its axis and ignores the other axis (AC-81)."""
+    """Code 81 returns 0 in the bit of an active input of its axis, regardless of the other axis (AC-81)."""
     env = await Env.start(dut)
     answers = {"org_n": 0x4F, "alm_n": 0x8F, "fl_n": 0xC7, "fhl_n": 0xCB, "bl_n": 0xCD, "bhl_n": 0xCE}
     for axis in env.axes:
@@ -177,7 +183,7 @@ async def p2104_ac_81_control_input(dut: Any) -> None:
 
 @directed("AC-82", "P2104-STP-07", "P2104-ERR-02")
 async def p2104_ac_82_stop_in_a_data_wait(dut: Any) -> None:
-    """If axis 2 waits for data, 40 stops the moving axis 1 and sets error 3 (AC-82)."""
+    """While axis 2 waits for data, code 40 stops the moving axis 1 and sets error 3 (AC-82)."""
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)
     await first.go(0x45, rate=0x31)
@@ -197,7 +203,7 @@ async def p2104_ac_82_stop_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-83", "P2104-STP-07", "P2104-EX-03")
 async def p2104_ac_83_deceleration_stop_in_a_data_wait(dut: Any) -> None:
-    """If axis 2 waits for data, 41 decelerates axis 1 on its ramp (AC-83)."""
+    """While axis 2 waits for data, code 41 decelerates axis 1 on its ramp (AC-83)."""
     env = await Env.start(dut)
     first, _ = await env.both(INIT_B)
     await first.go(0x43, 1000)
@@ -210,8 +216,8 @@ async def p2104_ac_83_deceleration_stop_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-84", "P2104-ERR-02", "P2104-FSM-05")
 async def p2104_ac_84_refused_stop_in_a_data_wait(dut: Any) -> None:
-    """During constant speed and a data wait, 41 sets error 8; 40 at standstill then sets error 3, not 6
-    (AC-84).
+    """During constant speed and a data wait, code 41 sets error 8; code 40 at standstill then sets error 3,
+    not error 6 (AC-84).
     """
     env = await Env.start(dut)
     first, _ = await env.both(INIT_B)

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-22 to AC-44: errors, stops, limits."""
+"""Acceptance checks AC-22 to AC-44 at the pins: errors, stops, limits."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ EX_03 = {5: [99, 53, 41, 34, 30, 34, 41, 53, 99], 2: [99, 53, 99], 1: []}
 
 
 def clk(rates: list[int]) -> list[int]:
-    """Return the intervals in cycles for rates on the 500 kHz base clock."""
+    """Return the intervals in cycles for rates of the 500 kHz base clock."""
     return [32 * (rate + 1) for rate in rates]
 
 
 async def stop_after_pulse(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
-    """Start a move of n pulses and send a stop code 100 cycles after pulse j; return the status after
-    the code.
+    """Start a move of n pulses and send a stop code 100 cycles after pulse j.
+
+    Return the status after the stop code.
     """
     await axis.go(0x43, n)
     await axis.pulse(j, 100)
@@ -31,7 +32,7 @@ async def stop_after_pulse(axis: Axis, j: int, code: int = 0x41, n: int = 1000) 
 
 @directed("AC-22", "P2104-ERR-06", "P2104-STA-06")
 async def p2104_ac_22_error_bit(dut: Any) -> None:
-    """With errors of both axes, ERROR is cleared by the second of the two reads (AC-22)."""
+    """If both axes have an error, ERROR is cleared by the second of the two reads (AC-22)."""
     env = await Env.start(dut)
     got = await env.run("c 87 c A7 s e1 s e2 s e2")
     env.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])
@@ -46,8 +47,8 @@ async def p2104_ac_23_data_without_need(dut: Any) -> None:
 
 @directed("AC-24", "P2104-ERR-02", "P2104-BAD-04")
 async def p2104_ac_24_code_in_a_data_wait(dut: Any) -> None:
-    """During an incomplete operation of axis 1, a step of axis 2 sets error 3 on axis 2, and both
-    instructions are dropped (AC-24).
+    """If a step of axis 2 is sent during an incomplete operation of axis 1, error 3 is set on axis 2, and
+    both instructions are dropped (AC-24).
     """
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)
@@ -61,7 +62,7 @@ async def p2104_ac_24_code_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-25", "P2104-ERR-01")
 async def p2104_ac_25_axisless_code_in_a_data_wait(dut: Any) -> None:
-    """During an incomplete operation, C2 sets error 3 on axis 1 and returns no answer (AC-25)."""
+    """During an incomplete operation, code C2 sets error 3 on axis 1 and returns no answer (AC-25)."""
     env = await Env.start(dut)
     await env.run(B1)
     await env.x1.ready()
@@ -76,7 +77,9 @@ async def p2104_ac_25_axisless_code_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-26", "P2104-BAD-06")
 async def p2104_ac_26_not_set_up(dut: Any) -> None:
-    """If axis 2 has no setting, 63 sets error 4 on it, and its data byte sets error 2 on axis 1 (AC-26)."""
+    """If axis 2 has no setting, code 63 sets error 4 on axis 2, and its data byte sets error 2 on axis 1
+    (AC-26).
+    """
     env = await Env.start(dut)
     env.check("AC-26", "e2, e1", await env.run("c 63 d 01 e2 e1"), [4, 2])
 
@@ -103,7 +106,7 @@ async def p2104_ac_27_busy(dut: Any) -> None:
 
 @directed("AC-28", "P2104-STP-04")
 async def p2104_ac_28_stops_at_rest(dut: Any) -> None:
-    """Stops set error 6 on axis 1 at standstill and error 4 on axis 2 without a setting (AC-28)."""
+    """Stops set error 6 on axis 1 at standstill, and error 4 on axis 2 without a setting (AC-28)."""
     env = await Env.start(dut)
     await env.ready(1, INIT_B)
     env.check("AC-28", "errors", await env.run("c 40 e1 c 41 e1 c 60 e2"), [6, 6, 4])
@@ -111,7 +114,7 @@ async def p2104_ac_28_stops_at_rest(dut: Any) -> None:
 
 @directed("AC-29", "P2104-LIM-06", "P2104-ERR-05")
 async def p2104_ac_29_limit_refuses(dut: Any) -> None:
-    """On the CW limit, CW operations set error 7, and the other direction moves (AC-29)."""
+    """While the CW limit is active, CW operations set error 7, and CCW operations move (AC-29)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(fl_n=0)
@@ -128,8 +131,8 @@ async def p2104_ac_29_limit_refuses(dut: Any) -> None:
 
 @directed("AC-30", "P2104-LIM-06", "P2104-LIM-02")
 async def p2104_ac_30_what_refuses(dut: Any) -> None:
-    """Of all inputs, only ALM, and ORG for 47, reject the start of axis 1 CW: tried one at a time
-    (AC-30).
+    """A CW start of axis 1 is rejected while ALM is active, or ORG for code 47; BL, FHL and FL of axis 2 do
+    not reject it (AC-30).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -152,7 +155,9 @@ async def p2104_ac_30_what_refuses(dut: Any) -> None:
 
 @directed("AC-31", "P2104-STP-03", "P2104-PRO-05")
 async def p2104_ac_31_deceleration_stop_refused(dut: Any) -> None:
-    """41 during constant speed, RUN wait or natural deceleration sets error 8 and has no effect (AC-31)."""
+    """Code 41 during constant speed, RUN wait or natural deceleration sets error 8 and has no effect
+    (AC-31).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.running()
@@ -173,7 +178,7 @@ async def p2104_ac_31_deceleration_stop_refused(dut: Any) -> None:
 
 @directed("AC-32", "P2104-INI-02", "P2104-INI-03", "P2104-BAD-16")
 async def p2104_ac_32_setting_values(dut: Any) -> None:
-    """Setting values at and beyond their limits set error 9, error 10 or no error (AC-32)."""
+    """Setting values at their limits and beyond set error 9, error 10 or no error, as documented (AC-32)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     bad = ((5, 4, 100, 9), (5, 6, 100, 9), (5, 0, 100, 9), (9, 4, 3, 9), (5, 4, 3, 9))
@@ -189,7 +194,7 @@ async def p2104_ac_32_setting_values(dut: Any) -> None:
 
 @directed("AC-33", "P2104-OPR-07", "P2104-INI-01")
 async def p2104_ac_33_rate_zero(dut: Any) -> None:
-    """Rate 00 sets error 9 with the internal base clock and runs with the external one (AC-33)."""
+    """Rate 00 sets error 9 with the internal base clock, and is accepted with the external one (AC-33)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.refused("AC-33", "45 00", 9, 0x45, 0)
@@ -213,8 +218,8 @@ async def p2104_ac_34_switching_values(dut: Any) -> None:
 
 @directed("AC-35", "P2104-EX-03", "P2104-STP-02", "P2104-FDC-02", "P2104-FDC-03", "P2104-END-03")
 async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
-    """With ramp B, 41 in I(5), I(2), I(1) leads to 10, 4, 1 pulses and the documented remaining pulses
-    (AC-35).
+    """With ramp B, code 41 in I(5), I(2) or I(1) results in 10, 4 or 1 pulses and the documented remaining
+    pulses (AC-35).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -227,7 +232,7 @@ async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
 
 @directed("AC-36", "P2104-EX-05", "P2104-FDC-05", "P2104-PRO-04", "P2104-END-06")
 async def p2104_ac_36_around_the_peak(dut: Any) -> None:
-    """In triangular profiles of 10 and 11 pulses, 41 around the peak acts as EX-05 states (AC-36)."""
+    """In triangular profiles of 10 and 11 pulses, code 41 near the peak has the effect in EX-05 (AC-36)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for n, j, pulses, finish, left, error in (
@@ -250,7 +255,7 @@ async def p2104_ac_36_around_the_peak(dut: Any) -> None:
 
 @directed("AC-37", "P2104-EX-06", "P2104-FDC-02")
 async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
-    """If the ramp begins flat, 41 on the flat part stops the axis immediately (AC-37)."""
+    """If the ramp begins with a flat part, code 41 on this part stops the axis immediately (AC-37)."""
     env = await Env.start(dut)
     axis = await env.ready(1, (0x02, 14, 12, 16))
     for j, pulses, left in ((3, 3, [0xE4, 3, 0]), (5, 10, [0xDD, 3, 0])):
@@ -264,7 +269,7 @@ async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
 
 @directed("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
 async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
-    """On the plateau, FHL low for 10 cycles, twice, leads to 31 pulses; BHL has no effect (AC-38)."""
+    """If FHL is low for 10 cycles on the plateau, twice, 31 pulses are output; BHL has no effect (AC-38)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for code, finish, left in ((0x43, 0x8B, [0xC8, 3, 0]), (0x46, 0x8E, [0xE0, 0xFF, 0xFF])):
@@ -286,7 +291,7 @@ async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
 
 @directed("AC-39", "P2104-FDC-04", "P2104-LIM-05", "P2104-OPR-05", "P2104-OPR-09")
 async def p2104_ac_39_started_on_the_slow_down_limit(dut: Any) -> None:
-    """With FHL active, 43, C3 and 46 output one pulse each (AC-39)."""
+    """With FHL active, codes 43, C3 and 46 output one pulse each (AC-39)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(fhl_n=0)
@@ -313,7 +318,9 @@ async def p2104_ac_40_complete_all_the_same(dut: Any) -> None:
 
 @directed("AC-41", "P2104-EX-09", "P2104-END-06", "P2104-STP-01")
 async def p2104_ac_41_immediate_stop(dut: Any) -> None:
-    """With N = 1000, 40 in I(7) leads to 7 pulses; the remaining pulses complete the move (AC-41)."""
+    """With N = 1000, code 40 in I(7) results in 7 pulses; a move of the remaining pulses completes the count
+    (AC-41).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await stop_after_pulse(axis, 7, 0x40)
@@ -343,7 +350,9 @@ async def p2104_ac_42_limit(dut: Any) -> None:
 
 @directed("AC-43", "P2104-END-04", "P2104-LIM-04")
 async def p2104_ac_43_several_causes(dut: Any) -> None:
-    """A limit and an alarm during a forced deceleration or a plateau set all their bits (AC-43)."""
+    """If a limit and an alarm occur during a forced deceleration or on a plateau, all their bits are set
+    (AC-43).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for slow, pins, finish in (
@@ -363,7 +372,7 @@ async def p2104_ac_43_several_causes(dut: Any) -> None:
 
 @directed("AC-44", "P2104-END-05", "P2104-LIM-09")
 async def p2104_ac_44_alarm_after_the_last_pulse(dut: Any) -> None:
-    """If ALM falls while pout_n of a step is low, the step is complete (AC-44)."""
+    """If ALM falls while pout_n of a step is low, the step counts as complete (AC-44)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.go(0x42)

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-01 to AC-21: stimulus and values as in the acceptance table."""
+"""Acceptance checks AC-01 to AC-21 at the pins; stimulus and values are those of the acceptance table."""
 
 from __future__ import annotations
 
@@ -50,7 +50,9 @@ async def p2104_ac_02_reads_after_reset(dut: Any) -> None:
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
 async def p2104_ac_03_write_times_of_the_data_sheet(dut: Any) -> None:
-    """Writes with 120 ns strobes and 80 ns of data act at any phase, in both styles (AC-03)."""
+    """Writes with strobes of 120 ns and data valid for 80 ns are accepted at any phase, in both styles
+    (AC-03).
+    """
     env = await Env.start(dut)
     bus = SlowBus(env)
     for busc in (0, 1):
@@ -67,7 +69,7 @@ async def p2104_ac_03_write_times_of_the_data_sheet(dut: Any) -> None:
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-04", "P2104-BUS-06", "P2104-BUS-20", "P2104-BUS-21")
 async def p2104_ac_04_read_times_of_the_data_sheet(dut: Any) -> None:
-    """With 120 ns read strobes, the status is valid from 100 ns to the end (AC-04)."""
+    """In read strobes of 120 ns, the status is valid from 100 ns to the end (AC-04)."""
     env = await Env.start(dut)
     bus = SlowBus(env)
     await env.host.command(0x87)
@@ -82,7 +84,7 @@ async def p2104_ac_04_read_times_of_the_data_sheet(dut: Any) -> None:
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-05", "P2104-BUS-07", "P2104-STA-03")
 async def p2104_ac_05_no_invisible_write(dut: Any) -> None:
-    """If status is read 75 ns after an unexpected data byte, IBF or ERROR is 1 (AC-05)."""
+    """If the status is read 75 ns after an unexpected data byte, IBF or ERROR is 1 (AC-05)."""
     env = await Env.start(dut)
     bus = SlowBus(env)
     for busc in (0, 1):
@@ -132,12 +134,12 @@ async def p2104_ac_07_cmnd(dut: Any) -> None:
         env.check("AC-07", f"statuses of {code}", got, [cmnd] * 5)
         begin = env.bench.now
         await env.host.poll(0xFF, 0x00)
-        env.window("AC-07", "clk until the table is ready", env.bench.now - begin, 1, BUILD_LATEST)
+        env.window("AC-07", "cycles until the table is ready", env.bench.now - begin, 1, BUILD_LATEST)
 
 
 @directed("AC-08", "P2104-INI-04", "P2104-RD-05")
 async def p2104_ac_08_first_pattern(dut: Any) -> None:
-    """When the setting of axis 1 is accepted, s1_n has pattern 0 and s2_n is off (AC-08)."""
+    """When the setting of axis 1 is accepted, s1_n changes to pattern 0, and s2_n stays off (AC-08)."""
     env = await Env.start(dut)
     await env.run(B1)
     env.check("AC-08", "s1_n, s2_n", [axis.phases_now for axis in env.axes], [0b11100, 0b11111])
@@ -175,7 +177,7 @@ async def p2104_ac_10_triangles(dut: Any) -> None:
 
 @directed("AC-11", "P2104-RMP-03", "P2104-EX-07")
 async def p2104_ac_11_half_rounds_up(dut: Any) -> None:
-    """With RL 3, RH 1, PA 25, the exact half at index 13 is rounded up (AC-11)."""
+    """With RL 3, RH 1, PA 25, the value at index 13, exactly n + 1/2, is rounded up (AC-11)."""
     env = await Env.start(dut)
     await env.run("c 02 d 03 d 01 d 19 d 00 c 43 d 3B d 00 d 00")
     await env.x1.idle()
@@ -186,9 +188,10 @@ async def p2104_ac_11_half_rounds_up(dut: Any) -> None:
 
 @directed("AC-12", "P2104-EX-15", "P2104-RMP-04", builds=(F8,))
 async def p2104_ac_12_largest_ramp(dut: Any) -> None:
-    """With RL 255, RH 18, PA 11220, 30 000 pulses last 30 002 080 periods of 16 MHz.
+    """With RL 255, RH 18 and PA 11220, 30 000 pulses last 30 002 080 periods of 16 MHz (AC-12).
 
-    At 8 MHz one cycle is two of these periods: the same values in half the number of cycles (AC-12).
+    The test runs at 8 MHz, where one cycle is two of these periods: the values are the same in half the
+    number of cycles.
     """
     env = await Env.start(dut)
     await env.run("c 02 d FF d 12 d D4 d 2B c 43 d 2F d 75 d 00")
@@ -201,7 +204,7 @@ async def p2104_ac_12_largest_ramp(dut: Any) -> None:
 
 @directed("AC-13", "P2104-TIM-01", "P2104-TIM-04", "P2104-TIM-05")
 async def p2104_ac_13_first_pulse_and_phases(dut: Any) -> None:
-    """In AC-09, pulse 1 occurs 80 to 82 cycles after hold falls, and s1_n changes with each pulse
+    """In the move of AC-09, pulse 1 occurs 80 to 82 cycles after hold falls, and s1_n changes with each pulse
     (AC-13).
     """
     env = await Env.start(dut)
@@ -217,8 +220,8 @@ async def p2104_ac_13_first_pulse_and_phases(dut: Any) -> None:
 
 @directed("AC-14", "P2104-EX-13", "P2104-TIM-05")
 async def p2104_ac_14_low_times(dut: Any) -> None:
-    """At rates 1 and 2 the low time is half the interval, because the interval is short; at rate 3 it
-    is 80 cycles (AC-14).
+    """At rates 1 and 2, whose intervals are short, the low time is half the interval; at rate 3 it is 80
+    cycles (AC-14).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -230,8 +233,8 @@ async def p2104_ac_14_low_times(dut: Any) -> None:
 
 @directed("AC-15", "P2104-EX-08", "P2104-BCK-01", "P2104-BCK-02", "P2104-INTV-01")
 async def p2104_ac_15_csel(dut: Any) -> None:
-    """At rate 49, intervals are 1600 cycles with csel = 1, 6400 with csel = 0, and stay 1600 if csel
-    falls during the motion (AC-15).
+    """At rate 49, intervals are 1600 cycles with csel = 1 and 6400 cycles with csel = 0. If csel falls during
+    the motion, they stay 1600 cycles (AC-15).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -247,7 +250,7 @@ async def p2104_ac_15_csel(dut: Any) -> None:
 
 @directed("AC-16", "P2104-END-01", "P2104-RD-03", "P2104-INT-05")
 async def p2104_ac_16_end_interrupt(dut: Any) -> None:
-    """At the end of a step int_n falls; 80 returns 82 and releases it, and a second read returns 02
+    """At the end of a step int_n falls. Code 80 returns 82 and releases int_n; a second read returns 02
     (AC-16).
     """
     env = await Env.start(dut)
@@ -263,7 +266,7 @@ async def p2104_ac_16_end_interrupt(dut: Any) -> None:
 
 @directed("AC-17", "P2104-CMD-02")
 async def p2104_ac_17_no_interrupt(dut: Any) -> None:
-    """With I = 1, int_n stays high at the end of a step, and the end status is still marked as new
+    """With I = 1, int_n stays high at the end of a step; the end status is nevertheless marked as new
     (AC-17).
     """
     env = await Env.start(dut)
@@ -276,7 +279,9 @@ async def p2104_ac_17_no_interrupt(dut: Any) -> None:
 
 @directed("AC-18", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
 async def p2104_ac_18_two_causes(dut: Any) -> None:
-    """Between the end-status reads of both axes, int_n is high for 5 us (AC-18)."""
+    """If an end of each axis is pending, int_n is high for 5 us after the first end-status read, then low
+    until the second (AC-18).
+    """
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)
     await env.run("c 42 c 62")
@@ -295,7 +300,7 @@ async def p2104_ac_18_two_causes(dut: Any) -> None:
 
 @directed("AC-19", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
 async def p2104_ac_19_four_causes(dut: Any) -> None:
-    """With ends and errors of both axes, four reads release int_n four times (AC-19)."""
+    """If both axes have an end and an error, each of four reads releases int_n once (AC-19)."""
     env = await Env.start(dut, errint_n=0)
     first, second = await env.both(INIT_B)
     await env.run("c 42 c 62")
@@ -315,7 +320,7 @@ async def p2104_ac_19_four_causes(dut: Any) -> None:
 
 @directed("AC-20", "P2104-INT-04")
 async def p2104_ac_20_only_its_own_read(dut: Any) -> None:
-    """With an error of axis 1 only, reads of other registers do not change int_n (AC-20)."""
+    """While only an error of axis 1 is pending, reads of other registers do not change int_n (AC-20)."""
     env = await Env.start(dut, errint_n=0)
     await env.run("c 87")
     since = env.bench.now
@@ -330,8 +335,8 @@ async def p2104_ac_20_only_its_own_read(dut: Any) -> None:
 
 @directed("AC-21", "P2104-INT-01", "P2104-INT-02", "P2104-LIM-08")
 async def p2104_ac_21_errint(dut: Any) -> None:
-    """An error with errint_n high does not assert int_n, not even later; an error with errint_n low
-    asserts it permanently (AC-21).
+    """An error while errint_n is high does not assert int_n, then or later. An error while errint_n is low
+    asserts int_n, which stays low when errint_n rises (AC-21).
     """
     env = await Env.start(dut)
     await env.run("c 87")

@@ -1,4 +1,4 @@
-"""Invalid input (P2104-BAD), and the recovery from it."""
+"""Invalid input (P2104-BAD), and recovery from it."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
 
 @directed("P2104-BAD-01", "P2104-BAD-02", "P2104-BAD-03", "P2104-BAD-05", "P2104-ERR-03")
 async def p2104_bad_03_bytes_at_random(dut: Any) -> None:
-    """After 600 random bytes without operations, the registers are as computed, and no pin has changed
-    (P2104-BAD-03).
+    """After 600 random bytes without an operation, the registers have the calculated values, and no pin has
+    changed (P2104-BAD-03).
     """
     env = await Env.start(dut)
     rng = env.bench.rng
@@ -54,8 +54,8 @@ async def p2104_bad_03_bytes_at_random(dut: Any) -> None:
 
 @directed("P2104-BAD-16", "P2104-BAD-20", "P2104-BAD-21", "P2104-BAD-22", "P2104-FDC-01")
 async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
-    """Inputs that are not evaluated have no effect on a ramp when they toggle; a bouncing limit acts
-    once (P2104-BAD-22).
+    """If inputs that are not evaluated change, a ramp is not affected; a limit that bounces takes effect once
+    (P2104-BAD-22).
     """
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
@@ -91,8 +91,8 @@ async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
 
 @directed("P2104-BAD-23", "P2104-PORT-03", "P2104-END-06", builds=(F16, F11))
 async def p2104_bad_23_reset_anywhere(dut: Any) -> None:
-    """A reset between two edges during motions, chopping, a data wait and an answer restores the reset
-    state (P2104-BAD-23).
+    """A reset between two edges during motions, chopping, a data wait and an answer restores the reset state
+    (P2104-BAD-23).
     """
     env = await Env.start(dut)
     bench = env.bench
@@ -127,9 +127,10 @@ async def p2104_bad_23_reset_anywhere(dut: Any) -> None:
     uncompared="the bus style changes inside strobes, which no rule fixes",
 )
 async def p2104_bad_26_recovery(dut: Any) -> None:
-    """After noise on all pins, a code, 40, C0 and a setting make both axes work again (P2104-BAD-26).
+    """After noise on all pins, any code, then codes 40 and C0 and a setting make both axes work again
+    (P2104-BAD-26).
 
-    Not compared with the model: the noise switches the bus style inside strobes.
+    The test is not compared with the model, because the noise switches the bus style within strobes.
     """
     env = await Env.start(dut)
     bench, rng = env.bench, env.bench.rng
@@ -142,7 +143,7 @@ async def p2104_bad_26_recovery(dut: Any) -> None:
         bench.set(**bench.part.inputs)
         await bench.clocks(8)
         await env.host.poll(IBF, 0, timeout=env.cfg.us(200_000))
-        # Any code ends a data wait; the next one is executed and replaces the rest of the output queue.
+        # Any code ends a data wait; a code after that is executed and replaces the rest of the output queue.
         for _ in range(2):
             await env.host.command(0x86)
             await env.host.poll(CMND1, 0)

@@ -16,7 +16,7 @@ IDLE = {"cs_n": 1, "ds_wrs_n": 1, "rw_rds_n": 1}
 
 
 def strobes(busc: int, cs_n: int, ds_wrs_n: int, rw_rds_n: int) -> tuple[bool, bool]:
-    """Return the write and read strobe of P2104-BUS-01/02."""
+    """Return the (write, read) strobes according to P2104-BUS-01/02."""
     chosen, first, second = not cs_n, not ds_wrs_n, bool(rw_rds_n)
     if busc:
         return chosen and first and not second, chosen and first and second
@@ -25,8 +25,8 @@ def strobes(busc: int, cs_n: int, ds_wrs_n: int, rw_rds_n: int) -> tuple[bool, b
 
 @directed("P2104-BUS-01", "P2104-BUS-02", "P2104-BUS-03", "P2104-BUS-04")
 async def p2104_bus_01_all_combinations(dut: Any) -> None:
-    """Every combination of pins, stable for 8 cycles, acts as its bus style states (P2104-BUS-01,
-    P2104-BUS-02).
+    """Each combination of pins that is stable for 8 cycles has the effect that its bus style defines
+    (P2104-BUS-01, P2104-BUS-02).
     """
     env = await Env.start(dut)
     bench = env.bench
@@ -53,7 +53,9 @@ async def p2104_bus_01_all_combinations(dut: Any) -> None:
 
 @directed("P2104-BUS-04")
 async def p2104_bus_04_style_changes(dut: Any) -> None:
-    """If busc changes with the strobes off, the new style is effective 3 cycles later (P2104-BUS-04)."""
+    """If busc changes while the strobes are inactive, the new style takes effect 3 cycles later
+    (P2104-BUS-04).
+    """
     env = await Env.start(dut)
     for i in range(8):
         env.bench.set(busc=(i + 1) & 1, rw_rds_n=1)
@@ -69,8 +71,8 @@ async def p2104_bus_04_style_changes(dut: Any) -> None:
 
 @directed("P2104-BUS-05", "P2104-GEN-06", "P2104-HSK-03", "P2104-BAD-12", "P2104-BAD-13", builds=(F16, F100))
 async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
-    """If d_i and a0 change every cycle, the last sample of the write strobe is the byte, whichever pin
-    ends it (P2104-BUS-05).
+    """If d_i and a0 change in every cycle, the last sample of the write strobe is the byte, regardless of the
+    pin that ends the strobe (P2104-BUS-05).
     """
     env = await Env.start(dut)
     bench = env.bench
@@ -78,7 +80,7 @@ async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
     for busc in STYLES:
         await env.style(busc)
         write = env.host.style.write_on
-        # The other strobe, or the other direction, ends a write, too.
+        # The other strobe, or a change of direction, also ends a write.
         turn = {"rw_rds_n": 1 if busc else 0}
         ends = ({"ds_wrs_n": 1}, {"cs_n": 1}, {"cs_n": 1, "ds_wrs_n": 1}, turn)
         for length, end in product(range(1, 7), ends):
@@ -90,7 +92,7 @@ async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
             edge0 = bench.set(a0=0, d_i=0x87, **end)
             await bench.clocks(14)
             t, level = bench.edges("auxo[0]", edge0)[0]
-            env.check("P2104-BUS-05", f"AUXO0, busc {busc}, {length} clk, {end}", level, 1 - low)
+            env.check("P2104-BUS-05", f"AUXO0, busc {busc}, {length} cycles, {end}", level, 1 - low)
             latencies.add(t - edge0)
             bench.set(**IDLE)
             await bench.clocks(12)
@@ -101,8 +103,8 @@ async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
 
 @directed("P2104-BUS-06", "P2104-BUS-22", "P2104-GEN-07", builds=(F16, F100))
 async def p2104_bus_06_read_edges(dut: Any) -> None:
-    """In reads of 1 to 60 cycles, d_oe and d_o change on their edges only, even if the state changes
-    (P2104-BUS-06).
+    """In reads of 1 to 60 cycles, d_oe and d_o change only on the edges of the rule, even if the state
+    changes (P2104-BUS-06).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_A)
@@ -113,14 +115,14 @@ async def p2104_bus_06_read_edges(dut: Any) -> None:
         await axis.finish()
         await axis.go(0x42)
         low = await axis.pulse(1)
-        # BUSY falls about here: before, on, and after the first edges of the read.
+        # BUSY falls near here: before, on or after the first edges of the read.
         await bench.until(low + env.cfg.w - 3 + early)
         bench.set(a0=STATUS, d_i=0xFF, **style.read_on)
         first = bench.now
         await bench.clocks(length)
         after = bench.set(a0=DATA, **style.read_off)
         await bench.clocks(8)
-        what = f"busc {busc}, {length} clk, {early}"
+        what = f"busc {busc}, {length} cycles, {early}"
         env.check("P2104-BUS-06", f"d_oe, {what}", bench.edges("d_oe", first), [(first, 1), (after, 0)])
         values = [bench.level_at("d_o", t) for t in range(first, after + 3)]
         env.check("P2104-BUS-06", f"d_o is a status, {what}", {*values[: length + 2]} <= {0x04, 0x00}, True)
@@ -148,7 +150,7 @@ async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
             if not status & IBF:
                 env.check("P2104-BUS-07", f"status {gap} cycles after {code:#x}", status, final)
             await env.bench.clocks(20)
-            # Return to rest: end a data wait or a motion; clear errors, interrupt and answer.
+            # Return to standstill: end a data wait or a motion; clear errors, interrupt and answer.
             for axis in env.axes:
                 await axis.command(0x40)
                 await axis.idle()
@@ -159,20 +161,20 @@ async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
 
 @directed("P2104-BUS-08", "P2104-HSK-06")
 async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
-    """After an answer was read, no later status returns its OBF, from 1 cycle on (P2104-BUS-08)."""
+    """After an answer was read, no status read from 1 cycle later on returns its OBF (P2104-BUS-08)."""
     env = await Env.start(dut)
     for busc, length, gap in product(STYLES, (1, 2, 3, 5), range(1, 6)):
         await env.style(busc)
         await env.host.command(0x81)
         env.check("P2104-HSK-06", "OBF with IBF = 0", await env.host.status() & (OBF | IBF), OBF)
         byte = await env.host.read(DATA, strobe=length, gap=gap)
-        env.check("P2104-BUS-08", f"byte, {length} clk", byte, 0xCF)
+        env.check("P2104-BUS-08", f"byte, {length} cycles", byte, 0xCF)
         env.check("P2104-BUS-08", f"OBF {gap} cycles later", await env.host.read(STATUS, strobe=3) & OBF, 0)
 
 
 @directed("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")
 async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
-    """If a read instruction is accepted around a data read, its answer is never discarded (P2104-BUS-08)."""
+    """If a read instruction is accepted near a data read, its answer is never discarded (P2104-BUS-08)."""
     env = await Env.start(dut)
     seen = set()
     for busc, length, gap in product(STYLES, (1, 2, 4, 7), range(1, 14)):
@@ -201,7 +203,7 @@ async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
         await env.style(busc)
         what = f"busc {busc}, phase {phase}/16"
         await bus.phase(phase)
-        # The newer of two writes may replace the older one, but must be stored.
+        # The newer of two writes must be stored; it may replace the older one.
         await bus.write(COMMAND, 0xC1, width=short, setup=short, rest=max(0, short - 35))
         await bus.write(COMMAND, 0xF1, width=short, setup=short, rest=14 * period)
         env.check("P2104-BUS-20", f"auxo, {what}", env.bench.level("auxo"), 0b00)
@@ -233,7 +235,7 @@ async def p2104_bus_23_two_clk_cycles(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P2104-BUS-10", "P2104-BAD-14", builds=(F16, F48))
 async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
-    """With strobes shorter than a cycle, at any phase, each byte is stored completely or not at all
+    """With strobes shorter than a cycle, at any phase, each byte is either stored completely or not at all
     (P2104-BUS-10).
     """
     env = await Env.start(dut)
@@ -266,7 +268,7 @@ async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
 
 @directed("P2104-BAD-12", "P2104-BUS-05", "P2104-BUS-06")
 async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
-    """If R/W* or a0 change while DS* is low, the preceding write is stored, and a read returns the
+    """If R/W* or a0 changes while DS* is low, a write that was in progress is stored, and a read returns the
     register of its first a0 (P2104-BAD-12).
     """
     env = await Env.start(dut, busc=1)
@@ -282,7 +284,7 @@ async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
         await bench.clocks(10)
         env.check("P2104-BAD-12", "auxo", bench.level("auxo"), 0b10)
         await env.host.command(0xC1)
-        # The reverse case: a read of the data register, then a write of data.
+        # The reverse case: a read of the data register changes into a write of data.
         first = bench.set(cs_n=0, ds_wrs_n=0, rw_rds_n=1, a0=DATA)
         await bench.clocks(3)
         bench.set(a0=STATUS)
@@ -303,7 +305,7 @@ async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
     "P2104-BAD-15", "P2104-BUS-04", uncompared="the bus style changes inside strobes, which no rule fixes"
 )
 async def p2104_bad_15_style_changes_in_a_strobe(dut: Any) -> None:
-    """If busc changes during a strobe, any result is allowed, but later accesses are normal
+    """If busc changes during a strobe, any result is allowed, but later accesses must be correct
     (P2104-BAD-15).
     """
     env = await Env.start(dut)

@@ -47,7 +47,7 @@ STOPS = ("immediate stop", "deceleration stop")
 
 
 def reaction(row: str, state: str) -> int | str:
-    """Return the response of P2104-FSM-01: error number, "waits", or 0 for executed."""
+    """Return the response in P2104-FSM-01: an error number, "waits", or 0 for executed."""
     if row in ALWAYS:
         return ALWAYS[row]
     if row in STOPS:
@@ -64,7 +64,7 @@ def reaction(row: str, state: str) -> int | str:
 
 
 async def react(env: Env, axis: Axis, row: str, state: str) -> None:
-    """Check one cell of the table; the axis is in that state."""
+    """Check one cell of the table for an axis that is in this state."""
     code = ROWS[row] | axis.axis_bit * (row not in ("auxout", "auxin"))
     want = reaction(row, state)
     what = f"{row} ({code:#x}) in {state}, axis {axis.n}"
@@ -127,7 +127,7 @@ async def p2104_fsm_01_moving_axis_2(dut: Any) -> None:
 
 @directed("P2104-FSM-02", "P2104-OPR-10", "P2104-RD-08")
 async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
-    """With one axis in any state, the state of the addressed axis decides (P2104-FSM-02)."""
+    """With any states of the two axes, the state of the addressed axis decides (P2104-FSM-02)."""
     env = await Env.start(dut)
     for axis, other in ((env.x1, env.x2), (env.x2, env.x1)):
         for state in ("INITIAL", "RUNWAIT", "ACC", "DEC", "CONST"):
@@ -147,8 +147,8 @@ async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
 
 @directed("P2104-FSM-01", "P2104-ERR-01", "P2104-ERR-02", "P2104-FSM-05", "P2104-STP-07", "P2104-BAD-04")
 async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
-    """While data of either axis is expected, any code sets error 3 and drops the instruction; stops act
-    (P2104-FSM-01).
+    """While data of either axis is expected, any code sets error 3 and cancels the instruction; stops are
+    executed nevertheless (P2104-FSM-01).
     """
     env = await Env.start(dut)
     for waiting, axis in product(env.axes, env.axes):
@@ -168,7 +168,7 @@ async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
                 await env.bench.clocks(env.cfg.w + 12)
                 busy = (await env.host.status()) & axis.busy
                 stopped = state not in MOVING or row == "immediate stop"
-                # Before pulse 1 a deceleration stop is stored, and the axis still waits for the clock.
+                # Before pulse 1 the deceleration stop is stored, and the axis still waits for the clock.
                 env.check("P2104-FSM-05", f"BUSY after {what}", busy, 0 if stopped else axis.busy)
                 if row == "deceleration stop" and state in RAMP:
                     await axis.command(0x41)
@@ -182,7 +182,7 @@ async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
 
 @directed("P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-01", "P2104-ERR-03", "P2104-BAD-01")
 async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
-    """With axis 1 waiting for its clock and axis 2 set up, all codes are decoded before any other check
+    """While axis 1 waits for its clock and axis 2 has a setting, all codes are decoded before any other check
     (P2104-CMD-01).
     """
     env = await Env.start(dut)
@@ -225,7 +225,7 @@ async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
 
 @directed("P2104-CMD-02", "P2104-OPR-08", "P2104-CMD-03")
 async def p2104_cmd_02_operation_bits(dut: Any) -> None:
-    """I, D, P and the axis bit of every operation each have only their own effect (P2104-CMD-02)."""
+    """I, D, P and the axis bit of each operation each have only their defined effect (P2104-CMD-02)."""
     env = await Env.start(dut)
     axes = await env.both(INIT_A)
     for axis, (code, n, rate) in product(
@@ -258,7 +258,7 @@ async def p2104_cmd_02_operation_bits(dut: Any) -> None:
 
 @directed("P2104-CMD-04", "P2104-ERR-05", "P2104-HSK-08", "P2104-BAD-03", "P2104-STA-05")
 async def p2104_cmd_04_data_bytes(dut: Any) -> None:
-    """CMND is 1 until the last data byte of an instruction, and there is no time-out (P2104-CMD-04)."""
+    """CMND stays 1 until the last data byte of an instruction, without a time-out (P2104-CMD-04)."""
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
         for code, data in (
@@ -289,7 +289,7 @@ async def p2104_cmd_04_data_bytes(dut: Any) -> None:
 
 @directed("P2104-ERR-02", "P2104-HSK-08", "P2104-CMD-04")
 async def p2104_err_02_abandoned_instructions(dut: Any) -> None:
-    """If a code ends an incomplete instruction at any byte, nothing of this instruction is effective
+    """If a code ends an incomplete instruction at any byte, no part of this instruction takes effect
     (P2104-ERR-02).
     """
     env = await Env.start(dut)
@@ -311,7 +311,7 @@ async def p2104_err_02_abandoned_instructions(dut: Any) -> None:
 
 @directed("P2104-ERR-05", "P2104-LIM-06", "P2104-OPR-07")
 async def p2104_err_05_order_of_checks(dut: Any) -> None:
-    """Of several faults at a last byte, the first in the order of checks is reported (P2104-ERR-05)."""
+    """If a last byte has several faults, the first in the order of the checks is reported (P2104-ERR-05)."""
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
         axis.set(alm_n=0)
@@ -351,7 +351,8 @@ async def p2104_err_03_faults_in_motion(dut: Any) -> None:
     first.check_train("P2104-ERR-03", [39] * 59)
     second.check_train("P2104-ERR-03", [29] * 59)
     env.check("P2104-ERR-03", "80, A0", await env.run("c 80 r c A0 r"), [0x84, 0x84])
-    # With more bytes than the instruction has, the instruction runs, and the surplus bytes set error 2.
+    # If more bytes are sent than the instruction has, the instruction is executed, and the surplus bytes set
+    # error 2.
     first.since = env.bench.now
     await env.run("c 44 d 09 d 02 d 00 d 00 d 00 d 7F")
     env.check("P2104-BAD-05", "errors", await env.errors(), (2, 0))
@@ -360,7 +361,7 @@ async def p2104_err_03_faults_in_motion(dut: Any) -> None:
 
 @directed("P2104-ERR-01", "P2104-ERR-06", "P2104-RD-07", "P2104-STA-06")
 async def p2104_err_06_registers(dut: Any) -> None:
-    """Each error register holds its newest error and is cleared separately (P2104-ERR-06)."""
+    """Each error register contains its newest error and is cleared separately (P2104-ERR-06)."""
     env = await Env.start(dut)
     got = await env.run("c 87 c 40 s c A7 c 42 c 84 d 00 d 00 s e1 s e1 s e2 s")
     expected = [0x80, 0x80, 11, 0x80, 0, 0x80, 1, 0x00]

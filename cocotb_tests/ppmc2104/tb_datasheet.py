@@ -1,4 +1,4 @@
-"""Processing windows of the old chip, TIMING = "DATASHEET" (P2104-DS-01…15), AC-71 to AC-74."""
+"""Processing windows of the old chip, TIMING = "DATASHEET" (P2104-DS-01…15, AC-71 to AC-74)."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ BOTH = (D16, D11)
 
 @directed("AC-73", "P2104-DS-01", "P2104-INI-07", "P2104-STA-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ac_73_setting(dut: Any) -> None:
-    """A setting with S = 1 drives the phases immediately, sets CMND for 71 ms, and then starts the
-    chopping (AC-73).
+    """A setting with S = 1 drives the phases immediately and sets CMND for 71 ms; then chopping starts
+    (AC-73).
     """
     env = await Env.start(dut)
     axis = env.x1
@@ -37,7 +37,7 @@ async def p2104_ac_73_setting(dut: Any) -> None:
     low, high = nominal + 2 + q(2 * ON) - q(1) - 1, nominal + 10 + q(2 * ON) + q(1) + 1 + TOLERANCE + PIN
     env.window("P2104-DS-01", "last byte to the first OFF", off - edge0, low, high)
     env.check("AC-73", "CMND afterwards", await env.host.status() & axis.cmnd, 0)
-    # F1 was accepted at the end of the window and acts at the end of its own window.
+    # F1 is accepted at the end of this window and takes effect at the end of its own window.
     auxo = env.bench.edges("auxo", edge0)
     if not auxo:
         await env.bench.edge("auxo")
@@ -60,7 +60,9 @@ async def p2104_ac_73_setting(dut: Any) -> None:
     builds=BOTH,
 )
 async def p2104_ac_71_starts(dut: Any) -> None:
-    """For each accepted operation, BUSY is set immediately, and pulse 1 follows its window by W (AC-71)."""
+    """For each accepted operation, BUSY is set immediately, and pulse 1 occurs W after the end of its window
+    (AC-71).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for code, data, micros in (
@@ -93,7 +95,7 @@ async def p2104_ac_71_starts(dut: Any) -> None:
 
 @directed("P2104-DS-14", "P2104-DS-22", "P2104-OPR-02", builds=(D16,))
 async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
-    """If run changes in the window, only its level at the end applies (P2104-DS-14)."""
+    """If run changes during the window, only its level at the end of the window applies (P2104-DS-14)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     w = env.cfg.w
@@ -115,7 +117,7 @@ async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
     axis.set(run=1)
     after(env, "P2104-DS-14", "pulse 1", await axis.pulse(1), edge0, 103, w)
     await rest(env)
-    # The start check uses the present level, without a window.
+    # The start check uses the present level, without a delay.
     axis.set(alm_n=0)
     await env.bench.clocks(4)
     edge0 = await last_byte(axis, 0x42)
@@ -128,8 +130,8 @@ async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
 
 @directed("AC-72", "P2104-DS-02", "P2104-DS-12", "P2104-HSK-01", builds=BOTH)
 async def p2104_ac_72_immediate_stop(dut: Any) -> None:
-    """When 40 is accepted, no further pulse is output, the end follows 400 us later, and bytes wait
-    (AC-72).
+    """When code 40 is accepted, no further pulse is output. The operation ends 400 us later; bytes wait until
+    then (AC-72).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -143,7 +145,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     env.check("AC-72", "status just before", await env.host.status() & (IBF | axis.busy), IBF | axis.busy)
     end = await axis.wait_end()
     after(env, "AC-72", "end", end, edge0, 400)
-    # BUSY fell on the edge before int_n at the latest; D1 is accepted then.
+    # BUSY fell at the latest on the edge before int_n; D1 is accepted then.
     env.check("AC-72", "BUSY", await env.host.status() & axis.busy, 0)
     aux = await env.bench.edge("auxo")
     env.window("AC-72", "auxo after the end", aux - end, env.cfg.us(40) - 4, env.cfg.us(40) + TOLERANCE + 8)
@@ -152,7 +154,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     env.window("P2104-DS-02", "hold after the end", hold - end, delay - 4, delay + 16 + 4)
     await axis.result("AC-72", 10, 0xC4, 989)
     await rest(env)
-    # In FIN the mailbox is closed for 400 us, but the normal end is not delayed and sets no bit.
+    # During FIN the mailbox is closed for 400 us; the normal end is not delayed and sets no bit.
     await axis.go(0x42)
     fall = await axis.pulse(1, 4)
     edge0 = await axis.command(0x40, poll=False)
@@ -164,8 +166,8 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
 
 @directed("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", builds=(D16,))
 async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
-    """The flag of 41 is set after 32 us: at RL it ends the motion immediately, and if it is too late it
-    has no effect (P2104-DS-03).
+    """The flag of code 41 is set after 32 us. If the rate is RL then, the motion ends immediately; if the
+    deceleration or the end has begun, the flag has no effect (P2104-DS-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -177,7 +179,7 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
         await axis.pulse(j, plus)
         edge0 = await axis.command(0x41, poll=False)
 
-    # I(6) has index 5 and lasts 896 cycles: the flag is set in I(6), or 512 cycles later in I(7).
+    # I(6) has index 5 and lasts 896 cycles. The flag is set 512 cycles after the stop, in I(6) or in I(7).
     for plus, flagged in ((100, 6), (600, 7)):
         await ask(6, plus)
         await opens(env, "P2104-DS-03", edge0, 32)
@@ -185,14 +187,14 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
         await axis.result("P2104-DS-03", len(expected) + 1, 0xC3, 98 - len(expected))
         axis.check_train("P2104-DS-03", expected)
         await rest(env)
-    # In I(1), at the rate RL, the motion ends with the window.
+    # In I(1), which has the rate RL, the motion ends when the window ends.
     await ask(1, 100)
     end = await axis.wait_end()
     after(env, "P2104-DS-03", "end at RL", end, edge0, 32)
     await axis.result("P2104-DS-03", 1, 0xC3, 98)
     await rest(env)
-    # The stop is requested while accelerating and becomes effective in natural deceleration (from pulse 6 of
-    # 10 on): it has no effect and sets no bit.
+    # The stop is requested while accelerating, and its window ends after the natural deceleration (from pulse
+    # 6 of 10 on) has begun: it has no effect and sets no bit.
     await ask(5, 992 - 300, n=10)
     await axis.result("P2104-DS-03", 10, 0x83, 0)
     axis.check_train("P2104-DS-03", rates(INIT_B[1:], [0, 1, 2, 3, 4, 3, 2, 1, 0]))
@@ -207,8 +209,8 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
 
 @directed("AC-74", "P2104-DS-10", "P2104-DS-12", "P2104-INT-03", builds=BOTH)
 async def p2104_ac_74_reads(dut: Any) -> None:
-    """OBF of each read instruction is set at the end of its window, and the values are those of this
-    time (AC-74).
+    """OBF of each read instruction is set at the end of its window, and the values are those at that time
+    (AC-74).
     """
     env = await Env.start(dut)
     env.bench.set(errint_n=0)
@@ -239,7 +241,9 @@ async def p2104_ac_74_reads(dut: Any) -> None:
 
 @directed("P2104-DS-11", "P2104-DS-12", "P2104-DS-13", "P2104-AUX-05", "P2104-AUX-04", builds=(D16,))
 async def p2104_ds_11_auxiliary(dut: Any) -> None:
-    """C0, D1, 84 and 85 act at the end of their windows (P2104-DS-11, P2104-DS-12, P2104-DS-13)."""
+    """Codes C0, D1, 84 and 85 take effect at the end of their windows (P2104-DS-11, P2104-DS-12,
+    P2104-DS-13).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, (0x12, *INIT_A[1:]))
     edge0 = await last_byte(axis, 0x84, 0x40, 0x40)
@@ -247,7 +251,7 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
     await env.bench.clocks(3_000)
     spans = {span for _, span in axis.stretches(env.bench.now - 2_500)}
     env.check("P2104-DS-13", "switching times", spans, {512})
-    # The value is effective at the end of the window: a timer started during the window uses the old one.
+    # The value takes effect at the end of the window: a timer started during the window uses the old value.
     edge0 = await last_byte(axis, 0x85, 0x00)
     await opens(env, "P2104-DS-13", edge0, 32)
     await env.host.command(0xE1)
@@ -272,7 +276,7 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
 
 @directed("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ds_15_as_fast(dut: Any) -> None:
-    """The pulses, ends, hold and release of complete moves are as in FAST (P2104-DS-15)."""
+    """Pulses, ends, hold and the release of int_n are as in FAST in complete moves (P2104-DS-15)."""
     env = await Env.start(dut)
     axis = await env.ready(2, INIT_B)
     await axis.go(0x43, 30)

@@ -1,4 +1,4 @@
-"""Polled switches and rate limits, TIMING = "DATASHEET" (P2104-DS-20…36), AC-67 to AC-70, AC-75, AC-76."""
+"""Polled switches and rate limits, TIMING = "DATASHEET" (P2104-DS-20…36, AC-67 to AC-70, AC-75, AC-76)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .datasheet_timing import last_byte, opens, rest
 from .env import Axis, Env
 from .expected_timing import INIT_B
 
-# Smallest accepted rates: other axis idle, other axis operating, by kind and csel (P2104-DS-30).
+# Minimum accepted rates by kind and csel: while the other axis is idle, and while it operates (P2104-DS-30).
 LIMITS = {
     ("pout", 1): (0x0C, 0x19),
     ("phase", 1): (0x12, 0x23),
@@ -30,7 +30,9 @@ def rate_error(kind: str, csel: int, rate: int, operating: bool) -> int:
 
 
 async def tried(env: Env, axis: Axis, code: int, error: int, rate: int | None = None, note: str = "") -> None:
-    """Start an operation and check that it sets that error without BUSY, or that it runs."""
+    """Start an operation and check that it sets the error `want` without BUSY, or runs if no error is
+    expected.
+    """
     data = [] if rate is None else [rate]
     data += [99, 0, 0] if code & 7 in (3, 4) else []
     await last_byte(axis, code, *data)
@@ -59,7 +61,7 @@ async def p2104_ac_67_rate_bytes(dut: Any) -> None:
                 error = rate_error(kind, csel, rate, False)
                 env.check("AC-67", "figures", error, 12 if rate < limit else 0)
                 await tried(env, axis, code, error, rate, f", csel {csel}")
-    # Order: rate 00 is error 9; a rate error has priority over an active input.
+    # Order of the checks: rate 00 is error 9; a rate error has priority over an active input.
     axis.set(alm_n=0)
     await env.bench.clocks(4)
     for rate, error in ((0x00, 9), (0x03, 12), (0x04, 7)):
@@ -68,8 +70,8 @@ async def p2104_ac_67_rate_bytes(dut: Any) -> None:
 
 @directed("AC-68", "AC-69", "P2104-DS-30", "P2104-DS-31", "P2104-DS-32", "P2104-DS-33", builds=(D16,))
 async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
-    """With RH and rates around the limits, errors are 12, 13 or 0, depending on whether axis 2 is idle
-    or operating (AC-68, AC-69).
+    """For RH and rates near the limits, errors are 12, 13 or 0, depending on whether axis 2 is idle or
+    operating (AC-68, AC-69).
     """
     env = await Env.start(dut)
     axis, other = env.axes
@@ -81,7 +83,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
         (0x03, 0, ((0xC3, 0), (0x43, 12))),
     ):
         axis.set(csel=level)
-        # The setting itself is never rejected for its rate.
+        # The setting itself is never rejected because of its rate.
         await axis.init(0x02, 0x63, rh, 10)
         env.check("P2104-DS-33", f"error of the setting, RH {rh:#x}", await axis.error(), 0)
         for code, error in cases:
@@ -106,7 +108,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
         await axis.init(0x02, 0x63, rh, 10)
         await tried(env, axis, 0xC3, error, note=f", RH {rh:#x}, csel {level}, axis 2 in RUN wait")
         await tried(env, axis, 0x43, 13, note=f", RH {rh:#x}, csel {level}, axis 2 in RUN wait")
-    # A slow operation is accepted while the other axis is fast, and the fast one continues.
+    # If the other axis is fast, a slow operation is accepted, and the fast motion continues.
     await other.command(0x40)
     await rest(env)
     other.set(run=1)
@@ -124,7 +126,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
 
 @directed("AC-70", "P2104-DS-31", "P2104-DS-33", "P2104-DS-36", builds=(D16,))
 async def p2104_ac_70_switching_counts(dut: Any) -> None:
-    """If axis 2 is at standstill with S = 1, axis 1 has the rate limit of two axes (AC-70)."""
+    """If axis 2 is at standstill with S = 1, the rate limit of axis 1 is that of two axes (AC-70)."""
     env = await Env.start(dut)
     axis, other = await env.ready(1, INIT_B), env.x2
     await other.init(0x12, *INIT_B[1:])
@@ -136,7 +138,7 @@ async def p2104_ac_70_switching_counts(dut: Any) -> None:
     await axis.init(0x0A, *INIT_B[1:])
     clock = env.bench.external_clock(repeat(20), axis.clock, high=10)
     await tried(env, axis, 0x45, 0, 0x00, ", external clock")
-    # This is faster than the old chip could move; the core does not lock up.
+    # This rate is higher than the old chip could output; the core does not lock up.
     await axis.go(0x44, 50, 0)
     await axis.result("P2104-DS-36", 50, 0x84, 0)
     clock.cancel()
@@ -144,7 +146,7 @@ async def p2104_ac_70_switching_counts(dut: Any) -> None:
 
 @directed("AC-70", "P2104-DS-34", "P2104-INTV-01", builds=(F16,))
 async def p2104_ac_70_no_limits_in_fast(dut: Any) -> None:
-    """In FAST, rate 01 runs on both axes, one of which has S = 1 (AC-70)."""
+    """In FAST, rate 01 works on both axes, one of which has S = 1 (AC-70)."""
     env = await Env.start(dut)
     axis, other = env.axes
     await axis.init(*INIT_B)
@@ -159,8 +161,8 @@ async def p2104_ac_70_no_limits_in_fast(dut: Any) -> None:
 
 @directed("AC-75", "P2104-DS-20", "P2104-DS-23", "P2104-LIM-01", builds=(D16, D11))
 async def p2104_ac_75_polled_limits(dut: Any) -> None:
-    """Limit levels of 10 us, at 7 offsets, are sometimes missed by the polling; levels of 36 us never
-    are (AC-75).
+    """Limit levels of 10 us, at 7 offsets, are in some cases missed by the polling; levels of 36 us are never
+    missed (AC-75).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -186,7 +188,8 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
             env.window("AC-75", "pin to the end", end - stamp, 2, us(35) + 8)
             env.check("AC-75", "end status", await axis.finish(), finish)
             await env.bench.clocks(us(50))
-    # While a window is open no input is sampled; the level is detected at most 35 us after its end.
+    # While a window is open, no input is sampled; the level is detected at most 35 us after the end of the
+    # window.
     await axis.go(0x45, rate=0xFF)
     await axis.pulse(1, 300)
     edge0 = await env.host.command(0xC1, poll=False)
@@ -194,7 +197,7 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
     end = await axis.wait_end()
     env.window("P2104-DS-20", "pin to the end, 40 us window", end - stamp, us(40 + 35) - 20, us(40 + 35) + 30)
     axis.set(fl_n=1)
-    # The same holds for the slow-down limit: in 43 it sets the flag at a polling tick.
+    # This also applies to the slow-down limit: during code 43 it sets the flag at a polling tick.
     await rest(env)
     await axis.go(0x43, 1000)
     await axis.pulse(30, 100)
@@ -206,8 +209,8 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
 
 @directed("AC-76", "P2104-DS-21", "P2104-LIM-07", builds=(D16,))
 async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
-    """In an origin search, ORG that is low between two falls has no effect; ORG low at a fall ends it
-    (AC-76).
+    """In an origin search, ORG has no effect if it is low only between two falls of pout_n; if ORG is low at
+    a fall, the search ends (AC-76).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -218,7 +221,7 @@ async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
     await axis.blip("org_n", 200)
     await axis.result("AC-76", 9, 0x87)
     env.check("AC-76", "83", await axis.fetch(0x83, 3), [0xF6, 0xFF, 0xFF])
-    # This includes pulse 1; in RUN wait ORG is not sampled.
+    # This includes pulse 1. In RUN wait, ORG is not sampled.
     axis.set(run=0)
     await axis.go(0x47, rate=0x31)
     await env.bench.clocks(env.cfg.us(40))
@@ -232,7 +235,7 @@ async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
 
 @directed("P2104-DS-01", "P2104-DS-14", "P2104-HSK-04", "P2104-STP-07", builds=(D16,))
 async def p2104_ds_01_window_for_both_axes(dut: Any) -> None:
-    """While axis 1 processes its setting, bytes for the moving axis 2 wait as well, including a stop
+    """While axis 1 processes its setting, bytes for the moving axis 2 also wait, including a stop
     (P2104-DS-01).
     """
     env = await Env.start(dut)

@@ -15,8 +15,8 @@ from .expected_timing import INIT_A, INIT_B
     "P2104-END-01", "P2104-END-07", "P2104-END-08", "P2104-SW-02", "P2104-INT-05", builds=(F16, F11, F48)
 )
 async def p2104_end_01_normal_end(dut: Any) -> None:
-    """After the last rise of a complete move of a chopping axis, all consequences of the end are on one
-    edge (P2104-END-01).
+    """After the last rise of pout_n in a complete move of a chopping axis, all actions of the end occur on
+    one edge (P2104-END-01).
     """
     env = await Env.start(dut)
     q = env.cfg.quanta
@@ -46,7 +46,7 @@ async def p2104_end_01_normal_end(dut: Any) -> None:
 
 @directed("P2104-END-02", "P2104-END-03", "P2104-TIM-05", "P2104-END-08", builds=(F16, F48))
 async def p2104_end_02_pulse_finishes(dut: Any) -> None:
-    """An immediate end anywhere in the low time does not shorten the pulse (P2104-END-02)."""
+    """An immediate end at any time in the low time does not shorten the pulse (P2104-END-02)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     w = env.cfg.w
@@ -56,9 +56,9 @@ async def p2104_end_02_pulse_finishes(dut: Any) -> None:
         await env.bench.until(fall + after)
         pin = axis.set(alm_n=0)
         end = await axis.wait_end()
-        env.check("P2104-END-02", f"low times, {after} clk", axis.low_times, [w] * 3)
+        env.check("P2104-END-02", f"low times, {after} cycles", axis.low_times, [w] * 3)
         last = max(pin, fall + w)
-        env.window("P2104-END-02", f"end, {after} clk", end - last, 0, 8)
+        env.window("P2104-END-02", f"end, {after} cycles", end - last, 0, 8)
         pattern = axis.phases_now
         axis.set(alm_n=1)
         await axis.result("P2104-END-02", 3, 0xA5, NO_PULSES_DONE - 4)
@@ -86,7 +86,7 @@ async def p2104_end_07_hold(dut: Any) -> None:
             await axis.fetch(code)
         await env.bench.clocks(100)
         env.check("P2104-HLD-02", "hold edges", axis.edges("hold", since), [])
-        # An operation without pulses changes hold like any other operation.
+        # An operation without a pulse changes hold like any other operation.
         axis.set(run=0)
         await axis.go(0x42)
         await axis.command(0x40)
@@ -95,7 +95,7 @@ async def p2104_end_07_hold(dut: Any) -> None:
         hold = await env.bench.edge(axis.pin("hold"), 1)
         env.window("P2104-END-07", "zero pulses: hold", hold - end, 4_096 - 60, 4_120)
         axis.set(run=1)
-        # An operation that is accepted just before the timer expires keeps hold low.
+        # If an operation is accepted just before the timer expires, hold stays low.
         await axis.move(0x42)
         rise = env.bench.rises(axis.pout, axis.since)[-1]
         await env.bench.until(rise + 4_096 - 10)

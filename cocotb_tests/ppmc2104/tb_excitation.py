@@ -16,8 +16,8 @@ FULL, OFF = 0b11100, 0b11111
 
 @directed("P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-TIM-04", "P2104-EX-11")
 async def p2104_phs_01_lists_in_motion(dut: Any) -> None:
-    """For each motor type, each pulse of a ramp selects the next row of the list on its edge, in both
-    directions (P2104-PHS-01).
+    """For each motor type, each pulse of a ramp selects the next row of the list on the edge of the pulse, in
+    both directions (P2104-PHS-01).
     """
     env = await Env.start(dut)
     for axis, (name, code) in product(env.axes, STEP_CODES.items()):
@@ -39,7 +39,7 @@ async def p2104_phs_01_lists_in_motion(dut: Any) -> None:
 
 @directed("P2104-PHS-02", "P2104-PHS-03", "P2104-PHS-04", "P2104-AUX-01")
 async def p2104_phs_02_off_until_set(dut: Any) -> None:
-    """Without a setting, all phases stay high during any instruction; POUT mode keeps the pattern
+    """Without a setting, all phases stay high during any instruction; POUT mode does not change the pattern
     (P2104-PHS-02, P2104-PHS-04).
     """
     env = await Env.start(dut)
@@ -69,7 +69,7 @@ async def p2104_phs_02_off_until_set(dut: Any) -> None:
 
 @directed("P2104-SW-01", "P2104-SW-04", "P2104-SW-05", "P2104-AUX-06", "P2104-GEN-04", builds=(F16, F11, F48))
 async def p2104_sw_04_times(dut: Any) -> None:
-    """With default and programmed times, each chopper phase of both axes is within 1 quantum, without
+    """With default and programmed times, each chopper phase of both axes is accurate to 1 quantum, without
     drift (P2104-SW-04).
     """
     env = await Env.start(dut)
@@ -96,8 +96,8 @@ async def p2104_sw_04_times(dut: Any) -> None:
 
 @directed("P2104-SW-01", "P2104-SW-02", "P2104-SW-03", "P2104-OPR-08", "P2104-END-08", builds=(F16, F11))
 async def p2104_sw_03_motions(dut: Any) -> None:
-    """When a chopping axis starts in either phase, it moves with the full pattern; a complete ON phase
-    follows the end (P2104-SW-03).
+    """If a chopping axis starts in either phase, it moves with the full pattern; a complete ON phase follows
+    its end (P2104-SW-03).
     """
     env = await Env.start(dut)
     q, w = env.cfg.quanta, env.cfg.w
@@ -143,7 +143,7 @@ async def p2104_sw_03_motions(dut: Any) -> None:
 
 @directed("P2104-SW-02", "P2104-INI-07", "P2104-SW-01")
 async def p2104_sw_02_at_completion(dut: Any) -> None:
-    """After a setting with S = 1, the first ON phase begins when the table is ready, not before
+    """After a setting with S = 1, the first ON phase begins when the table is complete, not before
     (P2104-SW-02).
     """
     env = await Env.start(dut)

@@ -1,4 +1,4 @@
-"""Fast external clocks compared with the formula, the threshold of their period (P2104-BCK-04,
+"""Fast external clocks, compared with the formula, and the threshold of their period (P2104-BCK-04,
 P2104-TIM-05).
 """
 
@@ -11,7 +11,7 @@ from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
 
 from .env import Env
 
-# Setting with EXTCK, otherwise with the ramp of INIT_A.
+# As INIT_A, but with EXTCK.
 EXTERNAL = (0x0A, 9, 4, 4)
 
 
@@ -36,8 +36,10 @@ async def p2104_bck_04_sweep(dut: Any) -> None:
 
 @directed("P2104-TIM-05", builds=(F16, F8, F48))
 async def p2104_tim_05_brisk_threshold(dut: Any) -> None:
-    """At rate 0 the high time of the clock cuts the low time only for periods below CYC(128): tried
-    with CYC(128) - 1, 0, + 1 cycles (P2104-TIM-05).
+    """At rate 0, the high time of the clock limits the low time only for periods below CYC(128)
+    (P2104-TIM-05).
+
+    The test uses periods of CYC(128) - 1, CYC(128) and CYC(128) + 1 cycles.
     """
     env = await Env.start(dut)
     brisk = env.cfg.cyc(BRISK)

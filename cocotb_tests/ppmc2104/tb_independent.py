@@ -1,6 +1,4 @@
-"""The same instructions for axis 2 with and without traffic to axis 1: the waveforms of axis 2 are
-equal.
-"""
+"""Axis 2 executes the same instructions with and without traffic to axis 1; its waveforms must be equal."""
 
 from __future__ import annotations
 
@@ -20,7 +18,7 @@ READY, INSTRUCTION = 40_000, 80
 
 
 class Run:
-    """One of the two runs, starting with a reset."""
+    """One of the two runs, which starts with a reset."""
 
     def __init__(self, bench: DutBench, plan: Pair, beside: Iterator[list[Write] | tuple[str, int]]) -> None:
         self.bench = bench
@@ -58,7 +56,7 @@ class Run:
             await self.host.write(reg, byte, gap=8)
 
     async def fill(self, until: int) -> None:
-        """Send traffic to axis 1 while it fits, then wait for the edge."""
+        """Send traffic to axis 1 while there is enough time for it, then wait for the edge."""
         bench = self.bench
         while bench.now + INSTRUCTION + 70 < until:
             thing = next(self.beside, None)

@@ -50,7 +50,7 @@ async def p2104_ini_01_all_codes(dut: Any) -> None:
 
 @directed("P2104-INI-02", "P2104-INI-03", "P2104-BAD-16", "P2104-INI-05")
 async def p2104_ini_03_refused_settings(dut: Any) -> None:
-    """In INITIAL and NORMAL, values out of range set the first error in the order of checks and change
+    """In INITIAL and NORMAL, values out of range set the first error in the order of the checks, and change
     nothing (P2104-INI-03).
     """
     env = await Env.start(dut)
@@ -80,7 +80,7 @@ async def p2104_ini_03_refused_settings(dut: Any) -> None:
                 env.check("P2104-INI-03", "phases", env.bench.edges(axis.phases, since), [])
                 await axis.refused("P2104-INI-03", "42: still INITIAL", 4, 0x42)
             await axis.command(0xC0)
-        # In NORMAL the stored clock source decides, not C of the code.
+        # In NORMAL, the stored clock source is used, not C of the code.
         await axis.init(*INIT_A)
         await axis.init(0x0A, 9, 0, 4)
         env.check("P2104-INI-03", "RH = 0, C = 1, internal in force", await axis.error(), 9)
@@ -96,7 +96,7 @@ async def p2104_ini_03_refused_settings(dut: Any) -> None:
 
 @directed("P2104-INI-05", "P2104-PHS-03", "P2104-INI-06", "P2104-SW-01", "P2104-HLD-02")
 async def p2104_ini_05_again_without_off(dut: Any) -> None:
-    """When a chopping axis is set again, index, pattern and chopping continue undisturbed
+    """If a setting is sent to a chopping axis again, index, pattern and chopping continue unchanged
     (P2104-INI-05).
     """
     env = await Env.start(dut)
@@ -126,7 +126,7 @@ async def p2104_ini_05_again_without_off(dut: Any) -> None:
 
 @directed("P2104-INI-06", "P2104-AUX-01", "P2104-HLD-02", "P2104-INT-02")
 async def p2104_ini_06_what_stays(dut: Any) -> None:
-    """C0 and a setting do not change results, delays, an error and an interrupt (P2104-INI-06)."""
+    """Code C0 and a setting do not change results, delays, an error and an interrupt (P2104-INI-06)."""
     env = await Env.start(dut, errint_n=0)
     axis, other = await env.both(INIT_A)
     await env.host.command(0xF1)
@@ -158,7 +158,7 @@ async def p2104_ini_06_what_stays(dut: Any) -> None:
 
 @directed("P2104-AUX-01", "P2104-PHS-02", "P2104-SW-03")
 async def p2104_aux_01_excitation_off(dut: Any) -> None:
-    """C0 in either phase of chopping switches all pins high permanently, and the axis is INITIAL
+    """Code C0 in either phase of chopping switches all pins high permanently, and the axis is INITIAL
     (P2104-AUX-01).
     """
     env = await Env.start(dut)
@@ -179,7 +179,7 @@ async def p2104_aux_01_excitation_off(dut: Any) -> None:
 
 @directed("P2104-STP-01", "P2104-END-02", "P2104-END-04", "P2104-STP-06", "P2104-STP-05")
 async def p2104_stp_01_every_state(dut: Any) -> None:
-    """In every state of either axis, 40 ends the operation; bit I of the operation determines int_n
+    """In every state of either axis, code 40 ends the operation; bit I of the operation determines int_n
     (P2104-STP-01).
     """
     env = await Env.start(dut)
@@ -229,8 +229,8 @@ async def p2104_stp_02_ignored_bits(dut: Any) -> None:
 
 @directed("P2104-STP-01", "P2104-LIM-09", "P2104-GEN-07", "P2104-TIM-04")
 async def p2104_stp_01_around_a_pulse(dut: Any) -> None:
-    """With 40 in each cycle around a pulse event, the pulse is either output or not, without other
-    results (P2104-STP-01).
+    """With code 40 in each cycle near a pulse event, the pulse is either output or not, and no other result
+    occurs (P2104-STP-01).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_A)
@@ -253,7 +253,7 @@ async def p2104_stp_01_around_a_pulse(dut: Any) -> None:
 
 @directed("P2104-AUX-02", "P2104-AUX-03", "P2104-FSM-01")
 async def p2104_aux_02_pins(dut: Any) -> None:
-    """In any order of the codes, AUXO has the inverted bits, and a read returns the AUXI levels
+    """After the codes in any order, AUXO has the inverted bits, and a read returns the AUXI levels
     (P2104-AUX-02, P2104-AUX-03).
     """
     env = await Env.start(dut)
@@ -272,7 +272,7 @@ async def p2104_aux_02_pins(dut: Any) -> None:
 
 @directed("P2104-AUX-04", "P2104-AUX-06", "P2104-SW-04", "P2104-SW-05", "P2104-BAD-16")
 async def p2104_aux_04_switching_times(dut: Any) -> None:
-    """Each axis chops with its own times, whether they were sent before or after its setting
+    """Each axis chops with its own times, regardless of whether they were sent before or after its setting
     (P2104-AUX-04).
     """
     env = await Env.start(dut)
@@ -299,7 +299,9 @@ async def p2104_aux_04_switching_times(dut: Any) -> None:
 
 @directed("P2104-AUX-05", "P2104-AUX-06", "P2104-END-07", "P2104-HLD-01")
 async def p2104_aux_05_running_timer(dut: Any) -> None:
-    """If 85 changes the delay while the hold timer runs, only the next delay changes (P2104-AUX-05)."""
+    """If code 85 changes the delay while the hold timer runs, only the next delay is different
+    (P2104-AUX-05).
+    """
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)
     await second.send(0x85, [0x07])
@@ -323,7 +325,9 @@ async def p2104_aux_05_running_timer(dut: Any) -> None:
 
 @directed("P2104-HSK-04", "P2104-FSM-01")
 async def p2104_hsk_04_excitation_off_waits_for_the_table(dut: Any) -> None:
-    """Excitation OFF during a table build waits, and the phases do not change (P2104-HSK-04)."""
+    """An Excitation OFF sent during a table build waits, and the phases do not change meanwhile
+    (P2104-HSK-04).
+    """
     env = await Env.start(dut)
     for axis in env.axes:
         await axis.host.init(0x02 | axis.axis_bit, 200, 4, 4)

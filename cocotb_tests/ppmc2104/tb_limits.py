@@ -1,4 +1,4 @@
-"""Limit, slow-down, alarm and origin inputs (P2104-LIM): their effect on each operation."""
+"""Limit, slow-down, alarm and origin inputs (P2104-LIM): effect on each operation."""
 
 from __future__ import annotations
 
@@ -28,9 +28,7 @@ OPERATIONS = (
 
 
 def effect(code: int, pin: str, waiting: bool = False) -> str:
-    """Return the effect of an active pin on a running operation: "end", "slow" or "" (table of chapter
-    7).
-    """
+    """Return the effect of an active pin on a running operation: "end", "slow" or "" (table of chapter 7)."""
     ccw = code >> 3 & 1
     if pin in ("alm_n", ("fl_n", "bl_n")[ccw]):
         return "end"
@@ -45,8 +43,9 @@ def bit(pin: str) -> int:
 
 
 async def matrix_in_motion(env: Env, axis_number: int) -> None:
-    """Check every operation in both directions with every input falling on the plateau; the inputs of
-    the other axis are active.
+    """Check each operation in both directions with each input, which falls on the plateau.
+
+    The inputs of the other axis are active.
     """
     axis, other = env.axes[axis_number - 1], env.axes[2 - axis_number]
     await axis.init(*INIT_A)
@@ -78,8 +77,8 @@ async def matrix_in_motion(env: Env, axis_number: int) -> None:
 
 @directed("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07", builds=(F16, F48))
 async def p2104_lim_02_matrix_axis_1(dut: Any) -> None:
-    """Each input that falls on the plateau of each operation of axis 1 ends it, decelerates it or has
-    no effect (P2104-LIM-02).
+    """If an input falls on the plateau of an operation of axis 1, it ends the operation, decelerates it or
+    has no effect, as the rules state (P2104-LIM-02).
     """
     env = await Env.start(dut)
     await matrix_in_motion(env, 1)
@@ -87,8 +86,8 @@ async def p2104_lim_02_matrix_axis_1(dut: Any) -> None:
 
 @directed("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07")
 async def p2104_lim_02_matrix_axis_2(dut: Any) -> None:
-    """Each input that falls on the plateau of each operation of axis 2 ends it, decelerates it or has
-    no effect (P2104-LIM-02).
+    """If an input falls on the plateau of an operation of axis 2, it ends the operation, decelerates it or
+    has no effect, as the rules state (P2104-LIM-02).
     """
     env = await Env.start(dut)
     await matrix_in_motion(env, 2)
@@ -96,7 +95,7 @@ async def p2104_lim_02_matrix_axis_2(dut: Any) -> None:
 
 @directed("P2104-LIM-09", "P2104-END-04")
 async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
-    """If FL and ALM fall on the same edge, both bits are set: while accelerating, at the top, while
+    """If FL and ALM fall on the same edge, both bits are set: while accelerating, at constant speed, while
     decelerating, and in RUN wait (P2104-LIM-09).
     """
     env = await Env.start(dut)
@@ -113,12 +112,12 @@ async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
 
 @directed("P2104-LIM-06", "P2104-LIM-05", "P2104-OPR-06", "P2104-BAD-17")
 async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
-    """With each input low at the start, each operation sets error 7, outputs one pulse, or outputs all
-    pulses (P2104-LIM-06).
+    """If an input is low at the start of an operation, the operation sets error 7, outputs one pulse, or
+    outputs all pulses, as the rules state (P2104-LIM-06).
     """
     env = await Env.start(dut, errint_n=0)
     for axis in await env.both(INIT_A):
-        # A move is completed first; its results must stay after every rejected start.
+        # A complete move precedes; its results must not change after each rejected start.
         await axis.go(0x44, 10, 9)
         await axis.pulse(3, 100)
         await axis.halt()
@@ -162,7 +161,7 @@ async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
 
 @directed("P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-07", "P2104-LIM-05", "P2104-OPR-02")
 async def p2104_lim_03_matrix_in_run_wait(dut: Any) -> None:
-    """In RUN wait, each input low for 3 cycles ends the operation without a pulse, is stored, or has no
+    """In RUN wait, an input that is low for 3 cycles ends the operation without a pulse, is stored, or has no
     effect (P2104-LIM-03, P2104-LIM-05).
     """
     env = await Env.start(dut)
@@ -191,7 +190,7 @@ async def p2104_lim_03_matrix_in_run_wait(dut: Any) -> None:
 
 @directed("P2104-LIM-03", "P2104-LIM-04", "P2104-END-02", "P2104-LIM-09", "P2104-END-04")
 async def p2104_lim_03_every_state(dut: Any) -> None:
-    """In every state of a moving axis, limit or alarm ends the operation within 8 cycles (P2104-LIM-03,
+    """In every state of a moving axis, a limit or an alarm ends the operation within 8 cycles (P2104-LIM-03,
     P2104-LIM-04).
     """
     env = await Env.start(dut)
@@ -238,7 +237,7 @@ async def p2104_lim_05_every_state(dut: Any) -> None:
 
 @directed("P2104-LIM-01", "P2104-GEN-07", "P2104-LIM-10", builds=(F16, F100))
 async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
-    """Levels of 2 cycles at every phase of an interval act, each exactly once (P2104-LIM-01)."""
+    """A level of 2 cycles takes effect exactly once, at any time within an interval (P2104-LIM-01)."""
     env = await Env.start(dut)
     for axis, (pin, bits, code) in product(
         await env.both(INIT_A), (("fl_n", 0x94, 0x44), ("alm_n", 0xA4, 0x4C), ("bl_n", 0x94, 0x4C))
@@ -261,8 +260,8 @@ async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
 
 @directed("P2104-LIM-09", "P2104-END-04", "P2104-END-05", "P2104-LIM-01")
 async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
-    """If a cause falls in any cycle around the last pulse event, either the pulse or the cause has
-    priority, without other results (P2104-LIM-09).
+    """If a cause falls in any cycle near the last pulse event, either the pulse or the cause has priority,
+    and no other result occurs (P2104-LIM-09).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_A)
@@ -277,13 +276,13 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
             axis.set(**{pin: 1})
             count = len(axis.pulses)
             outcomes.append(count)
-            # Pulse 4 is the last: when it was output, the move is complete.
+            # Pulse 4 is the last: once it has been output, the move is complete.
             await axis.result("P2104-LIM-09", count, 0x84 if count == 4 else 0x84 | bit(pin), 0)
             if before >= 4:
                 env.check("P2104-LIM-09", f"pulses, {pin} {before} cycles before", count, 3)
         env.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
         env.check("P2104-LIM-09", "both results occurred", set(outcomes), {3, 4})
-    # If the cause occurs at the end of START, the pulse at this transition is suppressed, too.
+    # If the cause occurs at the end of START, the pulse at this transition is also suppressed.
     counts = []
     for after in range(env.cfg.w - 6, env.cfg.w + 10):
         edge0 = await axis.go(0x42, poll=False)
@@ -298,7 +297,7 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
 
 @directed("P2104-LIM-10", "P2104-RD-04", "P2104-LIM-08", "P2104-INT-05")
 async def p2104_lim_10_nothing_at_rest(dut: Any) -> None:
-    """With both axes at standstill, toggling inputs change no output and do not affect later moves
+    """With both axes at standstill, changes of the inputs change no output and do not affect later moves
     (P2104-LIM-10).
     """
     env = await Env.start(dut)

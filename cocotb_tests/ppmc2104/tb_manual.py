@@ -1,4 +1,4 @@
-"""Runs the sessions of docs/ppmc2104/examples.md on the core: every byte must be the printed one.
+"""Runs the sessions of docs/ppmc2104/examples.md on the core: every byte must equal the printed byte.
 
 The values in the text of the page (pulses, cycles, levels) are checked, too.
 """
@@ -18,7 +18,7 @@ BUSY = 0x0C
 
 
 async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[DutBench, HostBus]:
-    """Return a test bench after reset; with `ready`, example 1 was run."""
+    """Return a test bench after reset; if `ready` is set, example 1 was run."""
     bench = await start_bench(dut, PPMC2104, **pins)
     host = HostBus(bench)
     if ready:

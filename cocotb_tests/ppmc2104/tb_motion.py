@@ -17,7 +17,7 @@ CLOCKS = (F8, F11, F16, F16X8, F48, F100)
 
 @directed("P2104-OPR-01", "P2104-TIM-01", "P2104-TIM-06", "P2104-SW-03", "P2104-STA-04", builds=CLOCKS)
 async def p2104_tim_01_starts(dut: Any) -> None:
-    """For each operation accepted with run high, pulse 1 follows hold and dir by W to W + 2 cycles
+    """For each operation that is accepted with run high, pulse 1 follows hold and dir by W to W + 2 cycles
     (P2104-TIM-01).
     """
     env = await Env.start(dut)
@@ -60,7 +60,7 @@ async def p2104_tim_01_starts(dut: Any) -> None:
 
 @directed("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", builds=(F16, F11, F100))
 async def p2104_tim_02_run(dut: Any) -> None:
-    """In RUN wait, a rise of run, even for only 2 cycles, leads to pulse 1 after W to W + 6 cycles
+    """In RUN wait, after a rise of run, also for only 2 cycles, pulse 1 occurs W to W + 6 cycles later
     (P2104-TIM-02).
     """
     env = await Env.start(dut)
@@ -76,11 +76,11 @@ async def p2104_tim_02_run(dut: Any) -> None:
             await env.bench.clocks(width)
             axis.set(run=0)
             first = await axis.pulse(1)
-            env.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} clk", first - rise, w, w + 6)
+            env.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} cycles", first - rise, w, w + 6)
             await axis.result("P2104-OPR-02", n or 1, 0x80 | code & 7, 0)
         axis.set(run=1)
-    # If run falls in any cycle around the acceptance, the axis is either in RUN wait or in START, without
-    # other results.
+    # If run falls in any cycle near the acceptance, the axis is either in RUN wait or in START, and no other
+    # result occurs.
     axis = env.x1
     for lead in range(-2, 12):
         axis.set(run=1)
@@ -105,8 +105,8 @@ async def p2104_tim_02_run(dut: Any) -> None:
 
 @directed("P2104-TIM-02", "P2104-OPR-10", builds=(F11, F48))
 async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
-    """If both runs rise at any phase of the quantum, both axes in RUN wait output pulse 1 on one edge
-    (P2104-TIM-02).
+    """If both run pins rise at any phase of the quantum, both axes in RUN wait output pulse 1 on the same
+    edge (P2104-TIM-02).
     """
     env = await Env.start(dut)
     first, second = await env.both(INIT_A)
@@ -125,8 +125,8 @@ async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
 
 @directed("P2104-BCK-01", "P2104-BCK-03", "P2104-INTV-01", "P2104-TIM-05", "P2104-GEN-04", builds=CLOCKS)
 async def p2104_bck_01_intervals(dut: Any) -> None:
-    """For each core clock, crystal and csel, every pulse is at the accumulated time of its intervals
-    (P2104-BCK-01, P2104-INTV-01).
+    """For each core clock, crystal and csel, every pulse occurs at the accumulated time of the intervals
+    before it (P2104-BCK-01, P2104-INTV-01).
     """
     env = await Env.start(dut)
     for axis, csel in product(await env.both((0x02, 30, 3, 9)), (1, 0)):
@@ -147,7 +147,7 @@ async def p2104_bck_01_intervals(dut: Any) -> None:
 
 @directed("P2104-BCK-02", "P2104-BAD-20", "P2104-BCK-05", "P2104-LIM-08")
 async def p2104_bck_02_csel_latched(dut: Any) -> None:
-    """If csel toggles during motions of both axes, only the level of the axis's own pin at the start applies
+    """If csel changes during motions of both axes, only the level of the axis's own pin at the start applies
     (P2104-BCK-02).
     """
     env = await Env.start(dut)
@@ -171,7 +171,7 @@ async def p2104_bck_02_csel_latched(dut: Any) -> None:
     "P2104-BCK-04", "P2104-BCK-05", "P2104-TIM-03", "P2104-TIM-05", "P2104-GEN-07", builds=(F16, F11, F100)
 )
 async def p2104_bck_04_external_by_hand(dut: Any) -> None:
-    """With separate external clocks, each pulse of both axes follows an edge of its own clock
+    """With separate external clocks, each pulse of each axis follows an edge of the clock of this axis
     (P2104-BCK-04, P2104-BCK-05).
     """
     env = await Env.start(dut)
@@ -199,7 +199,9 @@ async def p2104_bck_04_external_by_hand(dut: Any) -> None:
 
 @directed("P2104-TIM-05", "P2104-BCK-04", "P2104-BAD-19")
 async def p2104_tim_05_external_low_times(dut: Any) -> None:
-    """With fast external clocks and small rates, low times are cut where the rule states (P2104-TIM-05)."""
+    """With fast external clocks and small rates, low times are shortened as the rule states
+    (P2104-TIM-05).
+    """
     env = await Env.start(dut)
     axis = env.x2
     await axis.init(*INIT_EXT)
@@ -218,10 +220,13 @@ async def p2104_tim_05_external_low_times(dut: Any) -> None:
         await env.bench.clocks(4 * period)
         await axis.move(0x44, 6, rate)
         env.check(
-            "P2104-BCK-04", f"intervals, {period} clk, rate {rate}", axis.intervals, [period * (rate + 1)] * 5
+            "P2104-BCK-04",
+            f"intervals, {period} cycles, rate {rate}",
+            axis.intervals,
+            [period * (rate + 1)] * 5,
         )
         for got in axis.low_times[1:-1]:
-            env.window("P2104-TIM-05", f"low time, {period} clk, rate {rate}", got, low - 1, low + 1)
+            env.window("P2104-TIM-05", f"low time, {period} cycles, rate {rate}", got, low - 1, low + 1)
         env.check("P2104-TIM-05", "last low time", axis.low_times[-1], env.cfg.w)
         clock.cancel()
         await axis.finish()
@@ -236,9 +241,9 @@ async def p2104_tim_05_external_low_times(dut: Any) -> None:
     uncompared="P2104-BAD-19: edges of a clock that is too fast are missed",
 )
 async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
-    """With an external period of 4 cycles, and faster ones, counts and reads are right (P2104-BAD-19).
+    """With an external period of 4 cycles or less, counts and reads are correct (P2104-BAD-19).
 
-    Not compared with the model: the number of missed edges is not specified.
+    The test is not compared with the model, because the number of missed edges is not specified.
     """
     env = await Env.start(dut)
     axis = env.x1
@@ -247,7 +252,7 @@ async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
         clock = env.bench.external_clock(repeat(period), axis.clock, high=high)
         for code, n, rate in ((0x44, 40, 0), (0x43, 60, None), (0xC3, 13, None)):
             await axis.go(code, n, rate)
-            await axis.result(f"P2104-BAD-19, {period} clk", n, 0x80 | code & 7, 0)
+            await axis.result(f"P2104-BAD-19, {period} cycles", n, 0x80 | code & 7, 0)
         await axis.go(0x45, rate=0)
         await axis.pulse(5)
         await axis.command(0x40)
@@ -260,7 +265,7 @@ async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
 
 @directed("P2104-BAD-18", "P2104-TIM-03", "P2104-OPR-04", "P2104-OPR-10")
 async def p2104_bad_18_clock_stopped(dut: Any) -> None:
-    """Without an external clock a started axis waits; a stop or a switch ends the operation
+    """Without an external clock, a started axis waits; a stop or a switch ends the operation
     (P2104-BAD-18).
     """
     env = await Env.start(dut)
@@ -289,7 +294,7 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
             if cause:
                 first.set(**{cause: 1})
             await second.finish()
-    # A deceleration stop sets its flag, which acts with the next edges; at RL it ends the motion
+    # A deceleration stop sets its flag, which takes effect with the next edges; at RL it ends the motion
     # immediately.
     await first.go(0x43, 100)
     await first.tick_until(3)
@@ -336,7 +341,7 @@ async def p2104_opr_03_pulse_counts(dut: Any) -> None:
 
 @directed("P2104-OPR-07", "P2104-ERR-05", "P2104-INTV-01")
 async def p2104_opr_07_rate_bytes(dut: Any) -> None:
-    """Rate 00 is accepted only with the external clock, rate FF with either clock (P2104-OPR-07)."""
+    """Rate 00 is accepted only with the external clock, rate FF with both clocks (P2104-OPR-07)."""
     env = await Env.start(dut)
     axis = await env.ready(2, INIT_A)
     for code, data in ((0x44, [0, 2, 0, 0]), (0x45, [0]), (0x47, [0])):
@@ -358,7 +363,7 @@ async def p2104_opr_07_rate_bytes(dut: Any) -> None:
 
 @directed("P2104-OPR-10", "P2104-BCK-05", "P2104-INT-01", builds=(F16, F11))
 async def p2104_opr_10_independent_axes(dut: Any) -> None:
-    """Any activity of the other axis does not disturb a long ramp (P2104-OPR-10)."""
+    """No activity of one axis disturbs a long ramp of the other axis (P2104-OPR-10)."""
     env = await Env.start(dut)
     for axis, other in (env.axes, env.axes[::-1]):
         await axis.init(0x02, 40, 3, 20)

@@ -34,7 +34,8 @@ async def p2104_random_noise(dut: Any, seed: int) -> None:
     host = HostBus(bench, timeout=bench.config.us(200_000))
     at_rest = IBF | BUSY1 | BUSY2 | CMND1 | CMND2
     for _ in range(6):
-        # The first code may only end a data wait, so both stops are repeated until both axes are at rest.
+        # The first code may only end a data wait, so both stops are repeated until both axes are at
+        # standstill.
         for code in (0x40, 0x60):
             await host.command(code)
         await bench.clocks(bench.config.us(1_000))

@@ -1,4 +1,4 @@
-"""The four limit-detection examples of the data sheet with TIMING = "DATASHEET" (P2104-DS-20, -23)."""
+"""The four examples of limit detection in the data sheet, with TIMING = "DATASHEET" (P2104-DS-20, -23)."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from .env import Axis, Env
 from .expected_timing import INIT_B
 
 KPPS_10, KPPS_20 = 49, 24
-"""Rates at 500 kHz."""
+"""Rates of the 500 kHz base clock."""
 OFFSETS = (0, 9, 18, 27, 34)
-"""Delay in us from a fixed time to the limit, across a polling cycle."""
+"""Delays in us from a fixed time to the limit, which cover a polling cycle."""
 
 
 async def limit(env: Env, axis: Axis, longest: int, own: int) -> int:
     """Hold the CW limit low until the operation ends; return the time in cycles.
 
-    Check that it ends within `longest` us, the bound of the data sheet, and within `own` us, that of
-    P2104-DS-20.
+    Check that the operation ends within `longest` us (bound of the data sheet) and within `own` us (bound of
+    P2104-DS-20).
     """
     us = env.cfg.us
     stamp = axis.set(fl_n=0)
@@ -36,8 +36,8 @@ async def limit(env: Env, axis: Axis, longest: int, own: int) -> int:
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
 async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
-    """Without pulses, while the other axis processes its setting, an axis in RUN wait detects its limit
-    within 71 035 us.
+    """While the other axis processes its setting, an axis in RUN wait, which outputs no pulses, detects its
+    limit within 71 035 us.
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -46,7 +46,7 @@ async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
     await rest_of_window(env)
     await last_byte(env.x2, 0x02 | 0x20, *INIT_B[1:3], 0x0A, 0)
     took = await limit(env, axis, detection(SETTING, 0, 0), SETTING + REGULAR)
-    # There is no polling tick while the setting is processed, so nearly all of this time passes.
+    # There is no polling tick while the setting is processed, so the detection needs nearly all of this time.
     env.window(
         "P2104-DS-20", "limit in the window", took, env.cfg.us(SETTING), env.cfg.us(SETTING + REGULAR) + 8
     )
@@ -62,7 +62,9 @@ async def rest_of_window(env: Env) -> None:
 @cocotb.parametrize(offset=list(OFFSETS))
 @directed("P2104-DS-20", "P2104-DS-23", builds=(D16, D11))
 async def p2104_polling_example_2_one_axis_at_10_kpps(dut: Any, offset: int) -> None:
-    """One axis at constant 10 kpps detects its limit within 73 us, at any time of the polling cycle."""
+    """At constant 10 kpps of one axis, it detects its limit within 73 us, at any time of the polling
+    cycle.
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.go(0x45, rate=KPPS_10)
@@ -75,7 +77,7 @@ async def p2104_polling_example_2_one_axis_at_10_kpps(dut: Any, offset: int) -> 
 @cocotb.parametrize(offset=list(OFFSETS))
 @directed("P2104-DS-20", "P2104-DS-23", builds=(D16, D11))
 async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) -> None:
-    """With both axes at constant 10 kpps, each detects its limit within 187 us; the other axis
+    """At constant 10 kpps of both axes, each axis detects its limit within 187 us; the other axis
     continues.
     """
     env = await Env.start(dut)
@@ -96,7 +98,9 @@ async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) ->
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
 async def p2104_polling_example_4_setting_during_20_kpps(dut: Any) -> None:
-    """At 20 kpps, while the other axis processes its setting, the limit is detected within 295 995 us."""
+    """At 20 kpps, while the other axis processes its setting, the axis detects its limit within 295 995
+    us.
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     await axis.go(0x45, rate=KPPS_20)

@@ -18,7 +18,7 @@ from .expected_timing import INIT_A
 @rtl_only("glitches between two clk edges, which the model never sees")
 @directed("P2104-PORT-02", "P2104-GEN-08", builds=(F16, F48))
 async def p2104_port_02_registers_only(dut: Any) -> None:
-    """During glitches between clk edges, outputs change only on rising edges (P2104-PORT-02)."""
+    """During glitches between edges of `clk`, outputs change only on rising edges (P2104-PORT-02)."""
     env = await Env.start(dut)
     first, _ = await env.both(INIT_A)
     bench = env.bench
@@ -57,7 +57,9 @@ async def p2104_port_02_registers_only(dut: Any) -> None:
 
 @directed("P2104-PORT-02", "P2104-LIM-01", builds=(F16, F100))
 async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
-    """Limit, alarm and run pins of both axes act with the same delay of two stages (P2104-PORT-02)."""
+    """Limit, alarm and run pins of both axes take effect with the same delay of two stages
+    (P2104-PORT-02).
+    """
     env = await Env.start(dut)
     times: dict[str, set[int]] = {}
     for axis in await env.both(INIT_A):
@@ -83,7 +85,7 @@ async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
 
 @directed("P2104-PORT-03", "P2104-PORT-01", "P2104-PHS-02", "P2104-PAR-01", builds=(F16, F16X8, F48, D16))
 async def p2104_port_03_reset(dut: Any) -> None:
-    """Bytes written during reset are not stored; the write sampled on edge 4 after the release is
+    """Bytes written during reset are not stored; a write that is sampled on edge 4 after the release is
     accepted (P2104-PORT-03).
     """
     env = await Env.start(dut)
@@ -115,7 +117,7 @@ async def p2104_port_03_reset(dut: Any) -> None:
 
 @directed("P2104-PORT-04", "P2104-BAD-20", "P2104-LIM-08")
 async def p2104_port_04_tied_inputs(dut: Any) -> None:
-    """With extck and auxi tied to 0 or 1, both axes move undisturbed on the crystal clock
+    """With extck and auxi tied to 0 or 1, motions of both axes on the crystal clock are not affected
     (P2104-PORT-04).
     """
     env = await Env.start(dut)

@@ -34,7 +34,7 @@ def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
 
 @directed("P2104-RMP-01", "P2104-RMP-02", "P2104-RMP-03", "P2104-RMP-05", "P2104-EX-01", "P2104-EX-06")
 async def p2104_rmp_01_every_index(dut: Any) -> None:
-    """For ramps of many shapes, each rate of a move is exact, computed by both forms of the rule
+    """For ramps of many shapes, each rate of a move is exact according to both forms of the rule
     (P2104-RMP-01, P2104-RMP-02).
     """
     env = await Env.start(dut)
@@ -86,8 +86,8 @@ async def p2104_rmp_02_long_ramp_up(dut: Any) -> None:
     "P2104-PRO-01", "P2104-PRO-02", "P2104-PRO-03", "P2104-PRO-06", "P2104-OPR-05", builds=(F16, F11, F48)
 )
 async def p2104_pro_01_every_length(dut: Any) -> None:
-    """With PA = 4 and N = 1 to 14, profiles are triangular, odd and even, and trapezoidal from 2 PA + 2
-    on (P2104-PRO-01).
+    """With PA = 4 and N = 1 to 14, profiles are triangular with odd and even counts, and trapezoidal from 2
+    PA + 2 on (P2104-PRO-01).
     """
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
@@ -119,7 +119,9 @@ async def start_and_decelerate(axis: Axis, how: str, n: int, j: int, plus: int, 
     "P2104-OPR-09",
 )
 async def p2104_fdc_02_every_interval(dut: Any) -> None:
-    """With N = 14 and 9, a deceleration request in each interval acts as the rules state (P2104-FDC-02)."""
+    """With N = 14 and 9, a deceleration request in each interval has the effect in the rules
+    (P2104-FDC-02).
+    """
     env = await Env.start(dut)
     for axis, (code, pin, n) in product(
         await env.both(INIT_A),
@@ -127,8 +129,8 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
     ):
         for j in range(1, n):
             await start_and_decelerate(axis, pin, n, j, 40, code)
-            # Natural deceleration begins with the first interval that has a lower index than an acceleration
-            # would have.
+            # Natural deceleration begins with the first interval whose index is lower than in an
+            # acceleration.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
             expected = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
             if pin == "stop":
@@ -156,7 +158,8 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
             env.check("P2104-FDC-02", "figures", len(expected) + 1, j if j <= 4 else 2 * j)
             await axis.result(f"P2104-FDC-02 I({j})", len(expected) + 1, 0x83 | bit, 60 - len(expected) - 2)
             axis.check_train("P2104-FDC-02", expected)
-        # In the flat part while decelerating, the flag is already set: the deceleration runs to its end.
+        # If the flat part is reached while decelerating, the flag is already set, so the deceleration
+        # continues to its end.
         await start_and_decelerate(axis, how, 60, 6, 200, 0x43)
         await axis.pulse(10, 100)
         await axis.refused("P2104-STP-03", "41 on the way down", 8, 0x41)
@@ -165,13 +168,13 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
 
 @directed("P2104-FDC-01", "P2104-FDC-04", "P2104-LIM-05", "P2104-FSM-03", "P2104-STP-02", "P2104-BAD-22")
 async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
-    """A deceleration request in START or RUN wait leads to exactly one pulse (P2104-FDC-04)."""
+    """A deceleration request in START or RUN wait results in exactly one pulse (P2104-FDC-04)."""
     env = await Env.start(dut)
     for axis, code in product(await env.both(INIT_A), (0x43, 0x4B, 0xC3, 0x46, 0xCE)):
         pin = "bhl_n" if code & 8 else "fhl_n"
         n = 1000 if code & 7 == 3 else None
         left = (n or 1 << 24) - 2
-        # The stop is requested in START, within the 5 us.
+        # The stop is requested in START, which lasts 5 us.
         await axis.go(code, n)
         await axis.command(0x41)
         await axis.command(0x41)
@@ -194,8 +197,8 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
 
 @directed("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", builds=(F16, F11))
 async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
-    """If FHL falls in any cycle around a pulse event, it acts on this event if it is at least 4 cycles
-    earlier (P2104-FDC-06).
+    """If FHL falls near a pulse event, and at least 4 cycles before it, it takes effect for this event
+    (P2104-FDC-06).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -222,8 +225,8 @@ async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
 
 @directed("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
 async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
-    """Of 41 and FHL some cycles apart, the first sets its bit; on the same edge both bits are set
-    (P2104-LIM-09).
+    """If code 41 and FHL occur some cycles apart, only the first sets its bit; on the same edge, both bits
+    are set (P2104-LIM-09).
     """
     env = await Env.start(dut)
     axis = await env.ready(2, INIT_B)
@@ -252,7 +255,9 @@ async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
 
 @directed("P2104-INTV-01", "P2104-OPR-10", "P2104-BCK-05", "P2104-EX-14", builds=(F16, F11))
 async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
-    """Both axes are exact at 250 kpps on the internal clock and at 500 kpps on EXTCK (P2104-INTV-01)."""
+    """Pulses of both axes are exact at 250 kpps with the internal clock and at 500 kpps with EXTCK
+    (P2104-INTV-01).
+    """
     env = await Env.start(dut)
     fast = (0x02, 40, 1, 25)
     first, second = await env.both(fast)
@@ -275,6 +280,6 @@ async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
         await env.bench.clocks(16)
     for axis in env.axes:
         await axis.idle()
-        # Pulse 1 has its full width: the clock was stopped before it, so no period is known yet
+        # Pulse 1 has its full width, because the clock was stopped before it, so that no period is known yet
         # (P2104-TIM-05).
         env.check("P2104-INTV-01", "intervals at 32 cycles an edge", axis.intervals[1:], [32] * 198)

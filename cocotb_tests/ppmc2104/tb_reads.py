@@ -15,8 +15,8 @@ CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3
 
 @directed("P2104-RD-01", "P2104-RD-02", "P2104-RD-03", "P2104-END-04", "P2104-END-05")
 async def p2104_rd_01_end_status(dut: Any) -> None:
-    """After each operation and cause of its end, the first 80 returns its bits with bit 7, the second
-    without bit 7 (P2104-RD-01).
+    """After each operation and each cause of its end, the first code 80 returns its bits with bit 7, the
+    second without bit 7 (P2104-RD-01).
     """
     env = await Env.start(dut)
     for axis, (code, low) in product(await env.both(INIT_A), CODES):
@@ -44,7 +44,7 @@ async def p2104_rd_01_end_status(dut: Any) -> None:
 
 @directed("P2104-RD-04", "P2104-RD-08", "P2104-LIM-10")
 async def p2104_rd_04_all_levels(dut: Any) -> None:
-    """For all levels of the twelve switches, a read returns the switches of its own axis (P2104-RD-04)."""
+    """For all levels of the twelve switches, a read returns the switches of its axis (P2104-RD-04)."""
     env = await Env.start(dut)
     order = ("org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
     places = (7, 6, 3, 2, 1, 0)
@@ -60,7 +60,7 @@ async def p2104_rd_04_all_levels(dut: Any) -> None:
 
 @directed("P2104-RD-05", "P2104-SW-05", "P2104-PHS-01")
 async def p2104_rd_05_output_signal(dut: Any) -> None:
-    """82 returns the levels of patterns, direction and hold, with S1 in bit 7 (P2104-RD-05)."""
+    """Code 82 returns the levels of the phases, direction and hold, with S1 in bit 7 (P2104-RD-05)."""
     env = await Env.start(dut)
     for axis in env.axes:
         for code in STEP_CODES.values():
@@ -84,8 +84,8 @@ async def p2104_rd_05_output_signal(dut: Any) -> None:
 
 @directed("P2104-RD-06", "P2104-END-06", "P2104-RD-08", "P2104-OPR-10")
 async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
-    """83 of a stopped move, read while the other axis moves, returns max(m - 1, 0); a new move with it
-    completes the count (P2104-RD-06).
+    """Code 83 for a stopped move, read while the other axis moves, returns max(m - 1, 0); another move with
+    this value completes the count (P2104-RD-06).
     """
     env = await Env.start(dut)
     axis, other = await env.both(INIT_A)
@@ -114,7 +114,7 @@ async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
 
 @directed("P2104-RD-07", "P2104-INT-02", "P2104-INT-04", "P2104-ERR-06")
 async def p2104_rd_07_error_code_read(dut: Any) -> None:
-    """In every state, 86 and A6 clear only the error register and the interrupt of their own axis
+    """In every state, codes 86 and A6 clear only the error register and the interrupt of their axis
     (P2104-RD-07).
     """
     env = await Env.start(dut, errint_n=0)
@@ -133,8 +133,8 @@ async def p2104_rd_07_error_code_read(dut: Any) -> None:
 
 @directed("P2104-INT-03", "P2104-INT-05", "P2104-INT-01", builds=(F16, F11, F48, F100))
 async def p2104_int_03_release_window(dut: Any) -> None:
-    """A cause that occurs during a release does not shorten it: int_n is high for W and low again after
-    it (P2104-INT-03).
+    """A cause that occurs during a release of int_n does not shorten the release: int_n is high for W, then
+    low again (P2104-INT-03).
     """
     env = await Env.start(dut)
     w = env.cfg.w
@@ -146,12 +146,12 @@ async def p2104_int_03_release_window(dut: Any) -> None:
         await env.bench.clocks(20)
         since = env.bench.now
         await env.x2.command(0x86)
-        # END1 is still pending: int_n is low again after the window.
+        # END1 is still pending, so int_n is low again after the window.
         await env.bench.clocks(2 * w)
         (up, one), (down, zero) = env.bench.edges("int_n", since)
         env.check("P2104-INT-03", "levels", (one, zero), (1, 0))
         env.window("P2104-INT-03", "H with a cause left", down - up, w, w + 2)
-        # All causes are released; a new cause follows `delay` cycles after the release.
+        # All causes are released; another cause follows `delay` cycles after the release.
         edge0 = await env.host.command(0x80, poll=False)
         await env.bench.until(edge0 + delay)
         cause = await env.host.write(1, 0x87)
@@ -169,7 +169,9 @@ async def p2104_int_03_release_window(dut: Any) -> None:
 
 @directed("P2104-INT-03")
 async def p2104_int_03_windows_restart(dut: Any) -> None:
-    """If two of four causes are read within 5 us, the second release restarts the window (P2104-INT-03)."""
+    """If two of four causes are read within 5 us, the second release restarts the time for which int_n is
+    high (P2104-INT-03).
+    """
     env = await Env.start(dut, errint_n=0)
     await env.both(INIT_A)
     await env.run("c 87 c A7")
@@ -191,7 +193,9 @@ async def p2104_int_03_windows_restart(dut: Any) -> None:
 
 @directed("P2104-INT-01", "P2104-INT-02", "P2104-BAD-24", "P2104-AUX-01", "P2104-BAD-20")
 async def p2104_int_02_what_does_not_clear(dut: Any) -> None:
-    """A pending END1 is cleared by 80 only: int_n stays low, and operations continue (P2104-INT-02)."""
+    """Only code 80 clears a pending END1; until then int_n stays low, and operations continue
+    (P2104-INT-02).
+    """
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)
     await first.move(0x42)
@@ -235,7 +239,7 @@ async def p2104_int_01_errint_when_it_happens(dut: Any) -> None:
 
 @directed("P2104-INT-01", "P2104-CMD-02", "P2104-STP-06", "P2104-LIM-03")
 async def p2104_int_01_every_end(dut: Any) -> None:
-    """For any kind of end, int_n falls only with I = 0 (P2104-INT-01)."""
+    """For each kind of end, int_n falls only if I = 0 (P2104-INT-01)."""
     env = await Env.start(dut)
     for axis, masked in product(await env.both(INIT_A), (0, 0x10)):
         for how in ("itself", "40", "41", "alm_n", "fl_n", "fhl_n", "run wait"):

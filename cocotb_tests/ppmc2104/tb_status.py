@@ -18,7 +18,7 @@ LARGEST = (0x02, 255, 1, 0x2BD4)
 
 @directed("P2104-STA-01", "P2104-STA-04", "P2104-STA-05", "P2104-STA-07")
 async def p2104_sta_01_every_bit(dut: Any) -> None:
-    """In each state of each axis, only BUSY and CMND of this axis indicate it (P2104-STA-01)."""
+    """The status indicates the state of an axis only with its BUSY and CMND bits (P2104-STA-01)."""
     env = await Env.start(dut)
     for axis, state in product(env.axes, (*RESTING, *MOVING)):
         await enter(axis, state)
@@ -34,7 +34,9 @@ async def p2104_sta_01_every_bit(dut: Any) -> None:
 
 @directed("P2104-STA-01", "P2104-STA-06", "P2104-STA-02")
 async def p2104_sta_01_all_at_once(dut: Any) -> None:
-    """Both axes busy, a data wait, an error and an answer set all status bits together (P2104-STA-01)."""
+    """If both axes are busy, with a data wait, an error and an answer, all status bits are set together
+    (P2104-STA-01).
+    """
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
         await axis.go(0x45, rate=255)
@@ -78,9 +80,7 @@ async def p2104_sta_05_cmnd(dut: Any) -> None:
 
 @directed("P2104-STA-07", "P2104-STA-02", "P2104-STA-03")
 async def p2104_sta_07_reading_changes_nothing(dut: Any) -> None:
-    """Reading the status 100 times changes neither an answer nor an error nor an interrupt
-    (P2104-STA-07).
-    """
+    """100 reads of the status do not change an answer, an error or an interrupt (P2104-STA-07)."""
     env = await Env.start(dut)
     env.bench.set(errint_n=0)
     await env.run("c 81 c 87")
@@ -93,7 +93,7 @@ async def p2104_sta_07_reading_changes_nothing(dut: Any) -> None:
 
 @directed("P2104-HSK-02", "P2104-BAD-08", "P2104-HSK-01")
 async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
-    """Of two codes written at any distance, the newer one always acts, and never a mixture
+    """Of two codes written at any distance, the newer one is always executed, and never a mixture of both
     (P2104-HSK-02).
     """
     env = await Env.start(dut)
@@ -104,7 +104,7 @@ async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
         one, two = await env.errors()
         env.check("P2104-HSK-02", f"newer code, gap {gap}", two, 1)
         outcomes.append(one)
-        # Data are written over a code: the command/data flag is replaced with the byte.
+        # A data byte is written over a code, so that the command/data flag is replaced with the byte.
         await env.host.write(COMMAND, 0x40, strobe=1, gap=gap)
         await env.host.write(DATA, 0x40, strobe=1, gap=16)
         one, two = await env.errors()
@@ -115,7 +115,9 @@ async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
 
 @directed("P2104-HSK-02", "P2104-HSK-04", "P2104-STP-07")
 async def p2104_hsk_02_over_a_waiting_code(dut: Any) -> None:
-    """A byte written over a step that waits for its table is accepted instead (P2104-HSK-02)."""
+    """A byte that is written over a step waiting for its table is accepted instead of the step
+    (P2104-HSK-02).
+    """
     env = await Env.start(dut)
     first, second = env.axes
     await second.init(*INIT_A)
@@ -142,7 +144,7 @@ async def p2104_hsk_02_over_a_waiting_code(dut: Any) -> None:
 
 @directed("P2104-HSK-03", "P2104-OPR-01", "P2104-GEN-06", builds=(F16, F11))
 async def p2104_hsk_03_one_edge(dut: Any) -> None:
-    """When a CCW move of a chopping axis starts, hold, dir and phases change on one edge (P2104-HSK-03)."""
+    """If a CCW move of a chopping axis starts, hold, dir and phases change on one edge (P2104-HSK-03)."""
     env = await Env.start(dut)
     for axis in env.axes:
         await axis.init(0x12, *INIT_A[1:])
@@ -161,7 +163,7 @@ async def p2104_hsk_03_one_edge(dut: Any) -> None:
             env.check("P2104-HSK-03", f"edges of {code:#x}: {places}", len(set(places.values())), 1)
             env.window("P2104-HSK-03", "edge 0 to pins", places["phases"] - edge0, 2, 12)
             await axis.idle()
-            # hold rises again, so that the next move makes it fall.
+            # Wait until hold rises again, so that the next move makes it fall.
             await env.bench.level_is(axis.pin("hold"), 1)
             await axis.finish()
 
@@ -189,7 +191,7 @@ async def p2104_hsk_04_what_waits(dut: Any) -> None:
             if waiting and code in (0x46, 0xC6):
                 await env.host.poll(IBF, 0)
                 env.check("P2104-HSK-04", "taken afterwards", await env.host.status() & axis.busy, axis.busy)
-            # A stop ends a data wait as well as a motion.
+            # A stop ends both a data wait and a motion.
             for each in env.axes:
                 await each.command(0x40)
                 await each.idle()
@@ -203,9 +205,7 @@ async def p2104_hsk_04_what_waits(dut: Any) -> None:
 
 @directed("P2104-HSK-04", "P2104-ERR-02", "P2104-FSM-01")
 async def p2104_hsk_04_data_wait_during_a_table_build(dut: Any) -> None:
-    """During a table build and a data wait, a code that would wait for the table sets error 3
-    (P2104-HSK-04).
-    """
+    """If a code would wait for the table but is sent during a data wait, it sets error 3 (P2104-HSK-04)."""
     env = await Env.start(dut)
     for axis, other in ((env.x1, env.x2), (env.x2, env.x1)):
         for code in (0x42, 0x45, 0x02, 0xC0):
@@ -221,8 +221,8 @@ async def p2104_hsk_04_data_wait_during_a_table_build(dut: Any) -> None:
 
 @directed("P2104-HSK-05", "P2104-RMP-04")
 async def p2104_hsk_05_longest_tables(dut: Any) -> None:
-    """The largest tables of both axes, requested together, are built within 40 000 and 80 000 cycles
-    (P2104-HSK-05).
+    """If the largest tables of both axes are requested together, they are complete within 40 000 and 80 000
+    cycles (P2104-HSK-05).
     """
     env = await Env.start(dut)
     first, second = env.axes
@@ -243,9 +243,7 @@ async def p2104_hsk_05_longest_tables(dut: Any) -> None:
 
 @directed("P2104-HSK-05", "P2104-OPR-10", "P2104-INI-06")
 async def p2104_hsk_05_during_a_motion(dut: Any) -> None:
-    """The build of a table does not disturb the pulse train of the other axis on its ramp
-    (P2104-HSK-05).
-    """
+    """The build of a table does not disturb the pulse train of the other axis on its ramp (P2104-HSK-05)."""
     env = await Env.start(dut)
     for axis, other in ((env.x1, env.x2), (env.x2, env.x1)):
         await axis.init(0x02, 60, 1, 40)
@@ -260,7 +258,7 @@ async def p2104_hsk_05_during_a_motion(dut: Any) -> None:
 
 @directed("P2104-HSK-06", "P2104-HSK-07", "P2104-BAD-25", "P2104-BAD-10", "P2104-RD-06")
 async def p2104_hsk_07_answers_stay(dut: Any) -> None:
-    """An unread answer stays until a read instruction is executed; other instructions do not change it
+    """An unread answer stays until another read instruction is executed; other instructions do not change it
     (P2104-HSK-07).
     """
     env = await Env.start(dut)
@@ -282,7 +280,7 @@ async def p2104_hsk_07_answers_stay(dut: Any) -> None:
         env.check("P2104-HSK-07", "OBF", await env.host.status() & OBF, OBF)
         env.check("P2104-HSK-07", "the rest", await env.run("rr"), [0x01, 0x03])
         env.check("P2104-HSK-07", "OBF after it", await env.host.status() & OBF, 0)
-        # A rejected read does not replace an answer; an executed one of either axis does.
+        # A rejected read does not replace an answer; an executed read of either axis does.
         bit = axis.axis_bit
         for code, answer in ((0xC2, 0x00), (0xA1, 0xCF), (0x81, 0xCF), (0x80 | bit, 0xC5), (0x86 | bit, 5)):
             await axis.command(0x83)
@@ -303,7 +301,9 @@ async def p2104_hsk_07_answers_stay(dut: Any) -> None:
 
 @directed("P2104-HSK-08", "P2104-BAD-03")
 async def p2104_hsk_08_no_time_out(dut: Any) -> None:
-    """After two of three data bytes and a delay of 10 ms, the third byte starts the move (P2104-HSK-08)."""
+    """If the third data byte is sent 10 ms after the second, it nevertheless starts the move
+    (P2104-HSK-08).
+    """
     env = await Env.start(dut)
     first, second = await env.both(INIT_A)
     await first.send(0x43, [8, 0])
@@ -312,7 +312,7 @@ async def p2104_hsk_08_no_time_out(dut: Any) -> None:
     first.since = env.bench.now
     await env.host.data(0)
     await first.result("P2104-HSK-08", 9, 0x83, 0)
-    # There is one data wait for both axes: a code of the other axis ends it.
+    # Both axes share one data wait: a code of the other axis ends it.
     await first.send(0x43, [8, 0])
     await second.command(0x44)
     env.check("P2104-HSK-08", "status", await env.host.status(), ERROR)

@@ -50,15 +50,13 @@ def test_ppmc2104(item, sim_options):
 
 @verifies("P2104-PAR-01")
 def test_p2104_par_01_ranges():
-    """The elaboration accepts each parameter at its bounds and rejects the values just outside
-    (P2104-PAR-01).
-    """
+    """The elaboration accepts each parameter at its bounds and rejects values just outside (P2104-PAR-01)."""
     check_ranges("P2104-PAR-01", part_design("ppmc2104", F16), RANGES)
 
 
 @verifies("P2104-PORT-01", "P2104-PORT-05", "P2104-GEN-02")
 def test_p2104_port_05_ports():
-    """The top module has exactly the ports of the table (P2104-PORT-01, P2104-PORT-05)."""
+    """The top module has exactly the ports of the pin table (P2104-PORT-01, P2104-PORT-05)."""
     expected = {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
     for direction, names in (("input", PPMC2104.inputs), ("output", PPMC2104.outputs)):
         for name in names:

@@ -1,6 +1,7 @@
-"""Random hosts against the golden model, axis 2 with and without axis 1, noise: fixed lists of seeds.
+"""Compares random hosts with the golden model, and axis 2 with and without axis 1; noise on all pins.
 
-`--seed N` runs seed N only. `make soak PART=ppmc2104` runs any number of other seeds.
+The seeds are fixed lists, or one seed with `--seed N`. `make soak PART=ppmc2104` runs any number of other
+seeds.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """The same seed yields the same list; the fixed seeds together use every kind of action and every
+    """The same seed returns the same list; all fixed seeds together use each kind of action and each
     build.
     """
     assert scenario(5) == scenario(5) != scenario(6)

@@ -1,4 +1,6 @@
-"""Test bench of the PPMC-312: bus and build defaults. Pins and levels are those of the golden model."""
+"""Test bench of the PPMC-312: bus and build defaults. Names and levels of the pins are those of the golden
+model.
+"""
 
 from __future__ import annotations
 

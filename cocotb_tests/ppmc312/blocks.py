@@ -1,4 +1,4 @@
-"""Set-up blocks of the PPMC-312: curves with which many bus tests begin (`Host.start(dut, *TG)`)."""
+"""Set-up blocks of the PPMC-312: curves that many bus tests load first (`Host.start(dut, *TG)`)."""
 
 from __future__ import annotations
 

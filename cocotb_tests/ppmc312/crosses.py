@@ -1,6 +1,6 @@
 """Coverage crosses of the data sheet, counted in the golden model.
 
-Instruction × state, refusal × source of the instruction, cause of the end × state.
+The crosses are instruction × state, rejection × source of the instruction, and cause of the end × state.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Program of `make demo PART=ppmc312` on the block registers.
 
-One move with each of three kinds of ramps, speed changes that wait for positions and for an event pin, and a
-high-speed zero return.
+The program makes one move with each of three kinds of ramps, speed changes that wait for positions and for an
+event pin, and a high-speed zero return.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .bench import PPMC312
 
 START, HIGH, RAMP = 320, 64, 1150  # at 8 MHz: 25 to 125 kpps
 PULSES = 3000
-# A motor with less torque at speed: fastest stage first, also 1150 pulses.
+# A curve for a motor with less torque at high speed, fastest stage first; it also has 1150 pulses.
 CURVE = ((64, 300), (70, 210), (78, 150), (88, 110), (100, 90), (116, 75), (136, 60), (162, 50),
          (196, 40), (240, 30), (280, 20), (320, 15))  # fmt: skip
 ANSWERS = 0x10
@@ -31,14 +31,14 @@ LONG = 3_000_000
 
 
 class Interrupted(BlockHost):
-    """Host that waits for the interrupt of each answer, like a host with other tasks."""
+    """Host that waits for the interrupt of each answer, as a host with other tasks does."""
 
     async def response(self, timeout: int | None = None) -> str:
         """Return the next response block."""
         await self.bench.level_is("irq_n", 0, timeout or LONG)
         await self.bench.clocks(16)
         block = await super().response(timeout)
-        await self.bench.clocks(16)  # irq_n is deasserted for this answer within this time
+        await self.bench.clocks(16)  # irq_n is deasserted for this answer within 16 cycles
         return block
 
 
@@ -48,12 +48,12 @@ def initial(flags: int) -> str:
 
 
 def move(flags: int, pulses: int) -> str:
-    """Return the block of a move with ramps."""
+    """Return the block of a ramped move."""
     return f"03 08 82 {flags:02X} 0000 {pulses:08X}"
 
 
 async def free_curve(host: BlockHost) -> None:
-    """Transfer the curve: all rates in one block, ten pulse numbers in the next, the rest in the last."""
+    """Transfer the curve in three blocks: all rates, ten pulse numbers, and the other pulse numbers."""
     await host.ask(f"02 03 01 00 {len(CURVE):02X}")
     rates = " ".join(f"{rate:04X}" for rate, _ in CURVE)
     pulses = [f"{count:06X}" for _, count in CURVE]
@@ -69,7 +69,7 @@ async def pulses(bench: RtlBench, count: int) -> None:
 
 @cocotb.test()
 async def demo_blocks(dut: Any) -> None:
-    """The host's program runs on the bus of a device that was just powered up, and the run is recorded."""
+    """The host's program runs on the bus of a device that was just powered up; the run is recorded."""
     bench = await RtlBench.start(dut, PPMC312)
     host = Interrupted(bench)
     demo_log = DemoLog(bench)
@@ -128,5 +128,5 @@ async def demo_blocks(dut: Any) -> None:
 
 
 def overrun() -> int:
-    """Return the number of pulses that the deceleration makes past the far end of the switch."""
+    """Return the number of pulses that the deceleration makes beyond the far end of the switch."""
     return HOME_TO - (HOME_FROM - RAMP)

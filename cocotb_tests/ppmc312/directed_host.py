@@ -13,11 +13,11 @@ class DirectedHost(DutHost):
 
     @property
     def condition(self) -> int:
-        """Condition byte of the status read, taken from the golden model without a bus access."""
+        """Condition byte of the status read, obtained from the golden model without a bus access."""
         return int(self.bench.golden.state)
 
     async def pulse(self, number: int, after: int = 0) -> int:
-        """Wait for pulse `number` since `mark`, then `after` cycles more; return the edge of the pulse."""
+        """Wait for pulse `number` since `mark`, then for `after` cycles; return the edge of the pulse."""
         for _ in range(number - len(self.pulses())):
             await self.bench.edge("pout", 1)
         edge = self.pulses()[number - 1]
@@ -29,7 +29,9 @@ class DirectedHost(DutHost):
         return self.bench.rises("pout", self.mark)
 
     def gaps(self, tick: int = TICK) -> list[int]:
-        """Return the distances of the pulses in ticks of `tick` cycles; they must be whole ticks."""
+        """Return the intervals of the pulses in ticks of `tick` cycles; each must be a whole number of
+        ticks.
+        """
         edges = self.pulses()
         clk = [b - a for a, b in zip(edges, edges[1:], strict=False)]
         assert not any(gap % tick for gap in clk)

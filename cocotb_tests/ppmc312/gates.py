@@ -1,4 +1,4 @@
-"""Selection of the PPMC-312 tests that `make test-gates` runs; each omission has its reason."""
+"""Selection of the PPMC-312 tests that `make test-gates` runs, with a reason for each omission."""
 
 from __future__ import annotations
 

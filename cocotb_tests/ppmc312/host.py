@@ -1,4 +1,6 @@
-"""Host of directed tests on the parallel pins of the PPMC-312. It acts on the values that it reads there."""
+"""Host of directed tests on the parallel pins of the PPMC-312. It reacts to the values that it reads
+there.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +14,13 @@ from .bench import PPMC312
 from .directed_host import DirectedHost
 
 LATE = 10_000
-"""Cycles by which a response may follow that of the golden model."""
+"""Maximum number of cycles by which a response may follow that of the golden model."""
 
 
 class Host(DirectedHost):
-    """Host on the bus; blocks and answers are texts of hexadecimal bytes in logical order.
+    """Host on the bus. Blocks and answers are texts of hexadecimal bytes in logical order.
 
-    `header` is the edge that ended the last strobe of the last block.
+    `header` is the edge at which the last strobe of the last block ended.
     """
 
     def __init__(self, bench: DutBench) -> None:
@@ -28,7 +30,9 @@ class Host(DirectedHost):
 
     @classmethod
     async def start(cls, dut: Any, *setting: str, **pins: int) -> Host:
-        """Reset a part with these pin levels, wait until it accepts blocks, and ask each `setting` block."""
+        """Reset a part with these pin levels, wait until it accepts blocks, and send each block of
+        `setting`.
+        """
         host = cls(await start_bench(dut, PPMC312, settle=8, **pins))
         host.mark = 0
         await host.ready(100)
@@ -39,7 +43,9 @@ class Host(DirectedHost):
     # ------------------------------------------------------------------ bus
 
     async def write(self, reg: int, byte: int, gap: int = 3) -> int:
-        """Write one byte: a strobe of 3 cycles, then `gap` cycles without one; return the edge at its end."""
+        """Write one byte with a strobe of 3 cycles, then wait `gap` cycles; return the edge at the end of the
+        strobe.
+        """
         bench = self.bench
         bench.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
         await bench.clocks(3)
@@ -49,7 +55,7 @@ class Host(DirectedHost):
         return edge
 
     async def read(self, reg: int) -> int:
-        """Read one byte: d_o at the end of a strobe of 5 cycles, followed by 3 cycles without a strobe."""
+        """Read one byte: return d_o at the end of a strobe of 5 cycles, then wait 3 cycles."""
         bench = self.bench
         edge = bench.set(cs_n=0, oe_n=0, rs=reg)
         await bench.clocks(5)
@@ -60,14 +66,16 @@ class Host(DirectedHost):
         return value
 
     async def strobe(self, length: int, gap: int = 3, **levels: int) -> None:
-        """Drive any levels on the bus pins for `length` cycles, then no strobe for `gap` cycles."""
+        """Drive any levels on the bus pins for `length` cycles, then deassert the strobes for `gap`
+        cycles.
+        """
         self.bench.set(**levels)
         await self.bench.clocks(length)
         self.bench.set(cs_n=1, we_n=1, oe_n=1)
         await self.bench.clocks(gap)
 
     async def put(self, text: str, war: int | None = None, gap: int = 3) -> None:
-        """Write a block only; return `gap` cycles after its last strobe."""
+        """Write a block without polling; return `gap` cycles after its last strobe."""
         block = bytes.fromhex(text)[::-1]
         await self.write(WCR, 0x20)
         await self.write(WAR, 0x20 - len(block) if war is None else war)
@@ -76,14 +84,14 @@ class Host(DirectedHost):
         self.header = await self.write(DWR, block[-1], gap)
 
     async def ready(self, every: int = 20, limit: int = 10_000_000) -> None:
-        """Wait until MWEF = 0, polled every `every` cycles."""
+        """Wait until MWEF = 0; poll every `every` cycles."""
         end = self.t + limit
         while await self.read(CSR) & MWEF:
             assert self.t < end, f"no block is taken any more\n{self.bench.context()}"
             await self.pause(every)
 
     async def issue(self, text: str) -> None:
-        """Write a block when MWEF allows it; pulses and edges are counted from here."""
+        """Write a block when MWEF allows it; count pulses and edges from this write on."""
         await self.ready()
         self.mark = self.t
         await self.put(text)
@@ -99,7 +107,7 @@ class Host(DirectedHost):
     async def wait(self, limit: int = 100_000_000) -> None:
         """Wait until MREF = 0, for at most `limit` cycles.
 
-        CSR is polled when the golden model has a response.
+        The host polls CSR only after the golden model has a response.
         """
         end = self.t + limit
         late = self.t + LATE
@@ -112,7 +120,9 @@ class Host(DirectedHost):
                 late = self.t + LATE
 
     async def arrival(self, end: int | None = None) -> None:
-        """Wait until the golden model has a response, at the latest until edge `end`; no poll is made."""
+        """Wait until the golden model has a response, at the latest until edge `end`, without polling the
+        device.
+        """
         while not self.bench.golden.core.responses.any_waiting:
             assert end is None or self.t < end, f"no response comes any more\n{self.bench.context()}"
             await self.step()

@@ -1,9 +1,8 @@
-"""Count the events that random hosts cause in the golden model of the PPMC-312.
+"""Counts the events that random hosts cause in the golden model of the PPMC-312.
 
-The counts reveal a loss of coverage.
-
-Keys of the counts are texts: "pulses", "answer 82", "event 83", "override 80", "answer F0 20", "event F8 01",
-"report E0 SLOW", "trigger POSITION 87", "decel SLOW", "change 88", "change in RAMP", "cycles ABN".
+The counts reveal a loss of coverage. Keys of the counts are texts: "pulses", "answer 82", "event 83",
+"override 80", "answer F0 20", "event F8 01", "report E0 SLOW", "trigger POSITION 87", "decel SLOW", "change
+88", "change in RAMP", "cycles ABN".
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from openppmc.model.ppmc312.motion.sequence import Sequence, _Mode
 from openppmc.model.ppmc312.part import Ppmc312
 
 SLICE = 500
-"""Cycles between two samples of the state."""
+"""Number of cycles between two samples of the state."""
 
 LEAST: dict[str, int] = {
     "pulses": 5_000,
@@ -78,7 +77,7 @@ LEAST: dict[str, int] = {
     "report F4 02": 2,
     "report F4 03": 3,
 }
-"""Key prefix and the least number of such events in a third of the hosts of `make test`."""
+"""Key prefix -> minimum number of such events in one third of the hosts of `make test`."""
 
 _SOURCES = {Source.HOST: "answer", Source.EVENT: "event", Source.OVERRIDE: "override"}
 _BY_PARAMETER = {Answer.PARAMETER, Answer.REGISTRATION, Answer.ALARM, Answer.INPUT_CHANGE}
@@ -86,7 +85,7 @@ _BY_PARAMETER |= {Answer.EVENT_FAILED, Answer.OVERRIDE_FAILED}
 
 
 def name_of(block: bytes, source: Source | None) -> str:
-    """Return the key of a response block in logical order."""
+    """Return the key for a response block in logical order."""
     code = block[2]
     who = _SOURCES[source] if source else "report"
     if code == Answer.STATUS:
@@ -100,7 +99,7 @@ def name_of(block: bytes, source: Source | None) -> str:
 
 @contextmanager
 def counting() -> Iterator[Counter[str]]:
-    """Count the internal events of all models that run in the context."""
+    """Count the internal events of all models that run in this context."""
     counts: Counter[str] = Counter()
     post, change = Responses.post, Responses.input_change
     release, begin, run = Fifo._release, Operation._begin, Ppmc312.run_until
@@ -181,6 +180,6 @@ def counting() -> Iterator[Counter[str]]:
 
 
 def thin(counts: Counter[str]) -> dict[str, tuple[int, int]]:
-    """Return the events that are too rare: (seen, needed)."""
+    """Return event -> (number seen, number needed), for the events that are too rare."""
     seen = {kind: sum(n for key, n in counts.items() if key.startswith(kind)) for kind in LEAST}
     return {kind: (seen[kind], least) for kind, least in LEAST.items() if seen[kind] < least}

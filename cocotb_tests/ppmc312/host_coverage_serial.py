@@ -1,4 +1,4 @@
-"""Count the events that random hosts on the line cause in the golden model of the PPMC-312.
+"""Counts the events that random hosts on the line cause in the golden model of the PPMC-312.
 
 Keys of the counts are texts: "frame POLL", "reply A0", "reply B0 41", "overrun", "framing", "event", "FF".
 """
@@ -45,7 +45,7 @@ LEAST: dict[str, int] = {
     "reply B0 4a": 4,
     "reply B0 4b": 4,
 }
-"""Least number of such events in the hosts of `make test`."""
+"""Minimum number of each event in the hosts of `make test`."""
 
 
 @contextmanager
@@ -95,5 +95,5 @@ def counting_frames() -> Iterator[Counter[str]]:
 
 
 def thin_frames(counts: Counter[str]) -> dict[str, tuple[int, int]]:
-    """Return the events that are too rare: (seen, needed)."""
+    """Return event -> (number seen, number needed), for the events that are too rare."""
     return {kind: (counts[kind], least) for kind, least in LEAST.items() if counts[kind] < least}

@@ -1,4 +1,4 @@
-"""Blocks of the PPMC-312 by the names of their codes: instructions and answers."""
+"""Blocks of the PPMC-312 with named codes: instructions and answers."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ def message(code: int, *data: str, source: int = Source.HOST) -> str:
 
     Args:
         data: parameters as hexadecimal texts.
-        source: the header; for an answer, the source of the instruction.
+        source: header byte; for an answer, the source of the instruction.
     """
     behind = " ".join(data)
     return f"{source:02X} {len(bytes.fromhex(behind)) + 1:02X} {code:02X} {behind}".rstrip()
 
 
 def register(buffer: int, block: str) -> str:
-    """Return a block of instruction 49 that registers another block in an event buffer."""
+    """Return a block of instruction 49, which registers another block in an event buffer."""
     return message(Code.EVENT_SET, f"{buffer:02X} {block}")
 
 
@@ -28,6 +28,6 @@ def stopped(cause: int, position: int) -> str:
 
 
 def rates(text: str) -> list[int]:
-    """Return `400x3 200x4` as a list of intervals."""
+    """Return a text such as `400x3 200x4` as a list of intervals."""
     words = (word.split("x") for word in text.split())
     return [int(rate) for rate, count in words for _ in range(int(count))]

@@ -19,20 +19,20 @@ PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n",
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)
 DURING = (0x80, 0x81, 0x81, 0x87, 0x87, 0x88, 0x88, 0x4D, 0x42, 0x25, 0x26, 0x40)
 RECOVERY = 3000
-"""Polls of a host that reads everything until the device has no more responses."""
+"""Maximum number of polls of a host that reads all responses of the device."""
 
 
 def some_equal(rates: list[int], share: float) -> list[int]:
-    """Return the rates, in this share of cases with equal neighbours.
+    """Return the rates; in the fraction `share` of cases, make some neighbouring rates equal.
 
-    The rates themselves are the seed: no number is drawn from the generator of the host.
+    The rates themselves are the seed, so the random sequence of the host does not change.
     """
     rng = random.Random(f"equal {rates}")
     return sorted(rng.choices(rates, k=len(rates))) if rng.random() < share else rates
 
 
 async def reset_by_bus(host: Host) -> None:
-    """Check that FF resets the device to INI in any state."""
+    """Check that instruction FF resets the device to INI in any state."""
     await host.put(message(Code.RESET))
     await host.pause(60)
     await host.wait()
@@ -42,7 +42,7 @@ async def reset_by_bus(host: Host) -> None:
 
 
 class MisuseHost(StateAwareHost):
-    """One random host. It acts on data that it reads; the golden model only decides when it acts."""
+    """One random host. It reacts to data that it reads; the golden model only decides when the host acts."""
 
     def __init__(self, host: Host, seed: int) -> None:
         super().__init__("p312", seed)
@@ -56,7 +56,7 @@ class MisuseHost(StateAwareHost):
     # ------------------------------------------------------------ top level
 
     async def play(self) -> None:
-        """Play until the time is over; then check that the device recovers."""
+        """Play until the time is over, then check that the device recovers."""
         self.disturb_pins()
         await self.setting()
         while self.host.t < self.end:
@@ -67,7 +67,7 @@ class MisuseHost(StateAwareHost):
         await self.recover()
 
     async def recover(self) -> None:
-        """Check that the device works after a host has read everything and reset it (P312-BAD-09)."""
+        """Check that the device works after a host has read all responses and reset it (P312-BAD-09)."""
         host = self.host
         await host.pause(1)
         self.background.stop()
@@ -84,7 +84,7 @@ class MisuseHost(StateAwareHost):
     # ------------------------------------------------------------ host
 
     async def send(self, text: str) -> None:
-        """Write a block if the device accepts it; sometimes without reading the status first."""
+        """Write a block if the device accepts it; in some cases do not read the status first."""
         host, rng = self.host, self.rng
         if not await host.read(CSR) & MWEF or rng.random() < 0.1:
             await host.put(text)
@@ -92,7 +92,7 @@ class MisuseHost(StateAwareHost):
         await self.fetch()
 
     async def fetch(self) -> None:
-        """Read the pending responses, if this host reads."""
+        """Read the pending responses, unless this host does not read."""
         host, rng = self.host, self.rng
         for _ in range(6):
             if await host.read(CSR) & MREF:
@@ -160,7 +160,7 @@ class MisuseHost(StateAwareHost):
         rng = self.rng
         clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
         if rng.random() < 0.08 and not self.slow:
-            # The last two have R[1] = R[0] if the curve is a sigmoid. These two have stages of 2 pulses.
+            # In the last two, R[1] = R[0] if the curve is a sigmoid. These two have stages of 2 pulses.
             self.rates, tail = rng.choice(
                 (
                     ([40, 120, 400], "09 00 {} 0190 0028 000480"),
@@ -212,7 +212,7 @@ class MisuseHost(StateAwareHost):
         """Return any instruction with mostly legal parameters.
 
         Args:
-            trigger: TRG bits of an instruction with OV = 1, `None` for OV = 0.
+            trigger: TRG bits for an instruction with OV = 1; None for OV = 0.
         """
         rng = self.rng
         flags = rng.choice((0, 0, 0x40)) | (0x10 if code in (0x10, 0x11) and rng.random() < 0.4 else 0)
@@ -277,7 +277,7 @@ class MisuseHost(StateAwareHost):
             await self.send(self.block(rng.choice(codes), trigger).hex())
 
     async def motion(self) -> None:
-        """Start a motion and act during it."""
+        """Start a motion and send instructions or move pins during it."""
         rng = self.rng
         await self.send(self.block(rng.choice(MOTIONS)).hex())
         for _ in range(rng.choice((0, 0, 1, 1, 2, 3))):
@@ -291,7 +291,9 @@ class MisuseHost(StateAwareHost):
             await self.wait()
 
     async def aligned(self) -> None:
-        """Apply an instruction or pin edge that takes effect a few cycles around the end of an interval."""
+        """Apply an instruction or pin edge that takes effect within a few cycles of the end of an
+        interval.
+        """
         host, rng, motion = self.host, self.rng, self.model.motion
         if not motion.active or motion.sequence.running is None:
             return
@@ -320,7 +322,7 @@ class MisuseHost(StateAwareHost):
     # ------------------------------------------------------------ pins
 
     def disturb_pins(self) -> None:
-        """Let pins change independently of the host: switches, events, alarms, encoder, general input."""
+        """Change pins independently of the host: switches, events, alarms, encoder, general input."""
         rng = self.rng
         t, scale = self.host.t, (12 if self.slow else 1)
         busy = rng.choice((0.2, 0.5, 1.0, 2.5))

@@ -1,4 +1,4 @@
-"""Tables for operations of the PPMC-312, and helpers shared by their tests."""
+"""Tables for operations of the PPMC-312, and functions that their tests share."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from openppmc.model.ppmc312.codes import Code
 
 STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")
 ALWAYS = "03 04 86 00"
-# Not monotonic, separate tables for both ramps: R[124..126] = 200 300 100, pa 3 4 5, pd - 7 6.
+# Rates that are not monotonic, separate tables for both ramps: R[124..126] = 200 300 100, pa 3 4 5, pd - 7 6.
 ODD = ("02 04 01 11 03 02", "00 06 0064 012C 00C8", "00 09 000005 000004 000003", "01 06 000006 000007")
 
 
@@ -18,9 +18,9 @@ def change(code: int, rate: int) -> str:
 
 
 async def run_out(host: Host, mark: int, cause: int, pulses: str, sign: int = 1) -> None:
-    """Check the stop report, all intervals except the last, and the time from the last pulse to the report.
+    """Check the stop report, all intervals except the last, and the time of the report.
 
-    From the end of the last interval to the report less than 200 cycles pass.
+    The report follows the end of the last interval by less than 200 cycles.
     """
     expected = rates(pulses)
     await host.wait()

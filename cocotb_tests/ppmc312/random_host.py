@@ -1,7 +1,7 @@
-"""Random hosts of the PPMC-312: a seed decides build, tables, instructions, pins, and the kind of host.
+"""Random hosts of the PPMC-312: a seed determines build, tables, instructions, pins, and the kind of host.
 
-`build(seed)` returns the build, `play(dut, seed)` plays the seed. Most hosts are well-behaved
-(`reactive_host`), some misuse the device (`misuse_host`).
+`build(seed)` returns the build, and `play(dut, seed)` plays the seed. Most hosts are well-behaved
+(`reactive_host`); some misuse the device (`misuse_host`).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .reactive_host import ReactiveHost
 ODD = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
 build = Builds("p312", ((F16, 110), (F50, 22), (ODD, 22), (D16, 8)))
 MISUSE_SHARE = 0.15
-"""Share of the hosts that mostly do not read, do not wait, and send invalid blocks."""
+"""Fraction of the hosts that mostly do not read, do not wait, and send invalid blocks."""
 
 
 async def play(dut: Any, seed: int) -> None:

@@ -1,4 +1,4 @@
-"""Noise on every input pin of the PPMC-312: short strobes, fast clocks, changing switches; then recovery."""
+"""Noise on each input pin of the PPMC-312 (short strobes, fast clocks, changing switches), then recovery."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86,
 
 
 async def play(dut: Any, seed: int) -> None:
-    """Apply noise; then a host recovers the device."""
+    """Apply noise; afterwards a host must recover the device."""
     rng = random.Random(f"p312 noise {seed}")
     host = await Host.start(dut)
     if rng.random() < 0.7:
@@ -55,7 +55,7 @@ Changes = list[tuple[int, dict[str, int]]]
 def _bus(rng: random.Random, t: int) -> Changes:
     """Return one strobe of any length, or both strobes together.
 
-    Address and data may change during it. At least 3 cycles without a strobe follow.
+    Address and data may change during the strobe. At least 3 cycles without a strobe follow.
     """
     register = rng.choice((CSR, WCR, WAR, DWR, DWR, DWR, DWR, 7, 7, 2, 1))
     begin = {"d_i": rng.choice(BYTES), "rs": register, "cs_n": rng.choice((0, 0, 0, 1))}

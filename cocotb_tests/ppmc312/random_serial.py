@@ -1,6 +1,6 @@
 """Random hosts on the line of a PPMC-312: valid and invalid frames, noise, events, moves, resets.
 
-A seed decides all of it; `build` returns the build, `play(dut, seed)` plays the seed.
+`build(seed)` returns the build of a seed, and `play(dut, seed)` plays the seed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ SETTINGS = (0x02, 0x03, 0x04, 0x05, 0x06, 0x20, 0x21, 0x22, 0x23, 0x24, 0x28, 0x
 BLOCKS = ("0120", "0121", "022615", "022600", "028000", "028100", "028400", "0125", "0146", "0486000190")
 BLOCKS += ("08830001900000000A", "048800012C", "0487000190", "01FF", "0144", "022A00", "0404000000")
 TABLE = "00 00 01F4 00C8 0001BD"
-"""8 MHz, linear, 500 to 200, 445 pulses: the least number, with stages of 2 pulses."""
+"""8 MHz, linear, 500 to 200, 445 pulses: the minimum, with stages of 2 pulses."""
 
 
 async def play(dut: Any, seed: int) -> None:
@@ -37,7 +37,7 @@ async def play(dut: Any, seed: int) -> None:
 
 
 class RandomSerialHost(StateAwareHost):
-    """One random host. It acts on received data; the golden model only decides when it acts."""
+    """One random host. It reacts to received data; the golden model only decides when the host acts."""
 
     host: SerialHost
     background: MovingPins
@@ -49,7 +49,7 @@ class RandomSerialHost(StateAwareHost):
 
     @classmethod
     async def on(cls, dut: Any, seed: int) -> RandomSerialHost:
-        """Return the host of a seed, with a station that is ready."""
+        """Return the host of a seed, whose station is ready."""
         talker = cls(seed)
         rng = talker.rng
         talker.host = host = await SerialHost.start(
@@ -66,7 +66,7 @@ class RandomSerialHost(StateAwareHost):
     # ------------------------------------------------------------ top level
 
     async def play(self) -> None:
-        """Send frames of all kinds; after any of them one poll recovers the station."""
+        """Send frames of all kinds; after each of them one poll must recover the station."""
         rng = self.rng
         if rng.random() < 0.93:
             await self.instruct(TABLE)
@@ -114,7 +114,7 @@ class RandomSerialHost(StateAwareHost):
     # ------------------------------------------------------------ line
 
     async def swallow(self) -> None:
-        """Discard the reply that is being sent and all earlier ones."""
+        """Discard all earlier replies, and the reply that is being sent."""
         host = self.host
         await host.go(host.t)
         await host.bench.level_is("snd", 0)
@@ -136,7 +136,7 @@ class RandomSerialHost(StateAwareHost):
             await host.pause(rng.choice((5, 100, 1_500, 12_000)))
 
     async def put(self, line: bytes) -> None:
-        """Send characters; a noisy host adds wrong levels."""
+        """Send characters, with wrong levels if the host is noisy."""
         rng, host = self.rng, self.host
         if not (self.noisy and rng.random() < 0.25):
             await host.send(line, rng.choice((0, 0, 0, 0, 0.4, 3)) if len(line) < 12 else 0)
@@ -162,7 +162,7 @@ class RandomSerialHost(StateAwareHost):
     # ------------------------------------------------------------ instructions
 
     def data(self, code: int, near: bool = True) -> str:
-        """Return the code with plausible data."""
+        """Return the code, followed by plausible data."""
         rng, n = self.rng, LENGTHS[code]
         rate = rng.choice(RATES if rng.random() < 0.3 else RATES[:6]).to_bytes(2, "big")
         count = rng.choice(COUNTS if rng.random() < 0.3 else COUNTS[:6]).to_bytes(4, "big")
@@ -187,7 +187,7 @@ class RandomSerialHost(StateAwareHost):
         return bytes([code, *data]).hex()
 
     async def start(self) -> None:
-        """Start a motion, if the state allows one."""
+        """Start a motion, if the state allows it."""
         rng = self.rng
         if self.state not in (State.NOR, State.INI) and rng.random() < 0.9:
             await self.during()
@@ -200,7 +200,7 @@ class RandomSerialHost(StateAwareHost):
             await self.host.pause(rng.choice((500, 4_000, 9_000)))
 
     async def during(self) -> None:
-        """Send an instruction that makes sense during a motion."""
+        """Send an instruction that is useful during a motion."""
         moving = self.state in (State.ACC, State.FIX)
         await self.instruct(self.data(self.rng.choice(DURING if moving else SETTINGS)))
 
@@ -211,7 +211,7 @@ class RandomSerialHost(StateAwareHost):
         await self.instruct(self.data(self.rng.choice(SETTINGS)))
 
     async def table(self) -> None:
-        """Send 00 with a valid or an invalid table."""
+        """Send instruction 00 with a valid or an invalid table."""
         bad = self.rng.choice(("00 00 01F4 00C8 0001BC", "00 00 01F4 0001 000320", "00 06 01F4 00C8 000320"))
         await self.instruct(bad if self.rng.random() < 0.4 else TABLE)
         if self.state is State.INI:
@@ -234,7 +234,7 @@ class RandomSerialHost(StateAwareHost):
             await self.start()
 
     async def reports(self) -> None:
-        """Create the conditions of a report: monitors, interlock, a held motion, a limit."""
+        """Create the conditions of a report: monitors, interlock, a motion that waits, a limit."""
         rng, host = self.rng, self.host
         if self.state in (State.ACC, State.FIX):
             await self.instruct("80")
@@ -280,7 +280,9 @@ class RandomSerialHost(StateAwareHost):
     # ------------------------------------------------------------ disturbances
 
     async def bad_frame(self) -> None:
-        """Send an invalid frame: wrong checksum or digits, wrong length, foreign, unknown, random bytes."""
+        """Send an invalid frame: wrong checksum or digits, wrong length, other station, unknown code, random
+        bytes.
+        """
         rng, host = self.rng, self.host
         code = rng.choice(list(LENGTHS))
         good = summed(
@@ -306,7 +308,7 @@ class RandomSerialHost(StateAwareHost):
         await self.listen()
 
     async def talk_out_of_turn(self) -> None:
-        """Send more frames while the reply to a frame is pending or in progress."""
+        """Send more frames while the reply to a frame is pending or is being sent."""
         rng, host = self.rng, self.host
         first = rng.choice(("25", "42", "4d", "20", "4f"))
         await self.put(summed(0x90 + host.adr, bytes.fromhex(first), host.sum_mode))
@@ -336,7 +338,7 @@ class RandomSerialHost(StateAwareHost):
         await self.poll()
 
     def disturb(self) -> None:
-        """Let pins change independently of the frames."""
+        """Change pins independently of the frames."""
         rng, t = self.rng, self.host.t
         pin = rng.choice(PINS)
         if rng.random() < 0.5:
@@ -348,13 +350,13 @@ class RandomSerialHost(StateAwareHost):
                 self.background.blip(t + 200 * k + rng.randrange(90), "epin", 1, 40)
 
     async def alarm(self) -> None:
-        """Assert alm_n (low) for a while."""
+        """Assert alm_n (low) for a time."""
         self.background.blip(
             self.host.t + self.rng.randrange(4_000), "alm_n", 0, self.rng.choice((30, 9_000))
         )
 
     async def reset(self) -> None:
-        """Reset the device by the pin or by FF."""
+        """Reset the device with the pin or with instruction FF."""
         rng, host = self.rng, self.host
         if rng.random() < 0.5:
             await self.instruct("FF")

@@ -1,7 +1,7 @@
-"""Well-behaved random host of the PPMC-312, which keeps the device active, scene by scene.
+"""Well-behaved random host of the PPMC-312, which keeps the device active with one scenario after the other.
 
-It reads its answers (a minority reads only some of them), clears alarms, and uses short tables, so that whole
-operations fit into a run. Sometimes it misuses the device.
+Most hosts read all answers; a minority reads only some of them. The host clears alarms, and uses short tables
+so that complete operations fit into a run. In some cases it misuses the device.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class ReactiveHost(ScenarioHost):
         self.end = self.host.t + (900_000 if self.slow else 120_000)
 
     async def play(self) -> None:
-        """Play scenes until the time is over."""
+        """Play scenarios until the time is over."""
         rng, host = self.rng, self.host
         await host.write(CSR, rng.choice((0, 0, 0x10, 0x20, 0x30, 0x40, 0x70)))
         if rng.random() < 0.25:
@@ -57,7 +57,7 @@ class ReactiveHost(ScenarioHost):
         await self.recover()
 
     async def misuse(self) -> None:
-        """Perform one action of a host that misuses the device."""
+        """Perform one action that misuses the device."""
         await self.rng.choices(
             (self.bad_block, self.registers, self.reset, self.setting, self.motion, self.registration),
             (3, 2, 1, 1, 1, 1),
@@ -75,7 +75,7 @@ class ReactiveHost(ScenarioHost):
                 await self.attend(100)
 
     async def settle(self) -> None:
-        """Bring the device to standstill, mostly in NOR, with everything read."""
+        """Bring the device to standstill, mostly in state NOR, after all responses were read."""
         host, rng = self.host, self.rng
         for pin in ("run", "end_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n"):
             if not host.bench.pin(pin) and rng.random() < 0.95:

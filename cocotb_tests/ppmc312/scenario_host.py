@@ -22,11 +22,11 @@ ASKED = (
 STOPS = (message(Code.STOP, "00"), message(Code.SLOW_STOP, "00"))
 CHANGES = (0x80, 0x81, 0x87, 0x87, 0x87, 0x88, 0x88, 0x88)
 POLL = 60
-"""Cycles between two polls of a host that waits for responses."""
+"""Number of cycles between two polls of a host that waits for responses."""
 
 
 class ScenarioHost(MisuseHost):
-    """Host that plays scenes.
+    """Host that plays scenarios.
 
     Attributes:
         follows: probability that the encoder follows a pulse (0: no encoder).
@@ -43,7 +43,7 @@ class ScenarioHost(MisuseHost):
             await host.read(DRR)
 
     async def attend(self, clk: int) -> None:
-        """Wait `clk` cycles (DATASHEET: 4 × `clk`), read responses and let the encoder follow."""
+        """Wait `clk` cycles (4 × `clk` in DATASHEET), read responses, and move the encoder."""
         host, rng = self.host, self.rng
         end = host.t + clk * (4 if self.slow else 1)
         while True:
@@ -56,7 +56,7 @@ class ScenarioHost(MisuseHost):
             await host.pause(min(POLL, end - host.t))
 
     async def follow(self) -> None:
-        """Let the encoder follow the position, with errors."""
+        """Move the encoder towards the position, with occasional errors."""
         counters, host = self.model.core.counters, self.host
         behind = counters.pulse - counters.encoder & 0xFFFFFFFF
         if behind and self.rng.random() < self.follows:
@@ -86,7 +86,7 @@ class ScenarioHost(MisuseHost):
         """Send a short free curve or a computed table on a fast base clock, so that operations are short."""
         host, rng = self.host, self.rng
         if rng.random() < 0.12 and not self.slow:
-            # RS 300, RH 100; most of these tables begin with stages of 2 pulses, the legal minimum.
+            # RS 300, RH 100. Most of these tables begin with stages of 2 pulses, which is the legal minimum.
             self.rates = [100, 200, 300]
             pulses = rng.choice((508, 509, 560, 700, 1200))
             await self.send_block(f"03 09 00 0{rng.choice('08')} 012C 0064 {pulses:06X}")
@@ -138,7 +138,7 @@ class ScenarioHost(MisuseHost):
         """Return a block of instruction 82 or 83 with a plausible number of pulses.
 
         Args:
-            more: number of pulses that is added.
+            more: number of pulses to add.
         """
         rng = self.rng
         code, rate = rng.choice((0x82, 0x82, 0x82, 0x83)), self.speed()
@@ -159,8 +159,8 @@ class ScenarioHost(MisuseHost):
         """Return a block of instruction 80, 81, 87 or 88.
 
         Args:
-            trigger: trigger for which the instruction is registered, `None` for a direct instruction.
-            ahead: number of pulses from the current position to the position that triggers it.
+            trigger: trigger for which the instruction is registered; None for a direct instruction.
+            ahead: number of pulses from the present position to the position that triggers the instruction.
         """
         rng = self.rng
         code = rng.choice(codes)
@@ -174,7 +174,7 @@ class ScenarioHost(MisuseHost):
     # ------------------------------------------------------------ motions
 
     async def meanwhile(self, times: int) -> None:
-        """Send instructions or move pins during an operation, often at a boundary."""
+        """Send instructions or move pins during an operation, often near a boundary of intervals."""
         host, rng = self.host, self.rng
         for _ in range(times):
             if self.state not in (State.ACC, State.FIX, State.WRN):
@@ -192,7 +192,7 @@ class ScenarioHost(MisuseHost):
             await self.attend(rng.choice((0, 30, 300, 900)))
 
     async def finite(self) -> None:
-        """Make a move, with or without disturbance."""
+        """Make a move, with or without disturbances."""
         rng = self.rng
         if rng.random() < 0.35:
             await self.changed()
@@ -202,7 +202,7 @@ class ScenarioHost(MisuseHost):
         await self.attend(4_000)
 
     async def changed(self) -> None:
-        """Make a move with speed changes; it must recompute its deceleration point."""
+        """Make a move with speed changes, for which the device must recompute the deceleration point."""
         rng = self.rng
         await self.send_block(self.finite_block(rng.randint(12, 40)).hex())
         for _ in range(rng.choice((1, 1, 2, 3))):
@@ -217,7 +217,9 @@ class ScenarioHost(MisuseHost):
         await self.attend(6_000)
 
     async def changes_near_deceleration(self) -> None:
-        """Send 88 to a rate with a long ramp, then 87 twice shortly before the deceleration point."""
+        """Change to a rate with a long ramp (instruction 88), then send 87 twice shortly before the
+        deceleration point.
+        """
         host, rng, table = self.host, self.rng, self.model.core.table
         if table is None:
             return
@@ -226,7 +228,7 @@ class ScenarioHost(MisuseHost):
         count = full + rng.randint(16, 24)
         await self.send_block(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
         before = rng.randint(6, 12)
-        while (motion := self.model.motion).active and host.t < self.end:  # may still wait for t0
+        while (motion := self.model.motion).active and host.t < self.end:  # the motion may still wait for t0
             if count - motion.sequence.done <= motion.sequence.plan.down + before:
                 break
             await self.attend(30)
@@ -240,7 +242,7 @@ class ScenarioHost(MisuseHost):
         await self.attend(3_000)
 
     async def walk_change(self) -> None:
-        """Send instruction 88 while the motor decelerates for instruction 81."""
+        """Send instruction 88 while the motor decelerates because of instruction 81."""
         await self.send_block(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
         await self.attend(self.rng.choice((1_000, 2_500)))
         await self.send_block(message(Code.SLOW_STOP, "00"))
@@ -249,7 +251,7 @@ class ScenarioHost(MisuseHost):
         await self.send_block(message(Code.STOP, "00"))
 
     async def start_on_a_limit(self) -> None:
-        """Start a motion while a limit of the same or the other direction is asserted (low)."""
+        """Start a motion while a limit of its direction or of the other direction is asserted (low)."""
         pin = self.rng.choice((*LIMITS, *SLOW_LIMITS))
         await self.host.pins(**{pin: 0})
         await self.send_block(self.finite_block().hex())
@@ -291,7 +293,7 @@ class ScenarioHost(MisuseHost):
         await self.attend(3_000)
 
     async def press(self, pin: str) -> None:
-        """Trigger an event, sometimes with a limit that forbids the motion it starts."""
+        """Trigger an event, in some cases with a limit that prevents the motion that it would start."""
         if self.rng.random() < 0.06:
             for limit in LIMITS:
                 self.background.blip(self.host.t + 1, limit, 0, 400)
@@ -405,7 +407,7 @@ class ScenarioHost(MisuseHost):
                 await self.attend(50)
 
     async def encoder(self) -> None:
-        """Switch the monitors on; the encoder follows."""
+        """Enable monitors and make moves that the encoder follows."""
         rng = self.rng
         self.follows = rng.choice((1.0, 0.9, 0.6, 0.2))
         await self.send_block(
@@ -424,7 +426,7 @@ class ScenarioHost(MisuseHost):
             self.follows = 0.0
 
     async def interlock(self) -> None:
-        """Switch the interlock control on and move past its position."""
+        """Enable the interlock control and move past its position."""
         rng = self.rng
         step = rng.choice((1, 3, 9, -2, -5))
         await self.send_block(
@@ -463,7 +465,9 @@ class ScenarioHost(MisuseHost):
         await self.send_block(message(Code.END_TERMINAL, "00"))
 
     async def alarm(self) -> None:
-        """Assert alm_n during an operation; clear the alarm, sometimes while the pin is still low."""
+        """Assert alm_n during an operation, then clear the alarm, in some cases while the pin is still
+        low.
+        """
         host, rng = self.host, self.rng
         if rng.random() < 0.8:
             await self.send_block((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
@@ -472,7 +476,7 @@ class ScenarioHost(MisuseHost):
         await self.send_block(message(Code.ALARM_CLEAR))
 
     async def unread(self) -> None:
-        """Leave reports unread until there are more of their class than places (P312-RSP-20)."""
+        """Leave reports unread until their class has more reports than places (P312-RSP-20)."""
         host, rng = self.host, self.rng
         start_while_run_is_low = rng.random() < 0.4
         for _ in range(rng.randint(2, 3)):
@@ -482,7 +486,7 @@ class ScenarioHost(MisuseHost):
                 if not await host.read(CSR) & MWEF:
                     break
                 await host.pause(100)
-            # Read an answer at the first opportunity, so that the next instruction is executed.
+            # Read an answer as soon as possible, so that the next instruction is executed.
             if self.model.core.responses.answer:
                 await self.response()
             await host.put(message(Code.STEP, "00"))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 SPEEDS = {5: Fraction(19_200), 6: Fraction(38_400), 7: Fraction(250_000, 3)}
-"""bits/s by mod[2:0], with a 16 MHz crystal."""
+"""Speeds in bits/s for mod[2:0], with a 16 MHz crystal."""
 T_EXEC, T_INIT = 4_096, 65_536
-"""Largest number of cycles before a reply: to any instruction except 00, to 00."""
+"""Maximum number of cycles before a reply: to any instruction except 00, and to instruction 00."""
 SILENCE = 320_000
-"""Time of 20 ms in cycles at 16 MHz."""
+"""20 ms in cycles at 16 MHz."""
 
 T1 = "00 01 03E8 00C8 0007D0"
 """1 MHz, linear, 1000 to 200, 2000 pulses."""

@@ -1,6 +1,6 @@
-"""Master of a serial line with one PPMC-312, which acts on the replies of the station.
+"""Master of a serial line with one PPMC-312, which reacts to the replies of the station.
 
-It has a separate UART model: replies are decoded from the levels of txd, and every edge is checked.
+The master has a separate UART model: it decodes replies from the levels of txd and checks every edge.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .directed_host import DirectedHost
 from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed
 
 SLACK = 64
-"""Cycles by which a reply may be late."""
+"""Maximum number of cycles by which a reply may be late."""
 FRAME = re.compile(rb"[\x80-\xFF](?:[0-9a-f]{2})*[\x00-\x7F]", re.DOTALL)
 
 
@@ -45,7 +45,7 @@ class SerialHost(SerialLine, DirectedHost):
     async def start(
         cls, dut: Any, *setting: str, mod: int = 7, adr: int = 1, error: float = 0, mode: int = 0
     ) -> SerialHost:
-        """Reset a station and wait until it is ready; it acknowledges each instruction of `setting`.
+        """Reset a station and wait until it is ready and has acknowledged each instruction of `setting`.
 
         Args:
             mod: levels of the speed pins MOD.
@@ -66,7 +66,7 @@ class SerialHost(SerialLine, DirectedHost):
         return host
 
     def speed(self, mod: int) -> None:
-        """Set the speed of the master to that of mod; that of the device changes only at its next reset."""
+        """Set the speed of the master to that of mod; the device changes its speed only at its next reset."""
         config = self.bench.config
         self.bit = config.clk_hz / (SPEEDS.get(mod, SPEEDS[7]) * config.xtal_hz / 16_000_000)
 
@@ -74,7 +74,9 @@ class SerialHost(SerialLine, DirectedHost):
 
     @property
     def t(self) -> int:
-        """The next free edge: that of the DUT interface, or the first after the characters sent."""
+        """Next free edge: the next edge of the bench, or the first after the sent characters, whichever is
+        later.
+        """
         return max(self._behind, self.bench.now)
 
     @t.setter
@@ -82,7 +84,7 @@ class SerialHost(SerialLine, DirectedHost):
         self._behind = edge
 
     async def pause(self, clk: int) -> None:
-        """Wait this number of cycles after the characters sent."""
+        """Wait for this number of cycles after the sent characters."""
         await self.go(self.t + clk)
 
     async def pins(self, **levels: int) -> None:
@@ -93,7 +95,7 @@ class SerialHost(SerialLine, DirectedHost):
     # ------------------------------------------------------------------ to the part
 
     async def say(self, text: str, adr: int | None = None) -> None:
-        """Send an instruction; pulses are counted from here."""
+        """Send an instruction; count pulses from this instruction on."""
         self.mark = self.t
         control = 0x90 + (self.adr if adr is None else adr)
         await self.send(summed(control, bytes.fromhex(text), self.sum_mode))
@@ -105,30 +107,32 @@ class SerialHost(SerialLine, DirectedHost):
     # ------------------------------------------------------------------ from the part
 
     def rise(self) -> int | None:
-        """Return the edge of the next rise of snd that `hear` has not used, None if there is no such edge."""
+        """Return the edge of the next rise of snd that `hear` has not used, or None if there is no such
+        rise.
+        """
         return next(iter(self.bench.rises("snd", self._heard)), None)
 
     async def begin(self, within: int = T_EXEC) -> int:
         """Return the edge of the next rise of snd.
 
-        Raises TimeoutError if it is more than `within` cycles after the middle of the last stop bit.
+        Raises TimeoutError if the rise is more than `within` cycles after the middle of the last stop bit.
         """
         await self.go(self.t)
         end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK
         while (rise := self.rise()) is None:
             await self.bench.edge("snd", 1, max(1, end + 1 - self.t))
-        assert rise <= end, f"snd rises {rise - end} clk too late"
+        assert rise <= end, f"snd rises {rise - end} cycles too late"
         return rise
 
     async def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
         """Return the next reply, which begins at least SND_WAIT + 0.5 bits after the end of the frame.
 
         Args:
-            timed: True if the last stop bit was the end of the frame that is answered (P312-SER-18).
+            timed: True if the last stop bit was the end of the answered frame (P312-SER-18).
         """
         rise = await self.begin(within)
         self.waited = rise - self.middle - self.bit / 2
-        late = f"snd rises {float(self.waited):.1f} clk after the frame"
+        late = f"snd rises {float(self.waited):.1f} cycles after the frame"
         assert not timed or self.waited >= self.bit * self.wait + self.bit / 2, late
         while not (falls := self.bench.falls("snd", rise)):
             await self.bench.edge("snd", 0)
@@ -172,11 +176,11 @@ class SerialHost(SerialLine, DirectedHost):
         return [await self.ask(text) for text in texts]
 
     async def status(self) -> str:
-        """Return the data of 4D: flags, state, registered instructions."""
+        """Return the data of instruction 4D: flags, state, registered instructions."""
         return (await self.ask("4D")).removeprefix("A0 ")
 
     async def state(self) -> int:
-        """Return the state byte of 4D."""
+        """Return the state byte of instruction 4D."""
         return int((await self.status()).split()[1], 16)
 
     def forget(self) -> None:
@@ -184,7 +188,7 @@ class SerialHost(SerialLine, DirectedHost):
         self._heard = self.t
 
     async def quiet(self, clk: int = 2 * T_EXEC) -> bool:
-        """Return whether nothing is sent for this number of cycles."""
+        """Return whether the station sends nothing for this number of cycles."""
         await self.pause(clk)
         return self.rise() is None
 
@@ -197,7 +201,7 @@ class SerialHost(SerialLine, DirectedHost):
         return others
 
     async def at_rest(self, after: int = 200, limit: int = 4_000_000) -> None:
-        """Wait until the golden model reports the end of the motion, and `after` more cycles."""
+        """Wait until the golden model reports the end of the motion, then wait `after` cycles."""
         end = self.t + limit
         while not self.bench.golden.core.operation.at_standstill:
             assert self.t < end, f"the motion does not end\n{self.bench.context()}"

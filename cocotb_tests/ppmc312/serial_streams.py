@@ -1,7 +1,7 @@
-"""Random byte streams on a line with a PPMC-312: after any of them, at most one poll recovers the station.
+"""Random byte streams on a line with a PPMC-312: after each stream, at most one poll recovers the station.
 
-The golden model receives whole characters, without the levels of rxd, so that a second of line time takes a
-fraction of a second.
+The golden model receives complete characters instead of levels of rxd, so the simulation of a second on the
+line takes a fraction of a second.
 """
 
 from __future__ import annotations
@@ -16,16 +16,18 @@ from openppmc.model.ppmc312.part import Ppmc312
 from .serial_frames import SILENCE, summed
 
 CHARACTER = 1_920
-"""Cycles of a character at 83.33 kbit/s and 16 MHz."""
+"""Number of cycles per character at 83.33 kbit/s and 16 MHz."""
 BUILD = 70_000
-"""Cycles that no instruction exceeds."""
+"""Maximum number of cycles of an instruction."""
 
 Stream = Iterable[int | None]
-"""Characters; None: one without a stop bit; a number above 255: that number of cycles with an idle line."""
+"""Items of a stream: a character; None for a character without a stop bit; a number above 255 for this number
+of cycles with an idle line.
+"""
 
 
 class Line:
-    """One station on the model. `t` is the middle of the last stop bit."""
+    """A line with one station, the golden model. `t` is the middle of the last stop bit."""
 
     def __init__(self, adr: int = 1, sum_mode: str = "BINARY") -> None:
         straps = {"mode": 0, "mod": 7, "adr": adr}
@@ -34,7 +36,7 @@ class Line:
         self.t = CHARACTER
 
     def send(self, stream: Stream) -> None:
-        """Send characters back to back."""
+        """Send characters without gaps."""
         for item in stream:
             if item is not None and item > 0xFF:
                 self.t += item
@@ -55,7 +57,7 @@ class Line:
         self.t = max(self.t, model.now)
 
     def ask(self, line: bytes) -> list[bytes]:
-        """Return everything that is sent from the beginning of this frame to the end of its reply."""
+        """Return all replies that are sent from the beginning of this frame to the end of its reply."""
         before = len(self.model.replies)
         self.send(line)
         self.wait()
@@ -76,7 +78,7 @@ class Line:
 
 
 def stream(rng: random.Random, adr: int, sum_mode: str = "BINARY", size: int = 40) -> list[int | None]:
-    """Return random bytes, partial and whole frames, framing errors, and silence."""
+    """Return random bytes, partial and complete frames, framing errors, and silence."""
     items: list[int | None] = []
     while len(items) < size:
         kind = rng.random()
@@ -94,13 +96,13 @@ def stream(rng: random.Random, adr: int, sum_mode: str = "BINARY", size: int = 4
         else:
             items.append(rng.choice((300, CHARACTER, 30_000, SILENCE - 500, SILENCE + 500)))
     if items[-1] == SILENCE - 500:
-        # The reply sent after 20 ms (P312-SER-12, -17) would collide with the poll that follows.
+        # The reply that is sent after 20 ms (P312-SER-12, -17) would collide with the poll that follows.
         items[-1] = SILENCE + 500
     return items
 
 
 def campaign(seed: int, size: int) -> int:
-    """Send `size` bytes to one station after the other, and a poll after every few dozen bytes.
+    """Send `size` bytes to one station after the other, with a poll after every few dozen bytes.
 
     Returns:
         The number of bytes sent.

@@ -1,4 +1,4 @@
-"""State-aware random hosts of the PPMC-312, for the bus and for the line."""
+"""Random hosts of the PPMC-312 that use the state of the device, for the bus and for the line."""
 
 from __future__ import annotations
 
@@ -11,6 +11,6 @@ class StateAwareHost(RandomHost):
 
     @property
     def state(self) -> State:
-        """State of the device, read from the model: a read over the bus would disturb the test."""
+        """State of the device, read from the model, because a read on the bus would disturb the test."""
         state: State = self.model.state
         return state

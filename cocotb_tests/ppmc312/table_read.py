@@ -1,4 +1,4 @@
-"""Read the table of the PPMC-312."""
+"""Table read of the PPMC-312."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from openppmc.model.ppmc312.codes import Code
 
 
 async def read_table(host: Host) -> tuple[list[int], list[list[int]]]:
-    """Return the head of the table read and its three lists, fastest stage first."""
+    """Read the table; return its head and its three lists, fastest stage first."""
     head = bytes.fromhex(await host.ask(message(Code.TABLE_READ)))
     assert head[:3] == bytes.fromhex("020A41")
     lists: list[list[int]] = [[], [], []]

@@ -1,4 +1,4 @@
-"""Alarms, multiple occurrences and failed triggers of the PPMC-312, hosts that do not read (2.3, 10)."""
+"""Alarms, multiple occurrences and failed triggers of the PPMC-312, and hosts that do not read (2.3, 10)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ async def p312_alarm_by_its_pin(dut: Any) -> None:
         (message(Code.ALARM_CLEAR), message(Code.ALARM_CLEAR)),
     ):
         assert await host.ask(block) == answer
-    # The event buffer still works: its entries are rejected or executed according to the table of states.
+    # The event buffer still works: its entries are rejected or executed as in the table of states.
     await host.pins(evt0_n=0)
     assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
     assert host.condition == 0x02 and host.out("aclr_n") == 0
@@ -74,7 +74,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
         message(Answer.ALARM, "01", source=SPONTANEOUS),
     ]
     assert await host.ask(message(Code.ALARM_CLEAR)) == message(Code.ALARM_CLEAR) and host.condition == 0x02
-    # Overrides, by position and by pin, contain instruction 01: the whole FIFO is emptied.
+    # Overrides by position and by pin contain instruction 01: the whole FIFO is emptied.
     for trigger in ("04 00C8 00000003", "05 00C8"):
         host = await Host.start(dut, *TF, message(Code.CHANGE, trigger), message(Code.CHANGE, "07 0190"))
         await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
@@ -91,7 +91,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
             stopped(0x80, 3 if trigger[1] == "4" else 2),
         ]
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 10 00")
-    # An event executes instruction 01: its buffer is emptied, the other buffer is not.
+    # An event executes instruction 01: its buffer is emptied, but the other buffer is not.
     host = await Host.start(dut, *TF, register(0, message(Code.INPUT)), register(1, message(Code.TERMINALS)))
     await host.issue(message(Code.VERSION))
     await host.pause(200)
@@ -123,7 +123,7 @@ async def p312_second_stop_report_while_the_first_is_half_read(dut: Any) -> None
 
 @directed("P312-RSP-11", "P312-RSP-10", "P312-PAR-08", "P312-BAD-08", "P312-RSP-22")
 async def p312_reports_are_in_the_order_of_their_classes(dut: Any) -> None:
-    """All classes wait for the one that is being read; they are created from the last class to the first."""
+    """All classes wait while one is being read. The test creates them from the last class to the first."""
     host = await Host.start(
         dut,
         *TF,
@@ -140,7 +140,7 @@ async def p312_reports_are_in_the_order_of_their_classes(dut: Any) -> None:
     await host.pause(1000)
     await host.read(2)
     assert await host.response() == message(Code.VERSION, "12")
-    # The read window holds E9 now.
+    # The read window now contains E9.
     await host.wait()
     for level in (3, 7, 15):
         await host.pins(auxi=level)
@@ -256,7 +256,7 @@ async def p312_overrides_that_start_motions(dut: Any) -> None:
     "P312-OVR-01", "P312-OVR-02", "P312-OVR-12", "P312-CMD-80", "P312-CMD-81", "P312-CMD-87", "P312-CMD-88"
 )
 async def p312_position_triggers_of_all_kinds(dut: Any, order: tuple[int, ...]) -> None:
-    """Only the head is armed: positions in the wrong order wait for their turn."""
+    """Only the head of the FIFO is armed: positions in the wrong order wait until they are the head."""
     blocks = [
         message(Code.CHANGE, "04 00C8 00000004"),
         message(Code.RAMP_CHANGE, "06 0064 00000008"),
@@ -288,7 +288,9 @@ async def p312_position_triggers_of_all_kinds(dut: Any, order: tuple[int, ...]) 
 
 @directed("P312-BAD-09", "P312-RSP-20", "P312-PAR-06", "P312-CHK-62", "P312-CMD-FF")
 async def p312_hosts_that_never_read(dut: Any) -> None:
-    """With any number of unread responses the part does not hang, stops still work, and FF is accepted."""
+    """With any number of unread responses the part does not hang, stops still work, and instruction FF is
+    accepted.
+    """
     host = await Host.start(dut, *TF, register(0, message(Code.INPUT)))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.blip("evt0_n", 20, 300)
@@ -297,7 +299,8 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
     mark = host.t
     await host.pause(20_000)
     assert not host.bench.rises("pout", mark) and await host.read(CSR) & MWEF
-    # The bus ignores writes now; after one answer is read it accepts them, and FF needs no further read.
+    # The bus ignores writes now. After one answer is read, it accepts them, and instruction FF needs no
+    # further read.
     await host.put(message(Code.RESET))
     assert (
         await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
@@ -310,7 +313,8 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
         and await host.read(CSR) == MREF
         and host.condition == 0x01
     )
-    # During a table read, MWEF is deasserted with the last block of the table; FF is accepted only then.
+    # During a table read, MWEF is deasserted with the last block of the table; instruction FF is accepted
+    # only then.
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.TABLE_READ))
     await host.pause(1000)

@@ -1,4 +1,4 @@
-"""The accept table of the PPMC-312 at its pins: every instruction in every state (P312-STA-01)."""
+"""Acceptance table of the PPMC-312 at its pins: every instruction in every state (P312-STA-01)."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Answer, Code
 
-# A row has one letter for each of the states INI, NOR, ACC, FIX, ABN and WRN: O = accepted, . = rejected.
-# Blocks with flags 05 have OV = 1.
+# A row contains a block and one letter for each of the states INI, NOR, ACC, FIX, ABN and WRN: O = accepted,
+# . = rejected. Blocks with flags 05 have OV = 1.
 ROWS = [
     (T1, "OO...."),
     ("02 03 01 01 03", "OO...."),
@@ -96,7 +96,9 @@ async def p312_accept_table(dut: Any, case: Any) -> None:
 
 @directed("P312-STA-01", "P312-BLK-01")
 async def p312_a_code_that_is_none(dut: Any) -> None:
-    """The code is checked before the state: in every state the answer names an undefined code."""
+    """The code is checked before the state: in every state, the answer to an undefined code reports that
+    code.
+    """
     for condition in CONDITIONS:
         host = await in_state(dut, condition)
         for code in ("07", "48", "FE"):

@@ -1,4 +1,4 @@
-"""The parallel bus of the PPMC-312 at its limits: strobes, windows, order of accesses, interrupts."""
+"""Parallel bus of the PPMC-312 at its limits: strobes, windows, order of accesses, interrupts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ADDRESSES = range(8)
 @directed("P312-PAR-10", "P312-GEN-01")
 async def p312_write_takes_the_last_sample(dut: Any) -> None:
     host = await Host.start(dut)
-    # Register and data change during the strobe; the last level before its end is used.
+    # Register address and data change during the strobe; the last level before its end is used.
     for end, levels in ((2, {"cs_n": 1}), (2, {"we_n": 1}), (1, {"cs_n": 1, "we_n": 1})):
         await host.pins(cs_n=0, we_n=0, rs=WCR, d_i=0x00)
         host.bench.set(rs=CSR, d_i=0x70)
@@ -58,7 +58,7 @@ async def p312_reads_drive_the_bus(dut: Any) -> None:
 
 @directed("P312-PAR-11", "P312-PAR-08")
 async def p312_one_value_a_strobe(dut: Any) -> None:
-    """A response that is loaded or discarded during a read of CSR does not change the value of the read."""
+    """If a response is loaded or discarded during a read of CSR, the value of the read does not change."""
     host = await Host.start(dut, T1)
     await host.issue(message(Code.VERSION))
     mark = host.t
@@ -127,19 +127,18 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
     await host.write(WCR, 0x20)
     await data(0x01, 0x03)
     assert await host.response() == message(Code.VERSION, "12")
-    # A new address discards the bytes written before.
+    # A new address discards the bytes that were written before.
     await host.write(WAR, 0x1C)
     await data(0x01, 0x26, 0x02)
     await host.write(WAR, 0x1D)
     await data(0x40, 0x01, 0x03)
     assert await host.response() == message(Code.VERSION, "12") and host.out("auxo_n") == 0x3F
-    # Outside the window, no byte is stored and the pointer does not move. It does not wrap around to the top
-    # either.
+    # Outside the window, no byte is stored and the pointer does not move; it does not wrap around to the top.
     for war in (0x20, 0x21, 0x3D, 0x80, 0xBD, 0xFF):
         await host.write(WAR, war)
         await data(*(0x40, 0x01, 0x03) * 13)
         assert await host.quiet(200) and not await host.read(CSR) & MWEF
-    # The whole window is written, then its first and its last valid address.
+    # The test writes the whole window, then its first and its last valid address.
     await host.put("03 1E" + " 40" * 30)
     assert await host.response() == "03 1E F0 23" + " 40" * 28
     await host.put("03", war=0x1F)
@@ -150,7 +149,7 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
 async def p312_writes_while_an_instruction_is_processed(dut: Any) -> None:
     host = await Host.start(dut)
     await host.issue(T1)
-    # All these writes are ignored: the window stays armed, the pointer at its end.
+    # All these writes are ignored: the window stays armed, and the pointer stays at its end.
     await host.write(WCR, 0x00)
     await host.write(WAR, 0x1D)
     for byte in (0x40, 0x01, 0x03):
@@ -233,7 +232,7 @@ async def p312_wait_request_of_reads_and_writes(dut: Any) -> None:
     await host.issue(message(Code.OUTPUT, "11"))
     mark = host.mark
     await host.pause(40)
-    # Three of the four strobes follow the previous one too soon. With DATASHEET timing wrq_n stays low
+    # Three of the four strobes follow the previous strobe too soon. With DATASHEET timing, wrq_n stays low
     # between them.
     assert len(host.bench.falls("wrq_n", mark)) == (1 if slow else 3)
     assert await host.response() == message(Code.OUTPUT) and host.out("auxo_n") == 0x2E

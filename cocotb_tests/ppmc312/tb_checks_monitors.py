@@ -18,7 +18,7 @@ async def p312_in_position(dut: Any) -> None:
     assert host.out("zclmp_n") == 0
     await host.ask(message(Code.CONSTANT, "00 0190 00000014"))
     assert host.out("zclmp_n") == 1
-    # Both reports follow the end of pulse output; their order is not specified.
+    # Both reports follow the end of the pulse output; their order is not specified.
     assert {await host.response(), await host.response()} == {
         message(Answer.STOPPED, "40 00 00 00 14", source=SPONTANEOUS),
         message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS),
@@ -73,7 +73,7 @@ async def p312_one_input_change_is_reported(dut: Any) -> None:
     await host.ask(message(Code.MASK, "01 F0"))
     await host.pins(auxi=0x00)
     await host.pause(1000)
-    # A report that the read window already holds is not discarded.
+    # A report that is already in the read window is not discarded.
     await host.issue(message(Code.MASK, "01 01"))
     assert await host.response() == message(Answer.INPUT_CHANGE, "00 F0", source=SPONTANEOUS)
     assert await host.response() == message(Code.MASK)

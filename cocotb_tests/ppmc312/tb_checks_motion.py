@@ -54,7 +54,7 @@ async def p312_worked_moves(dut: Any, case: Any) -> None:
 )
 @directed("P312-CHK-17")
 async def p312_long_moves(dut: Any, case: Any) -> None:
-    """Long moves of all curves have the expected number, rates and total time of pulses.
+    """In long moves of all curves, the number, rates and total time of the pulses are as expected.
 
     At F = 8 MHz a tick lasts 2 cycles, which keeps the simulation short.
     """
@@ -229,7 +229,7 @@ async def p312_current_reduction(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.response()
     await host.pause(1_584_000)
-    # t0 of this motion stops the timer of cd_n shortly before it expires, so cd_n stays high.
+    # The t0 of this motion stops the timer of cd_n shortly before the timer expires, so cd_n stays high.
     await host.ask(message(Code.CONSTANT, "00 0190 0000000A"))
     await host.response()
     await host.pause(1_000_000)

@@ -17,7 +17,7 @@ FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 
 
 async def put_with(host: Host, text: str, **pins: int) -> None:
-    """Write a block; the pins change just before its header is written."""
+    """Write a block; change the pins just before its header is written."""
     block = bytes.fromhex(text)[::-1]
     await host.write(WCR, 0x20)
     await host.write(WAR, 0x20 - len(block))
@@ -38,7 +38,7 @@ async def p312_host_is_next_after_one_event(dut: Any) -> None:
     await put_with(host, message(Code.SPEED_LIMIT, "0100"), evt0_n=0, evt1_n=0)
     await host.pause(500)
     assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
-    # The event on the second pin occurs while the answer of the first is unread.
+    # The event on the second pin occurs while the answer to the first event is unread.
     assert await host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
     assert await host.response() == message(Code.SPEED_LIMIT)
 
@@ -200,12 +200,13 @@ async def p312_event_buffer_before_an_override_on_the_same_edge(dut: Any) -> Non
     await host.pause(500)
     assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
     assert await host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
-    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 10 40")  # no override waits
+    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 10 40")  # no override is pending
 
 
 @directed("P312-RSP-20", "P312-PAR-06")
 async def p312_an_answer_pending_while_the_one_before_it_is_read(dut: Any) -> None:
-    """An answer is delivered whether it is ready before, when or after the previous one is read.
+    """An answer is delivered regardless of whether it is ready before, when or after the previous one is
+    read.
 
     The read of the last byte ends some cycles before, at and after the end of the host's instruction.
     """
@@ -227,7 +228,9 @@ async def p312_an_answer_pending_while_the_one_before_it_is_read(dut: Any) -> No
 @cocotb.parametrize(pin=["fl_n", "bhl_n"])
 @directed("P312-INP-11")
 async def p312_a_limit_about_the_check_of_a_start(dut: Any, pin: str) -> None:
-    """A start is rejected if a limit is asserted by the cycle of its check, otherwise it is accepted."""
+    """A start is rejected if a limit is asserted in the cycle of the check or before, and accepted
+    otherwise.
+    """
     refused = []
     for shift in range(16, 40):
         host = await Host.start(dut, *TF)
@@ -245,7 +248,7 @@ async def p312_a_limit_about_the_check_of_a_start(dut: Any, pin: str) -> None:
 async def p312_a_report_about_the_effect_of_an_instruction(dut: Any, code: Code) -> None:
     """The order of the responses depends on the cycle in which the encoder leaves its window.
 
-    The encoder leaves it some cycles before, at and after the effect of an instruction.
+    This happens some cycles before, at and after the effect of an instruction.
     """
     first = []
     for shift in range(8, 40):
@@ -268,7 +271,9 @@ async def p312_a_report_about_the_effect_of_an_instruction(dut: Any, code: Code)
 @cocotb.parametrize(gap=range(38, 56, 3))
 @directed("P312-OVR-10", "P312-RSP-20", "P312-EVT-04")
 async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> None:
-    """A second edge during a registration is an alarm: the first edge has released the only override."""
+    """A second edge during a registration is an alarm, because the first edge has released the only
+    override.
+    """
     host = await Host.start(dut, *TF, message(Code.STOP, "07"))
     await host.put(message(Code.EVENT_SET, "01", message(Code.INPUT)), gap=0)
     await host.go(host.header + 6)
@@ -285,7 +290,9 @@ async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> No
 @cocotb.parametrize(shift=range(-3, 5))
 @directed("P312-OVR-12", "P312-MOT-34", "P312-RSP-20")
 async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
-    """Instruction 80, by an event near the pulse that a position waits for, stops at pulse 9 or 10."""
+    """An event triggers instruction 80 near the pulse at which a position triggers another 80: the motion
+    stops at pulse 9 or 10.
+    """
     setting = (message(Code.STOP, "04 0000000A"), message(Code.EVENT_SET, "00", message(Code.STOP, "00")))
     host = await Host.start(dut, *TF, *setting)
     timing = host.bench.golden.core_timing
@@ -303,7 +310,7 @@ async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
 async def p312_an_event_about_the_next_block_of_a_table(dut: Any) -> None:
     """An event while an answer of the table read is unread causes an alarm.
 
-    Its report is read before the next block of the table or after it.
+    The report of the alarm is read either before or after the next block of the table.
     """
     report, first = message(Answer.ALARM, "01", source=SPONTANEOUS), set()
     for gap in range(12):

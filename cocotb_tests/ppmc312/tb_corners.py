@@ -1,6 +1,7 @@
 """Corner cases of the PPMC-312.
 
-Held and waiting operations, alarms during set-up and waits, resets, pins that keep their levels.
+These are held and waiting operations, alarms during set-up and waits, resets, and pins whose levels must not
+change.
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 
 @directed("P312-CMD-80", "P312-OVR-03")
 async def p312_position_stop_after_the_end(dut: Any) -> None:
-    """A stop at the last pulse of a fast motion is processed only after the end and fails in state NOR."""
+    """A stop that is triggered at the last pulse of a fast motion is processed only after the end, and fails
+    in state NOR.
+    """
     host = await Host.start(
         dut, *FAST_CURVE, message(Code.STOP, "04 0000000A"), message(Code.STOP, "04 0000FFFF")
     )
@@ -122,7 +125,7 @@ async def p312_second_hold_report_unread_is_an_alarm(dut: Any) -> None:
     await host.pins(run=1)
     await host.pause(20_000)
     assert await host.response() == message(Code.STEP)
-    # The read window holds E2 now and keeps it.
+    # The read window now contains E2 and keeps it.
     await host.pause(100)
     await host.pins(run=0)
     await host.issue(message(Code.STEP, "00"))
@@ -165,7 +168,9 @@ async def p312_an_alarm_does_not_wait_for_the_positioning_end(dut: Any) -> None:
 
 @directed("P312-MOT-35", "P312-INP-30", "P312-MOT-34", "P312-MOT-06")
 async def p312_an_alarm_after_the_last_pulse_does_not_wait_for_end(dut: Any) -> None:
-    """An alarm in the last interval or near its end (start of END wait) causes E0 with NOS immediately."""
+    """An alarm in the last interval or near its end (start of the END wait) causes E0 with NOS
+    immediately.
+    """
     for after in (20, 79, 80, 81, 2000, *range(6392, 6408)):
         host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))
         await host.ask(message(Code.CONSTANT, "00 0190 00000003"))
@@ -176,7 +181,7 @@ async def p312_an_alarm_after_the_last_pulse_does_not_wait_for_end(dut: Any) -> 
         await host.wait(2000)
         assert host.t - since < 300 and await host.response() == stopped(0x40, 3)
         assert host.condition == 0x10 and await host.quiet()
-    # A multiple occurrence is an alarm, too.
+    # A multiple occurrence is also an alarm.
     host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.CONSTANT, "00 0190 00000003"))
     await host.pulse(3, 200)
@@ -221,8 +226,8 @@ async def p312_high_speed_limit_before_pulse_1_and_at_a_slow_rate(dut: Any) -> N
     await host.ask(message(Code.RAMP, "00 0000 0000001E"))
     await host.pins(fhl_n=0)
     assert await host.response() == stopped(0x02, 11)
-    # The instruction has no effect at rate 400. It takes effect in the first interval at rate 200, as a
-    # deceleration from the stage of 200.
+    # The high-speed limit has no effect at rate 400. It takes effect in the first interval at rate 200, as a
+    # deceleration from the stage with rate 200.
     assert host.gaps() == [400] * 3 + [200] * 5 + [400] * 2
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C8")) == message(Answer.LIMIT)
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
@@ -306,7 +311,7 @@ async def p312_version_of_the_build(dut: Any) -> None:
 @cocotb.parametrize(form=[message(Code.STEP, "00"), message(Code.RAMP, "00 0000 00000003")])
 @directed("P312-INP-20", "P312-TIM-12", builds=(F16, D16))
 async def p312_run_is_sampled_in_one_cycle(dut: Any, form: str) -> None:
-    """RUN low for one cycle holds the operation only if it is the cycle before t0."""
+    """RUN low for one cycle holds the operation only in the cycle before t0."""
     host = await Host.start(dut, *TF)
     await host.issue(form)
     start = await host.pulse(1) - 80

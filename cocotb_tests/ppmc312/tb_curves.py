@@ -1,4 +1,4 @@
-"""Free curves of the PPMC-312: transfers, errors in them, disturbances."""
+"""Free curves of the PPMC-312: transfers, errors in transfers, disturbances."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 @directed("P312-CMD-01", "P312-CMD-FC-1", "P312-CMD-FC-10", "P312-CMD-41")
 async def p312_a_combined_curve_may_be_announced_with_four_bytes(dut: Any) -> None:
-    """LE = 0 with L = 04: the last byte is ignored; 03 and 04 are the only lengths."""
+    """With LE = 0 and length 04, the last byte is ignored; 03 and 04 are the only legal lengths."""
     for last in ("00", "01", "02", "7F", "80", "FF"):
         host = await Host.start(dut)
         assert await host.ask(f"02 04 01 01 03 {last}") == message(Code.FREE_CURVE, "00 03")
@@ -37,7 +37,7 @@ def curve(rates: list[int], up: list[int], down: list[int] | None, step: tuple[i
     """Return the blocks of a transfer.
 
     Args:
-        step: the largest number of rates and of pulse numbers in a block.
+        step: maximum number of rates, and of pulse numbers, in a block.
     """
     blocks = [
         bytes([2, 3 + (down is not None), 1, 0x11 if down else 1, len(up), *([len(down)] if down else [])])
@@ -52,7 +52,7 @@ def curve(rates: list[int], up: list[int], down: list[int] | None, step: tuple[i
 
 
 CURVES = {
-    # These are the longest curve in the longest blocks, separate tables, and blocks with one value each.
+    # Longest curve in the longest blocks, separate tables, and blocks with one value each.
     "longest": ([300 + 3 * k for k in range(127)], [2 + k for k in range(127)], None, (15, 10)),
     "two-sides": (
         [50 * (k + 1) for k in range(9)],
@@ -96,7 +96,7 @@ async def p312_free_curves(dut: Any, case: tuple) -> None:
     head, got = await read_table(host)
     assert head[:3] == [len(rates), len(up), len(down) if down else 0]
     assert got == [rates, up, down or []]
-    # The highest rate that an instruction may request is that of stage 126, the lowest that of the first
+    # The highest rate that an instruction may request is that of stage 126; the lowest is that of the first
     # stage in use.
     assert (await host.ask(message(Code.CONSTANT, f"00 {rates[0] - 1:04X} 00000001")))[6:11] == "F0 20"
     if rates[-1] < 0xFFFF:
@@ -115,9 +115,9 @@ FC_ERRORS = [
     ("11", ("02 03 01 11 03",)),
     ("11", ("02 05 01 11 03 03 00",)),
     ("11", ("02 01 01",)),
-    ("10", (message(Code.FREE_CURVE, "11 80 03"),)),  # checked before error 11
-    # Errors of the sizes: 15 and 16, also in a block with an instruction's header; then 16, 18 or 19, 1A and
-    # 17 in this order.
+    ("10", (message(Code.FREE_CURVE, "11 80 03"),)),  # the size is checked before error 11
+    # Errors of the sizes: 15 and 16, also for a block with the header of an instruction; then, in this order,
+    # 16, 18 or 19, 1A and 17.
     ("15", (TF[0], "00 1F" + "0064" * 15)),
     ("16", (TF[0], "00 07 0064 00C8 0190")),
     ("16", (TF[0], "00 00 64")),
@@ -156,7 +156,7 @@ async def p312_errors_of_each_free_curve_block(dut: Any, case: Any) -> None:
 
 @directed("P312-CMD-FC-8", "P312-RSP-20", "P312-BAD-11", "P312-INP-31", "P312-CMD-FF")
 async def p312_a_transfer_that_is_disturbed(dut: Any) -> None:
-    # If the answer to a block is not read, an alarm occurs and the transfer is aborted.
+    # If the answer to a block is not read, an alarm occurs, and the transfer is aborted.
     host = await Host.start(dut, T1, TF[0])
     await host.issue(TF[1])
     await host.pause(200)
@@ -168,7 +168,7 @@ async def p312_a_transfer_that_is_disturbed(dut: Any) -> None:
     assert await host.ask(TF[2]) == message(Answer.STATUS, "01 10")
     await host.ask(message(Code.ALARM_CLEAR))
     assert host.condition == 0x01
-    # Other instructions do not start a transfer, and a curve can be completed only once.
+    # Other instructions do not begin a transfer, and a curve can be completed only once.
     for block in (TF[2], "00 02 0064", "07 01 40"):
         assert await host.ask(block) == message(Answer.STATUS, "01 01")
     for block in TH:
@@ -178,7 +178,7 @@ async def p312_a_transfer_that_is_disturbed(dut: Any) -> None:
     assert (rates, up, down) == ([100, 200, 400], [6, 4], [5, 4, 3]) and head[:3] == [3, 2, 3]
     for block in ("02 01 40", "02 02 80 00", "02 09 00 01 03E8 00C8 0007D0"):
         assert await host.ask(block) == message(Answer.STATUS, "01 02")
-    # A block follows an unread answer, then FF: the part executes FF immediately.
+    # A block is sent while an answer is unread, then instruction FF: the part executes FF immediately.
     await host.ask(TF[0])
     await host.issue(TF[1])
     await host.pause(200)

@@ -39,7 +39,7 @@ async def p312_datasheet_setting_times(dut: Any, case: Any) -> None:
 
 @directed("P312-INP-01", "P312-INP-20", "P312-TIM-14", "P312-CMD-27", builds=(D16,))
 async def p312_datasheet_run_is_the_plain_pin(dut: Any) -> None:
-    """RUN starts and holds an operation without the 200 us filter of the other pins.
+    """RUN starts and holds an operation without the 200 us filter that the other pins have.
 
     Instruction 27 returns the unfiltered levels of these pins.
     """
@@ -161,8 +161,8 @@ async def p312_datasheet_stop_and_pins(dut: Any) -> None:
 async def p312_datasheet_stop_of_what_ends_by_itself(dut: Any) -> None:
     """Instruction 80 is validated when it arrives.
 
-    A motion that ends before the stop is executed is not an error. The status is RDY when the 350 us of the
-    stop have passed.
+    If a motion ends before the stop is executed, this is not an error. The status is RDY when the 350 us of
+    the stop have passed.
     """
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.CONSTANT, "00 0064 00000008"))

@@ -1,6 +1,7 @@
 """Goals of a replacement: 2 Mpps, pulse 1 within 20 us of the instruction, tables within 5 ms.
 
-The tests run at 50 MHz, where a base clock is not a whole number of cycles. The measured values are printed.
+The tests run at 50 MHz, where a period of the base clock is not a whole number of cycles. The measured values
+are printed.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ FAST = ("02 03 01 00 03", "00 06 0004 0008 0010", "01 09 000032 000014 00000A")
 
 @directed("P312-MOT-01", "P312-MOT-02", "P312-MOT-05", "P312-MOT-07", "P312-CHK-63", builds=(F50,))
 async def p312_two_million_pulses_a_second(dut: Any) -> None:
-    """With F = 8 MHz and rate 4, all 3000 pulses are output at their exact cycle."""
+    """With F = 8 MHz and rate 4, each of 3000 pulses is output in its exact cycle."""
     host = await Host.start(dut, *FAST)
     await host.ask(message(Code.RAMP, "00 0000 00000BB8"))
     assert await host.response() == message(Answer.STOPPED, "40 00 00 0B B8", source=SPONTANEOUS)

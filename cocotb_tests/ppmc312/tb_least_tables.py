@@ -1,4 +1,4 @@
-"""Tables of the PPMC-312 with stages of 2 pulses, the fewest that are legal (P312-TBL-05, R-16)."""
+"""Tables of the PPMC-312 with stages of 2 pulses, which is the legal minimum (P312-TBL-05, R-16)."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from openppmc.model.ppmc312.codes import Answer, Code, Source
 
 from .serial_frames import T_INIT
 
-# A row has flags and rates before NA, the least NA, and the bytes after NA. By P312-TBL-04 the least NA is
-# about 2 * 8001 * (Rs + RH) / (126 * RH).
+# A row contains flags and rates before NA, the minimum of NA, and the bytes after NA. By P312-TBL-04 the
+# minimum of NA is about 2 * 8001 * (Rs + RH) / (126 * RH).
 LEAST = [
     ("01 03E8 00C8", 762, ""),
     ("09 03E8 00C8", 762, ""),
@@ -30,9 +30,9 @@ LEAST = [
     ("19 03E8 03E8 00C8 0007D0", 762, ""),
 ]
 FAST = message(Code.INITIAL, "00 0084 0004 0010DE")
-"""8 MHz, linear, 132 to 4 (2 Mpps), 4318 pulses, the least number."""
+"""8 MHz, linear, 132 to 4 (2 Mpps), 4318 pulses, which is the minimum."""
 TICK = 2
-"""Cycles of a tick at 8 MHz and a clock of 16 MHz."""
+"""Cycles per tick at 8 MHz and a clock of 16 MHz."""
 STEEP = (
     "02 03 01 00 7F",
     *(
@@ -55,7 +55,7 @@ def doubled(rates: range) -> list[int]:
 @cocotb.parametrize(case=LEAST)
 @directed("P312-TBL-05", "P312-CHK-08", "P312-CMD-00", "P312-CMD-41")
 async def p312_least_pulses_of_a_table(dut: Any, case: Any) -> None:
-    """One pulse less than the least number is error 05; the least number and one more build a table."""
+    """With the minimum number of pulses or one more, a table is built; one pulse less is error 05."""
     head, least, tail = case
     for pulses in (least - 1, least, least + 1):
         data = bytes.fromhex(f"{head}{pulses:06X}{tail}")
@@ -75,7 +75,7 @@ async def p312_least_pulses_of_a_table(dut: Any, case: Any) -> None:
 @cocotb.parametrize(case=[case for case in LEAST if not case[0].startswith("1")])
 @directed("P312-TBL-05", "P312-CHK-08", "P312-SER-41", "P312-SER-47")
 async def p312_serial_least_pulses_of_a_table(dut: Any, case: Any) -> None:
-    """The serial line has the limits of the bus: the reply is 42, or ready."""
+    """The serial line has the same limits as the bus; the reply is 42 (parameter error) or ready."""
     head, least, _ = case
     host = await SerialHost.start(dut)
     for pulses, reply in ((least - 1, "B0 42"), (least, "90"), (least + 1, "90")):
@@ -85,7 +85,7 @@ async def p312_serial_least_pulses_of_a_table(dut: Any, case: Any) -> None:
 
 @directed("P312-TBL-05", "P312-CMD-49", "P312-EVT-01")
 async def p312_least_table_from_an_event(dut: Any) -> None:
-    """An initial setting that an event pin executes has the same limits."""
+    """An initial setting that an event pin triggers has the same limits."""
     for pulses in (761, 762):
         data = f"01 03E8 00C8 {pulses:06X}"
         host = await Host.start(dut, message(Code.INITIAL, "01 03E8 00C8 0007D0"))
@@ -101,7 +101,9 @@ async def p312_least_table_from_an_event(dut: Any) -> None:
 @cocotb.parametrize(direction=[0, 0x40])
 @directed("P312-TBL-05", "P312-MOT-01", "P312-MOT-12", "P312-MOT-20", "P312-MOT-30", "P312-GEN-06")
 async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
-    """Operations, a triangular profile and a deceleration stop keep all intervals of 2-pulse stages."""
+    """Operations, a triangular profile and a deceleration stop output all intervals of stages with 2
+    pulses.
+    """
     sign = -1 if direction else 1
     host = await Host.start(dut, FAST)
     _, (rates, up, _) = await read_table(host)
@@ -134,15 +136,17 @@ async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
 @cocotb.parametrize(direction=[0, 0x40])
 @directed("P312-CMD-FC-4", "P312-MOT-12", "P312-MOT-30", "P312-MOT-32", "P312-OVR-11", "P312-MOT-31")
 async def p312_a_stage_every_two_pulses_up_to_2_mpps(dut: Any, direction: int) -> None:
-    """With stages of 2 pulses at 130 to 4 ticks of 125 ns, ramps, 81, 87 and 88 act at the right pulse."""
+    """With stages of 2 pulses at 130 to 4 ticks of 125 ns, ramps and instructions 81, 87 and 88 take effect
+    at the correct pulse.
+    """
     sign = -1 if direction else 1
     host = await Host.start(dut, *STEEP)
     climb, fall = doubled(range(130, 3, -1)), doubled(range(4, 131))
     assert await host.ask(message(Code.RAMP, f"{direction:02X} 0000 {512:08X}")) == message(Code.RAMP, "00")
     assert await host.response() == stopped(0x40, sign * 512)
     assert host.gaps(TICK) == (climb + [4] * 4 + fall)[:-1]
-    # Instruction 81 is registered at a position during the acceleration: the deceleration begins at the stage
-    # reached.
+    # Instruction 81 is registered for a position in the acceleration: the deceleration begins at the stage
+    # that has been reached.
     await host.ask(message(Code.POSITION_SET, "00 00000000"))
     at = (sign * 100) & 0xFFFFFFFF
     assert await host.ask(message(Code.SLOW_STOP, f"04 {at:08X}")) == message(Answer.REGISTERED)
@@ -155,7 +159,7 @@ async def p312_a_stage_every_two_pulses_up_to_2_mpps(dut: Any, direction: int) -
     assert gaps[turn:] == doubled(range(top, 131))[:-1] and gaps[:turn] == climb[:turn]
     assert 100 <= turn < 140
     assert await host.response() == stopped(0x08, sign * (len(gaps) + 1))
-    # Instruction 87 changes to a higher and to a lower speed, each between constant rates.
+    # Instruction 87 changes to a higher and to a lower speed, each time from one constant rate to another.
     await host.ask(message(Code.FOREVER_CONSTANT, f"{direction:02X} 0082"))
     mark = host.mark
     await host.pulse(4)

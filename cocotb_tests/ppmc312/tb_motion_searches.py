@@ -1,4 +1,4 @@
-"""Origin searches and zero returns of the PPMC-312 in every form, and the causes that end them."""
+"""Origin searches and zero returns of the PPMC-312 in all forms, and the causes that end them."""
 
 from __future__ import annotations
 
@@ -107,8 +107,8 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-30")
 async def p312_zero_return_whose_origin_coincides_with_a_slow_stop(dut: Any) -> None:
-    # The rate is too low for a deceleration. If stop and origin occur in one interval, the stop has priority,
-    # and there is no return.
+    # The rate is too low for a deceleration. If stop and origin occur in the same interval, the stop has
+    # priority, and there is no return.
     for origin_first in (False, True):
         host = await Host.start(dut, *TF)
         await host.ask(message(Code.ZERO_RETURN, "00 0190"))

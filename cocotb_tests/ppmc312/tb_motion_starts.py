@@ -1,4 +1,4 @@
-"""Starts of the PPMC-312: legal rates, forms, plans, held starts, pulse 1."""
+"""Starts of the PPMC-312: legal rates, instruction forms, profiles, held starts, pulse 1."""
 
 from __future__ import annotations
 
@@ -109,8 +109,8 @@ async def p312_plans_on_an_odd_table(dut: Any) -> None:
         await host.ask(message(Code.POSITION_SET, "00 00000000"))
         answer = await host.ask(message(Code.RAMP, f"00 {rate:04X} {n:08X}"))
         if rate == 200:
-            # t(200) = 125 is above the first stage of the ramp. The deceleration has 200x3 of stage 124, then
-            # 300x3.
+            # t(200) = 125 is above the first stage of the ramp. The deceleration has 3 intervals of 200 in
+            # stage 124, then 3 of 300.
             kind, pulses = "10", None
         assert answer == message(Code.RAMP, kind)
         if pulses:
@@ -178,7 +178,7 @@ async def p312_every_start_is_held(dut: Any) -> None:
         assert await host.ask(message(Code.FOREVER_CONSTANT, "00 0064")) == message(Answer.STATUS, "00 20")
         await host.pins(run=1)
         assert await host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)
-        # RUN is ignored from here on.
+        # From here on, RUN is ignored.
         await host.pins(run=0)
         host.mark = mark
         await host.pulse(1)
@@ -195,7 +195,10 @@ async def p312_every_start_is_held(dut: Any) -> None:
 
 @directed("P312-MOT-32", "P312-MOT-30", "P312-MOT-31", "P312-INP-12")
 async def p312_changes_that_wait_for_pulse_1(dut: Any) -> None:
-    """The newest change is used; it starts from the rate of the plan, not from that of a replaced change."""
+    """If several changes wait for pulse 1, the newest is used.
+
+    It starts from the rate of the operation, not from that of a change that was replaced.
+    """
     setting = ("02 03 01 06 03", "00 06 0008 000C 0010", "01 09 000003 000002 000003")
 
     async def seen(host: Host) -> list[int]:
@@ -217,7 +220,7 @@ async def p312_changes_that_wait_for_pulse_1(dut: Any) -> None:
         for block in changes:
             await host.ask(block)
         assert (await seen(host))[: len(expected)] == expected, changes
-    # A high-speed limit is compared with the rate that pulse 1 has without the change.
+    # A high-speed limit is compared with the rate that pulse 1 would have without the change.
     host = await Host.start(dut, *setting)
     await host.ask(message(Code.SPEED_LIMIT, "000C"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0010"))

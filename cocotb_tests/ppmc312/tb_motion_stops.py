@@ -1,4 +1,4 @@
-"""Stops of the PPMC-312: causes that coincide, immediate stops, limits, high-speed limits."""
+"""Stops of the PPMC-312: coinciding causes, immediate stops, limits, high-speed limits."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ async def p312_causes_in_the_same_cycle(dut: Any) -> None:
             assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
         assert await host.response() == stopped(cause, 3)
         assert host.bench.falls("pout", low)[0] - host.pulses()[2] == 80
-    # Instruction 81 and a high-speed limit apply to the same boundary.
+    # Instruction 81 and a high-speed limit take effect at the same boundary.
     host = await Host.start(dut, *TF, message(Code.SPEED_LIMIT, "FFFF"))
     await host.ask(f"{ALWAYS} 0064")
     await host.pulse(3, 20)
@@ -102,7 +102,7 @@ async def p312_limits_of_both_directions(dut: Any) -> None:
         await host.pins(**{slow: 0})
         await host.pulse(4, 20)
         await host.ask(change(0x88, 200))
-        # The rate now equals HSL: the deceleration begins with the interval after the next boundary.
+        # The rate now equals HSL, so the deceleration begins with the interval after the next boundary.
         assert (await host.response())[:11] == "23 06 E0 02"
         assert host.gaps()[-7:] == rates("200x5 400x2")
 
@@ -115,12 +115,12 @@ async def p312_high_speed_limit_and_88(dut: Any) -> None:
     await host.pulse(3, 20)
     await host.pins(fhl_n=0)
     await host.pulse(5, 20)
-    # The motor is slower than HSL: the deceleration is cancelled and does not resume.
+    # The motor is now slower than HSL: the deceleration is cancelled and does not continue later.
     assert await host.ask(change(0x88, 300)) == message(Code.CHANGE)
     host.mark = mark
     await host.pulse(12, 20)
     assert host.gaps() == rates("100x5 300x6")
-    # The motor is fast enough again: another deceleration begins, from the stage of the table.
+    # The motor is fast enough again: another deceleration begins, from the stage with this rate.
     assert await host.ask(change(0x88, 150)) == message(Code.CHANGE)
     await host.response()
     host.mark = mark
@@ -134,7 +134,7 @@ async def p312_limits_act_from_the_first_clk_of_a_held_motion(dut: Any) -> None:
         await host.pins(run=0)
         assert await host.ask(message(Code.CONSTANT, "00 0064 00000002")) == message(Code.CONSTANT, "01")
         await host.pins(**levels)
-        # A motion that waits for RUN cannot get a new table: its plan is fixed.
+        # If a motion waits for RUN, no new table is accepted: its profile is fixed.
         assert await host.ask(message(Code.SPEED_LIMIT, "FFFF")) == message(Answer.STATUS, "00 20")
         await host.pins(run=1)
         assert await host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)

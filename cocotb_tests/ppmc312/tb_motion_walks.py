@@ -1,4 +1,4 @@
-"""Walks over the stages of a table of the PPMC-312, and rate changes during them."""
+"""Motions through the stages of a table of the PPMC-312, and rate changes during them."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ UNEVEN = (
 
 
 WALKS = [
-    # A row has the table, the start, pairs (pulses, instruction after them), all intervals, and the cause of
-    # the end.
+    # A row contains the table, the start, pairs (pulses, instruction after them), all intervals, and the
+    # cause of the end.
     (TG, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x6 200x4", 0x08),
     (TG, f"{ALWAYS} 0096", [(4, SLOW_STOP)], "150x4 200x4", 0x08),
     (TG, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4", 0x10),  # as slow as the stop speed
@@ -128,8 +128,8 @@ WALKS = [
         "100x4 300x2 250x4",
         0x40,
     ),
-    # Equal neighbouring rates: at a constant rate, a stop or change begins in the last stage with this rate;
-    # in a stage, it begins in that stage.
+    # Equal neighbouring rates: at a constant rate, a stop or change begins in the last stage that has this
+    # rate; within a stage, it begins in that stage.
     (EQUAL, message(Code.RAMP, "00 0000 00000028"), [], "400x4 200x7 100x18 200x7 400x4", 0x40),
     (EQUAL, message(Code.RAMP, "00 0190 00000006"), [(5, SLOW_STOP)], "400x5", 0x10),
     (EQUAL, message(Code.FOREVER_RAMP, "00 0000"), [(1, SLOW_STOP)], "400x1", 0x10),
@@ -164,8 +164,8 @@ WALKS = [
         "400x4 200x7 100x7 200x13 400x6 200x3",
         0x40,
     ),
-    # A ramp ends at the deceleration point without a deceleration: the next 87 starts from t(R_c), not from
-    # the stage in which the ramp ended.
+    # If a ramp ends at the deceleration point and no deceleration follows, the next instruction 87 starts
+    # from t(R_c), not from the stage in which the ramp ended.
     (
         SLOW_EQUAL,
         message(Code.RAMP, "00 0096 0000003C"),
@@ -180,8 +180,8 @@ WALKS = [
         "400x9 200x13 400x7 200x11",
         0x40,
     ),
-    # The same case with rates that do not descend: t(400) = t(401) = 125, so that 87 finds stages to
-    # decelerate.
+    # As before, but with rates that do not descend: t(400) = t(401) = 125, so that instruction 87 finds
+    # stages to decelerate.
     (
         UNEVEN,
         message(Code.RAMP, "00 0064 00000050"),
@@ -196,7 +196,7 @@ WALKS = [
         "500x3 400x3 200x3 450x4 100x7 500x21 400x9 100x30",
         0x40,
     ),
-    # If two changes are held for one boundary, the newer one is used.
+    # If two changes wait for one boundary, the newer one is used.
     (
         TF,
         message(Code.CONSTANT, "00 0190 0000000A"),
@@ -232,7 +232,8 @@ async def p312_walks_and_changes(dut: Any, case: Any) -> None:
 
 @directed("P312-MOT-33", "P312-MOT-32", "P312-OVR-11", "P312-STA-01")
 async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
-    """An 87 that is accepted before the ramp of another 87 begins is held in that ramp and then discarded.
+    """If an instruction 87 is accepted before the ramp of another 87 begins, it waits during that ramp and is
+    then discarded.
 
     It is too late for the boundary of the first 87. The remaining pulses are not accelerated.
     """
@@ -254,7 +255,9 @@ async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
 
 @directed("P312-MOT-32", "P312-OVR-03", "P312-OVR-11", "P312-STA-01")
 async def p312_an_override_with_a_ramp_waits_for_the_end_of_another_ramp(dut: Any) -> None:
-    """An override with 87, accepted before the ramp of a direct 87 begins, is held until that ramp ends."""
+    """If an override with instruction 87 is accepted before the ramp of a direct 87 begins, it waits until
+    that ramp ends.
+    """
     for ahead in (40, 60, 100, 140):
         host = await Host.start(dut, *TF, message(Code.RAMP_CHANGE, "05 0190"))
         await host.ask(f"{ALWAYS} 0190")
@@ -273,7 +276,7 @@ async def p312_an_override_with_a_ramp_waits_for_the_end_of_another_ramp(dut: An
 
 @directed("P312-MOT-12", "P312-MOT-31", "P312-OVR-11", "P312-CMD-88")
 async def p312_stages_go_on_while_an_88_is_looked_up(dut: Any) -> None:
-    """The motion traverses the stages while the rate of an 88 is looked up.
+    """While the rate of an instruction 88 is looked up, the motion continues through the stages.
 
     The look-up takes longer than a stage here, and the motion reads the table during this time.
     """

@@ -12,7 +12,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
 async def encoder(host: Host, count: int) -> None:
-    """Apply `count` edges of the encoder, CCW if negative, at the highest allowed rate."""
+    """Apply `count` edges of the encoder at the highest allowed rate; a negative count is CCW."""
     for _ in range(abs(count)):
         await host.pins(epin=1, epdir=int(count < 0))
         await host.pause(2)
@@ -34,12 +34,12 @@ async def p312_positions(dut: Any) -> None:
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 FF FF FF FE")
     await encoder(host, 4)
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 02")
-    # Falling edges and a change of the direction alone are not counted.
+    # Falling edges, and changes of the direction alone, are not counted.
     for levels in ({"epin": 1, "epdir": 1}, {"epdir": 0}, {"epdir": 1}, {"epin": 0}, {"epdir": 0}):
         await host.pins(**levels)
         await host.pause(4)
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 01")
-    # POS follows pout immediately, also in reads while pulses are counted.
+    # POS follows pout immediately, also if it is read while pulses are counted.
     await host.ask(message(Code.POSITION_SET, "00 0000FFFE"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     mark = host.mark
@@ -75,8 +75,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
             assert await host.ask(message(Code.STATUS)) == message(
                 Code.STATUS, f"{enabled | outside * value:02X} 01 00"
             )
-        # A disabled monitor sends no reports. When it is enabled again, it begins inside the window, for one
-        # report with RES = 0.
+        # A disabled monitor sends no reports. When it is enabled again, it begins with the state inside, for
+        # one report with RES = 0.
         assert await host.ask(f"03 04 {code} 00 0004") == f"03 01 {code}"
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await host.ask(f"03 04 {code} 01 0004")
@@ -84,7 +84,7 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await encoder(host, -5)
         assert await host.quiet(20)
-        # Distances are signed and have a large range.
+        # Distances are signed and have a wide range.
         await host.ask(message(Code.POSITION_SET, "00 80000000"))
         await host.ask(message(Code.POSITION_SET, "01 7FFF0001"))
         await host.ask(f"03 04 {code} 03 FFFF")
@@ -103,8 +103,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
 @directed("P312-RSP-22", "P312-MON-05", "P312-RSP-10")
 async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     host = await Host.start(dut, message(Code.ENCODE, "03 0002"), message(Code.IN_POSITION, "01 0002"))
-    # While an answer is unread, a move out of the window and back leaves no automatic report;
-    # the single report stays.
+    # While an answer is unread, a move out of the window and back leaves no automatic report; a report that
+    # is sent only once stays.
     await host.issue(message(Code.VERSION))
     await host.wait()
     await encoder(host, 3)
@@ -113,8 +113,8 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     assert await host.response() == message(Code.VERSION, "12")
     assert await host.response() == message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS)
     assert await host.quiet()
-    # A report is loaded, and the value returns. After the report has been read, the return counts as another
-    # change.
+    # A report is loaded, and then the value returns. After the report has been read, the return counts as
+    # another change.
     await encoder(host, 1)
     await host.pause(20)
     await encoder(host, -1)
@@ -140,7 +140,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
     await host.ask(message(Code.CONSTANT, "00 0190 00000004"))
     mark = host.mark
     await host.pulse(3, 20)
-    # The distance is outside the window by now, but it is not compared. It is inside again when the output
+    # The distance is now outside the window, but it is not compared. It is inside again when the pulse output
     # ends.
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "08 08 00")
     host.mark = mark
@@ -152,7 +152,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
         stopped(0x40, 6),
         message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS),
     }
-    # In the END wait the output has ended.
+    # In the END wait, the pulse output has already ended.
     await host.ask(message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.CONSTANT, "40 0190 00000002"))
     assert (
@@ -165,7 +165,8 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
 async def p312_interlock_by_its_position(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.INTERLOCK_POSITION, "00000003"))
     for sign, first in ((0x00, 3), (0x40, 3)):
-        # A motion that starts at the position does not trigger; a motion that arrives from either side does.
+        # A motion that starts at the position does not trigger the interlock; a motion that arrives from
+        # either side does.
         await host.ask(message(Code.POSITION_SET, f"00 {first if sign else 0:08X}"))
         assert await host.ask(message(Code.INTERLOCK)) == message(Code.INTERLOCK, "01")
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "40 02 00")
@@ -189,8 +190,8 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
     assert host.out("intlk_n") == 1 and await host.ask(message(Code.STATUS)) == message(
         Code.STATUS, "00 02 00"
     )
-    # The position is set while the interlock is active. An equality that a setting causes does not trigger
-    # either.
+    # The position is set while the interlock is active. If a setting makes the positions equal, it does not
+    # trigger the interlock either.
     await host.ask(message(Code.INTERLOCK))
     await host.ask(message(Code.POSITION_SET, "00 00000003"))
     assert await host.quiet() and host.out("intlk_n") == 0
@@ -202,7 +203,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
     await host.pins(auxi=0x0F)
     await host.ask(message(Code.MASK, "FF 3C"))
     base = None
-    # A level shorter than a sample period is detected only if it is valid at the sample.
+    # A level that is shorter than a sample period is detected only if it is present at the sample.
     for level in (0x33, 0x0F, 0x03, 0x3F):
         await host.pins(auxi=level)
         await host.wait()
@@ -211,7 +212,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
         if base is not None:
             assert (now - base) % 800 < 60 or (now - base) % 800 > 740
         base = now
-    # Bits outside of the mask are not reported.
+    # Bits outside the mask are not reported.
     await host.pins(auxi=0xFC)
     assert await host.quiet(2000)
     for first, second in ((0xE0, 0xFC), (0xC0, 0xFC)):
@@ -220,7 +221,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
         await host.pause(300)
         await host.pins(auxi=second)
         assert await host.quiet(2000)
-    # Mask 0 disables the monitor. A new instruction 28 samples a new reference value and discards pending
+    # Mask 0 disables the monitor. Another instruction 28 samples a new reference value and discards pending
     # reports.
     await host.issue(message(Code.MASK, "01 00"))
     await host.pins(auxi=0xFF)
@@ -233,7 +234,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
     await host.pause(2000)
     await host.read(7), await host.read(7), await host.read(7), await host.read(7)
     assert await host.response() == message(Answer.INPUT_CHANGE, "00 80", source=SPONTANEOUS)
-    # A report that waits is discarded; the report in the read window is not.
+    # A pending report is discarded, but a report in the read window is not.
     await host.pins(auxi=0xFE)
     await host.wait()
     await host.pins(auxi=0x7F)

@@ -30,7 +30,7 @@ from . import random_host, random_noise, random_serial
     least=200,
 )
 async def p312_random_host(dut: Any, seed: int) -> None:
-    """With the pins of random hosts, all outputs change as in the golden model."""
+    """With the pin changes of random hosts, all outputs change as in the golden model."""
     await random_host.play(dut, seed)
 
 
@@ -60,5 +60,5 @@ async def p312_random_noise(dut: Any, seed: int) -> None:
     least=200,
 )
 async def p312_random_serial(dut: Any, seed: int) -> None:
-    """With the pins of random hosts on the line, all outputs change as in the golden model."""
+    """With the pin changes of random hosts on the line, all outputs change as in the golden model."""
     await random_serial.play(dut, seed)

@@ -1,4 +1,6 @@
-"""Blocks that the PPMC-312 rejects: parameters, sizes, headers, codes, and the order of its checks."""
+"""Blocks that the PPMC-312 rejects because of parameters, sizes, headers or codes, and the order of the
+checks.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +14,14 @@ from openppmc.model.ppmc312.codes import Answer, Code
 
 
 def refused(block: str, number: str) -> str:
-    """Return the answer F0 to a block."""
+    """Return the answer F0, which rejects a block."""
     data = bytes.fromhex(block)[2:30]
     return f"03 {len(data) + 2:02X} F0 {number} " + data.hex(" ").upper()
 
 
 PARAMETERS = [
-    # A row has the error number and the block. The state is NOR with table TF. Invalid lengths come first,
-    # then invalid values.
+    # A row contains the error number and the block. The state is NOR with table TF. Invalid lengths come
+    # first, then invalid values.
     ("23", message(Code.IN_POSITION, "00")),
     ("23", message(Code.ENCODE, "01 00")),
     ("23", message(Code.IN_POSITION, "01 0001 00")),
@@ -166,7 +168,9 @@ async def p312_size_header_and_command_abnormality(dut: Any) -> None:
 
 @directed("P312-BLK-01", "P312-STA-01", "P312-STA-03")
 async def p312_order_of_checks(dut: Any) -> None:
-    """The checks are made in this order: state, length, value, limit, RUN; OV without its byte is 0."""
+    """The order of the checks is: state, length, value, limit, RUN. If the byte with OV is missing, OV counts
+    as 0.
+    """
     host = await Host.start(dut, T1)
     assert await host.ask(message(Code.STOP)) == message(Answer.STATUS, "00 02")
     assert await host.ask(message(Code.CHANGE, "00 00")) == message(Answer.STATUS, "00 02")

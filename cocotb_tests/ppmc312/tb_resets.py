@@ -1,4 +1,6 @@
-"""Resets of the PPMC-312, by pin and by FF, that coincide with accesses, blocks and motions; mode pins."""
+"""Resets of the PPMC-312, by the pin and by instruction FF, that coincide with accesses, blocks and motions;
+mode pins.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +16,13 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 @directed("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
 async def p312_a_read_during_the_software_reset(dut: Any) -> None:
-    """A read strobe that coincides with a software reset drives one value in time and until its end.
+    """If a read strobe coincides with a software reset, one value is driven from the specified time to its
+    end.
 
     The strobes begin up to 40 cycles after the header of FF.
     """
-    for reg, most in ((CSR, 40), (DRR, 34)):  # with a later strobe, the answer is loaded and would be read
+    # With a later strobe of DRR, the answer is already loaded and would be read.
+    for reg, most in ((CSR, 40), (DRR, 34)):
         seen = []
         for after in range(1, most + 1):
             host = await Host.start(dut)
@@ -35,19 +39,21 @@ async def p312_a_read_during_the_software_reset(dut: Any) -> None:
             assert not [edge for edge in host.bench.edges("d_o", mark) if edge[0] > rise], after
             seen.append(host.out("d_o"))
             await host.pause(40)
-            # No effect of the strobe remains after the reset.
+            # The strobe has no effect after the reset.
             assert await host.response() == message(Code.RESET) and await host.read(CSR) == MREF
         if reg == CSR:
-            # If the strobe begins during the reset, the part is busy, too; then it is ready.
+            # A strobe that begins during the reset reads as busy, a later strobe as ready.
             assert seen[:24] == [MWEF | MREF] * 24 and MREF in seen and seen == sorted(seen, reverse=True)
         else:
-            # A read returns the byte of the old response as long as this response exists, then 0.
+            # A read returns the byte of the old response while this response exists, and 0 afterwards.
             assert seen[:18] == [0x12] * 18 and seen[-1] == 0 and seen == sorted(seen, reverse=True)
 
 
 @directed("P312-PAR-11", "P312-PAR-10", "P312-PAR-12", "P312-CMD-FF")
 async def p312_a_write_during_the_software_reset(dut: Any) -> None:
-    """A write to CSR at any time is cleared if it is before the reset and is kept if it is after it."""
+    """A write to CSR before the reset is cleared by it, and a write after the reset is kept, at any
+    distance.
+    """
     seen = []
     for after in range(1, 41):
         host = await Host.start(dut)
@@ -57,7 +63,7 @@ async def p312_a_write_during_the_software_reset(dut: Any) -> None:
         assert await host.response() == message(Code.RESET)
         seen.append(await host.read(CSR) >> 4)
     assert seen[0] == 0 and seen[-1] == 7 and seen == sorted(seen)
-    # The wait request of an access during the reset ends with EWRQ.
+    # At the end of the reset, the wait request of an access during the reset ends because EWRQ is cleared.
     for after in range(8, 32):
         host = await Host.start(dut)
         await host.write(CSR, 0x40)
@@ -98,7 +104,7 @@ async def p312_reset_in_the_middle_of_a_block(dut: Any) -> None:
     assert (await host.read(CSR), await host.read(RAR), host.condition) == (0x04, 0x40, 0x01)
     levels = {"auxo_n": 0x3F, "exon_n": 1, "zclmp_n": 1, "irq_n": 1, "dir": 0, "pout": 0, "out_oe": 1}
     assert {name: host.out(name) for name in levels} == levels
-    # Neither the pointer nor the arming of the window survives.
+    # The reset clears both the pointer and the arming of the window.
     await host.write(DWR, 0x01)
     await host.write(DWR, 0x03)
     assert await host.quiet(200)

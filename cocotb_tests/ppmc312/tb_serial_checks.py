@@ -17,7 +17,7 @@ from .serial_host import SerialHost
 
 
 async def exchange(host: SerialHost, text: str, within: int = 4_096) -> str:
-    """Send bytes on the line; return those of the reply."""
+    """Send bytes on the line; return the bytes of the reply."""
     await host.raw(text)
     await host.hear(within)
     return host.wire
@@ -70,7 +70,7 @@ ANSWERS = {
 @cocotb.parametrize(checksum=["09", "4D"])
 @directed("P312-CHK-57", "P312-SER-13", "P312-SER-41", builds=(F16, CHARS))
 async def p312_serial_frame_of_the_data_sheet(dut: Any, checksum: str) -> None:
-    """The frame of the data sheet is valid with exactly one of the two checksums in each build."""
+    """In each build, the frame of the data sheet is valid with exactly one of the two checksums."""
     host = await SerialHost.start(dut)
     assert await exchange(host, f"{SHEET} {checksum}") == ANSWERS[host.sum_mode][checksum]
 
@@ -173,7 +173,7 @@ async def p312_serial_upper_case(dut: Any) -> None:
 
 @directed("P312-SER-41", "P312-CMD-00")
 async def p312_serial_flags_of_the_setting(dut: Any) -> None:
-    """Bits 7:4 of the flags are ignored; LE is one of them."""
+    """Bits 7:4 of the flags, which include LE, are ignored."""
     host = await SerialHost.start(dut)
     for flags in ("01", "11", "F1"):
         assert await host.ask(flags.join(("00 ", T1[5:]))) == "90"

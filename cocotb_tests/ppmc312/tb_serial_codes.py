@@ -1,4 +1,4 @@
-"""Every instruction of the serial mode: its effect, its replies, its rejections."""
+"""Every instruction of the serial mode: effect, replies, rejections."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ async def p312_serial_initial_setting(dut: Any) -> None:
     assert await host.ask(TS) == "90" and await host.state() == 0x02
     for bad in ("00 00 01F4 0001 000320", "00 00 0064 0096 000320", "00 00 00C8 0096 000320"):
         assert await host.ask(bad) == PARAMETER and await host.state() == 0x01
-    # A stage with only one pulse is detected while the table is built.
+    # If a stage has only one pulse, this is detected while the table is built.
     assert await host.ask("00 00 01F4 00C8 0001BC") == PARAMETER and await host.state() == 0x01
     assert await host.ask("00 F8 01F4 00C8 000320") == "90" and await host.state() == 0x02
     assert await host.asks("85 01F4", TS) == ["90", STATE]
@@ -137,7 +137,7 @@ async def p312_serial_read_outs_of_pins(dut: Any) -> None:
 
 @directed("P312-CMD-28", "P312-MON-10", "P312-RSP-21", "P312-SER-21")
 async def p312_serial_mask(dut: Any) -> None:
-    """The mask is always automatic; two changes are stored, and a third one replaces the second."""
+    """The input monitor is always automatic. Two changes are stored, and a third one replaces the second."""
     host = await SerialHost.start(dut)
     await host.pins(auxi=0x32)
     assert await host.ask("28 24") == "90"
@@ -219,7 +219,7 @@ async def p312_serial_lengths_of_events(dut: Any, case: Any) -> None:
 
 @directed("P312-SER-43", "P312-STA-01")
 async def p312_serial_events_in_other_states(dut: Any) -> None:
-    """The size is checked before the state, the state before the header."""
+    """The size is checked before the state, and the state before the header."""
     host = await SerialHost.start(dut)
     for data, answer in (
         (EVENT, STATE),
@@ -245,7 +245,7 @@ async def p312_serial_registrations_that_fail(dut: Any) -> None:
 async def p312_serial_states(dut: Any) -> None:
     """The reply is 43 in every state in which the table does not allow the instruction.
 
-    4E and 4F are accepted only in INI and NOR, 40 always.
+    4E and 4F are accepted only in INI and NOR; 40 is always accepted.
     """
     initial = ("05 012C", "80", "81", "82", "83 0000 00000005", "84 0000 00000005", "85 0000", "86 0000")
     initial += ("87 0190", "88 0190", "89 0190", "8A 0190", "44", "45", "69", "90 00000005", "A0")

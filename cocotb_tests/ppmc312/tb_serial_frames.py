@@ -29,7 +29,9 @@ async def p312_serial_addresses(dut: Any, adr: int) -> None:
 
 @directed("P312-SER-10", "P312-BAD-16", "P312-CHK-56")
 async def p312_serial_control_codes(dut: Any) -> None:
-    """Only 81 and 91 address station 1; any other byte with bit 7 set ends a frame and does not start one."""
+    """Only control codes 81 and 91 address station 1. Any other byte with bit 7 set ends a frame and does not
+    begin one.
+    """
     host = await SerialHost.start(dut)
     for control in range(0x80, 0x100, 3):
         if control not in (0x81, 0x91):
@@ -54,7 +56,9 @@ async def p312_serial_a_control_code_restarts_the_frame(dut: Any) -> None:
 
 @directed("P312-SER-11", "P312-SER-13")
 async def p312_serial_checksums_that_look_like_digits(dut: Any) -> None:
-    """For all values of 26 a checksum that equals a digit ends the frame at its proper length."""
+    """For all values of instruction 26, a checksum that equals a digit ends the frame at its correct
+    length.
+    """
     host = await SerialHost.start(dut)
     seen = set()
     for value in (*range(0x0C, 0x19), *range(0x62, 0x69), 0x00, 0x47, 0x48, 0x49):
@@ -112,9 +116,9 @@ async def p312_serial_sum_of_characters(dut: Any) -> None:
 
 @directed("P312-SER-13")
 async def p312_serial_the_blind_bit(dut: Any) -> None:
-    """A wrong bit 7 of a data byte is not detected, as the manual warns: the instruction is executed.
+    """If bit 7 of a data byte is wrong, this is not detected, and the instruction is executed.
 
-    Bit 7 of a byte is not part of the sum.
+    The manual warns of this: bit 7 of a byte is not part of the sum.
     """
     host = await SerialHost.start(dut)
     good = summed(0x91, b"\x43\x00\x00\x00\x14")
@@ -132,7 +136,7 @@ BAD_DIGITS = (0x00, 0x2F, 0x3A, 0x3F, 0x40, 0x41, 0x46, 0x60, 0x67, 0x7F, 0x20, 
 @cocotb.parametrize(bad=BAD_DIGITS)
 @directed("P312-SER-12", "P312-CHK-73", "P312-BAD-16")
 async def p312_serial_bad_digits(dut: Any, bad: int) -> None:
-    """An invalid digit in the data does not shorten the frame; its end has the reply 41."""
+    """An invalid digit in the data does not shorten the frame, whose end is answered with reply 41."""
     host = await SerialHost.start(dut)
     frame = bytearray(summed(0x91, b"\x26\x15"))
     for place in (3, 4):
@@ -147,7 +151,7 @@ async def p312_serial_bad_digits(dut: Any, bad: int) -> None:
 @cocotb.parametrize(line=["91 4A", "91 4A 36", "91 30 4A", "91 46 46 6F 30"])
 @directed("P312-SER-12", "P312-SER-17")
 async def p312_serial_bad_digits_in_the_code(dut: Any, line: str) -> None:
-    """After an invalid digit in the code the length is unknown: the frame ends after 20 ms of silence."""
+    """After an invalid digit in the code, the length is unknown: the frame ends after 20 ms of silence."""
     host = await SerialHost.start(dut)
     await host.raw(line)
     assert await host.quiet(SILENCE - 2_000)
@@ -171,7 +175,7 @@ async def p312_serial_unknown_codes(dut: Any, code: str) -> None:
 
 @directed("P312-SER-17")
 async def p312_serial_unknown_code_with_more(dut: Any) -> None:
-    """All characters after an unknown code are discarded, and each of them restarts the silence time.
+    """After an unknown code, all characters are discarded, and each of them restarts the silence time.
 
     A control code ends the frame.
     """
@@ -197,7 +201,9 @@ async def p312_serial_unknown_code_with_more(dut: Any) -> None:
 @cocotb.parametrize(begin=["81", "91 32", "91 32 36 31 35"])
 @directed("P312-SER-16")
 async def p312_serial_silence_in_a_frame(dut: Any, begin: str) -> None:
-    """A frame continues after 19 ms of silence; after 21 ms its rest is ignored."""
+    """A frame continues after 19 ms of silence; after 21 ms of silence, its remaining characters are
+    ignored.
+    """
     rest = {"81": "7E"}.get(begin, "91 32 36 31 35 33"[len(begin) + 1 :])
     host = await SerialHost.start(dut)
     await host.raw(begin)
@@ -221,7 +227,7 @@ async def p312_serial_the_end_of_the_silence(dut: Any, after: int) -> None:
     """A character whose stop bit is sampled within 20 ms belongs to the frame."""
     host = await SerialHost.start(dut)
     await host.raw("81")
-    # If a character follows immediately, 10 bits pass from one stop bit to the next.
+    # If a character follows without a pause, 10 bits pass from one stop bit to the next.
     await host.pause(SILENCE - 1_920 + after)
     await host.raw("7E")
     assert await host.hear() == "90" if after < 0 else abs(after) < 3 or await host.quiet(8_000)
@@ -230,7 +236,9 @@ async def p312_serial_the_end_of_the_silence(dut: Any, after: int) -> None:
 
 @directed("P312-SER-15", "P312-SER-19")
 async def p312_serial_a_master_that_talks_out_of_turn(dut: Any) -> None:
-    """While a reply is pending or sent, each control code for this station is an overrun without effect."""
+    """While a reply is pending or being sent, each control code for this station is an overrun and has no
+    effect.
+    """
     host = await SerialHost.start(dut)
     await host.raw("91 34 31 2D")
     await host.send(summed(0x81) + summed(0x91, b"\x26\x15"))
@@ -254,7 +262,8 @@ async def p312_serial_out_of_turn_while_a_table_is_built(dut: Any) -> None:
 
 @directed("P312-SER-15")
 async def p312_serial_a_station_that_hears_itself(dut: Any) -> None:
-    """A station that receives its own reply counts the echo of 91 and 81 as overruns, that of A1 and B1 not.
+    """If a station receives its own replies, it counts echoes of control codes 91 and 81 as overruns, but not
+    those of A1 and B1.
 
     This happens with a master that does not gate its receiver.
     """
@@ -271,7 +280,9 @@ async def p312_serial_a_station_that_hears_itself(dut: Any) -> None:
 @cocotb.parametrize(clk=[-3, -2, -1, 0, 1, 2, 3])
 @directed("P312-SER-15", "P312-SER-19")
 async def p312_serial_the_end_of_a_turn(dut: Any, clk: int) -> None:
-    """A control code whose stop bit is sampled before the fall of snd is an overrun, after it a frame."""
+    """A control code whose stop bit is sampled before the fall of snd is an overrun; after the fall it is a
+    frame.
+    """
     host = await SerialHost.start(dut)
     await host.raw("81 7E")
     rise = await host.begin()

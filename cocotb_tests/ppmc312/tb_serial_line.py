@@ -1,4 +1,4 @@
-"""The line of the serial mode: speeds, wrong bit times, noise, breaks, framing errors."""
+"""Line of the serial mode: speeds, wrong bit times, noise, breaks, framing errors."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PATTERNS = (0x00, 0x55, 0xAA, 0x7F, 0x80, 0xFF, 0x01, 0xFE)
 
 
 async def echo(host: SerialHost, word: int) -> None:
-    """Write a position and read it back: all bits of eight characters in both directions."""
+    """Write a position and read it back, which uses all bits of eight characters in both directions."""
     assert await host.ask(f"43 {word:08X}") == "90"
     assert await host.ask("42") == " ".join(
         ("A0", f"{word:08X}"[:2], *(f"{word:08X}"[k : k + 2] for k in (2, 4, 6)))
@@ -42,13 +42,15 @@ async def p312_serial_bit_times_that_are_no_whole_clk(dut: Any, mod: int) -> Non
 
 REPLIES = {"81 7E": "90", "91 34 31 2D": "A0 12", "91 32 30 4E": "90"}
 REPLIES |= {"91 32 30 4F": "B0 41", "91 34 65 20": "A0 00"}
-"""Frames by the source of the reply: the poll, the core with and without data, the station for two others."""
+"""Frame -> reply, for each source of a reply: the poll, the core with and without data, and the station
+itself (last two frames).
+"""
 
 
 @cocotb.parametrize(mod=[5, 6, 7])
 @directed("P312-SER-18", builds=(F16, F27X12))
 async def p312_serial_a_reply_leaves_one_pair_of_wires_to_its_master(dut: Any, mod: int) -> None:
-    """snd rises half a bit after the end of the master's stop bit, and at most 6 cycles later."""
+    """snd rises half a bit after the end of the master's stop bit, at most 6 cycles late."""
     host = await SerialHost.start(dut, mod=mod)
     for line, answer in REPLIES.items():
         await host.raw(line)
@@ -76,7 +78,7 @@ async def p312_serial_a_slow_line_driver_has_its_time(dut: Any, mod: int) -> Non
 
 @directed("P312-SER-15", "P312-SER-18", builds=(F16, SLOW, SLOWEST))
 async def p312_serial_frames_back_to_back_with_a_slow_line_driver(dut: Any) -> None:
-    """A control code that ends before the fall of snd is an overrun, one after it is executed.
+    """A control code that ends before the fall of snd is an overrun; one that ends after it is executed.
 
     Frames for other stations have no effect (P312-SER-15, P312-SER-18).
     """
@@ -93,7 +95,7 @@ async def p312_serial_frames_back_to_back_with_a_slow_line_driver(dut: Any) -> N
 
 @directed("P312-SER-18", "P312-OVR-10")
 async def p312_serial_a_reply_that_is_ready_about_half_a_bit_after_the_frame(dut: Any) -> None:
-    """snd rises after the later of the end of the frame and the end of an instruction in progress.
+    """snd rises after the end of the frame or of an instruction in progress, whichever is later.
 
     An event is processed before the frame, one cycle later in each round.
     """
@@ -185,7 +187,9 @@ async def p312_serial_where_the_start_bit_is_verified(dut: Any, clk: int) -> Non
 
 @directed("P312-SER-01", "P312-BAD-16")
 async def p312_serial_noise_away_from_the_middle(dut: Any) -> None:
-    """Wrong levels of 30 cycles have no effect outside of the middle of a bit, where it is sampled."""
+    """Wrong levels of 30 cycles have no effect unless they are in the middle of a bit, where it is
+    sampled.
+    """
     host = await SerialHost.start(dut)
     for byte in b"\x91" + b"26" + b"15" + b"3":
         spikes = [(bit + place, 30) for bit in range(10) for place in (0.05, 0.7) if 0.5 < bit + place < 9.5]
@@ -200,7 +204,7 @@ async def p312_serial_noise_in_the_middle(dut: Any) -> None:
     host = await SerialHost.start(dut)
     frame = summed(0x91, b"\x26\x15")
     for place in range(1, len(frame)):
-        # The sum does not contain the highest bit of a byte.
+        # The sum does not include the highest bit of a byte.
         for bit in (0, 2, 5):
             for number, byte in enumerate(frame):
                 await host.character(byte, spikes=[(bit + 1.3, 80)] if number == place else ())
@@ -215,7 +219,7 @@ async def p312_serial_noise_in_the_middle(dut: Any) -> None:
 
 @directed("P312-SER-15", "P312-SER-45")
 async def p312_serial_framing_errors(dut: Any) -> None:
-    """A framing error ends the frame of any station.
+    """A framing error ends any frame, also one for another station.
 
     The line must be idle before the next character is received.
     """

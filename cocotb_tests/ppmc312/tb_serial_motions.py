@@ -114,7 +114,7 @@ async def p312_serial_overrides_by_pins(dut: Any, case: Any) -> None:
     assert await host.poll() == "B0 28" and await host.ask("80") == "90"
     await host.at_rest()
     assert await host.poll() == STOPPED
-    # Instructions 81 and 80 have no motion to stop: the first one fails and empties the FIFO.
+    # Instructions 81 and 80 have no motion to stop: the first of them fails and empties the FIFO.
     await host.blip(pin)
     assert await host.polls(2) == ["B0 4B", "90"] and await host.status() == "00 02 00"
 
@@ -127,7 +127,7 @@ async def p312_serial_overrides_at_positions(dut: Any) -> None:
     assert await host.status() == "00 02 04"
     assert await host.ask("85 01F4") == "90"
     await host.at_rest()
-    # Instruction 91 finds the stop speed reached; instruction 90 waits for the next motion.
+    # For instruction 91, the stop speed has already been reached; instruction 90 waits for the next motion.
     assert await host.ask("42") == "A0 00 00 00 14"
     assert await host.polls(3) == ["B0 28", "A0 39", "90"]
     assert await host.ask("85 01F4") == "90"

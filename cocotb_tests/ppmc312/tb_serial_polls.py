@@ -18,14 +18,14 @@ ON, OFF, STOP, STEP = (f"03 {tail}" for tail in ("01 20", "01 21", "02 80 00", "
 
 
 def event(code: str, block: str) -> str:
-    """Return the registration of a parallel block."""
+    """Return an instruction that registers a block of the parallel bus."""
     data = bytes.fromhex(block)
     return f"{code} {data.ljust(10, b'0').hex()}"
 
 
 @directed("P312-SER-30", "P312-CHK-67", "P312-RSP-10")
 async def p312_serial_everything_at_once(dut: Any) -> None:
-    """If reports of all classes are pending, each poll reads the first."""
+    """If reports of all classes are pending, each poll returns the first of them."""
     host = await SerialHost.start(
         dut, TS, "02 01 0002", "03 01 0002", "04 00000004", "90 0000000A", "28 FF", "44"
     )
@@ -107,7 +107,7 @@ async def p312_serial_the_newest_of_events_and_overrides(dut: Any) -> None:
 )
 @directed("P312-SER-22", "P312-EVT-03", "P312-SER-43")
 async def p312_serial_what_events_may_do(dut: Any, case: Any) -> None:
-    """Data of read instructions are discarded; a failure empties the buffer."""
+    """If an event executes read instructions, their data are discarded; a failure empties the buffer."""
     block, answer = case
     host = await SerialHost.start(dut, TS, event("49", block))
     await host.blip("evt0_n")
@@ -119,7 +119,9 @@ async def p312_serial_what_events_may_do(dut: Any, case: Any) -> None:
 
 @directed("P312-SER-21", "P312-RSP-20")
 async def p312_serial_newer_reports_replace_older_ones(dut: Any) -> None:
-    """Unread reports are no alarm: the newest stop, end of interlock and hold are each reported once."""
+    """Unread reports do not cause an alarm: the newest stop, end of interlock and hold are each reported
+    once.
+    """
     host = await SerialHost.start(dut, TS)
     assert await host.ask("84 01F4 00000002") == "90"
     await host.at_rest()
@@ -153,7 +155,7 @@ async def p312_serial_no_alarm_by_unread_answers(dut: Any) -> None:
 
 @directed("P312-RSP-22", "P312-MON-05", "P312-SER-42")
 async def p312_serial_monitors_that_return(dut: Any) -> None:
-    """An unread monitor report is discarded when the distance returns."""
+    """An unread monitor report is discarded if the distance returns."""
     host = await SerialHost.start(dut, TS, "02 01 0002", "03 01 0002")
     for far in ("00000010", "00000001"):
         assert await host.ask(f"43 {far}") == "90"
@@ -170,7 +172,7 @@ async def p312_serial_monitors_that_return(dut: Any) -> None:
 
 @directed("P312-SER-46", "P312-SER-30")
 async def p312_serial_end_status(dut: Any) -> None:
-    """Instruction 40 always returns the last stop, polls report it once."""
+    """Instruction 40 always returns the last stop; polls report it once."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("40") == "A0 00"
     assert await host.ask("82") == "90"
@@ -211,7 +213,7 @@ async def p312_serial_an_event_around_a_poll(dut: Any) -> None:
 
 
 async def last_bit(host: SerialHost, frame: bytes, shift: int, **levels: int) -> None:
-    """Send a frame; other pins change `shift` cycles after the middle of its last stop bit."""
+    """Send a frame; change other pins `shift` cycles after the middle of its last stop bit."""
     await host.send(frame[:-1])
     changes: dict[int, dict[str, int]] = {}
     for place, level in enumerate([0, *(frame[-1] >> k & 1 for k in range(8)), 1]):

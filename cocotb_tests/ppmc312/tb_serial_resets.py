@@ -1,4 +1,4 @@
-"""Resets of a station, latched pins, silent stations, the pins of the other host interface."""
+"""Resets of a station, latched pins, silent stations, pins of the parallel bus."""
 
 from __future__ import annotations
 
@@ -40,7 +40,9 @@ async def p312_serial_reset_in_a_frame(dut: Any, characters: int) -> None:
 @cocotb.parametrize(place=[0.5, 3.5, 8.5, 9.2])
 @directed("P312-GEN-12", "P312-SER-01")
 async def p312_serial_reset_in_a_character(dut: Any, place: float) -> None:
-    """The rest of a character after a reset may be received as another character, but not as a frame."""
+    """After a reset, the remaining bits of a character may be received as another character, but not as a
+    frame.
+    """
     host = await SerialHost.start(dut)
     await host.raw("91 32")
     t = host.t
@@ -112,7 +114,7 @@ async def p312_serial_software_reset_in_every_state(dut: Any) -> None:
 @cocotb.parametrize(clk=[0, 400, 1_500, 3_000])
 @directed("P312-CMD-FF", "P312-EVT-03", "P312-SER-19")
 async def p312_serial_software_reset_by_an_event(dut: Any, clk: int) -> None:
-    """A software reset by an event ends a reply that is being sent."""
+    """If an event executes a software reset, it ends a reply that is being sent."""
     host = await SerialHost.start(dut, TS, "49 03 01 FF 00 00 00 00 00 00 00")
     await host.say("42")
     await host.pause(clk)
@@ -127,7 +129,7 @@ async def p312_serial_software_reset_by_an_event(dut: Any, clk: int) -> None:
 
 @directed("P312-PRT-03", "P312-CMD-FF")
 async def p312_serial_pins_that_are_latched(dut: Any) -> None:
-    """Address and speed are sampled only at the end of a reset, by pin or by FF."""
+    """Address and speed are sampled only at the end of a reset, by the pin or by instruction FF."""
     host = await SerialHost.start(dut)
     await host.pins(adr=5, mod=6)
     await host.pause(20)
@@ -170,7 +172,7 @@ async def p312_serial_the_mode_is_latched(dut: Any) -> None:
 
 @directed("P312-PRT-01", "P312-BAD-17")
 async def p312_serial_the_bus_does_nothing(dut: Any) -> None:
-    """d_oe, irq_n and wrq_n do not change at any level of the bus pins."""
+    """d_oe, irq_n and wrq_n do not change, regardless of the levels of the bus pins."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("82") == "90"
     for write in (True, False, True):
@@ -196,7 +198,7 @@ async def p312_serial_parallel_parts_do_not_listen(dut: Any) -> None:
 @cocotb.parametrize(mod=[0, 1, 2, 3, 4])
 @directed("P312-BAD-17", "P312-CHK-61", "P312-PRT-03")
 async def p312_serial_silent_stations(dut: Any, mod: int) -> None:
-    """At a speed without a documented protocol the station sends nothing; event pins and motions work."""
+    """At a speed without a documented protocol, the station sends nothing; event pins and motions work."""
     host = await SerialHost.start(dut)
     await host.pins(mod=mod)
     await host.say("FF")
@@ -226,9 +228,9 @@ async def p312_serial_hsp_has_no_function(dut: Any, hsp: int) -> None:
 
 @directed("P312-PRT-02", "P312-SER-15", builds=(D16,))
 async def p312_serial_frames_before_out_oe(dut: Any) -> None:
-    """Frames before out_oe have no reply, effect or count, and leave no state.
+    """Frames before out_oe have no reply and no effect, are not counted, and leave no state.
 
-    They are a poll, a framing error, and most of an instruction.
+    The test sends a poll, a framing error, and most of an instruction.
     """
     host = await SerialHost.start(
         dut,
@@ -251,7 +253,7 @@ async def p312_serial_frames_before_out_oe(dut: Any) -> None:
 @cocotb.parametrize(early=[300, 40, 6, 5, 4, 3, 2, 1, 0, -1, -2, -3, -10])
 @directed("P312-PRT-02", builds=(D16,))
 async def p312_serial_the_first_character(dut: Any, early: int) -> None:
-    """A frame is received if the stop bit of its control code is sampled with out_oe = 1."""
+    """A frame is received if the stop bit of its control code is sampled while out_oe = 1."""
     host = await SerialHost.start(
         dut,
     )

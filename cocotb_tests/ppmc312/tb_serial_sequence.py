@@ -16,7 +16,7 @@ from .serial_host import SerialHost
 async def p312_serial_sequence(dut: Any) -> None:
     """All kinds of frames and replies work in one sequence.
 
-    It has a motion, an event, an override, and errors of all three counters.
+    The sequence contains a motion, an event, an override, and errors of all three counters.
     """
     host = await SerialHost.start(dut, adr=10)
     assert await host.poll() == "90" and await host.asks("41", "82") == ["A0 12", "B0 43"]

@@ -1,6 +1,6 @@
 """Example transactions of the PPMC-312, byte for byte on its serial line.
 
-A transaction has the same number here as in tb_transactions.py, where it is on the parallel bus.
+A transaction has the same number here and in tb_transactions.py, which uses the parallel bus.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ REGISTERED = "59 03 08 82 00 0000 00000064"
 
 
 class Row(NamedTuple):
-    """Number, bytes sent, reply, settings before it, polls after it, levels of pins."""
+    """A transaction: number, bytes sent, reply, settings before it, polls after it, levels of pins."""
 
     number: int
     sent: str
@@ -150,7 +150,7 @@ async def p312_serial_reset_is_not_answered(dut: Any) -> None:
 
 @directed("P312-CMD-26", "P312-CMD-06", "P312-MOT-30")
 async def p312_serial_what_the_rows_do(dut: Any) -> None:
-    """Rows 4, 7, 10, 21 and 26 have their effects after their replies."""
+    """Transactions 4, 7, 10, 21 and 26 have their effects after their replies."""
     host = await SerialHost.start(dut, TS)
     for line, output, level in (
         ("91 32 36 31 35 33", "auxo_n", 0x2A),

@@ -1,4 +1,4 @@
-"""Initial settings of the PPMC-312: tables read back, order of checks, the buffers that a setting clears."""
+"""Initial settings of the PPMC-312: tables read back, order of checks, and buffers that a setting clears."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ T5 = message(Code.INITIAL, "09 2000 0040 00EA60")
 
 
 def weighted(values: list[int]) -> int:
-    """Return the sum of (i + 1) x value over the stages, slowest first; `values` begin with the fastest."""
+    """Return the sum of (i + 1) x value over the stages, slowest first; `values` begin with the fastest
+    stage.
+    """
     return sum((i + 1) * value for i, value in enumerate(reversed(values)))
 
 
@@ -44,7 +46,7 @@ async def p312_tables_with_two_sides_read_back(dut: Any) -> None:
         assert rates[95] == 504 and short[::-1][:6] == [8, 9, 10, 9, 9, 10]
         assert short[5::-1] == [22, 22, 22, 22, 22, 23]
         assert sum(short) == 1500 and sum(long) == 2000 and weighted(long) == 156_518
-    # The largest numbers lead to sums beyond 2^38.
+    # The largest numbers result in sums above 2^38.
     setting = message(Code.INITIAL, "18 FFFF FF80 FEFF FFFFFF 8ABCDE")
     table = build(0xFFFF, 0xFF80, 0xFEFF, 0xFFFFFF, 0x8ABCDE, 0, True)
     head, (rates, up, down) = await read_table(await Host.start(dut, setting))
@@ -60,8 +62,7 @@ async def p312_sigmoid_tables_keep_stages_that_rounding_makes_equal(dut: Any) ->
     )
     assert head[:3] == [127, 127, 0] and len(up) == 127 and sum(up) == 3000
     assert rates[:-9:-1] == [300, 300, 300, 299, 299, 298, 297, 296]
-    # Of both ramps, the slower one has all stages. The other one starts at the last stage that is slow
-    # enough.
+    # The slower of the two ramps has all stages. The other ramp begins at the last stage that is slow enough.
     for rs, rp, counts in (
         (300, 300, [127, 127, 127]),
         (300, 299, [127, 127, 123]),
@@ -80,9 +81,10 @@ async def p312_sigmoid_tables_keep_stages_that_rounding_makes_equal(dut: Any) ->
 
 @directed("P312-OVR-10", "P312-EVT-01", "P312-CMD-00", "P312-CMD-FC-1", "P312-CMD-FC-9")
 async def p312_an_event_edge_during_00_and_01_is_dropped(dut: Any) -> None:
-    """An event edge during 00 and 01 is stored and is discarded when the buffers are emptied.
+    """If an event edge occurs during instruction 00 or 01, it is stored, then discarded when the buffers are
+    emptied.
 
-    An entry that is registered afterwards is not triggered by it.
+    It does not trigger an entry that is registered afterwards.
     """
     filled = (*TF, message(Code.EVENT_SET, "00", message(Code.OUTPUT, "01")), message(Code.STOP, "07"))
     for block, answer, cond, most in (
@@ -178,7 +180,7 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
         if block == TF[0]:
             assert await host.ask(message(Code.STATUS)) == message(Answer.STATUS, "02 01")
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, f"00 {state:02X} 00")
-    # The table of states rejects the setting: nothing happens.
+    # The table of states rejects the setting, which then has no effect.
     host = await Host.start(dut, *filled)
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     for block in (T1, TF[0], message(Code.INITIAL, "01 03E8 00C8 0007")):
@@ -187,7 +189,7 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
     await host.ask(message(Code.STOP, "00"))
     await host.response()
     await host.pins(fhl_n=0)
-    # HSL is the value that was set. After 00 or 01 sets a new table, HSL is RH of this table.
+    # HSL is the value that was set. After instruction 00 or 01 sets a new table, HSL is RH of this table.
     await host.ask(message(Code.SPEED_LIMIT, "00C8"))
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
     await host.ask(message(Code.STOP, "00"))

@@ -55,7 +55,7 @@ async def p312_pins_and_reads(dut: Any) -> None:
     assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
     assert await host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "7F E0")
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
-    # exon_n, zclmp_n and the outputs are independent of pulses.
+    # exon_n, zclmp_n and the outputs do not depend on pulses.
     assert (host.out("exon_n"), host.out("zclmp_n"), host.out("auxo_n")) == (1, 0, 0)
 
 
@@ -66,7 +66,7 @@ async def p312_clear_pulses(dut: Any) -> None:
     await host.pause(CLEAR + 100)
     for name, fall in first.items():
         assert host.bench.edges(name) == [(fall, 0), (fall + CLEAR, 1)]
-    # The two pulses are independent; another instruction 24 restarts only the time of its own pulse.
+    # The two pulses are independent; another instruction 24 restarts only the time of the same pulse.
     await host.ask(message(Code.ALARM_CLEAR))
     again = host.bench.falls("aclr_n")[-1]
     await host.pause(200_000)
@@ -103,7 +103,7 @@ async def p312_times_of_the_crystal_at_another_clock(dut: Any) -> None:
 
 @directed("P312-OUT-01", "P312-CHK-45", "P312-MOT-06")
 async def p312_current_reduction_after_each_kind_of_end(dut: Any) -> None:
-    # The time is counted from the end of pulse output; an immediate stop ends the output immediately.
+    # The time is counted from the end of the pulse output; an immediate stop ends the output immediately.
     host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.pulse(2, 2000)
@@ -140,8 +140,8 @@ async def p312_zero_clamp(dut: Any) -> None:
     assert host.bench.rises("zclmp_n", host.mark) == turned
     await host.response()
     assert host.out("zclmp_n") == 1
-    # With FO, the clamp is activated inside the window or by END, after the output has ended. Without EN it
-    # is not activated.
+    # With FO, the clamp is activated inside the window or by END, after the pulse output has ended. Without
+    # EN it is not activated.
     for flags, distance, end_n, level in (
         (5, 3, 1, 0),
         (5, 2, 1, 1),
@@ -171,7 +171,7 @@ async def p312_end_wait(dut: Any) -> None:
         await host.ask(stop)
         await host.pause(7000)
         assert host.condition == 0x08 and await host.quiet(200)
-        # These instructions have no effect; overrides are registered.
+        # These instructions have no effect now; overrides are registered.
         for block in (
             message(Code.CHANGE, "00 0064"),
             message(Code.RAMP_CHANGE, "00 00C8"),
@@ -194,7 +194,7 @@ async def p312_end_wait(dut: Any) -> None:
         answer = await host.response()
         assert answer[:11] == f"23 06 E0 {cause:02X}" and count <= 3
         await host.pins(end_n=1)
-    # If END is low already, there is no wait. Then instruction 06 00 and instruction FF are sent during an
+    # If END is already low, there is no wait. Then instruction 06 00 and instruction FF are sent during an
     # END wait.
     await host.pins(end_n=0)
     await host.ask(message(Code.STEP, "00"))
@@ -221,7 +221,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.pause(16_000)
     assert host.condition == 0x08
-    # Instruction 27 returns a low level of less than 200 us; no other function detects it.
+    # Instruction 27 returns a low level of less than 200 us; no other function detects such a level.
     await host.pins(end_n=0, fl_n=0)
     assert await host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "BD E0")
     await host.pins(end_n=1, fl_n=1)
@@ -246,7 +246,9 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
 
 @directed("P312-TIM-12", "P312-TIM-20", "P312-OVR-12", "P312-INP-31", builds=(D16,))
 async def p312_datasheet_triggered_stop(dut: Any) -> None:
-    """Instruction 80 by EVT acts 350 us after the filtered edge; by position it acts immediately."""
+    """Instruction 80 takes effect 350 us after the filtered edge of EVT, and immediately if it is triggered
+    by a position.
+    """
     host = await Host.start(dut, *TF, message(Code.STOP, "05"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     mark = host.mark
@@ -262,7 +264,7 @@ async def p312_datasheet_triggered_stop(dut: Any) -> None:
 
 @directed("P312-CMD-25", "P312-CMD-27", "P312-INP-01", "P312-EVT-01")
 async def p312_25_and_27_show_all_pins_at_one_clk(dut: Any) -> None:
-    """Instructions 25 and 27 sample all pins in one cycle, for every source of the instruction."""
+    """Instructions 25 and 27 sample all pins in the same cycle, for every source of the instruction."""
     names = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n", "evt1_n", "run")
     pins = dict.fromkeys(names, 0)
     for code, levels, shown in (

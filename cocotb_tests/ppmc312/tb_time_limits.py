@@ -1,4 +1,4 @@
-"""Upper bounds that the rules of the PPMC-312 state for FAST, and its ports."""
+"""Upper bounds in the rules of the PPMC-312 for FAST, and the ports."""
 
 from __future__ import annotations
 
@@ -12,15 +12,17 @@ from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import INPUTS, OUTPUTS, SPONTANEOUS, WIDTHS, Answer, Code, Source
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
-"""Rates 4, 400 and 800 at 8 MHz: 8, 800 and 1600 cycles."""
+"""Rates 4, 400 and 800 at 8 MHz, which are 8, 800 and 1600 cycles."""
 T_INIT, T_EXEC, T_TRIG, T_STOP, T_PIN = 65_536, 4_096, 512, 64, 4
 POLL = 40
-"""Cycles that the poll of the host adds."""
+"""Number of cycles that the poll of the host adds."""
 
 
 @directed("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")
 async def p312_ports(dut: Any) -> None:
-    """The device has exactly the ports of its manual (chapter 2); the RTL build connects them by name."""
+    """The device has exactly the ports of its manual (chapter 2); the RTL build connects the ports by
+    name.
+    """
     inputs = (
         "mode d_i rs cs_n we_n oe_n rxd hsp mod adr evt0_n evt1_n auxi epin epdir index_n org_n alm_n end_n"
     )
@@ -86,7 +88,7 @@ async def p312_stops_within_their_limits(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-OVR-10", "P312-RSP-20", "P312-EVT-02")
 async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
-    """An instruction 88 in progress is finished before a stop by an event.
+    """An instruction 88 in progress is completed before an event executes a stop.
 
     The stop then takes more than 64 cycles, and the motion stops regardless of the reads of the host.
     """
@@ -106,7 +108,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
         position = f"{host.bench.golden.position:08X}"
         if answers[0] == message(
             Code.STOP, source=Source.OVERRIDE
-        ):  # the event was first; then there is no motion to change
+        ):  # the event was first, so there is no motion to change
             assert (
                 answers[1:]
                 == [
@@ -116,7 +118,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
                 and took <= T_STOP
             )
         else:
-            # The answer of instruction 88 is unread, so the stop becomes an alarm immediately.
+            # The answer of instruction 88 is unread, so the stop immediately becomes an alarm.
             assert sorted(answers) == [
                 message(Code.CHANGE),
                 message(Answer.ALARM, "01", source=SPONTANEOUS),
@@ -138,7 +140,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-OVR-11", "P312-OVR-02", "P312-CMD-88", "P312-CMD-87", "P312-CMD-81")
 async def p312_changes_within_their_limits(dut: Any) -> None:
-    """A direct or triggered change takes effect on the coming intervals within 512 cycles."""
+    """A direct or triggered change takes effect on the next intervals within 512 cycles."""
     for code, rest in (("88", "0320"), ("87", "0320"), ("81", "")):
         for trigger in ("direct", "pin", "position"):
             flags, place = {"direct": ("00", ""), "pin": ("05", ""), "position": ("04", "0000000A")}[trigger]
@@ -172,6 +174,6 @@ async def p312_a_position_acts_on_the_next_interval(dut: Any) -> None:
     for _ in range(2):
         assert await host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
     assert await host.response() == message(Answer.STOPPED, "40 00 00 00 1E", source=SPONTANEOUS)
-    # At the first change, 12 pulses are left, and the final deceleration starts at rate 200. The second
-    # change makes the rate constant at 400 for the remaining pulses.
+    # At the first change, 12 pulses are left, and the final deceleration begins at rate 200. The second
+    # change sets the constant rate 400 for the remaining pulses.
     assert host.gaps() == [400] * 3 + [200] * 4 + [100] * 11 + [200] + [400] * 10

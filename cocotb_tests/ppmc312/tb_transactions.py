@@ -1,6 +1,6 @@
 """Example transactions of the PPMC-312, byte for byte on its parallel bus.
 
-A transaction has the same number here as in tb_serial_transactions.py, where it is on the serial line.
+A transaction has the same number here and in tb_serial_transactions.py, which uses the serial line.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 T1_8M = message(Code.INITIAL, "00 03E8 00C8 0007D0")
-"""T1 at F = 8 MHz, for moves that would take 15 to 25 million cycles at 1 MHz."""
+"""Table T1 at F = 8 MHz, for moves that would take 15 to 25 million cycles at 1 MHz."""
 
 
 async def sends(host: Host, text: str) -> None:
-    """Send `WAR; DWR bytes in bus order`."""
+    """Send a text `WAR; DWR bytes in bus order`."""
     war, data = (piece.strip() for piece in text.split(";"))
     while await host.read(CSR) & MWEF:
         await host.pause(20)
@@ -33,7 +33,7 @@ async def sends(host: Host, text: str) -> None:
 
 
 async def gets(host: Host) -> str:
-    """Return `RAR; DRR bytes in bus order` of the next response."""
+    """Return the next response as a text `RAR; DRR bytes in bus order`."""
     await host.wait()
     rar = await host.read(RAR)
     data = bytes([await host.read(DRR) for _ in range(0x40 - rar)])
@@ -42,7 +42,7 @@ async def gets(host: Host) -> str:
 
 
 SINGLE = [
-    # A row has its number, the setting, the block sent, the immediate response, and the later response.
+    # A row contains the number, the setting, the block sent, the immediate response, and the later response.
     (1, (), "15; D0 07 00 C8 00 E8 03 01 00 09 03", "3D; 00 01 03"),
     (2, (), "10; DC 05 00 D0 07 00 C8 00 F4 01 E8 03 11 00 0E 03", "3D; 00 01 03"),
     (3, (), "1A; 0A 00 03 02 04 03", "3D; 02 01 03"),

@@ -59,5 +59,5 @@ def test_ppmc312(item: Item, sim_options: SimOptions) -> None:
 
 @verifies("P312-SER-18")
 def test_ppmc312_driver_times_in_range() -> None:
-    """Elaboration accepts SND_LEAD 1 .. 16 and SND_WAIT 0 .. 8 only (P312-SER-18)."""
+    """Elaboration accepts only SND_LEAD 1 to 16 and SND_WAIT 0 to 8 (P312-SER-18)."""
     check_ranges("P312-SER-18", part_design("ppmc312", F16), RANGES)

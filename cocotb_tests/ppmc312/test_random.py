@@ -1,7 +1,7 @@
-"""Random hosts and noise compared with the golden model: fixed lists of seeds; `--seed N` plays seed N only.
+"""Compares random hosts and noise with the golden model: fixed lists of seeds, or one seed with `--seed N`.
 
-One simulation plays several seeds of one build one after the other, each from a reset.
-`make soak PART=ppmc312` plays any number of other seeds.
+One simulation plays several seeds of one build one after the other, each from a reset. `make soak
+PART=ppmc312` plays any number of other seeds.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def test_serial(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """The fixed seeds use every build, each seed once; the same seed selects the same build."""
+    """The fixed seeds use each build, contain no seed twice, and always select the same build for a seed."""
     builds = [build(seed) for seed in SEEDS]
     assert builds == [build(seed) for seed in SEEDS]
     assert {config.name for config in builds} == build.names
@@ -60,9 +60,9 @@ def test_scenarios_are_reproducible_and_varied() -> None:
 
 
 def test_hosts_are_rich() -> None:
-    """Each kind of event is frequent enough in every third host with FAST times.
+    """Each kind of event occurs often enough in every third host with FAST times.
 
-    The device is in ABN and INI for less than 30 % of the time, in ACC and FIX for more than 30 %.
+    The device is in ABN or INI for less than 30 % of the time, and in ACC or FIX for more than 30 %.
     """
     with counting() as counts:
         for seed in SEEDS[::3]:
@@ -75,7 +75,7 @@ def test_hosts_are_rich() -> None:
 
 
 def test_hosts_on_the_line_are_rich() -> None:
-    """The fixed seeds use every build; each kind of frame, reply and error is frequent enough."""
+    """The fixed seeds use each build, and each kind of frame, reply and error occurs often enough."""
     assert {random_serial.build(seed).name for seed in SERIAL_SEEDS} == random_serial.build.names
     with counting_frames() as counts:
         for seed in SERIAL_SEEDS:

@@ -12,7 +12,7 @@ KINDS = "undefined init halt decel operation read switching aux_out exc_off aux_
 ACTIONS = "init start halt decel exc_off aux_on aux_off aux_out switching read".split()
 HARMLESS = ("aux_out", "exc_off", "aux_on", "aux_off")
 STOPS = ("halt", "decel")
-# A row has the code byte, its kind, and the number of bytes that follow.
+# A row contains the code byte, its kind, and the number of bytes that follow.
 CODES = [
     (0x1A, "init", 4),
     (0x08, "undefined", 0),
@@ -35,8 +35,8 @@ PROC_TIME_PORTS = (
     " act_o:10 code_o:8 params_o:32 base_o:3 initialised_i building_i steps_i:{steps} phase_init_o ready_o"
     " ramp_i single_i stop_i pulse_i last_i final_i go_o end_delay_o"
 )
-# Name -> clock, crystal, bits of PA, minimum and maximum of PA, whether forced decelerations and triangular
-# profiles are timed.
+# Name -> clock, crystal, number of bits of PA, minimum and maximum of PA, whether forced decelerations and
+# triangular profiles have DATASHEET times.
 VARIANTS = {
     "sister": (16_000_000, 16_000_000, 14, 4, 11_220, 1),
     "plain": (11_059_200, 16_000_000, 16, 0, 65_535, 0),
@@ -93,9 +93,7 @@ def action(*names: str) -> int:
 
 
 def judge_code(kind: str, params: int, state: dict[str, int]) -> tuple[int | None, int]:
-    """Return (error number or None, action) of a code, by the tables of P104-ERR-01 and of the J105
-    STMC.
-    """
+    """Return (error number or None, action) for a code, according to P104-ERR-01 and the J105 STMC."""
     stop, busy = kind in STOPS, state["busy_i"]
     if kind == "undefined" or (stop and not busy):
         return 0, 0
@@ -170,7 +168,7 @@ async def command_random(dut):
 @cocotb.test()
 @cocotb.parametrize(idle=[0, 1])
 async def setup_frozen(dut, idle):
-    """The first initialisation sets everything; later ones do not change the frozen bits until off_i."""
+    """The first initialisation sets all values; later ones do not change the frozen bits until off_i."""
     rand = rng()
     u = BlockDriver(dut, f"setup{idle}", BLOCKS, "setup_o initialised_o")
     await u.reset()
@@ -234,9 +232,9 @@ async def finish_answers(dut, unread_flag):
 
 
 async def clk_to_action(u: BlockDriver, where: str, closed: bool) -> int:
-    """Return the clock edges until act_o outputs an action.
+    """Return the number of clock edges until act_o outputs an action.
 
-    With `closed`, check that the mailbox is closed until then.
+    If `closed` is set, check that the mailbox is closed until then.
     """
     for took in range(5_000):
         if (await u.settle())[0]:
@@ -244,12 +242,12 @@ async def clk_to_action(u: BlockDriver, where: str, closed: bool) -> int:
         if closed:
             same(f"{where}: closed before it", u.get("open_o"), 0)
         await u.clk()
-    raise AssertionError(f"{where}: no action within {took + 1} clk")
+    raise AssertionError(f"{where}: no action within {took + 1} cycles")
 
 
 @cocotb.test()
 async def proc_time_fast(dut):
-    """In FAST, actions pass in the same cycle; an initialisation is complete with its table."""
+    """In FAST, actions pass in the same cycle; an initialisation is complete when its table is complete."""
     u = BlockDriver(dut, "fast", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o")
     await u.reset()
     for name in ACTIONS:
@@ -260,14 +258,14 @@ async def proc_time_fast(dut):
     u.put(act_i=0)
     for _ in range(5):
         same("closed while the table is built", (await u.clk(building_i=1))[1], 0)
-    same("and one clk longer, when it is complete", await u.clk(building_i=0), (0, 0, 1, 0, 0, 1))
+    same("and one cycle longer, when it is complete", await u.clk(building_i=0), (0, 0, 1, 0, 0, 1))
     same("open", await u.clk(), (0, 1, 1, 0, 0, 0))
 
 
 @cocotb.test()
 @cocotb.parametrize(name=list(VARIANTS))
 async def proc_time_datasheet(dut, name):
-    """In DATASHEET, start, first pulse, end and opening of the mailbox occur at their times."""
+    """In DATASHEET, start, first pulse, end and opening of the mailbox occur at their documented times."""
     clk, xtal, bits, low, high, timed = VARIANTS[name]
     u = BlockDriver(
         dut,
@@ -279,12 +277,13 @@ async def proc_time_datasheet(dut, name):
     await u.reset()
 
     def cyc(microseconds: float) -> int:
-        """Return the cycles of a time at 16 MHz; it scales with the crystal."""
+        """Return the cycles of a time that is specified for 16 MHz; the time scales with the crystal."""
         return ceil(round(microseconds * 16) * clk / xtal)
 
     steps = low + 3
     await u.clk(act_i=action("init"), params_i=steps << 16, initialised_i=0)
-    # One cycle later the command unit outputs the parameters shifted down by a byte, the present byte on top.
+    # One cycle later the command unit outputs the parameters shifted down by one byte, with the present byte
+    # on top.
     await u.clk(act_i=0, params_i=0xA5 << 24 | steps << 8)
     await u.settle(params_i=0)
     same("phases", await u.run_until("phase_init_o", 1), cyc(44) - 1)
@@ -304,7 +303,7 @@ async def proc_time_datasheet(dut, name):
         ramp, single = op in (3, 6), op == 2
         for end in ("normal", "stop", "short"):
             if end == "short" and not ramp:
-                continue  # only a ramp ends with a pulse before its count
+                continue  # only a ramp can end with a pulse before its count
             await u.clk(
                 act_i=action("start"),
                 code_i=0x40 | op,

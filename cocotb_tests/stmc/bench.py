@@ -1,6 +1,6 @@
-"""Test bench of the STMC core and the J105 board: the meaning of their pins.
+"""Test bench of the STMC core and the J105 board: functions of their pins.
 
-Levels are those of the golden models.
+Names and levels of the pins are those of the golden models.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ def design(config: Config) -> Design:
 
 
 class BoardEnv(Env):
-    """An `Env` with an ISA host; `master` is the bus."""
+    """An `Env` with an ISA host; `master` is the master of the ISA bus."""
 
     def __init__(self, bench: RtlBench) -> None:
         self.master = IsaMaster(bench)
@@ -50,13 +50,13 @@ class BoardEnv(Env):
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = None, clock: int = 0, **pins: int) -> BoardEnv:
-        """Reset with the input levels `pins`; the board itself makes the clock of its core."""
+        """Reset with the input levels `pins`; the board generates the clock of its core."""
         bench = await start_bench(dut, J105_STMC, **pins)
         assert isinstance(bench, RtlBench)
         return cls(bench)
 
     async def wait_end(self, timeout: int = 1_000_000) -> int:
-        """Wait for the end of the last `go` and return the edge on which irq rises."""
+        """Wait for the end of the last `go`; return the edge on which irq rises."""
         if rises := self.bench.rises("irq", self.since):
             await self.bench.align()
             return rises[0]

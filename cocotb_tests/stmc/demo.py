@@ -1,5 +1,6 @@
-"""The stimulus of `make demo PART=stmc` on the ISA bus of the board: an old program that moves, runs to
-its limit and to its reference point, and then holds.
+"""Stimulus of `make demo PART=stmc` on the ISA bus of the board.
+
+An old program moves the motor, runs it to its limit and to its reference point, and then holds it.
 """
 
 from __future__ import annotations
@@ -19,17 +20,18 @@ BASE = 0x3B0
 # 4-phase motor, full step, positive logic for the driver on the board, 48.675 kHz, chopped at standstill.
 INIT = 0x3A
 SLOW, FAST, RAMP = 50, 10, 60  # 973.5 to 4867.5 steps/s within 60 steps
-MOVE, TO_LIMIT, TO_REFERENCE = 0x43, 0x46, 0x4F  # the last one counter-clockwise
+MOVE, TO_LIMIT, TO_REFERENCE = 0x43, 0x46, 0x4F  # the last move is counterclockwise
 STEPS = 300
-STEPS_TO_SLOW_DOWN, STEPS_TO_LIMIT = 120, 170  # steps of TO_LIMIT after which L3 becomes active, then L1
+# Numbers of steps of TO_LIMIT after which L3 and L1 become active.
+STEPS_TO_SLOW_DOWN, STEPS_TO_LIMIT = 120, 170
 DIVISOR = 25  # 1947 steps/s
 STEPS_TO_REFERENCE = 40
-INTERRUPT_LATENCY = 800  # cycles, 50 us: the time that a PC of the old system needed
+INTERRUPT_LATENCY = 800  # cycles, 50 us: processing time of a PC of the old system
 LONG = 4_000_000
 
 
 async def results(host: IsaHost) -> None:
-    """Wait for the interrupt, then read finish status and remaining steps as a handler does."""
+    """Wait for the interrupt, then read finish status and remaining steps as an interrupt handler does."""
     bench = host.bench
     if not bench.level("irq"):
         await bench.edge("irq", 1, timeout=LONG)
@@ -40,7 +42,7 @@ async def results(host: IsaHost) -> None:
 
 
 async def step(bench: RtlBench, n: int, since: int) -> int:
-    """Wait for the n-th step from `since` on and return its edge."""
+    """Wait for the n-th step from `since` on; return its edge."""
     seen = [(since, bench.level("drv"))]
     while len(steps([*seen, *bench.edges("drv", since)])) < n:
         await bench.edge("drv", timeout=LONG)
@@ -60,7 +62,8 @@ async def demo_board(dut: Any) -> None:
     with demo_log.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
-        # The table build keeps this command in the buffer: IBF indicates when the board is ready.
+        # During the table build this command stays in the buffer, so IBF = 0 indicates that the board is
+        # ready.
         await host.fetch(0x82)
         await bench.clocks(8000)
     with demo_log.chapter("move", f"{STEPS} steps with ramps"):

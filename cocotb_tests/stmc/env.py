@@ -25,18 +25,19 @@ from .expected_timing import EXT, STANDARD, TICK, Init, internal_offsets
 WRITE_EVENT = 2
 C_EVENT_LATEST = 12
 PINS_LATEST = 14
-# Maximum cycles from the last step, or from the deciding cause, to the fall of BUSY (STMC-MOT-08).
+# Maximum number of cycles from the last step, or from the deciding cause, to the fall of BUSY (STMC-MOT-08).
 END_LATEST = 8
-# Crystal periods of the longest motion that a test waits for.
+# Duration of the longest motion for which a test waits, in crystal periods.
 LONGEST = 200 * TICK
-# Maximum duration of a table build in cycles (STMC-INI-07).
+# Maximum number of cycles of a table build (STMC-INI-07).
 BUILD_LATEST = 40_000
 
 
 class Env(AxisDriver):
     """Test bench and host.
 
-    `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 = stopped.
+    `pulses` are the steps, as edges of `s`. `period` is the period of `ext_clk` in cycles, 0 if it is
+    stopped.
     """
 
     def __init__(self, bench: DutBench, host: HostBus | None = None, clock: str = "ext_clk") -> None:
@@ -47,10 +48,10 @@ class Env(AxisDriver):
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = STANDARD, clock: int = EXT, **pins: int) -> Env:
-        """Reset with the input levels `pins`, then initialise (None: the core stays in its reset
-        state).
+        """Reset with the input levels `pins`, then initialise (None: the core stays in its reset state).
 
-        Args: clock: period of `ext_clk` in cycles from the reset on, 0 = stopped.
+        Args:
+            clock: period of `ext_clk` in cycles from the reset on, 0 = stopped.
         """
         env = cls(await start_bench(dut, STMC, **pins))
         if clock:
@@ -68,26 +69,26 @@ class Env(AxisDriver):
 
     @property
     def inputs_code(self) -> int:
-        """Code of the read of the inputs."""
+        """Code that reads the inputs."""
         return 0x82 if self.sheet else 0x81
 
     @property
     def outputs_code(self) -> int:
-        """Code of the read of the outputs."""
+        """Code that reads the outputs."""
         return 0x83 if self.sheet else 0x82
 
     @property
     def remaining_code(self) -> int:
-        """Code of the read of the remaining steps."""
+        """Code that reads the remaining steps."""
         return 0x84 if self.sheet else 0x83
 
     async def init(self, code: int, d1: int, d2: int, pa: int) -> None:
-        """Initialise and wait until the ramp table is ready."""
+        """Initialise and wait until the ramp table is complete."""
         await self.host.init(code, d1, d2, pa)
         await self.ready()
 
     async def ready(self) -> int:
-        """Wait until bytes are accepted again; return the finish status that is read for this purpose."""
+        """Wait until bytes are accepted again: read the finish status, and return it."""
         limit = 1_300_000 if self.cfg.datasheet else BUILD_LATEST + 200
         if self.cfg.datasheet:
             limit = self.cfg.cyc(264_000 + 209 * 65_535) + 1_000
@@ -118,7 +119,8 @@ class Env(AxisDriver):
         """Call `go`, wait for the end and return the steps. `rate` is the divisor."""
         await self.go(code, n, rate)
         if self.cfg.datasheet:
-            # BUSY rises long after IBF has fallen (STMC-DS-01), but no byte is accepted in between.
+            # In DATASHEET, BUSY rises long after IBF has fallen (STMC-DS-01), but no byte is accepted in
+            # between.
             await self.host.poll(BUSY, BUSY, self.cfg.us(150), dense=1000)
         await self.idle()
         return self.pulses
@@ -146,11 +148,11 @@ class Env(AxisDriver):
         return step
 
     async def in_gap(self, i: int, plus: int = 30) -> int:
-        """Wait until `plus` cycles after the begin of gap i; return the edge of step i."""
+        """Wait until `plus` cycles after step i, which begins gap i; return the edge of step i."""
         return await self.pulse(i + 1, plus)
 
     def train(self, rule: str, ticks: Sequence[int]) -> None:
-        """Check that the steps of the last `go` are exactly at gaps of `ticks`."""
+        """Check that the gaps between the steps of the last `go` are exactly `ticks`."""
         steps = self.pulses
         self.check(rule, "number of steps", len(steps), len(ticks) + 1)
         if self.period:
@@ -158,7 +160,7 @@ class Env(AxisDriver):
             self.check(rule, "gaps in cycles", differences(steps), expected)
         else:
             got = [t - steps[0] for t in steps]
-            self.check(rule, "clk from step 0", got, internal_offsets(self.cfg, list(ticks)))
+            self.check(rule, "cycles from step 0", got, internal_offsets(self.cfg, list(ticks)))
 
     async def outcome(
         self, rule: str, steps: int, finish: int, remaining: int, ticks: Sequence[int] | None = None
@@ -169,7 +171,7 @@ class Env(AxisDriver):
             self.train(rule, ticks)
 
     async def tick_until(self, pulses: int, limit: int = 2000) -> None:
-        """Make single clock edges until the last `go` has made this number of steps."""
+        """Drive single clock edges until the last `go` has made this number of steps."""
         for _ in range(limit):
             if len(self.pulses) >= pulses:
                 break
@@ -179,17 +181,17 @@ class Env(AxisDriver):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """Drive input pins and return the stamp."""
+        """Drive input pins and return the stamp of the change."""
         return self.bench.set(**levels)
 
     async def pins(self, **levels: int) -> None:
-        """Drive input pins and wait until they act."""
+        """Drive input pins and wait until they take effect."""
         await self.bench.align()
         self.bench.set(**levels)
         await self.bench.clocks(4)
 
     async def blip(self, pin: str, clocks: int = 4) -> int:
-        """Drive a switch to its other level for some cycles; return the first stamp."""
+        """Hold a switch at its other level for some cycles; return the first stamp."""
         return await self.bench.pulse_pin(pin, 1 - self.bench.pin(pin), clocks)
 
     def quiet(self, rule: str, since: int) -> None:

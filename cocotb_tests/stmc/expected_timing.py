@@ -1,4 +1,6 @@
-"""Expected values for the STMC tests: separate formulas, written from the rules. Gaps are in ticks."""
+"""Expected values of the STMC tests: formulas written from the rules, independent of the model. Gaps are in
+ticks.
+"""
 
 from __future__ import annotations
 
@@ -11,11 +13,11 @@ Ramp = tuple[int, int, int]
 Init = tuple[int, int, int, int]
 
 A: Ramp = (20, 5, 8)
-# Setting of the acceptance table with the external clock; INTERNAL is the same setting with the internal
+# Setting of the acceptance table, with the external clock; INTERNAL is the same setting with the internal
 # clock.
 STANDARD: Init = (0x1A, *A)
 INTERNAL: Init = (0x0A, *A)
-# Crystal periods of a tick of the internal clock, and from the start of a motion to step 0.
+# Crystal periods per tick of the internal clock, and from the start of a motion to step 0.
 TICK, T0 = 1280, 80
 ALL = 1 << 24
 MOST = ALL - 1
@@ -25,7 +27,7 @@ EXT = 16
 OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
 SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
 
-# Builds for this part only; each one takes time to build, so every test uses as few as possible.
+# Builds for this part only. Each build takes time, so a test uses as few builds as possible.
 F10 = Config("f10m", clk_hz=10_000_000)
 F12 = Config("f12m", clk_hz=12_345_678)
 F8X20 = Config("f8x20", clk_hz=8_000_000, xtal_hz=20_000_000)
@@ -50,7 +52,7 @@ STEPS = {
 
 
 def steps(code: int) -> list[int]:
-    """Return the pin vectors of the excitation table selected by an initialisation code, with its
+    """Return the pin vectors of the excitation table that an initialisation code selects, with its
     polarity.
     """
     mask = 0 if code & 8 else 0x1F
@@ -69,7 +71,7 @@ def divisor(ramp: Ramp, k: int) -> int:
 
 
 def levels(n: int, ramp: Ramp) -> list[int]:
-    """Return v(i) of every gap of an undisturbed move of n steps (STMC-MOV-02)."""
+    """Return the level v(i) of each gap of an undisturbed move of n steps (STMC-MOV-02)."""
     d1, d2, pa = ramp
     top = 0 if d1 == d2 else pa
     return [min(i, n - 2 - i, top) for i in range(n - 1)]
@@ -92,5 +94,5 @@ def slowed(n: int, i: int, ramp: Ramp = A) -> list[int]:
 
 
 def internal_offsets(config: Config, ticks: list[int]) -> list[int]:
-    """Return the cycles from step 0 to every step on the internal clock (STMC-CLK-01)."""
+    """Return the cycles from step 0 to each step with the internal clock (STMC-CLK-01)."""
     return [config.cyc(TICK * n) for n in accumulate(ticks, initial=0)]

@@ -1,5 +1,5 @@
-"""Tests that `make test-gates` runs for the J105 STMC and its board, and the tests that it omits, with
-the reason.
+"""Tests of the J105 STMC and its board that `make test-gates` runs, and the tests that it omits, with the
+reason.
 """
 
 from __future__ import annotations

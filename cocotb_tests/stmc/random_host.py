@@ -1,8 +1,8 @@
-"""Constrained-random hosts for the STMC core: a seed becomes a list of actions before the simulation
+"""Constrained-random hosts of the STMC core: a seed determines a list of actions before the simulation
 starts.
 
-`scenario(seed)` is a pure function. The actions are those of `common.player` and ("finish", cycles).
-Gaps last at least 64 cycles, so that every rule holds exactly (STMC-CLK-04).
+`scenario(seed)` is a pure function. The actions are those of `harness.player`, and ("finish", cycles). Gaps
+last at least 64 cycles, so that every rule is exact (STMC-CLK-04).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from cocotb_tests.harness.random_host import HostWriter
 
 from .expected_timing import F8X20, F12, F200, ODD, SHEET, SWITCHES
 
-# The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
+# Builds of the random tests with their weights. Few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [
     (F16, 34), (F12, 14), (F8X20, 14), (ODD, 14), (SHEET, 16), (F200, 4),
 ]  # fmt: skip
@@ -37,7 +37,7 @@ def scenario(seed: int) -> Scenario:
 
 
 class _Writer(HostWriter):
-    """Builds one scenario. `least` is the smallest divisor for which gaps are long enough for the clock."""
+    """Creates one scenario. `least` is the minimum divisor for which gaps are long enough for the clock."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("stmc", seed, WEIGHTS, DATASHEET_WEIGHTS, external=(0.75,))
@@ -63,14 +63,14 @@ class _Writer(HostWriter):
             self.add("fetch", code, count)
         self.add("wait", rng.choice((50, 3_000)))
         if rng.random() < 0.05 and self.config.clk_hz <= 16_000_000:
-            self.add("wait", self.config.cyc(546_000))  # the hold timer expires
+            self.add("wait", self.config.cyc(546_000))  # long enough for the hold timer to expire
         pins = {rng.choice(SWITCHES): 0} if rng.random() < 0.15 else {}
         return Scenario(
             self.seed, self.config, pins, self.actions, (self.clock(),), rng.random() < 0.5, self.limit_clk
         )
 
     def clock(self) -> ExternalClock:
-        """Return the waveform of the clock pin, if this host uses it; periods are in cycles."""
+        """Return the segments of the clock pin, if this host uses it; times are in cycles."""
         if not self.external:
             return ExternalClock()
         near = (20, 24, 33, 40, 64) if self.fast else (70, 80, 100, 128, 320)
@@ -89,7 +89,7 @@ class _Writer(HostWriter):
         if kind < 0.7:  # a flat ramp: equal divisors, or no ramp steps
             d1 = rng.choice(slow)
             return (d1, d1, rng.choice((0, 1, 50))) if rng.random() < 0.5 else (d1, min(least, d1), 0)
-        if kind < 0.8:  # the ramp begins flat: several levels at D1
+        if kind < 0.8:  # the ramp begins flat: several levels have the divisor D1
             d1 = rng.choice(slow) + least + 1
             return d1, d1 - 1, rng.randint(3, 24)
         if kind < 0.92 or self.config.datasheet:
@@ -105,7 +105,7 @@ class _Writer(HostWriter):
         code = rng.choice(INIT_CODES)
         code = code | 0x10 if self.external and rng.random() < 0.9 else code & ~0x10
         self.send_command(code, [d1, d2, pa & 0xFF, pa >> 8], 0.8)
-        if rng.random() < 0.3:  # sends bytes during the table build
+        if rng.random() < 0.3:  # send bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))
@@ -130,7 +130,7 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ motions
 
     def motion_bytes(self) -> tuple[int, list[int]]:
-        """Return a motion command: short moves, small divisors, sometimes too few or too many data
+        """Return a motion command: short moves, small divisors, in some cases too few or too many data
         bytes.
         """
         rng = self.rng
@@ -168,7 +168,7 @@ class _Writer(HostWriter):
             self.add("pins", dict.fromkeys(SWITCHES, 1))
 
     def disturb(self) -> None:
-        """Add an action that happens during a motion."""
+        """Add an action that takes place during a motion."""
         rng = self.rng
         self.add("wait", self.clk(1, 4_000 if self.external else 12_000))
         rng.choices(
@@ -190,7 +190,7 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ bad input
 
     def random_write(self) -> tuple[int, int]:
-        """Return a byte that is never the divisor of a constant-speed motion too fast for the clock."""
+        """Return a byte that is not the divisor of a constant-speed motion too fast for the clock."""
         rng = self.rng
         if rng.random() < 0.5:
             return 1, rng.choice(KNOWN)

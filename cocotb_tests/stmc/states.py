@@ -1,13 +1,13 @@
 """Puts the core into each state of the accept/reject table (docs/stmc/README.md, States) and keeps it there.
 
-A moving core stays in its state because `ext_clk` is stopped; the tests make its edges one by one.
+A moving core stays in its state because `ext_clk` is stopped; the tests drive its edges one by one.
 """
 
 from __future__ import annotations
 
 from .env import Env
 
-# D1 = 3 and D2 = 1 make gaps of few ticks. The level is 1 from gap 3 on.
+# D1 = 3 and D2 = 1 result in gaps of few ticks. The level is 1 from gap 3 on.
 SMALL = (0x1A, 3, 1, 4)
 RESTING = ("U", "W from U", "I", "W from I")
 RAMP = ("S", "S flagged", "A", "A top", "D", "D natural")

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs ppmc_square for SECONDS, cycle by cycle, and compares the time of each toggle with its exact value.
-// Prints the number of toggles; exit code 1 with one line at the first toggle with a wrong time.
+// Simulates ppmc_square for SECONDS, cycle by cycle, and compares the time of each toggle with its exact value.
+// Prints the number of toggles. At the first toggle with a wrong time, prints one line and exits with code 1.
 #include <cstdint>
 #include <cstdio>
 
 #include "Vppmc_square.h"
 
 int main() {
-    // Two toggles per period. Toggle t occurs after ceil(t * CLK_HZ / TOGGLE_HZ) cycles, less than a cycle late.
+    // A period has two toggles. Toggle t occurs after ceil(t * CLK_HZ / TOGGLE_HZ) cycles: less than a cycle late.
     const std::uint64_t clk_hz = CLK_HZ, toggle_hz = TOGGLE_HZ, last = clk_hz * SECONDS;
     Vppmc_square dut;
     dut.clk_i = 0;

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-01 to AC-20: stimulus and values as in the acceptance table."""
+"""Acceptance checks AC-01 to AC-20 at the pins; stimulus and values are those of the acceptance table."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .expected_timing import EXT, F10, F12, INTERNAL, STANDARD, T0
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]
-# A row has the number sent and the gaps of AC-06 and AC-07.
+# A row contains the number that is sent, and the gaps of AC-06 and AC-07.
 AC_06 = {
     0x0B: W2,
     0x0A: [20, 12, 9, 8, 7, 7, 8, 9, 12, 20],
@@ -22,7 +22,7 @@ AC_07 = {0: [], 1: [20], 2: [20, 20], 3: [20, 12, 20]}
 
 
 async def first_step(env: Env, rule: str, t0: int) -> None:
-    """Check that step 0 of the last `go` follows the fall of hold by T0."""
+    """Check that step 0 of the last `go` follows the fall of hold by `t0` to `t0` + 2 cycles."""
     fall = env.bench.falls("hold", env.since)[0]
     env.window(rule, "hold fall to the first step", env.pulses[0] - fall, t0, t0 + 2)
 
@@ -40,8 +40,8 @@ async def stmc_ac_01_reset_values(dut: Any) -> None:
 
 @directed("AC-02", "STMC-MOT-01", "STMC-STP-05", "STMC-BAD-08")
 async def stmc_ac_02_not_initialised(dut: Any) -> None:
-    """Before initialisation, 42, 40, a data byte and C0 return errors 2, 0, 3, 0 and make no step
-    (AC-02).
+    """Before initialisation, codes 42 and 40, a data byte and code C0 return errors 2, 0, 3 and 0, and no
+    step is made (AC-02).
     """
     env = await Env.start(dut, None)
     env.check("AC-02", "statuses", await env.statuses("c 42 c 40 d 55 c C0"), [0xA0, 0x80, 0xB0, 0x80])
@@ -51,7 +51,7 @@ async def stmc_ac_02_not_initialised(dut: Any) -> None:
 
 @directed("AC-03", "STMC-ST-02", "STMC-INI-06", "STMC-INI-08")
 async def stmc_ac_03_initialisation(dut: Any) -> None:
-    """During an initialisation CODE counts down, and after it s has position 0 (AC-03)."""
+    """During an initialisation CODE counts down; afterwards s has position 0 (AC-03)."""
     env = await Env.start(dut, None)
     got = await env.statuses("c 0A d 14 d 05 d 08 d 00")
     env.check("AC-03", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0x00])
@@ -79,7 +79,7 @@ async def stmc_ac_04_motor_type_00(dut: Any) -> None:
 
 @directed("AC-05", "STMC-MOV-02", "STMC-MOV-03", "STMC-MOT-08")
 async def stmc_ac_05_trapezoid(dut: Any) -> None:
-    """With 20/5/8, 20 steps have the gaps of W1, then int_n = 0, FIN 83, REM 0 (AC-05)."""
+    """With D1/D2/PA = 20/5/8, 20 steps have the gaps of W1; then int_n = 0, FIN 83, REM 0 (AC-05)."""
     env = await Env.start(dut)
     await env.host.run("c 80 r")
     env.since = env.bench.now
@@ -93,7 +93,7 @@ async def stmc_ac_05_trapezoid(dut: Any) -> None:
 
 @directed("AC-06", "AC-07", "STMC-MOV-02", "STMC-RUN-01")
 async def stmc_ac_06_short_moves(dut: Any) -> None:
-    """With 20/5/8, moves of 1 to 18 steps have the gaps of W2 to W6 (AC-06, AC-07)."""
+    """With D1/D2/PA = 20/5/8, moves of 1 to 18 steps have the gaps of W2 to W6 (AC-06, AC-07)."""
     env = await Env.start(dut)
     for rule, table in (("AC-06", AC_06), ("AC-07", AC_07)):
         for number, ticks in table.items():
@@ -103,7 +103,7 @@ async def stmc_ac_06_short_moves(dut: Any) -> None:
 
 @directed("AC-08", "STMC-RUN-01", "STMC-RMP-01")
 async def stmc_ac_08_the_sheets_example(dut: Any) -> None:
-    """With 141/59/400, the number 32, 3, 0 leads to 801 steps in 66 634 ticks (AC-08)."""
+    """With D1/D2/PA = 141/59/400, the number 32, 3, 0 results in 801 steps in 66 634 ticks (AC-08)."""
     env = await Env.start(dut, (0x1A, 141, 59, 400))
     env.since = env.bench.now
     await env.host.run("c 43 d 20 d 03 d 00")
@@ -117,7 +117,9 @@ async def stmc_ac_08_the_sheets_example(dut: Any) -> None:
 
 @directed("AC-09", "STMC-RMP-01", "STMC-RMP-02")
 async def stmc_ac_09_a_tie_rounds_up(dut: Any) -> None:
-    """With 15/5/8 and 12 steps, the level of exactly 7.5 ticks lasts 8 ticks (AC-09)."""
+    """With D1/D2/PA = 15/5/8 and 12 steps, the level whose value is exactly 7.5 ticks lasts 8 ticks
+    (AC-09).
+    """
     env = await Env.start(dut, (0x1A, 15, 5, 8))
     await env.move(0x43, 12)
     env.check("AC-09", "fourth gap", env.intervals[3], 8 * EXT)
@@ -125,7 +127,7 @@ async def stmc_ac_09_a_tie_rounds_up(dut: Any) -> None:
 
 @directed("AC-10", "STMC-CLK-01", "STMC-MOT-06")
 async def stmc_ac_10_internal_clock(dut: Any) -> None:
-    """On the internal clock, 5 steps at divisor 5 have gaps of 6400 cycles (AC-10)."""
+    """With the internal clock, 5 steps at divisor 5 have gaps of 6400 cycles (AC-10)."""
     env = await Env.start(dut, (0x0A, 5, 5, 0))
     await env.move(0x43, 5)
     env.check("AC-10", "gaps", env.intervals, [6400] * 4)
@@ -149,7 +151,7 @@ async def stmc_ac_12_odd_core_clock(dut: Any) -> None:
     offsets = [t - env.pulses[0] for t in env.pulses]
     env.check("AC-12", "steps", len(offsets), 101)
     exact = [-(-i * 98_765_424 // 10_000) for i in range(101)]
-    env.check("AC-12", "clk from step 0", offsets, exact)
+    env.check("AC-12", "cycles from step 0", offsets, exact)
     env.check("AC-12", "gaps", sorted(set(env.intervals)), [9876, 9877])
     env.check("AC-12", "total", offsets[-1], 987_655)
     await first_step(env, "AC-12", 62)
@@ -157,7 +159,7 @@ async def stmc_ac_12_odd_core_clock(dut: Any) -> None:
 
 @directed("AC-13", "STMC-SGL-01", "STMC-SGL-03", "STMC-EXC-04", "STMC-OUT-01", "STMC-MOT-06")
 async def stmc_ac_13_single_steps(dut: Any) -> None:
-    """Single steps, three cw and one ccw, have their patterns and set the outputs register (AC-13)."""
+    """Single steps, three cw and one ccw, have the expected patterns and set the outputs register (AC-13)."""
     env = await Env.start(dut)
     seen = []
     for code, register in ((0x42, None), (0x42, None), (0x42, 0x90), (0x4A, 0x32)):
@@ -175,7 +177,7 @@ async def stmc_ac_13_single_steps(dut: Any) -> None:
 
 
 async def patterns(env: Env, rule: str, code: int, expected: str) -> None:
-    """Reset, initialise, and check the pattern after each of the given single steps."""
+    """Reset, initialise, and check the pattern after each single step in `moves`."""
     await env.reset()
     await env.init(code, 20, 5, 8)
     words = expected.split()
@@ -188,7 +190,9 @@ async def patterns(env: Env, rule: str, code: int, expected: str) -> None:
 
 @directed("AC-14", "AC-15", "AC-16", "AC-17", "STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04")
 async def stmc_ac_14_patterns(dut: Any) -> None:
-    """For each type and mode, single steps have the patterns of the acceptance table (AC-14 to AC-17)."""
+    """For each motor type and mode, single steps have the patterns of the acceptance table (AC-14 to
+    AC-17).
+    """
     env = await Env.start(dut, None)
     half4 = "00010 00110 00100 01100 01000 01001 00001 00011"
     await patterns(env, "AC-14", 0x1E, half4)
@@ -205,7 +209,9 @@ async def stmc_ac_14_patterns(dut: Any) -> None:
 
 @directed("AC-18", "STMC-INI-04")
 async def stmc_ac_18_frozen_bits(dut: Any) -> None:
-    """After 4-phase full positive, an initialisation with 05 changes only the clock (AC-18)."""
+    """After an initialisation for 4 phases, full step and positive logic, an initialisation with 05 changes
+    only the clock (AC-18).
+    """
     env = await Env.start(dut)
     env.check("AC-18", "status", await env.host.init(0x05, 20, 5, 8), 0x00)
     await env.ready()
@@ -225,7 +231,7 @@ async def stmc_ac_19_constant_speed(dut: Any) -> None:
 
 @directed("AC-20", "STMC-MOT-03", "STMC-BAD-07", builds=(F16,))
 async def stmc_ac_20_divisor_0(dut: Any) -> None:
-    """Divisor 0 returns error 5 with the last byte, makes no step and does not change FIN (AC-20)."""
+    """Divisor 0 returns error 5 with the last byte, causes no step and does not change FIN (AC-20)."""
     env = await Env.start(dut)
     got = await env.statuses("c 44 d 00 d 04 d 00 d 00")
     env.check("AC-20", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0xD0])

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-35 to AC-45 and AC-48 to AC-52: registers, chopper, clock, bad input."""
+"""Acceptance checks AC-35 to AC-45 and AC-48 to AC-52 at the pins: registers, chopper, clock, bad input."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .expected_timing import INTERNAL, MOST, SHEET, STANDARD
 
 @directed("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")
 async def stmc_ac_35_interrupt(dut: Any) -> None:
-    """A motion asserts int_n only without bit 4, and only 80 releases int_n (AC-35)."""
+    """A motion asserts int_n only if bit 4 of its code is 0, and only code 80 releases int_n (AC-35)."""
     env = await Env.start(dut)
     await env.move(0x53, 1)
     env.check("AC-35", "edges of int_n", env.bench.edges("int_n"), [])
@@ -28,7 +28,7 @@ async def stmc_ac_35_interrupt(dut: Any) -> None:
 
 @directed("AC-36", "STMC-FSM-01", "STMC-FSM-02", "STMC-RD-01", "STMC-BAD-17", "STMC-INI-03")
 async def stmc_ac_36_bytes_during_a_move(dut: Any) -> None:
-    """During a move, 80, 0A, C0, 42 and a data byte return errors 1, 1, 0, 1, 6 (AC-36)."""
+    """During a move, codes 80, 0A, C0 and 42 and a data byte return errors 1, 1, 0, 1 and 6 (AC-36)."""
     env = await Env.start(dut)
     await env.go(0x43, 100)
     got = await env.statuses("c 80 c 0A c C0 c 42 d 00")
@@ -38,7 +38,7 @@ async def stmc_ac_36_bytes_during_a_move(dut: Any) -> None:
 
 @directed("AC-37", "STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-BAD-11")
 async def stmc_ac_37_answer_replaced(dut: Any) -> None:
-    """When 81 is accepted, its byte replaces a half-read answer (AC-37)."""
+    """When code 81 is accepted, its byte replaces an answer of which some bytes are unread (AC-37)."""
     env = await Env.start(dut)
     env.check("AC-37", "bytes", await env.host.run("c 83 r c 81 r"), [0, 0xCF])
     env.check("AC-37", "OBF", await env.host.status() & OBF, 0)
@@ -48,7 +48,9 @@ async def stmc_ac_37_answer_replaced(dut: Any) -> None:
 
 @directed("AC-38", "STMC-CMD-01", "STMC-BAD-02", "STMC-BAD-04")
 async def stmc_ac_38_command_instead_of_data(dut: Any) -> None:
-    """42 cancels an incomplete command 3 and makes one step; a later data byte returns error 3 (AC-38)."""
+    """Code 42 cancels an incomplete command 3 and makes one step; a later data byte returns error 3
+    (AC-38).
+    """
     env = await Env.start(dut)
     env.since = env.bench.now
     await env.host.run("c 43 d 05 c 42")
@@ -59,8 +61,8 @@ async def stmc_ac_38_command_instead_of_data(dut: Any) -> None:
 
 @directed("AC-39", "STMC-INI-02", "STMC-BAD-05")
 async def stmc_ac_39_refused_initialisation(dut: Any) -> None:
-    """Illegal divisors (5/20/8 and others) return error 5; before an initialisation nothing is set,
-    after it the old data stay (AC-39).
+    """Illegal divisors (5/20/8 and others) return error 5. Before an initialisation no value is set;
+    afterwards the old values stay (AC-39).
     """
     env = await Env.start(dut, None)
     refused = ((5, 20), (0, 0), (20, 0), (0, 5), (254, 255))
@@ -76,7 +78,9 @@ async def stmc_ac_39_refused_initialisation(dut: Any) -> None:
 
 @directed("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
 async def stmc_ac_40_bytes_during_the_build(dut: Any) -> None:
-    """If 40 and then 80 are written during a table build, only 80 is executed, without an error (AC-40)."""
+    """If codes 40 and then 80 are written during a table build, only 80 is executed, without an error
+    (AC-40).
+    """
     env = await Env.start(dut)
     await env.host.init(0x1A, 255, 5, 400)
     edge0 = await env.host.write(1, 0x40)
@@ -116,7 +120,9 @@ async def stmc_ac_41_chopper(dut: Any) -> None:
 
 @directed("AC-42", "STMC-CLK-05")
 async def stmc_ac_42_no_ticks(dut: Any) -> None:
-    """Without an external clock a started move waits; 40 ends it, 41 leaves one step (AC-42)."""
+    """Without an external clock, a started move waits; code 40 ends it, and code 41 leaves one step
+    (AC-42).
+    """
     env = await Env.start(dut, clock=0)
     await env.go(0x43, 6)
     await env.bench.clocks(5_000)
@@ -133,7 +139,7 @@ async def stmc_ac_42_no_ticks(dut: Any) -> None:
 
 @directed("AC-43", "STMC-RUN-01")
 async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
-    """63 acts like 43 (AC-43)."""
+    """Code 63 has the effect of code 43 (AC-43)."""
     env = await Env.start(dut)
     await env.go(0x63, 1)
     await env.result("AC-43", 1, 0x83, 0)
@@ -142,7 +148,9 @@ async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
 
 @directed("AC-44", "STMC-RD-01", "STMC-BAD-01")
 async def stmc_ac_44_family_codes(dut: Any) -> None:
-    """By default 81, 82, 83 return inputs, outputs and three bytes; 84 is error 0 (AC-44, R-01)."""
+    """By default, codes 81, 82 and 83 return inputs, outputs and three bytes; code 84 is error 0 (AC-44,
+    R-01).
+    """
     env = await Env.start(dut)
     got = await env.host.run("c 81 r c 82 r c 83 rrr c 84 s")
     env.check("AC-44", "answers", got, [0xCF, 0xC4, 0, 0, 0, 0x80])
@@ -150,14 +158,16 @@ async def stmc_ac_44_family_codes(dut: Any) -> None:
 
 @directed("AC-45", "STMC-RD-01", "STMC-BAD-01", builds=(SHEET,))
 async def stmc_ac_45_data_sheet_codes(dut: Any) -> None:
-    """With READ_MAP "SHEET", 81 is error 0 and 84 returns three bytes (AC-45)."""
+    """With READ_MAP "SHEET", code 81 is error 0, and code 84 returns three bytes (AC-45)."""
     env = await Env.start(dut)
     env.check("AC-45", "answers", await env.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])
 
 
 @directed("AC-48", "STMC-DS-01", "STMC-DS-05", "STMC-DS-07", "STMC-DS-08", builds=(D16,))
 async def stmc_ac_48_datasheet_times(dut: Any) -> None:
-    """In DATASHEET, start, steps, end and answer of a two-step motion occur at their times (AC-48)."""
+    """In DATASHEET, start, steps, end and answer of a two-step motion occur at their documented times
+    (AC-48).
+    """
     env = await Env.start(dut, INTERNAL, clock=0)
     bench = env.bench
     edge0 = await env.go(0x44, 2, 10, poll=False)
@@ -180,8 +190,8 @@ async def stmc_ac_48_datasheet_times(dut: Any) -> None:
 
 @directed("AC-49", "STMC-BAD-16")
 async def stmc_ac_49_reset_in_motion(dut: Any) -> None:
-    """When rst_n falls during a move, all outputs take their reset levels immediately, and all state is
-    cleared (AC-49).
+    """If rst_n falls during a move, all outputs take their reset levels immediately, and all state is cleared
+    (AC-49).
     """
     env = await Env.start(dut)
     await env.go(0x43, 100)
@@ -199,8 +209,8 @@ async def stmc_ac_49_reset_in_motion(dut: Any) -> None:
 
 @directed("AC-50", "STMC-DEC-03", "STMC-IN-04")
 async def stmc_ac_50_start_at_the_deceleration_limit(dut: Any) -> None:
-    """With l3_n low, commands 3, 6, 3 with N = 1, and 7 make 1, 1, 1, 0 steps; with l1_n low they make
-    no step (AC-50).
+    """With l3_n low, command 3, command 6, command 3 with N = 1, and command 7 make 1, 1, 1 and 0 steps; with
+    l1_n low, they make no step (AC-50).
     """
     env = await Env.start(dut)
     await env.pins(l3_n=0)
@@ -219,7 +229,9 @@ async def stmc_ac_50_start_at_the_deceleration_limit(dut: Any) -> None:
 
 @directed("AC-51", "STMC-CMD-01", "STMC-BAD-11")
 async def stmc_ac_51_answer_outlives_a_step(dut: Any) -> None:
-    """If a step runs while the remaining value is half read, its other two bytes stay available (AC-51)."""
+    """If a step is made while one byte of the remaining value has been read, the other two bytes stay
+    available (AC-51).
+    """
     env = await Env.start(dut)
     await env.go(0x43, 100)
     await env.in_gap(10)
@@ -234,7 +246,9 @@ async def stmc_ac_51_answer_outlives_a_step(dut: Any) -> None:
 
 @directed("AC-52", "STMC-BUS-06", "STMC-BAD-12")
 async def stmc_ac_52_both_strobes(dut: Any) -> None:
-    """If both strobes are low together and rise together, nothing was driven or written (AC-52)."""
+    """If both strobes are low together and rise together, nothing is driven and nothing is written
+    (AC-52).
+    """
     env = await Env.start(dut)
     before = await env.host.status()
     since = env.bench.now

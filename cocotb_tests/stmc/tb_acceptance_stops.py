@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-21 to AC-34: stops, limits, reference point, motor switch."""
+"""Acceptance checks AC-21 to AC-34 at the pins: stops, limits, reference point, motor switch."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ W14 = [20, 12, 9, 8, 9, 12, 20]
 
 
 async def stop_in_gap(env: Env, gap: int, n: int = 100, code: int = 0x41, plus: int = 30) -> int:
-    """Start command 3 with n steps, send a stop command in that gap, and return the status after it."""
+    """Start command 3 with n steps and send a stop code in this gap; return the status after the code."""
     await env.go(0x43, n)
     await env.in_gap(gap, plus)
     return await env.command(code)
@@ -22,8 +22,8 @@ async def stop_in_gap(env: Env, gap: int, n: int = 100, code: int = 0x41, plus: 
 
 @directed("AC-21", "STMC-STP-03", "STMC-DEC-04", "STMC-REM-01")
 async def stmc_ac_21_the_rest_of_a_stopped_move(dut: Any) -> None:
-    """In a move of 100 steps, 41 in gap 3 leads to W14, and the remaining value completes the move
-    (AC-21).
+    """In a move of 100 steps, code 41 in gap 3 results in W14; a move with the remaining value makes the
+    missing steps (AC-21).
     """
     env = await Env.start(dut)
     await stop_in_gap(env, 3)
@@ -35,7 +35,7 @@ async def stmc_ac_21_the_rest_of_a_stopped_move(dut: Any) -> None:
 
 @directed("AC-22", "STMC-DEC-03", "STMC-DEC-04")
 async def stmc_ac_22_requests_at_other_speeds(dut: Any) -> None:
-    """In a move of 100 steps, 41 in gap 10, 1 or 0 leads to W15, W16, W17 (AC-22)."""
+    """In a move of 100 steps, code 41 in gap 10, 1 or 0 results in W15, W16 or W17 (AC-22)."""
     env = await Env.start(dut)
     for gap, ticks, rest in ((10, W1, 79), (1, [20, 12, 20], 95), (0, [], 98)):
         await stop_in_gap(env, gap)
@@ -44,8 +44,8 @@ async def stmc_ac_22_requests_at_other_speeds(dut: Any) -> None:
 
 @directed("AC-23", "STMC-DEC-01", "STMC-STP-04", "STMC-FIN-02")
 async def stmc_ac_23_around_the_turn(dut: Any) -> None:
-    """In a move of 12 steps, 41 is accepted in gap 5 and returns error 7 in gap 6; the move is complete
-    in both cases (AC-23).
+    """In a move of 12 steps, code 41 is accepted in gap 5 and returns error 7 in gap 6; both moves are
+    complete (AC-23).
     """
     env = await Env.start(dut)
     for gap, status in ((5, 0x04), (6, 0xF4)):
@@ -55,7 +55,7 @@ async def stmc_ac_23_around_the_turn(dut: Any) -> None:
 
 @directed("AC-24", "STMC-STP-01")
 async def stmc_ac_24_emergency_stop(dut: Any) -> None:
-    """In a move of 100 steps, no step follows 40 in gap 10 (AC-24)."""
+    """In a move of 100 steps, no step follows code 40 in gap 10 (AC-24)."""
     env = await Env.start(dut)
     await stop_in_gap(env, 10, code=0x40)
     await env.outcome("AC-24", 11, 0xC3, 0x58)
@@ -63,7 +63,7 @@ async def stmc_ac_24_emergency_stop(dut: Any) -> None:
 
 @directed("AC-25", "STMC-STP-02")
 async def stmc_ac_25_command_1_at_constant_speed(dut: Any) -> None:
-    """At constant speed, 41 or 40 in gap 2 stops the motion immediately (AC-25)."""
+    """At constant speed, code 41 or 40 in gap 2 stops the motion immediately (AC-25)."""
     env = await Env.start(dut)
     for code in (0x41, 0x40):
         await env.go(0x44, 256, 0x14)
@@ -74,9 +74,7 @@ async def stmc_ac_25_command_1_at_constant_speed(dut: Any) -> None:
 
 @directed("AC-26", "STMC-IN-01", "STMC-DEC-05")
 async def stmc_ac_26_deceleration_limit(dut: Any) -> None:
-    """In a cw move of 100 steps, l3_n low for 4 cycles in gap 10 leads to the deceleration of W15
-    (AC-26).
-    """
+    """In a cw move of 100 steps, l3_n low for 4 cycles in gap 10 causes the deceleration of W15 (AC-26)."""
     env = await Env.start(dut)
     await env.go(0x43, 100)
     await env.in_gap(10)
@@ -86,7 +84,7 @@ async def stmc_ac_26_deceleration_limit(dut: Any) -> None:
 
 @directed("AC-27", "STMC-IN-03")
 async def stmc_ac_27_limits_of_the_other_direction(dut: Any) -> None:
-    """l4_n and l2_n, low all the time, do not affect a cw move (AC-27)."""
+    """If l4_n and l2_n are low all the time, a cw move is not affected (AC-27)."""
     env = await Env.start(dut, l4_n=0, l2_n=0)
     await env.go(0x43, 100)
     await env.outcome("AC-27", 100, 0x83, 0)
@@ -94,7 +92,9 @@ async def stmc_ac_27_limits_of_the_other_direction(dut: Any) -> None:
 
 @directed("AC-28", "STMC-DEC-06", "STMC-FIN-02")
 async def stmc_ac_28_stop_limit_in_the_ramp_down(dut: Any) -> None:
-    """In command 6, l3_n in gap 30 and l1_n soon after end the motion immediately with FIN 9E (AC-28)."""
+    """In command 6, l3_n in gap 30 and l1_n shortly afterwards end the motion immediately with FIN 9E
+    (AC-28).
+    """
     env = await Env.start(dut)
     await env.go(0x46)
     await env.in_gap(30)
@@ -108,7 +108,7 @@ async def stmc_ac_28_stop_limit_in_the_ramp_down(dut: Any) -> None:
 
 @directed("AC-29", "STMC-IN-03")
 async def stmc_ac_29_to_the_limit_ccw(dut: Any) -> None:
-    """In command 6 ccw, l4_n in gap 12 leads to 22 steps (AC-29)."""
+    """In command 6 ccw, l4_n in gap 12 results in 22 steps (AC-29)."""
     env = await Env.start(dut)
     await env.go(0x4E)
     await env.in_gap(12)
@@ -130,7 +130,7 @@ async def stmc_ac_30_constant_speed_to_the_limit(dut: Any) -> None:
 
 @directed("AC-31", "STMC-MOT-05", "STMC-SGL-02", "STMC-MOT-10")
 async def stmc_ac_31_start_against_the_limit(dut: Any) -> None:
-    """With l1_n low, 42 and 43 make no step and assert the interrupt immediately; 4A makes a step
+    """With l1_n low, codes 42 and 43 make no step and assert the interrupt immediately; code 4A makes a step
     (AC-31).
     """
     env = await Env.start(dut)
@@ -154,7 +154,9 @@ async def stmc_ac_31_start_against_the_limit(dut: Any) -> None:
 
 @directed("AC-32", "STMC-RUN-03")
 async def stmc_ac_32_reference_point(dut: Any) -> None:
-    """In command 7, cnp_n in gap 19 leads to 20 steps; started with cnp_n low, it makes no step (AC-32)."""
+    """In command 7, cnp_n in gap 19 results in 20 steps; if the command starts with cnp_n low, it makes no
+    step (AC-32).
+    """
     env = await Env.start(dut)
     await env.go(0x47, rate=10)
     await env.in_gap(19)
@@ -176,7 +178,7 @@ async def stmc_ac_33_deceleration_limit_of_command_7(dut: Any) -> None:
 
 @directed("AC-34", "STMC-IN-05", "STMC-INP-01")
 async def stmc_ac_34_motor_off(dut: Any) -> None:
-    """mon that falls in gap 9 ends a move with 10 steps; while it is low, no step is made (AC-34)."""
+    """If mon falls in gap 9, a move ends with 10 steps; while mon is low, no step is made (AC-34)."""
     env = await Env.start(dut)
     await env.go(0x44, 100, 10)
     await env.in_gap(9)

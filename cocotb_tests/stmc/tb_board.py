@@ -19,7 +19,9 @@ NANOSECONDS = "the ISA bus has cycles of nanoseconds, and the model only clk edg
 @rtl_only(NANOSECONDS)
 @directed("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")
 async def j105_ac_46_a_move(dut: Any) -> None:
-    """On the board, AC-05 leads to the same steps; drv follows s, and irq is asserted (AC-46)."""
+    """On the board, the stimulus of AC-05 results in the same steps; drv follows s, and irq is asserted
+    (AC-46).
+    """
     env = await BoardEnv.start(dut)
     bench = env.bench
     await env.init(0x1A, *A)
@@ -40,8 +42,8 @@ async def j105_ac_46_a_move(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("AC-46", "J105-01", "J105-03", builds=(F16, OTHER))
 async def j105_01_addresses(dut: Any) -> None:
-    """Of all addresses next to those of the board, with and without aen, only its two addresses respond
-    (J105-01).
+    """With aen low, only the two addresses of the board respond, of all addresses near them; with aen high,
+    these two do not respond either (J105-01).
     """
     env = await BoardEnv.start(dut)
     master, base = env.master, env.base
@@ -63,7 +65,7 @@ async def j105_01_addresses(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-03", "J105-04", builds=(F16, F8))
 async def j105_03_bus_is_released_at_once(dut: Any) -> None:
-    """When ior_n, sa or aen ends a read at any phase to clk, sd_oe falls immediately (J105-03)."""
+    """If ior_n, sa or aen ends a read at any phase to clk, sd_oe falls immediately (J105-03)."""
     env = await BoardEnv.start(dut)
     bench = env.bench
     await env.host.command(0xC0)
@@ -92,7 +94,7 @@ async def j105_03_bus_is_released_at_once(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("AC-47", "J105-06", builds=(F16,))
 async def j105_ac_47_step_clock(dut: Any) -> None:
-    """At divisor 141 on 48.675 kHz, 21 steps have exact distances, without drift (AC-47)."""
+    """At divisor 141 on 48.675 kHz, the intervals of 21 steps are exact, without drift (AC-47)."""
     env = await BoardEnv.start(dut)
     await env.init(0x1A, 141, 141, 0)
     env.since = env.bench.now
@@ -108,7 +110,9 @@ async def j105_ac_47_step_clock(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-06", "J105-08", builds=(F8, OTHER))
 async def j105_06_other_clocks(dut: Any) -> None:
-    """With other core clocks and step clocks, every step of a ramp is where EXT_HZ puts it (J105-06)."""
+    """With other core clocks and step clocks, each step of a ramp occurs at the time that EXT_HZ determines
+    (J105-06).
+    """
     env = await BoardEnv.start(dut)
     ext_hz = int(dict(env.cfg.extra).get("EXT_HZ", 48_675))
     await env.init(0x1A, 20, 5, 8)
@@ -127,7 +131,7 @@ async def j105_06_other_clocks(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-07", "J105-02", "J105-06")
 async def j105_07_drivers(dut: Any) -> None:
-    """With 5 phases, negative logic and the chopper, drv is s[4:1], during steps and at standstill
+    """With 5 phases, negative logic and the chopper, drv equals s[4:1], during steps and at standstill
     (J105-07).
     """
     env = await BoardEnv.start(dut)
@@ -155,8 +159,8 @@ async def j105_07_drivers(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-05", "STMC-MOT-09")
 async def j105_05_interrupt(dut: Any) -> None:
-    """irq rises at the end of a motion only without bit 4, and falls with 80, not with the read of its
-    byte (J105-05).
+    """irq rises at the end of a motion only if bit 4 of its code is 0; code 80 deasserts it, not the read of
+    its byte (J105-05).
     """
     env = await BoardEnv.start(dut)
     await env.init(0x0A, 9, 3, 3)
@@ -173,10 +177,11 @@ async def j105_05_interrupt(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-02", "STMC-BAD-13")
 async def j105_02_short_cycles(dut: Any) -> None:
-    """Accesses of 2 ns to 5 cycles, at any phase, are executed completely or not at all (J105-02)."""
+    """Accesses of 2 ns to 5 cycles, at any phase to clk, are executed completely or not at all (J105-02)."""
     env = await BoardEnv.start(dut)
     bench, master, rng = env.bench, env.master, env.bench.rng
-    master.times = Times(late=0)  # data change with the strobe, so that only the length of the strobe decides
+    # The data changes with the strobe, so only the length of the strobe matters.
+    master.times = Times(late=0)
     clk_ns = bench.period / 1000
     done = missed = 0
     for _ in range(150):
@@ -204,7 +209,7 @@ async def j105_02_short_cycles(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-01", "STMC-INI-07", "STMC-BAD-12")
 async def j105_01_cycles_in_the_table_build(dut: Any) -> None:
-    """Accesses to other addresses, masked by aen, or illegal ones do not disturb a table build
+    """Accesses to other addresses, accesses masked by aen, and illegal accesses do not disturb a table build
     (J105-01).
     """
     env = await BoardEnv.start(dut)
@@ -236,9 +241,7 @@ async def j105_01_cycles_in_the_table_build(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("STMC-INP-01", "STMC-HLD-01", "STMC-CHP-01", "STMC-DS-03", "J105-07", builds=(OTHER,))
 async def j105_all_parameters(dut: Any) -> None:
-    """With other values of all parameters, codes and times are those of the parameters (J105-07,
-    STMC-DS-03).
-    """
+    """If all parameters have other values, codes and times follow these parameters (J105-07, STMC-DS-03)."""
     env = await BoardEnv.start(dut)
     bench = env.bench
     await env.init(0x2A, 9, 3, 3)
@@ -251,4 +254,4 @@ async def j105_all_parameters(dut: Any) -> None:
     slack = env.cfg.cyc(4) + 1
     for level, clk in env.stretches(end)[1:]:
         nominal = env.cfg.cyc(401 if level else 611)
-        env.window("STMC-CHP-01", f"clk of s = {level}", clk, nominal - slack, nominal + slack)
+        env.window("STMC-CHP-01", f"cycles of s = {level}", clk, nominal - slack, nominal + slack)

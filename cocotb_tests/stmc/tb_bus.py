@@ -15,7 +15,10 @@ OFF = {"cs_n": 1, "rd_n": 1, "wr_n": 1}
 
 
 async def strobe(env: Env, ps: int, gap_ps: int, **levels: int) -> None:
-    """Make one host access that is asynchronous to clk: levels for `ps`, then strobes off for `gap_ps`."""
+    """Make one host access that is asynchronous to `clk`.
+
+    The levels last for `ps`; then the strobes are inactive for `gap_ps`.
+    """
     env.bench.set_between_edges(**levels)
     await Timer(ps, "ps")
     env.bench.set_between_edges(**OFF)
@@ -24,7 +27,7 @@ async def strobe(env: Env, ps: int, gap_ps: int, **levels: int) -> None:
 
 @directed("STMC-BUS-01", "STMC-BUS-02", "STMC-BUS-03", "STMC-BUS-04", "STMC-BUS-05")
 async def stmc_bus_01_access_table(dut: Any) -> None:
-    """For all levels of cs_n, a0 and the strobes, only the selected register is accessed (STMC-BUS-01)."""
+    """For each combination of cs_n, a0 and strobes, only the selected register is accessed (STMC-BUS-01)."""
     env = await Env.start(dut, None)
     bench, host = env.bench, env.host
     env.check("STMC-BUS-04", "a0 = 0 writes data: error 3", await host.data(0x43), 0xB0)
@@ -50,7 +53,7 @@ async def stmc_bus_01_access_table(dut: Any) -> None:
 
 @directed("STMC-BUS-06", "STMC-BUS-10", "STMC-BAD-12")
 async def stmc_bus_06_overlapping_strobes(dut: Any) -> None:
-    """If a read strobe interrupts a write, the byte sampled before is stored once (STMC-BUS-06)."""
+    """If a read strobe interrupts a write, the byte that was sampled before is stored once (STMC-BUS-06)."""
     env = await Env.start(dut, None)
     bench = env.bench
     since = bench.set(a0=COMMAND, d_i=0x0A, cs_n=0, wr_n=0)
@@ -75,7 +78,9 @@ async def stmc_bus_06_overlapping_strobes(dut: Any) -> None:
 
 @directed("STMC-BUS-10")
 async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
-    """If data change when wr_n, cs_n or rd_n ends a write, the byte before is stored (STMC-BUS-10)."""
+    """If the data changes when wr_n, cs_n or rd_n ends a write, the byte before the change is stored
+    (STMC-BUS-10).
+    """
     env = await Env.start(dut, None)
     bench = env.bench
     for n, levels in enumerate(({"wr_n": 1}, {"cs_n": 1}, {"rd_n": 0}, {"wr_n": 1, "cs_n": 1})):
@@ -101,7 +106,7 @@ async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
     for part in range(8):
         await bench.align()
         await Timer(clk * part // 16 * 2 + 2 * (clk // 64), "ps")
-        # The levels are invalid until 2 cycles before the rise.
+        # The levels are invalid until 2 cycles before the rise of the strobe.
         bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
         await Timer(clk + 2, "ps")
         await strobe(env, 2 * clk, 12 * clk, a0=1, d_i=0x0A, cs_n=0, wr_n=0)
@@ -117,7 +122,7 @@ async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
 
 @directed("STMC-BUS-12", "STMC-BUS-13")
 async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
-    """When IBF falls, the status shows every effect of the byte, and the pins follow within their limit
+    """When IBF falls, the status contains every effect of the byte, and the pins follow within their limit
     (STMC-BUS-12, STMC-BUS-13).
     """
     env = await Env.start(dut)
@@ -135,7 +140,7 @@ async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
             if not taken:
                 status = await host.poll(IBF, 0)
             if byte != 0x40:
-                env.check("STMC-BUS-13", f"status of {byte:#x} after {delay} clk", status, after)
+                env.check("STMC-BUS-13", f"status of {byte:#x} after {delay} cycles", status, after)
             if after == BUSY:
                 await bench.until(max(bench.now, edge0 + PINS_LATEST))
                 env.check("STMC-BUS-13", "hold", bench.level("hold"), 0)
@@ -149,7 +154,7 @@ async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
 
 @directed("STMC-BUS-14", "STMC-BAD-09")
 async def stmc_bus_14_newest_byte_wins(dut: Any) -> None:
-    """Of two writes at least 5 cycles apart, without polling, the newer one is always accepted
+    """Of two writes that are at least 5 cycles apart, without polling, the newer one is always accepted
     (STMC-BUS-14).
     """
     env = await Env.start(dut, None)
@@ -159,9 +164,9 @@ async def stmc_bus_14_newest_byte_wins(dut: Any) -> None:
         await env.bench.until(max(env.bench.now, edge0 + apart - 3))
         await env.host.write(DATA, 0x14, strobe=3)
         status = await env.host.poll(IBF, 0)
-        env.check("STMC-BUS-14", f"status of {apart} clk", status in (0x30, 0xB0), True)
+        env.check("STMC-BUS-14", f"status of {apart} cycles", status in (0x30, 0xB0), True)
         if apart >= C_EVENT_LATEST:
-            env.check("STMC-BUS-12", f"status of {apart} clk", status, 0x30)
+            env.check("STMC-BUS-12", f"status of {apart} cycles", status, 0x30)
 
 
 @directed("STMC-BUS-20")
@@ -189,7 +194,7 @@ async def stmc_bus_20_read_cycle(dut: Any) -> None:
 
 @directed("STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-REM-02", "STMC-ST-04")
 async def stmc_bus_21_answers(dut: Any) -> None:
-    """During reads of answers of one and three bytes, OBF falls and rises once per byte (STMC-BUS-21)."""
+    """During reads of answers of one and of three bytes, OBF falls and rises once per byte (STMC-BUS-21)."""
     env = await Env.start(dut)
     bench, host = env.bench, env.host
     await env.go(0x44, 0x030201, 3)
@@ -211,7 +216,7 @@ async def stmc_bus_21_answers(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("STMC-BAD-13")
 async def stmc_bad_13_short_strobes(dut: Any) -> None:
-    """Strobes that are too short, at any phase, cause no write or one complete write (STMC-BAD-13)."""
+    """Strobes that are too short, at any phase, cause either no write or one complete write (STMC-BAD-13)."""
     env = await Env.start(dut)
     bench = env.bench
     clk = bench.period
@@ -231,7 +236,9 @@ async def stmc_bad_13_short_strobes(dut: Any) -> None:
 
 @directed("STMC-BUS-12", "STMC-BUS-13", "STMC-DS-14", builds=(D16,))
 async def stmc_bus_13_datasheet(dut: Any) -> None:
-    """In DATASHEET, reads and errors at standstill are as fast as in FAST (STMC-BUS-13, STMC-DS-14)."""
+    """In DATASHEET, reads and errors at standstill take as little time as in FAST (STMC-BUS-13,
+    STMC-DS-14).
+    """
     env = await Env.start(dut, INTERNAL, clock=0)
     for byte, after in ((0x81, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x83, OBF), (0x40, 0x80 | OBF)):
         await env.host.write(COMMAND, byte, gap=C_EVENT_LATEST)

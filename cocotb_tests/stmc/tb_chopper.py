@@ -18,8 +18,9 @@ def xt(env: Env, name: str, default: int) -> int:
 
 
 def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> None:
-    """Check that every complete phase since an edge is CHOP_ON_XT or CHOP_OFF_XT within 4 crystal
-    periods + 1 cycle, without drift.
+    """Check that each complete phase since an edge lasts CHOP_ON_XT or CHOP_OFF_XT, without drift.
+
+    A phase is accurate to 4 crystal periods + 1 cycle.
     """
     slack = env.cfg.cyc(4) + 1
     on_xt, off_xt = xt(env, "CHOP_ON_XT", 1_040), xt(env, "CHOP_OFF_XT", 1_740)
@@ -28,19 +29,19 @@ def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> N
     env.check(rule, "levels", {level for level, _ in rows}, {pattern, off})
     for level, clk in rows:
         nominal = env.cfg.cyc(on_xt if level == pattern else off_xt)
-        env.window(rule, f"clk of s = {level:05b}", clk, nominal - slack, nominal + slack)
+        env.window(rule, f"cycles of s = {level:05b}", clk, nominal - slack, nominal + slack)
     begins = [t for t, level in env.bench.edges("s", since) if level == off]
     period = env.cfg.cyc(4 * -(-on_xt // 4) + 4 * -(-off_xt // 4))
     total = begins[-1] - begins[0]
     count = len(begins) - 1
-    # `period` has both times rounded up to whole quanta of 4 crystal periods. The period that is measured may
-    # be up to 8 cycles shorter.
+    # In `period`, both times are rounded up to whole quanta of 4 crystal periods. The measured period may be
+    # up to 8 cycles shorter.
     env.window(rule, f"{count} periods", total, (period - 8) * count - 1, period * count + 1)
 
 
 @directed("STMC-CHP-01", builds=(F16, F12, ODD))
 async def stmc_chp_01_phases(dut: Any) -> None:
-    """With bit 5, on and off times repeat without drift at standstill, for each logic (STMC-CHP-01)."""
+    """With bit 5, on-times and off-times repeat without drift at standstill, for each logic (STMC-CHP-01)."""
     env = await Env.start(dut, None, clock=0)
     for code, pattern, off in ((0x2A, 0b00011, 0b00000), (0x22, 0b11100, 0b11111), (0x2F, 0b00011, 0)):
         await env.reset()
@@ -54,8 +55,8 @@ async def stmc_chp_01_phases(dut: Any) -> None:
 
 @directed("STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-02", builds=(F16, F12))
 async def stmc_chp_02_motion(dut: Any) -> None:
-    """A motion that starts in any phase of the chopper has the full pattern, and a complete on-time
-    follows its end (STMC-CHP-02).
+    """A motion that starts in any phase of the chopper has the full pattern; after its end, a complete
+    on-time follows (STMC-CHP-02).
     """
     env = await Env.start(dut, CHOP, clock=0)
     on, slack = env.cfg.cyc(1_040), env.cfg.cyc(4) + 1
@@ -80,7 +81,9 @@ async def stmc_chp_02_motion(dut: Any) -> None:
 
 @directed("STMC-CHP-02", "STMC-INI-04", "STMC-INI-07")
 async def stmc_chp_02_initialisations(dut: Any) -> None:
-    """When bit 5 is cleared or set again, the chopping changes when the build is complete (STMC-CHP-02)."""
+    """If a further initialisation clears or sets bit 5, the chopping changes when its table build is complete
+    (STMC-CHP-02).
+    """
     env = await Env.start(dut, CHOP, clock=0)
     await env.bench.edge("s", 0)
     await env.host.init(0x0A, 20, 5, 8)
@@ -98,7 +101,7 @@ async def stmc_chp_02_initialisations(dut: Any) -> None:
     await env.ready()
     off = await env.bench.edge("s", 0)
     env.window("STMC-CHP-01", "a full on-time after the build", off - since, 1_040, 1_040 + 6_000)
-    # A rejected initialisation leaves the old bit 5 active.
+    # After a rejected initialisation, the old bit 5 stays active.
     await env.host.init(0x0A, 5, 20, 8)
     since = env.bench.now
     await env.bench.clocks(9_000)
@@ -107,7 +110,9 @@ async def stmc_chp_02_initialisations(dut: Any) -> None:
 
 @directed("STMC-CHP-01", "STMC-MOT-05", "STMC-HLD-01")
 async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
-    """If 42 makes no step because l1_n is low, a complete on-time still begins at its end (STMC-CHP-01)."""
+    """If code 42 makes no step because l1_n is low, a complete on-time nevertheless begins at the end of the
+    motion (STMC-CHP-01).
+    """
     env = await Env.start(dut, CHOP, clock=0)
     await env.pins(l1_n=0)
     for wait in (0, 900, 1_700):
@@ -122,7 +127,7 @@ async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
 
 @directed("STMC-OUT-02", "STMC-OUT-01", builds=(SHEET,))
 async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
-    """While chopping, each read of the outputs returns the unchopped pattern, and HOLD as its pin
+    """While chopping, each read of the outputs returns the unchopped pattern, and HOLD as on its pin
     (STMC-OUT-02).
     """
     env = await Env.start(dut, CHOP, clock=0)
@@ -138,7 +143,7 @@ async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
 
 @directed("STMC-HLD-01", "STMC-HLD-02", builds=(SHEET, ODD))
 async def stmc_hld_01_hold(dut: Any) -> None:
-    """hold rises HOLD_XT crystal periods after the last end, also if motions restart or make no step
+    """hold rises HOLD_XT crystal periods after the last end, also if motions are restarted or make no step
     (STMC-HLD-01).
     """
     env = await Env.start(dut, INTERNAL, clock=0)

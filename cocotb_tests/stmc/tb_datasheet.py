@@ -1,4 +1,4 @@
-"""DATASHEET timing: STMC-DS-01..14. Times are -0/+16 cycles, plus up to 2 cycles to a pin."""
+"""DATASHEET timing: STMC-DS-01..14. Times have a tolerance of -0/+16 cycles, plus up to 2 cycles to a pin."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ async def event(env: Env, code: int, n: int | None = None, rate: int | None = No
 
 
 async def check_accepted(env: Env, rule: str, since: int, xt: int, code: int = 0x80) -> None:
-    """Check that a command written now is accepted CYC(xt) cycles after `since`, not before."""
+    """Write a command now and check that it is accepted CYC(xt) cycles after `since`, not before."""
     nominal = since + env.cfg.cyc(xt)
     await env.host.write(1, code)
     await env.bench.until(max(env.bench.now, nominal - 20))
@@ -38,15 +38,15 @@ async def check_accepted(env: Env, rule: str, since: int, xt: int, code: int = 0
 
 
 async def rest(env: Env) -> None:
-    """Wait for the end of the motion, read its interrupt, and wait until all windows are closed."""
+    """Wait for the end of the motion, clear its interrupt, and wait until all windows are closed."""
     await env.host.poll(BUSY | IBF, 0)
     await env.finish()
 
 
 @directed("STMC-DS-01", "STMC-DS-04", "STMC-DS-05", "STMC-DS-06", builds=ALL_CLOCKS)
 async def stmc_ds_01_starts(dut: Any) -> None:
-    """For each motion command, start and step 0 occur at their times after the last byte (STMC-DS-01,
-    STMC-DS-04).
+    """For each motion command, start and step 0 occur at their documented times after the last byte
+    (STMC-DS-01, STMC-DS-04).
     """
     env = await Env.start(dut, INTERNAL, clock=0)
     for code, n, rate, start, step in (
@@ -72,8 +72,8 @@ async def stmc_ds_01_starts(dut: Any) -> None:
 
 @directed("STMC-DS-02", "STMC-DS-03", "STMC-DS-14", "STMC-INI-04", "STMC-INI-08", builds=(D16,))
 async def stmc_ds_02_initialisations(dut: Any) -> None:
-    """Pattern and completion of an initialisation occur at their times after the 4th byte (STMC-DS-02,
-    STMC-DS-03).
+    """Pattern and completion of an initialisation occur at their documented times after the 4th byte
+    (STMC-DS-02, STMC-DS-03).
     """
     env = await Env.start(dut, None, clock=0)
     for first, (d1, d2, pa) in enumerate(((20, 5, 8), (20, 20, 0), (255, 1, 400))):
@@ -105,7 +105,7 @@ async def stmc_ds_02_initialisations(dut: Any) -> None:
 
 @directed("STMC-DS-06", "STMC-DS-13", builds=ALL_CLOCKS)
 async def stmc_ds_06_single_step(dut: Any) -> None:
-    """int_n falls, and bytes are accepted again, 112 us after the byte of a single step (STMC-DS-06)."""
+    """112 us after the byte of a single step, int_n falls and bytes are accepted again (STMC-DS-06)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     t = await event(env, 0x42)
     await env.pulse(1)
@@ -120,7 +120,7 @@ async def stmc_ds_06_single_step(dut: Any) -> None:
 
 @directed("STMC-DS-07", "STMC-DS-08", "STMC-DS-13", builds=(D16,))
 async def stmc_ds_07_normal_ends(dut: Any) -> None:
-    """After a normal end, or one by CNP, of commands 3, 4 and 7, int_n falls after 26 us, and bytes are
+    """After a normal end of commands 3, 4 and 7, or an end by CNP, int_n falls after 26 us, and bytes are
     accepted after 156 us (STMC-DS-07, STMC-DS-08).
     """
     env = await Env.start(dut, INTERNAL, clock=0)
@@ -140,7 +140,7 @@ async def stmc_ds_07_normal_ends(dut: Any) -> None:
 
 @directed("STMC-DS-09", "STMC-DS-10", "STMC-DS-11", builds=ALL_CLOCKS)
 async def stmc_ds_09_stops(dut: Any) -> None:
-    """When a limit, mon or 40 stops a motion, no step follows, and the end occurs at its time
+    """If a limit, mon or code 40 stops a motion, no step follows, and the end occurs at its documented time
     (STMC-DS-09, STMC-DS-10).
     """
     env = await Env.start(dut, INTERNAL, clock=0)
@@ -168,7 +168,7 @@ async def stmc_ds_09_stops(dut: Any) -> None:
 
 @directed("STMC-DS-09", "STMC-DS-11", builds=(D16,))
 async def stmc_ds_09_ramp_down(dut: Any) -> None:
-    """After a requested deceleration, the end follows its last step by 0.2 ms (STMC-DS-09)."""
+    """After a requested deceleration, the end occurs 0.2 ms after its last step (STMC-DS-09)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     for i, how in ((3, "c 41"), (2, "l3_n"), (5, "c 41")):
         n = 12 if i == 5 else 100
@@ -188,7 +188,7 @@ async def stmc_ds_09_ramp_down(dut: Any) -> None:
 
 @directed("STMC-DS-12", "STMC-DS-14", "STMC-MOT-05", builds=(D16,))
 async def stmc_ds_12_causes_at_the_start(dut: Any) -> None:
-    """A cause at the start, or a stop that waits for the start, prevents all steps (STMC-DS-12)."""
+    """If a cause is active at the start, or a stop waits for the start, no step is made (STMC-DS-12)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     await env.pins(l1_n=0)
     for code, n, rate, start, end_xt in (
@@ -210,9 +210,7 @@ async def stmc_ds_12_causes_at_the_start(dut: Any) -> None:
 
 @directed("STMC-DS-13", "STMC-BUS-14", builds=(D16,))
 async def stmc_ds_13_a_newer_byte(dut: Any) -> None:
-    """If a newer byte replaces a byte that waits for the end, only the newer one is checked
-    (STMC-DS-13).
-    """
+    """If a newer byte replaces a byte that waits for the end, only the newer byte is checked (STMC-DS-13)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     await event(env, 0x44, 2, 3)
     last = await env.pulse(2)
@@ -226,7 +224,7 @@ async def stmc_ds_13_a_newer_byte(dut: Any) -> None:
 
 @directed("STMC-DS-04", "STMC-DS-11", "STMC-DS-12", builds=(D16,))
 async def stmc_ds_04_external_clock(dut: Any) -> None:
-    """With the external clock, step 0 is on the first tick after its time (STMC-DS-04)."""
+    """With the external clock, step 0 occurs on the first tick after its documented time (STMC-DS-04)."""
     env = await Env.start(dut)
     for code, n, rate, xt in ((0x43, 12, None, 3_200), (0x44, 5, 3, 3_104)):
         t = await event(env, code, n, rate)

@@ -1,4 +1,4 @@
-"""Fast step clocks compared with the formula (STMC-CLK-04)."""
+"""Fast step clocks, compared with the formula (STMC-CLK-04)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .expected_timing import F8X20, Ramp, divisor
 
 
 def rates(ramp: Ramp, which: Sequence[int]) -> list[int]:
-    """Return the divisors - 1 of the ramp (D1 - 1, D2 - 1, PA) at the given levels."""
+    """Return the divisors of the ramp at these levels, minus 1; `ramp` is (D1 - 1, D2 - 1, PA)."""
     slow, fast, pa = ramp
     return [divisor((slow + 1, fast + 1, pa), v) - 1 for v in which]
 

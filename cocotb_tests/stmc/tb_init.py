@@ -33,7 +33,9 @@ async def stmc_ini_02_illegal_divisors(dut: Any) -> None:
 
 @directed("STMC-INI-02", "STMC-MOV-04", "STMC-INI-01")
 async def stmc_ini_02_small_and_flat(dut: Any) -> None:
-    """Divisors 1..4, PA 0 and 65535, and D1 = D2 are accepted, and their moves are right (STMC-INI-02)."""
+    """Divisors 1 to 4, PA 0 and 65535, and D1 = D2 are accepted, and moves with them are correct
+    (STMC-INI-02).
+    """
     env = await Env.start(dut)
     for d1, d2, pa, n in (
         (4, 3, 2, 8),
@@ -77,7 +79,7 @@ async def stmc_ini_04_frozen_bits(dut: Any) -> None:
 
 @directed("STMC-INI-04", "STMC-INI-07")
 async def stmc_ini_04_data_loaded_again(dut: Any) -> None:
-    """After a second initialisation, the next move uses its divisors and clock (STMC-INI-04)."""
+    """After a second initialisation, the next move uses the new divisors and clock (STMC-INI-04)."""
     env = await Env.start(dut)
     await env.init(0x1A, 30, 10, 4)
     await env.move(0x43, 10)
@@ -89,8 +91,8 @@ async def stmc_ini_04_data_loaded_again(dut: Any) -> None:
 
 @directed("STMC-INI-07", "STMC-FSM-03", "STMC-BUS-14")
 async def stmc_ini_07_build(dut: Any) -> None:
-    """A motion that waits for a table build of any length is checked after it and is right
-    (STMC-INI-07).
+    """A motion that waits for a table build of any length is checked after the build, and its steps are
+    correct (STMC-INI-07).
     """
     env = await Env.start(dut)
     for d1, d2, pa in ((255, 1, 65535), (255, 254, 65535), (2, 1, 1), (200, 3, 255), (20, 20, 9), (9, 3, 0)):
@@ -106,7 +108,7 @@ async def stmc_ini_07_build(dut: Any) -> None:
 
 @directed("STMC-INI-07", "STMC-FSM-03", "STMC-BAD-16")
 async def stmc_ini_07_reset_in_the_build(dut: Any) -> None:
-    """After a reset at any time of a build, the next initialisation works (STMC-INI-07, STMC-BAD-16)."""
+    """After a reset at any time during a build, the next initialisation works (STMC-INI-07, STMC-BAD-16)."""
     env = await Env.start(dut)
     for wait in (2, 40, 500, 3_000):
         await env.host.init(0x1A, 255, 5, 400)
@@ -147,7 +149,9 @@ async def stmc_ini_06_first_pattern(dut: Any) -> None:
 
 @directed("STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04", "STMC-EXC-05", "STMC-OUT-01", "STMC-OUT-02")
 async def stmc_exc_01_all_tables(dut: Any) -> None:
-    """For each type, mode and logic, two turns and back show every pattern of the table (STMC-EXC-01)."""
+    """For each motor type, mode and logic, two turns and back output every pattern of the table
+    (STMC-EXC-01).
+    """
     env = await Env.start(dut, None)
     for low in STEPS:
         for logic in (8, 0):
@@ -170,7 +174,7 @@ async def stmc_exc_01_all_tables(dut: Any) -> None:
 
 @directed("STMC-MOT-04", "STMC-OUT-01", "STMC-INI-06")
 async def stmc_out_01_direction_bit(dut: Any) -> None:
-    """The direction bit of the outputs is that of the last executed motion."""
+    """The direction bit of the outputs register is that of the last executed motion."""
     env = await Env.start(dut)
     for script, bit in (
         ("c 4A", 1),

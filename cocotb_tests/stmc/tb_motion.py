@@ -24,7 +24,7 @@ from .expected_timing import (
     gaps,
 )
 
-# Commands 2 to 7; those with a count have n = 4.
+# Commands 2 to 7; those with a number of steps have n = 4.
 MOTIONS = (
     (0x42, None, None),
     (0x43, 4, None),
@@ -34,13 +34,13 @@ MOTIONS = (
     (0x47, None, 5),
 )
 
-# Frequencies of the clocks of the core and of the crystal.
+# Frequencies of the core clock and of the crystal.
 CLOCKS = (F16, F12, F200, F8X20, ODD)
 
 
 @directed("STMC-MOT-06", "STMC-CLK-01", "STMC-CLK-03", "STMC-MOV-02", builds=CLOCKS)
 async def stmc_clk_01_internal_clock(dut: Any) -> None:
-    """For any core and crystal clock, T0 and every step are where the formula states (STMC-CLK-01)."""
+    """For any core clock and crystal, T0 and each step occur at the times of the formula (STMC-CLK-01)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     t0 = env.cfg.cyc(T0)
     for n in (4, 7):
@@ -56,9 +56,7 @@ async def stmc_clk_01_internal_clock(dut: Any) -> None:
 
 @directed("STMC-MOT-08", "STMC-MOT-09", "STMC-FIN-01")
 async def stmc_mot_08_normal_end(dut: Any) -> None:
-    """After the last step of a complete motion BUSY falls, and int_n falls at the same time
-    (STMC-MOT-08).
-    """
+    """After the last step of a complete motion, BUSY and int_n fall at the same time (STMC-MOT-08)."""
     env = await Env.start(dut)
     for code, n, rate in (
         (0x42, None, None),
@@ -79,7 +77,9 @@ async def stmc_mot_08_normal_end(dut: Any) -> None:
 
 @directed("STMC-MOT-06", "STMC-CLK-02", "STMC-CLK-03")
 async def stmc_clk_02_external_clock(dut: Any) -> None:
-    """With uneven external ticks, step 0 is on a tick after T0, and gaps count ticks (STMC-CLK-02)."""
+    """With irregular external ticks, step 0 occurs on a tick after T0, and gaps are counted in ticks
+    (STMC-CLK-02).
+    """
     env = await Env.start(dut, clock=0)
     periods = [64, 16, 33, 20, 90, 17, 16, 24, 41, 128]
     env.bench.external_clock((p for _ in repeat(0) for p in periods), high=5)
@@ -98,7 +98,7 @@ async def stmc_clk_02_external_clock(dut: Any) -> None:
 
 @directed("STMC-SGL-01", "STMC-SGL-03")
 async def stmc_sgl_01_single_step_without_ticks(dut: Any) -> None:
-    """If the external clock is stopped, the step of 42 occurs after T0 (STMC-SGL-01)."""
+    """If the external clock is stopped, the step of code 42 nevertheless occurs after T0 (STMC-SGL-01)."""
     env = await Env.start(dut, clock=0)
     for code in (0x42, 0x4A, 0x6A, 0x52):
         begin = env.bench.now
@@ -132,8 +132,8 @@ async def stmc_sgl_02_single_steps_and_switches(dut: Any) -> None:
     "STMC-MOT-05", "STMC-MOT-04", "STMC-RUN-03", "STMC-IN-03", "STMC-IN-04", "STMC-DEC-03", "STMC-BAD-14"
 )
 async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
-    """With each switch active at the start, each motion in both directions starts or ends as
-    STMC-MOT-05 requires.
+    """If a switch is active at the start, each motion in both directions starts or ends as STMC-MOT-05
+    requires.
     """
     env = await Env.start(dut)
     for pin in (*SWITCHES, "all"):
@@ -160,7 +160,7 @@ async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
 
 @directed("STMC-MOT-05", "STMC-MOT-10", "STMC-HLD-02")
 async def stmc_mot_05_times_without_a_step(dut: Any) -> None:
-    """With mon low, a motion sets BUSY for at most 8 cycles, and int_n falls (STMC-MOT-05)."""
+    """While mon is low, a motion command sets BUSY for at most 8 cycles, and int_n falls (STMC-MOT-05)."""
     env = await Env.start(dut)
     await env.pins(mon=0)
     for masked in (0, 0x10):
@@ -179,7 +179,7 @@ async def stmc_mot_05_times_without_a_step(dut: Any) -> None:
 
 @directed("STMC-MOT-03", "STMC-BAD-07")
 async def stmc_mot_03_divisor_0(dut: Any) -> None:
-    """Divisor 0 in commands 4, 5, 7 returns error 5 with the last byte and changes nothing
+    """Divisor 0 in commands 4, 5 and 7 returns error 5 with the last byte and changes nothing
     (STMC-MOT-03).
     """
     env = await Env.start(dut)
@@ -197,7 +197,9 @@ async def stmc_mot_03_divisor_0(dut: Any) -> None:
 
 @directed("STMC-RUN-02", "STMC-RUN-01", "STMC-MOT-04", "STMC-MOT-07")
 async def stmc_run_02_counts(dut: Any) -> None:
-    """If a move of any length stops after two steps, REM is the number sent less two (STMC-RUN-02)."""
+    """If a move of any length stops after two steps, REM is the number that was sent minus two
+    (STMC-RUN-02).
+    """
     env = await Env.start(dut)
     for n in (3, 256, 257, 65_536, 65_537, ALL):
         await env.go(0x44, n, 6)
@@ -213,7 +215,7 @@ async def stmc_run_02_counts(dut: Any) -> None:
 
 @directed("STMC-CLK-04", "STMC-BAD-15")
 async def stmc_clk_04_too_fast_a_clock(dut: Any) -> None:
-    """With gaps far below 64 cycles, steps, their order, FIN and REM are right (STMC-CLK-04)."""
+    """With gaps far below 64 cycles, number and order of the steps, FIN and REM are correct (STMC-CLK-04)."""
     env = await Env.start(dut, clock=0)
     await env.init(0x1A, 4, 1, 8)
     for period in (4, 6, 9):
@@ -242,7 +244,7 @@ async def stmc_clk_04_too_fast_a_clock(dut: Any) -> None:
 
 @directed("STMC-CLK-05", "STMC-BAD-15", "STMC-IN-01")
 async def stmc_clk_05_a_clock_that_stops(dut: Any) -> None:
-    """If the clock stops during a move, limits, 41 and reads still work (STMC-CLK-05)."""
+    """If the clock stops during a move, limits, code 41 and reads still work (STMC-CLK-05)."""
     env = await Env.start(dut, clock=0)
     await env.go(0x43, 100)
     await env.bench.clocks(120)
@@ -265,7 +267,7 @@ async def stmc_clk_05_a_clock_that_stops(dut: Any) -> None:
 
 @directed("STMC-BAD-16", "STMC-INI-04")
 async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
-    """If rst_n falls between two edges during a motion, at several times, all is in its reset state
+    """If rst_n falls between two edges at various times during a motion, the core is in its reset state
     (STMC-BAD-16).
     """
     env = await Env.start(dut)
@@ -276,7 +278,7 @@ async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
         await env.bench.clocks(3)
         env.check("STMC-BAD-16", "outputs", env.outputs(), {"int_n": 1, "s": 0, "hold": 1})
         env.set(rst_n=1)
-        await env.bench.clocks(4)  # from here on bytes are accepted
+        await env.bench.clocks(4)  # bytes are accepted from here on
         env.check("STMC-BAD-16", "statuses", await env.statuses("c 42 d 00"), [0xA0, 0xB0])
         env.check("STMC-BAD-16", "FIN", await env.finish(), 0x80)
         await env.init(*STANDARD)
@@ -306,7 +308,7 @@ async def stmc_rmp_01_ramps(dut: Any) -> None:
 async def stmc_rmp_02_the_longest_ramp(dut: Any) -> None:
     """With PA = 65535, the speed stays at its maximum after all levels (STMC-INI-02, STMC-RMP-02)."""
     env = await Env.start(dut, (0x1A, 2, 1, 65_535))
-    # x(k) = 1 from the first k on with 7 * 65535 <= 27 * (k - 1): the threshold form of the rule.
+    # x(k) = 1 from the first k with 7 * 65535 <= 27 * (k - 1) on, which is the threshold form of the rule.
     change = 1 + 7 * 65_535 // 27
     await env.go(0x46)
     await env.bench.clocks(EXT * (65_700 + change))

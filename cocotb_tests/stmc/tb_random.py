@@ -1,4 +1,4 @@
-"""Constrained-random hosts, compared with the golden model edge by edge, and noise on all pins."""
+"""Constrained-random hosts, compared with the golden model edge by edge; and noise on all pins."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ async def stmc_random_host(dut: Any, seed: int) -> None:
 
 @random_test("STMC-BAD-13", "STMC-BAD-14", "STMC-BAD-15", "STMC-CLK-04", "STMC-INI-04", uncompared=UNCOMPARED)
 async def stmc_random_noise(dut: Any, seed: int) -> None:
-    """After noise on all input pins, 40 and an initialisation make the core work again."""
+    """After noise on all input pins, code 40 and an initialisation make the core work again."""
     bench = await RtlBench.start(dut, STMC, seed=seed)
     noise = PinNoise(bench, STROBES, CODES)
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
@@ -54,7 +54,7 @@ async def stmc_random_noise(dut: Any, seed: int) -> None:
     host = HostBus(bench, timeout=bench.config.cyc(264_000 + 209 * 65_536))
     for _ in range(4):
         await host.poll(IBF, 0)
-        # In DATASHEET timing, a motion that was just accepted raises BUSY up to 112 us later.
+        # In DATASHEET, BUSY of a motion that was just accepted rises up to 112 us later.
         await bench.clocks(bench.config.us(300))
         if not await host.poll(IBF, 0) & BUSY:
             break

@@ -1,4 +1,4 @@
-"""Status register, byte rules and the accept/reject table: STMC-ST, STMC-CMD, STMC-FSM, STMC-BAD-01..08."""
+"""Status register, byte rules and accept/reject table: STMC-ST, STMC-CMD, STMC-FSM, STMC-BAD-01..08."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RAMP_COMMANDS = (3, 6)
 
 
 def kind_of(code: int, reads: tuple[int, ...]) -> str:
-    """Return the kind of a command byte; it follows from the table of all codes alone."""
+    """Return the kind of a command byte, derived from the table of all codes only."""
     if code < 0x40:
         return "init" if code & 3 else "undefined"
     if code < 0x80:
@@ -24,12 +24,12 @@ def kind_of(code: int, reads: tuple[int, ...]) -> str:
 
 
 def expected(kind: str) -> int:
-    """Return the CODE field of an accepted code: the number of data bytes that follow."""
+    """Return the CODE field for an accepted code: the number of data bytes that follow."""
     return {"init": 0x40, "ramp": 0x30, "steady": 0x40, "limit": 0x10, "search": 0x10}.get(kind, 0x00)
 
 
 def expected_status(kind: str, state: str) -> int:
-    """Return the status of a code in a state without BUSY, from the accept/reject table."""
+    """Return the status for a code in a state without BUSY, according to the accept/reject table."""
     moving = state in MOVING
     if kind == "undefined":
         return 0x80
@@ -90,7 +90,7 @@ async def stmc_fsm_01_accept_table(dut: Any) -> None:
 
 @directed("STMC-CMD-03", "STMC-BAD-02", "STMC-BAD-03", "STMC-ST-03")
 async def stmc_cmd_03_data_bytes(dut: Any) -> None:
-    """In each state, a data byte is accepted or sets error 3 or 6, and has no other effect
+    """In each state, a data byte is either accepted or sets error 3 or 6, and has no other effect
     (STMC-CMD-03).
     """
     env = await Env.start(dut, None, clock=0)
@@ -109,7 +109,7 @@ async def stmc_cmd_03_data_bytes(dut: Any) -> None:
 
 @directed("STMC-ST-02", "STMC-ST-03", "STMC-ST-04", "STMC-CMD-01", "STMC-CMD-02")
 async def stmc_st_03_error_field(dut: Any) -> None:
-    """After an error, only an accepted command clears ERR; rejected and accepted data bytes do not
+    """After an error, only an accepted command clears ERR; data bytes, accepted or rejected, do not
     (STMC-ST-03).
     """
     env = await Env.start(dut)
@@ -130,9 +130,7 @@ async def stmc_st_03_error_field(dut: Any) -> None:
 
 @directed("STMC-CMD-02", "STMC-BAD-04", "STMC-FSM-03")
 async def stmc_cmd_02_unfinished_commands(dut: Any) -> None:
-    """Incomplete commands have no effect, however long they wait and whichever code follows
-    (STMC-CMD-02).
-    """
+    """An incomplete command has no effect, however long it waits and whichever code follows (STMC-CMD-02)."""
     env = await Env.start(dut)
     since = env.bench.now
     for script in ("c 43 d 05 d 00", "c 44 d 07 d 01 d 00", "c 0A d 05 d 05 d 00", "c 45", "c 08", "c 47"):
@@ -162,7 +160,7 @@ async def stmc_bad_08_motion_before_the_initialisation(dut: Any) -> None:
 
 @directed("STMC-BAD-17", "STMC-BAD-03", "STMC-MOT-02")
 async def stmc_bad_17_two_motions_back_to_back(dut: Any) -> None:
-    """A second motion directly after the first returns error 1, and its data bytes return error 6
+    """A second motion command directly after the first returns error 1, and its data bytes return error 6
     (STMC-BAD-17).
     """
     env = await Env.start(dut)
@@ -174,7 +172,9 @@ async def stmc_bad_17_two_motions_back_to_back(dut: Any) -> None:
 
 @directed("STMC-RD-01", "STMC-CMD-01", "STMC-BAD-11", "STMC-FIN-04", "STMC-REM-02")
 async def stmc_rd_01_reads(dut: Any) -> None:
-    """Each accepted read of any kind replaces the previous answer, read or unread (STMC-RD-01)."""
+    """Each accepted read of any kind replaces the previous answer, whether it was read or not
+    (STMC-RD-01).
+    """
     env = await Env.start(dut)
     await env.go(0x44, 1000, 5)
     await env.in_gap(4)
@@ -199,7 +199,7 @@ async def stmc_rd_01_reads(dut: Any) -> None:
 
 @directed("STMC-FSM-01", "STMC-FSM-04", "STMC-STP-03")
 async def stmc_fsm_04_stops_before_step_0(dut: Any) -> None:
-    """In state S of commands 2..7, 40 or 41 prevents all steps, except that 41 leaves one step in
+    """In state S of commands 2 to 7, codes 40 and 41 prevent all steps, but code 41 leaves one step in
     commands 3 and 6 (STMC-FSM-04).
     """
     env = await Env.start(dut, clock=0)

@@ -15,7 +15,7 @@ REQUESTS = (("c 41", 0x40), ("l3_n", 0x08))
 
 
 async def request(env: Env, how: str) -> None:
-    """Request a deceleration: by command 1, or by a short pulse of the limit."""
+    """Request a deceleration, either with command 1 or with a short pulse of the limit."""
     if how == "c 41":
         await env.command(0x41)
     else:
@@ -24,7 +24,7 @@ async def request(env: Env, how: str) -> None:
 
 @directed("STMC-DEC-01", "STMC-DEC-02", "STMC-DEC-04", "STMC-STP-03", "STMC-FIN-02", "STMC-FIN-03")
 async def stmc_dec_04_every_gap_of_a_move(dut: Any) -> None:
-    """In moves of 12 and 23 steps, a request in each gap leads to the gaps of the rule (STMC-DEC-04)."""
+    """In moves of 12 and 23 steps, a request in each gap results in the gaps of the rule (STMC-DEC-04)."""
     env = await Env.start(dut)
     for n, how, bit in ((12, "c 41", 0x40), (23, "l3_n", 0x08)):
         for i in range(n - 1):
@@ -65,7 +65,9 @@ async def stmc_dec_03_start_speed(dut: Any) -> None:
 
 @directed("STMC-DEC-03", "STMC-MOT-08", "STMC-IN-02")
 async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
-    """After a request in gap 0, BUSY falls within 8 cycles of the pin, or 12 of the byte (STMC-DEC-03)."""
+    """After a request in gap 0, BUSY falls within 8 cycles of the pin edge, or within 12 cycles of the byte
+    (STMC-DEC-03).
+    """
     env = await Env.start(dut)
     for how, latest in (("l3_n", 8), ("c 41", PINS_LATEST)):
         await env.go(0x43, 60)
@@ -81,8 +83,8 @@ async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
 
 @directed("STMC-DEC-02", "STMC-STP-04", "STMC-FIN-03", "STMC-DEC-05")
 async def stmc_dec_02_second_requests(dut: Any) -> None:
-    """After an accepted request, further ones return error 7 or have no effect; only the first counts
-    (STMC-DEC-02).
+    """After an accepted request, a further code 41 returns error 7, and a further limit has no effect: only
+    the first request counts (STMC-DEC-02).
     """
     env = await Env.start(dut)
     await env.go(0x43, 100)
@@ -101,8 +103,8 @@ async def stmc_dec_02_second_requests(dut: Any) -> None:
 
 @directed("STMC-DEC-06", "STMC-STP-06", "STMC-FIN-02", "STMC-STP-01", "STMC-IN-02")
 async def stmc_dec_06_stops_in_the_ramp_down(dut: Any) -> None:
-    """During a deceleration requested by 41 or l3_n, l1_n, mon or 40 stops the motion immediately, and
-    all bits are set (STMC-DEC-06).
+    """During a deceleration that code 41 or l3_n requested, l1_n, mon or code 40 stops the motion
+    immediately, and all bits are set (STMC-DEC-06).
     """
     env = await Env.start(dut)
     for how, first in REQUESTS:
@@ -120,7 +122,9 @@ async def stmc_dec_06_stops_in_the_ramp_down(dut: Any) -> None:
 
 @directed("STMC-STP-01", "STMC-STP-02", "STMC-MOT-08", "STMC-MOT-09")
 async def stmc_stp_01_emergency_stop(dut: Any) -> None:
-    """In each motion, after 40 or 41 at various times before a step, no late step is made (STMC-STP-01)."""
+    """In each motion, no step follows code 40 or 41 that is sent at various times before a step
+    (STMC-STP-01).
+    """
     env = await Env.start(dut)
     moves = ((0x43, 200, None), (0x44, 200, 5), (0x45, None, 5), (0x46, None, None), (0x47, None, 5))
     for code, n, rate in moves:
@@ -142,7 +146,7 @@ async def stmc_stp_01_emergency_stop(dut: Any) -> None:
 
 @directed("STMC-IN-01", "STMC-IN-02", "STMC-IN-03", "STMC-MOT-08")
 async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
-    """A stop pin that changes 4 or more cycles before a step suppresses it (STMC-IN-02)."""
+    """If a stop pin changes 4 or more cycles before a step, this step is suppressed (STMC-IN-02)."""
     env = await Env.start(dut)
     for code, pin, bits in (
         (0x45, "l1_n", 0x10),
@@ -167,7 +171,9 @@ async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
 
 @directed("STMC-IN-03", "STMC-IN-05", "STMC-FIN-01", "STMC-FIN-04", "STMC-RUN-03")
 async def stmc_in_03_what_is_ignored(dut: Any) -> None:
-    """In each motion in both directions, switches that do not apply to it have no effect (STMC-IN-03)."""
+    """In each motion in both directions, switches that do not apply to the motion have no effect
+    (STMC-IN-03).
+    """
     env = await Env.start(dut)
     cases = (
         (0x43, 12, None, ("l2_n", "l4_n", "cnp_n"), ("l1_n", "l3_n", "cnp_n")),
@@ -200,7 +206,7 @@ async def stmc_in_03_what_is_ignored(dut: Any) -> None:
 
 @directed("STMC-IN-04", "STMC-FIN-02")
 async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
-    """Of several causes on one edge, all stop causes are recorded (STMC-IN-04)."""
+    """If several stop causes occur on one edge, all of them are recorded (STMC-IN-04)."""
     env = await Env.start(dut)
     for code, pins, bits, made in (
         (0x43, ("l1_n", "l3_n"), 0x10, 5),
@@ -224,7 +230,7 @@ async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
 
 @directed("STMC-IN-04", "STMC-FIN-02", "STMC-IN-03")
 async def stmc_in_04_limit_and_monitor_on_one_edge(dut: Any) -> None:
-    """If l1_n and mon fall on the same edge, both bits are set: in every operation, on either clock
+    """If l1_n and mon fall on the same edge, both bits are set, in each operation and with either clock
     (STMC-IN-04).
     """
     env = await Env.start(dut)
@@ -239,7 +245,9 @@ async def stmc_in_04_limit_and_monitor_on_one_edge(dut: Any) -> None:
 
 @directed("STMC-IN-04", "STMC-DEC-07", "STMC-FIN-02")
 async def stmc_in_04_command_and_limit_together(dut: Any) -> None:
-    """41 and l3_n around the same edge set one bit or both, and lead to one deceleration (STMC-IN-04)."""
+    """If code 41 and l3_n occur near the same edge, one bit or both are set, and one deceleration follows
+    (STMC-IN-04).
+    """
     env = await Env.start(dut)
     for lead in range(-2, 9):
         await env.go(0x43, 100)
@@ -274,7 +282,7 @@ async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
 
 @directed("STMC-FIN-02", "STMC-FIN-04", "STMC-MOT-08", "STMC-STP-04")
 async def stmc_mot_08_after_the_last_step(dut: Any) -> None:
-    """Switches or stops directly after the last step have no effect (STMC-MOT-08)."""
+    """Switches and stops directly after the last step have no effect (STMC-MOT-08)."""
     env = await Env.start(dut)
     for wait in range(0, 10):
         for how, code in (("l1_n", 0x43), ("mon", 0x43), ("c 40", 0x43), ("c 41", 0x43), ("c 41", 0x44)):
@@ -313,7 +321,7 @@ async def stmc_dec_03_requests_before_step_0(dut: Any) -> None:
 
 @directed("STMC-REM-01", "STMC-FIN-02", "STMC-RUN-01")
 async def stmc_rem_01_the_rest_can_be_sent_again(dut: Any) -> None:
-    """If REM of a stopped move is sent as a new command, exactly the missing steps are made
+    """If REM of a stopped move is sent as the number of another command, exactly the missing steps are made
     (STMC-REM-01).
     """
     env = await Env.start(dut)

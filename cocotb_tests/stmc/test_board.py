@@ -25,7 +25,5 @@ def test_board(item, sim_options):
 
 
 def test_j105_parameter_ranges():
-    """The elaboration accepts address and step clock at their bounds and rejects the values just
-    outside.
-    """
+    """The elaboration accepts address and step clock at their bounds and rejects values just outside."""
     check_ranges("J105 1.5", design(F16), RANGES)

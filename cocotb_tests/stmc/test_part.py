@@ -25,7 +25,7 @@ ITEMS = cocotb_items(
     part=STMC,
 )
 
-# A row has a parameter, its legal values, and values just outside its range (docs/stmc/README.md, 3).
+# A row contains a parameter, its legal values, and values just outside its range (docs/stmc/README.md, 3).
 RANGES = {
     "CLK_HZ": (("8_000_000", "200_000_000"), ("7_999_999", "200_000_001")),
     "XTAL_HZ": (("1_000_000", "20_000_000"), ("999_999", "20_000_001")),
@@ -45,5 +45,5 @@ def test_stmc(item, sim_options):
 
 
 def test_stmc_parameter_ranges():
-    """The elaboration accepts each parameter at its bounds and rejects the values just outside."""
+    """The elaboration accepts each parameter at its bounds and rejects values just outside."""
     check_ranges("STMC 1.4", part_design("stmc", F16), RANGES)

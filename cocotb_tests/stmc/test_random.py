@@ -1,4 +1,5 @@
-"""Random hosts against the golden model, and noise: fixed lists of seeds; `--seed N` runs seed N only.
+"""Compares random hosts with the golden model, and tests noise: fixed lists of seeds, or one seed with
+`--seed N`.
 
 `make soak PART=stmc` runs any number of other seeds.
 """
@@ -38,7 +39,7 @@ def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """The same seed yields the same list; the fixed seeds together use every kind of action and every
+    """The same seed returns the same list; all fixed seeds together use each kind of action and each
     build.
     """
     assert scenario(5) == scenario(5) != scenario(6)

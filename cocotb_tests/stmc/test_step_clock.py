@@ -1,8 +1,7 @@
-"""The second step clock of the board over ten seconds, cycle by cycle, in C++: cocotb would take
-minutes.
+"""Second step clock of the board over ten seconds, cycle by cycle, in C++, because cocotb would take minutes.
 
-The waveform is that of `ppmc_square` with the parameters of `j105_stmc`. The tests of `tb_board`
-compare the steps of the board with the golden model, which counts this waveform.
+The waveform is that of `ppmc_square` with the parameters of `j105_stmc`. The tests of `tb_board` compare the
+steps of the board with the golden model, which counts this waveform.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ def build() -> Path:
     command = ["--cc", "--exe", "--build", "-O3", "--no-assert", "--top-module", "ppmc_square"]
     command += [f"-G{name}={value}" for name, value in params.items()]
     command += ["-CFLAGS", " ".join(f"-D{name}={value}ULL" for name, value in macros.items())]
-    # Only the generated code runs often.
+    # Only the generated code is executed often.
     command += ["-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O0 OPT_GLOBAL=-O1", "--output-split", "0"]
     command += ["--Mdir", str(folder), "-o", "bench", *map(str, sources)]
     made = subprocess.run(

@@ -1,4 +1,4 @@
-"""`Bench`: clock and reset of ppmc_uart_bridge, its line bit by bit, and its bus with a slave in Python."""
+"""`Bench`: clock and reset of ppmc_uart_bridge, its line bit by bit, and a Python slave on its bus."""
 
 from __future__ import annotations
 
@@ -33,10 +33,11 @@ def same(what: str, got: object, want: object) -> None:
 
 
 class Bench:
-    """One bridge. `slave` responds to its accesses, `got` holds the received payloads, `edges` every
-    edge of txd.
+    """One bridge and its surroundings.
 
-    `baud` is the rate of the host; `error` is its deviation (0.02: the host is 2 % fast).
+    `slave` responds to the accesses of the bridge. `got` contains the payloads received from the bridge,
+    `edges` every edge of txd. `baud` is the rate of the host, and `error` its deviation (0.02: the host is 2
+    % fast).
     """
 
     def __init__(self, dut: Any, slave: RegisterModel | None) -> None:
@@ -59,7 +60,7 @@ class Bench:
 
     @classmethod
     async def start(cls, dut: Any, slave: RegisterModel | None = None) -> Bench:
-        """Start clock, reset and monitors."""
+        """Start clock, reset the bridge, and start the monitors."""
         watchdog.arm()
         bench = cls(dut, slave or RegisterModel())
         dut.clk_i.set(Immediate(0))
@@ -95,7 +96,7 @@ class Bench:
         return bench
 
     def watch_line(self, txd: Any) -> None:
-        """Receive the output of the bridge."""
+        """Receive the characters that the bridge sends."""
         self._txd = txd
         cocotb.start_soon(self._receive())
         cocotb.start_soon(self._note_edges())
@@ -107,7 +108,7 @@ class Bench:
         await Timer(n * self.period, "ps")
 
     async def ms(self, n: float) -> None:
-        """Wait n milliseconds, as counted by the bridge."""
+        """Wait n milliseconds, as the bridge counts them from its ClkHz."""
         await Timer(round(n * self.config.clk_hz / 1000) * self.period, "ps")
 
     def bit_ps(self) -> float:
@@ -129,7 +130,7 @@ class Bench:
                 await Timer(max(1, round(start + (n + 1) * bit) - now()), "ps")
 
     async def send(self, data: bytes | list[int], stop: int = 1) -> None:
-        """Send characters without a pause; `stop` is the level of their stop bits."""
+        """Send characters without a pause; `stop` is the level of each stop bit."""
         bits = []
         for byte in bytes(data):
             bits += [0, *(byte >> n & 1 for n in range(8)), stop]
@@ -165,7 +166,7 @@ class Bench:
                 self._frame.set()
 
     async def message(self, ms: float = 50) -> bytes:
-        """Return the next payload from the bridge, after its stop bit.
+        """Return the next payload from the bridge, after its last stop bit.
 
         Raise TimeoutError if no payload arrives.
         """
@@ -184,7 +185,7 @@ class Bench:
     # ---------------------------------------------------------------- requests
 
     async def ask(self, script: bytes | str, seq: int | None = None, ms: float = 50) -> bytes:
-        """Send a request and return the payload of its answer. The script is bytes or hexadecimal text."""
+        """Send a script (bytes or hexadecimal text) as a request; return the payload of its answer."""
         if seq is None:
             self.seq = seq = self.seq % 127 + 1
         data = bytes.fromhex(script) if isinstance(script, str) else script
@@ -200,7 +201,7 @@ class Bench:
         return answer[1:]
 
     def accesses(self) -> list[tuple[str, int, int]]:
-        """Return the log of the slave since the last call."""
+        """Return the accesses that the slave has logged since the last call."""
         log = list(self.slave.log)
         self.slave.log.clear()
         return log

@@ -1,24 +1,24 @@
-"""Build configurations of the bridge: parameter Baud in `extra`."""
+"""Build configurations of the bridge; `extra` contains the parameter Baud."""
 
 from __future__ import annotations
 
 from cocotb_tests.harness import Config
 
-# Most tests run with 8 cycles per bit, so that scripts need little simulated time.
+# 8 cycles per bit, so that scripts need little simulated time; most tests use this build.
 FAST = Config("fast8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000),))
-# This build has two pulse counters, as for a part with two axes.
+# Two pulse counters, as for a part with two axes.
 TWO = Config("two8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Axes", 2), ("Part", 2104)))
-# This build has no pulse counter, as for a bank.
+# No pulse counter, as for a bank.
 NONE = Config("none8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Counter", 0), ("Part", 32)))
-# This build is a bank with its bridge and the shortest round in cycles that BANK-GEN-02 allows.
+# A bank with its bridge, and the shortest round in cycles that BANK-GEN-02 allows.
 BANK = Config("bank8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("AXES", 4)))
-# This build has a recorder of 32 records. Each record has 3 bytes: 9 levels and 15 bits of time.
+# A recorder of 32 records. Each record has 3 bytes: 9 levels and 15 bits of time.
 REC = Config("rec8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Watch", 9), ("Record", 5)))
-# This build is a carrier with a recorder of 16 records.
+# A carrier with a recorder of 16 records.
 RECORDING = Config("recording8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Record", 4)))
-# This build supports every rate code; the highest rate has exactly 5 cycles per bit.
+# All rate codes are available; the highest rate has exactly 5 cycles per bit.
 ALL_RATES = Config("rates15m", clk_hz=15_000_000, extra=(("Baud", 115_200),))
-# A millisecond has few cycles in this build, for tests with long waits.
+# Few cycles per millisecond, for tests with long waits.
 SLOW = Config("slow2m", clk_hz=2_000_000, extra=(("Baud", 115_200), ("Datasheet", 1)))
 
 RATES = {1: 230_400, 2: 460_800, 3: 921_600, 4: 1_000_000, 5: 2_000_000, 6: 3_000_000}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// station_bench: the ULX3S with a PPMC-2104, and an old host on its data bus; each has tri-state drivers.
+// station_bench: the ULX3S with a PPMC-2104, and an old host on its data bus. Both have tri-state drivers.
 `default_nettype none
 
-// Replaces the PLL: `clk` is the oscillator, and the test bench drives the lock signal.
+// Replacement of the PLL: `clk` is the oscillator, and the test bench drives the lock signal.
 module ppmc_clock_ulx3s (
     input  wire logic clk_25m_i,
     output logic      clk_o,

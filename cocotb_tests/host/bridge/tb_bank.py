@@ -1,4 +1,4 @@
-"""ppmc_bank_carrier: a bank, one axis at a time through its UART (docs/bank/carrier.md)."""
+"""ppmc_bank_carrier: access to one axis of a bank at a time through its UART (docs/bank/carrier.md)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ async def start(dut: Any) -> Bench:
 @cocotb.test()
 @configs(BANK)
 async def bank_registers_of_an_axis(dut):
-    """After the choice of an axis, IDENT, INFO, CONFIG and MASK are where docs/bank/carrier.md states."""
+    """After an axis is chosen, IDENT, INFO, CONFIG and MASK are at the addresses in docs/bank/carrier.md."""
     bench = await start(dut)
     ident = await bench.done("01")
     same("part number, no counter", (ident[5] | ident[6] << 8, ident[7] & 0x0E), (32, 0))
@@ -56,8 +56,8 @@ async def bank_registers_of_an_axis(dut):
 @cocotb.test()
 @configs(BANK)
 async def bank_moves(dut):
-    """When two axes move one after the other, events, map, finish status and positions belong to the
-    axis that moved.
+    """If two axes move one after the other, events, map, finish status and positions belong to the axis that
+    moved.
     """
     bench = await start(dut)
     await bench.done("03 01")
@@ -78,8 +78,8 @@ async def bank_moves(dut):
 @cocotb.test()
 @configs(BANK)
 async def bank_pins(dut):
-    """PINS reports a switch of an axis only while that axis is chosen, and the LED is on while a limit
-    or alarm is active.
+    """PINS reports a switch of an axis only while this axis is chosen. The LED is lit while a limit or an
+    alarm is active.
     """
     bench = await start(dut)
     for axis in range(AXES):

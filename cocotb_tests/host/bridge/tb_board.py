@@ -1,4 +1,4 @@
-"""ppmc104_carrier: the part is initialised and moved through its UART, with one frame each."""
+"""ppmc104_carrier: the part is initialised with one frame and moved with one frame through its UART."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .settings import FAST
 
 INITIALISE = "55 0A 09 04 04 00"  # RL 9, RH 4, PA 4, four-phase
 MOVE = "54 43 0D 00 00"  # 14 pulses CW
-# This is the example of docs/uart_bridge.md, byte by byte.
+# This is the example in docs/uart_bridge.md, byte by byte.
 MOVE_LINE = bytes.fromhex("7E 01 54 43 0D 00 00 60 95 7E")
 MOVE_ANSWER = bytes.fromhex("7E 01 00 04 BB 28 7E")
 FINISH = "51 80 61"
@@ -42,14 +42,14 @@ def pulses_of(dut: Any) -> list[int]:
 @cocotb.test()
 @configs(FAST)
 async def board_initialise_and_move(dut):
-    """The examples of the contract on a part output the pulses, the event and the count (UB-OPS-01,
-    UB-OPS-02, UB-MSG-01).
+    """The examples of the contract, sent to a PPMC-104, cause the expected pulses, event and count
+    (UB-OPS-01, UB-OPS-02, UB-MSG-01).
     """
     bench = await start(dut)
     pulses = pulses_of(dut)
     status = await bench.done(INITIALISE)
     same("initialised, no error", (len(status), status[0] & 0x82), (1, 0))
-    await bench.done("03 01 09")  # SEQ 2: the move with SEQ 1 is new
+    await bench.done("03 01 09")  # SEQ 2 is new: SEQ 1 was the move
     before = len(bench.line)
     await bench.send(MOVE_LINE)
     await bench.message()
@@ -66,8 +66,8 @@ async def board_initialise_and_move(dut):
 @cocotb.test()
 @configs(FAST)
 async def board_pins_straps_reset(dut):
-    """PINS reports the switches, STRAPS reaches csel, RESET acts, errors are reported (UB-OPS-02,
-    UB-ANS-02).
+    """PINS reports the switches, STRAPS drives csel, RESET resets the part, and errors of the part are
+    reported (UB-OPS-02, UB-ANS-02).
     """
     bench = await start(dut)
     same("idle pins", await bench.done("06"), b"\xff")
@@ -75,7 +75,7 @@ async def board_pins_straps_reset(dut):
         getattr(dut, pin).value = 0
         same(pin, await bench.done("06"), bytes([0xFF & ~(4 << n)]))
         getattr(dut, pin).value = 1
-    # The part rejects the first byte of a move before initialisation.
+    # Before its initialisation, the part rejects the first byte of a move.
     answer = await bench.ask(MOVE)
     same("refused", (answer[:2], answer[2] & 0x80), (b"\x02\x00", 0x80))
     await bench.done(INITIALISE)

@@ -1,5 +1,5 @@
-"""Carriers with their bridge: no read drives the data pins, straps reach their pins, step clock of the
-STMC.
+"""Carriers with their bridge: reads do not drive the data pins, straps drive their pins, and the STMC has its
+step clock.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ STRAPS = {
     "ppmc2104": {"csel": (0, 1), "run": (2, 3), "errint_n": (4,)},
     "ppmc312": {"run": (0,), "evt0_n": (1,), "evt1_n": (2,)},
 }
-"""Pins that straps can pull to 0, with the strap of each bit."""
+"""Pins that straps can pull to 0, with the number of the strap for each bit."""
 
 
 async def start(dut: Any, part: str) -> Bench:
@@ -51,7 +51,7 @@ async def carrier_keeps_its_reads(dut: Any, part: str) -> None:
 @cocotb.parametrize(part=list(STRAPS))
 @configs(FAST)
 async def carrier_straps(dut: Any, part: str) -> None:
-    """Each strap at 0 pulls exactly one bit of one pin to 0; a pin that is at 0 stays at 0."""
+    """Each strap with the value 0 pulls exactly one bit of one pin to 0; a pin that is already 0 stays 0."""
     bench = await start(dut, part)
 
     def levels() -> dict[str, int]:
@@ -79,7 +79,7 @@ async def carrier_straps(dut: Any, part: str) -> None:
 @cocotb.parametrize(part=["stmc"])
 @configs(FAST, RECORDING)
 async def carrier_step_clock(dut: Any, part: str) -> None:
-    """Strap 0 stops an STMC on its external clock only if there is a recorder."""
+    """Strap 0 stops an STMC on its external clock only if the carrier has a recorder."""
     bench = await start(dut, part)
     stops = "Record" in dict(bench.config.extra)
     await bench.done("55 1A 05 05 00 00")

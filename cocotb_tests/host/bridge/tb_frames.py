@@ -17,7 +17,7 @@ def nak(code: int) -> bytes:
 
 
 def script_of(length: int) -> bytes:
-    """Return a script of this length that writes once: WRITEN to register 3, then NOPs."""
+    """Return a script of this length: a WRITEN to register 3, filled up with NOPs."""
     return b"\x00" * length if length < 3 else b"\x83\x01\x99" + b"\x00" * (length - 3)
 
 
@@ -34,8 +34,8 @@ async def frames_flags_and_escapes(dut):
     content = b"\x02\x12\x7e\x13\x7d\x14\x5d"
     content += crc16(content).to_bytes(2, "big")
     everything_escaped = b"\x7e" + b"".join(bytes([0x7D, byte ^ 0x20]) for byte in content) + b"\x7e"
-    # The byte 5D is escaped as 7D 7D. The content must not have the byte 5E: it would be escaped as 7D 7E,
-    # which ends the frame.
+    # The byte 5D is escaped as 7D 7D. The content must not contain the byte 5E, which would be escaped as 7D
+    # 7E and end the frame.
     assert b"\x7d\x7d" in everything_escaped and b"\x7d\x7e" not in everything_escaped
     cases = (
         (b"\x11\x22\x7d" + line, 1),
@@ -52,7 +52,7 @@ async def frames_flags_and_escapes(dut):
     same("the flag before is enough", await bench.message(), b"\x04\x00")
     same("writes", bench.accesses(), [("W", 2, 0x34), ("W", 2, 0x35)])
     await bench.silent("nothing more")
-    # The bridge escapes bytes of answers, too: data, and in some cases a byte of the CRC.
+    # The bridge also escapes bytes of answers: data, and in some cases a byte of the CRC.
     for _ in range(40):
         data = bytes(bench.rng.choice((0x7D, 0x7E, bench.rng.getrandbits(8))) for _ in range(3))
         script = b"".join(bytes([0x12, byte, 0x22]) for byte in data)
@@ -62,11 +62,12 @@ async def frames_flags_and_escapes(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_every_bit(dut):
-    """A frame with any one bit inverted is not executed; the next frame is executed (UB-FRM-03,
+    """A frame in which any one bit is inverted is not executed; the next frame is executed (UB-FRM-03,
     UB-FRM-06).
     """
     bench = await Bench.start(dut)
-    # The frame contains no flag and no escape, and no inversion of one bit in the script makes one of them.
+    # The frame contains no flag and no escape, and the inversion of one bit in the script does not produce
+    # one.
     line = encode(b"\x21\x12\x31\x13\x42")
     good = encode(b"\x00\x14\x01")
     for place in range(1, len(line) - 1):
@@ -76,7 +77,7 @@ async def frames_every_bit(dut):
             await bench.send(bad)
             reply = await bench.message()
             assert reply[0] == 0x81 and reply[1] in (2, 4, 6), f"byte {place}, bit {bit}: {reply.hex()}"
-            # An inverted bit may make a flag; then the rest is a second faulty frame.
+            # An inverted bit may produce a flag; then the remaining bytes are a second invalid frame.
             while 0x7E in bad[1:-1] and len(bench.line) and not await nothing(bench):
                 assert bench.got.pop(0)[0] == 0x81
             same(f"byte {place}, bit {bit}", bench.accesses(), [])
@@ -94,8 +95,8 @@ async def nothing(bench: Bench) -> bool:
 @cocotb.test()
 @configs(FAST)
 async def frames_faults(dut):
-    """Lengths 0 to 258, 7D 7E and a wrong CRC are answered as the rules state, and the bridge continues
-    (UB-FRM-04, UB-FRM-06).
+    """Frames of length 0 to 258, with 7D 7E, or with a wrong CRC are answered as the rules state, and the
+    bridge works afterwards (UB-FRM-04, UB-FRM-06).
     """
     bench = await Bench.start(dut)
     for length in (0, 1, 3, 251, 252, 253):
@@ -117,7 +118,7 @@ async def frames_faults(dut):
     for content in (b"\x05", b"\x05\x00"):
         await bench.send(content + b"\x7e")
         same(f"{len(content)} bytes", await bench.message(), nak(4))
-    # Two bytes are not a frame, even if the CRC is right.
+    # Two bytes are not a frame, even if they are a correct CRC.
     await bench.send(b"\xff\xff\x7e")
     same("CRC only", await bench.message(), nak(4))
     for content in (b"\x05\x12\x34\x7d", b"\x7d", encode(b"\x05\x12\x34")[1:-1] + b"\x7d"):
@@ -133,8 +134,8 @@ async def frames_faults(dut):
 @cocotb.test()
 @configs(SLOW)
 async def frames_silence(dut):
-    """After 100 ms of silence within a frame the bridge sends NAK 5 and hunts for a flag; it does not
-    do so earlier or between frames (UB-FRM-06).
+    """After 100 ms of silence within a frame, the bridge sends NAK 5 and then ignores bytes until a flag. It
+    does neither of these earlier, or between frames (UB-FRM-06).
     """
     bench = await Bench.start(dut)
     line = encode(b"\x06\x12\x34")
@@ -163,8 +164,8 @@ async def frames_silence(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_while_busy(dut):
-    """Bytes other than flags during a script or an answer cause NAK 7 after the answer, then the hunt
-    (UB-FRM-07).
+    """Bytes other than flags during a script or an answer cause NAK 7 after the answer; then the bridge waits
+    for a flag (UB-FRM-07).
     """
     bench = await Bench.start(dut)
     long_script = bytes([0x32, 40])
@@ -180,7 +181,7 @@ async def frames_while_busy(dut):
     await bench.silent("hunt")
     await bench.send(other)
     same("next frame", await bench.message(), b"\x02\x00")
-    # Flags are ignored here, and the last of them may begin a frame.
+    # Flags are ignored here, but the last of them may begin a frame.
     await bench.send(encode(b"\x03" + long_script))
     await bench.send(b"\x7e" * 10)
     same("answer", (await bench.message())[:2], b"\x03\x00")
@@ -191,7 +192,7 @@ async def frames_while_busy(dut):
     await bench.send([0x42])
     same("answer", await bench.message(), b"\x05\x00")
     same("NAK", await bench.message(), nak(7))
-    # A character without stop bit is treated like a byte.
+    # A character without a stop bit has the same effect as a byte.
     await bench.send(encode(b"\x06" + long_script))
     await bench.quiet(50)
     await bench.send([0x42], stop=0)
@@ -204,9 +205,7 @@ async def frames_while_busy(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_garbage(dut):
-    """After any garbage, a frame that begins with its flag is executed (UB-FRM-05, UB-FRM-06,
-    UB-FRM-08).
-    """
+    """After any garbage, a frame that begins with a flag is executed (UB-FRM-05, UB-FRM-06, UB-FRM-08)."""
     bench = await Bench.start(dut)
     for n in range(60):
         size = bench.rng.choice((1, 3, 8, 30, 30, 300 if n % 20 == 0 else 5))
@@ -215,8 +214,8 @@ async def frames_garbage(dut):
         if bench.rng.random() < 0.3:
             await bench.send([bench.rng.getrandbits(8)], stop=0)
             await bench.quiet(3)
-        # The flag ends a frame that the garbage may have begun; the NAK for it is in transit while the
-        # frame arrives.
+        # The first flag ends a frame that the garbage may have begun. The bridge sends the NAK for that frame
+        # while the new frame arrives.
         await bench.send(b"\x7e" + encode(bytes([0, 0x12, n])))
         while (reply := await bench.message())[0] == 0x81:
             assert reply[1] in (1, 2, 3, 4, 6, 8), reply.hex()
@@ -229,8 +228,8 @@ async def frames_garbage(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_nak_waits(dut):
-    """For many faults in a row the bridge sends some NAKs, each complete, and continues to work
-    (UB-FRM-08).
+    """After many faults in succession, the bridge has sent some NAKs, each of them complete, and continues to
+    work (UB-FRM-08).
     """
     bench = await Bench.start(dut)
     await bench.send(b"\x7e\x01" * 30 + b"\x7e")

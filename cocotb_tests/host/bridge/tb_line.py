@@ -1,4 +1,4 @@
-"""UB-LIN: characters, rates, breaks, and one literal frame in each direction."""
+"""UB-LIN: characters, rates, breaks, and one frame in each direction whose bytes are written out."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from openppmc.host.frames import encode
 from .bench import SECOND, Bench, now, same
 from .settings import ALL_RATES, FAST, SLOW, baud_of, rates_of
 
-# The string "123456789" has the check value 29B1 of this CRC. As a script it reads 51 + 53 + 55 + 57
-# bytes.
+# The string "123456789" has the check value 29B1 of this CRC. If it were a script, its ops would have 51 + 53
+# + 55 + 57 bytes.
 LITERAL = bytes.fromhex("7E 31 32 33 34 35 36 37 38 39 29 B1 7E")
 NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer (SEQ 0, RESULT 0) has the same bytes
 
@@ -21,8 +21,8 @@ NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer (SEQ 0, R
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_literal_frames(dut):
-    """The line idles high, starts at 115 200 baud, and carries the literal bytes of two frames
-    (UB-LIN-01, UB-LIN-02, UB-FRM-01, UB-FRM-03).
+    """The line idles high and starts at 115 200 baud; the bytes of two frames are as written out (UB-LIN-01,
+    UB-LIN-02, UB-FRM-01, UB-FRM-03).
     """
     bench = await Bench.start(dut)
     same("idle", (int(dut.txd_o.value), bench.edges), (1, []))
@@ -37,8 +37,8 @@ async def line_literal_frames(dut):
 @cocotb.test()
 @configs(ALL_RATES, FAST)
 async def line_rates(dut):
-    """Each available code sets its rate after the answer; other codes are rejected (UB-LIN-02,
-    UB-LIN-03, UB-LIN-07).
+    """Each available code sets its rate after the answer; all other codes are rejected (UB-LIN-02, UB-LIN-03,
+    UB-LIN-07).
     """
     bench = await Bench.start(dut)
     rates = rates_of(bench.config)
@@ -56,8 +56,9 @@ async def line_rates(dut):
 
 
 def check_edges(bench: Bench) -> None:
-    """Check that every edge inside a character is at the nearest cycle of a grid that begins up to one
-    cycle late.
+    """Check the edges within each character.
+
+    Each edge must be at the cycle nearest to its ideal time, where the start bit may be up to one cycle late.
     """
     bit = bench.config.clk_hz / bench.baud
     start, checked = None, 0
@@ -67,7 +68,7 @@ def check_edges(bench: Bench) -> None:
             continue
         clk = bench.clk_of(time - start)
         near = round(clk / bit) * bit
-        assert -0.3 <= clk - near <= 1.3, f"{bench.baud} baud: edge after {clk} clk, bit time {bit}"
+        assert -0.3 <= clk - near <= 1.3, f"{bench.baud} baud: edge after {clk} cycles, bit time {bit}"
         checked += 1
     assert checked > 10
 
@@ -75,8 +76,8 @@ def check_edges(bench: Bench) -> None:
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_tolerance(dut):
-    """At every rate the host may be 2 % slow or fast, with characters back to back (UB-LIN-03,
-    UB-LIN-04).
+    """At every rate, the bridge receives characters without a pause from a host that is 2 % slow or fast
+    (UB-LIN-03, UB-LIN-04).
     """
     bench = await Bench.start(dut)
     for code, rate in rates_of(bench.config).items():
@@ -93,7 +94,7 @@ async def line_tolerance(dut):
 @cocotb.test()
 @configs(SLOW)
 async def line_middle(dut):
-    """Only the middle of a bit is sampled, and a short low level is not a start bit (UB-LIN-03,
+    """The bridge samples each bit only in its middle, and a short low level is not a start bit (UB-LIN-03,
     UB-LIN-04).
     """
     bench = await Bench.start(dut)
@@ -101,8 +102,8 @@ async def line_middle(dut):
         script = bytes([0x12, byte])
         for char in encode(b"\x00" + script):
             bits = [0, *(char >> n & 1 for n in range(8)), 1]
-            # Each bit has ten slices. In data bits, the outer three slices at each end have the wrong level,
-            # those in the middle the right one.
+            # Each bit consists of ten slices. In data bits, the outer three slices at each end have the wrong
+            # level, and the four middle slices have the correct level.
             slices = []
             for n, bit in enumerate(bits):
                 wrong = 1 - bit if 1 <= n <= 8 else bit
@@ -125,8 +126,8 @@ async def line_middle(dut):
 @cocotb.test()
 @configs(FAST)
 async def line_framing_error(dut):
-    """A low stop bit causes one NAK 1 in a frame, however long the line is low, and no NAK in the hunt
-    (UB-LIN-05, UB-FRM-06).
+    """A low stop bit within a frame causes one NAK 1, however long the line stays low; while the bridge waits
+    for a flag it causes no NAK (UB-LIN-05, UB-FRM-06).
     """
     bench = await Bench.start(dut)
     line = encode(b"\x05\x12\x34")
@@ -150,8 +151,8 @@ async def line_framing_error(dut):
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_break(dut):
-    """A break restores the first rate and the hunt; a character 00 at the lower first rate is a break, too
-    (UB-LIN-05, UB-LIN-06, UB-FRM-08).
+    """A break restores the rate after reset, and the bridge waits for a flag. If a higher rate is selected, a
+    character 00 at the rate after reset is also a break (UB-LIN-05, UB-LIN-06, UB-FRM-08).
     """
     bench = await Bench.start(dut)
     for code in (1, 4):
@@ -182,7 +183,7 @@ async def line_break(dut):
 @cocotb.test()
 @configs(SLOW)
 async def line_rate_trial(dut):
-    """The old rate returns if no valid frame arrives within 1000 ms; a valid frame keeps the new rate
+    """The old rate returns if no valid frame arrives within 1000 ms; after a valid frame the new rate stays
     (UB-LIN-07).
     """
     bench = await Bench.start(dut)
@@ -207,8 +208,8 @@ async def line_rate_trial(dut):
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_no_drift(dut):
-    """The average bit time is exactly `clk` / rate: every edge of a long answer is at its time
-    (UB-LIN-03).
+    """The average bit time is exactly the frequency of `clk` divided by the rate: no edge of a long answer
+    drifts (UB-LIN-03).
     """
     bench = await Bench.start(dut)
     bench.slave.registers[2] = 0x55

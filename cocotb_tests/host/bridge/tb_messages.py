@@ -14,8 +14,8 @@ from .settings import FAST, SLOW
 @cocotb.test()
 @configs(FAST)
 async def messages_repeat(dut):
-    """A repeated SEQ returns the stored answer, regardless of its script; SEQ 0 is always executed
-    (UB-SEQ-01, UB-SEQ-02).
+    """A repeated SEQ returns the stored answer, regardless of the new script; a script with SEQ 0 is always
+    executed (UB-SEQ-01, UB-SEQ-02).
     """
     bench = await Bench.start(dut)
     scripts = ("12 33 22 24", "06", "0F", "32 FF 06", "24 61", "32 F0 32 F0")
@@ -42,7 +42,7 @@ async def messages_repeat(dut):
     for seq in (5, 6, 5):
         same("SEQ before the last", await bench.ask("12 01", seq=seq), b"\x00")
         same("executed", bench.accesses(), [("W", 2, 1)])
-    # SEQ 0 is a request like any other: after it, the older SEQ is no longer the last one.
+    # SEQ 0 is a request like any other: after it, the SEQ before it is no longer the last one.
     await bench.ask("12 02", seq=0)
     await bench.ask("12 03", seq=5)
     same("executed", bench.accesses(), [("W", 2, 2), ("W", 2, 3)])
@@ -51,7 +51,9 @@ async def messages_repeat(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_seq_limit(dut):
-    """SEQ 127 is executed; SEQ 128 to 255 cause NAK 8 and are not executed (UB-SEQ-03, UB-SEQ-01)."""
+    """A request with SEQ 127 is executed; SEQ 128 to 255 cause NAK 8, and the request is not executed
+    (UB-SEQ-03, UB-SEQ-01).
+    """
     bench = await Bench.start(dut)
     for seq in (128, 129, 200, 253, 254, 255):
         await bench.send(encode(bytes([seq, 0x12, 0x01])))
@@ -65,8 +67,8 @@ async def messages_seq_limit(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_answer_form(dut):
-    """POS and LAST are sent only with a fault; LAST is 00 if the script has read nothing (UB-ANS-01,
-    UB-ANS-03, UB-ANS-04).
+    """An answer contains POS and LAST only after a fault; LAST is 00 if the script has read no byte
+    (UB-ANS-01, UB-ANS-03, UB-ANS-04).
     """
     bench = await Bench.start(dut)
     bench.slave.registers[9] = 0xC3
@@ -83,8 +85,8 @@ async def messages_answer_form(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_events(dut):
-    """Events are off at first. When enabled, each fall of int_n causes one, and so does enabling while int_n
-    is low; disabling discards them (UB-MSG-01, UB-MSG-02).
+    """Events are disabled at first. While they are enabled, each fall of int_n causes an event; enabling
+    while int_n is low also causes one. Disabling discards pending events (UB-MSG-01, UB-MSG-02).
     """
     bench = await Bench.start(dut)
     event = b"\x80\xff"
@@ -107,7 +109,7 @@ async def messages_events(dut):
     dut.int_ni.value = 1
     dut.pins_i.value = 0xFF
     await bench.silent("a rise is no event")
-    # PINS has the levels at the time of sending; here its second byte is a flag.
+    # PINS contains the levels at the time of sending; here its second byte is a flag.
     dut.pins_i.value = 0x7E
     await pulses()
     same("escaped", await bench.message(), b"\x80\x7e")
@@ -133,7 +135,7 @@ async def messages_events(dut):
     await pulses(3)
     same("events", [await bench.message() for _ in range(2)], [event, event])
     await bench.silent("two")
-    # Enabling with int_n low causes an event, enabling again does not; disabling discards a fall.
+    # Enabling with int_n low causes an event; enabling again does not. Disabling discards a fall.
     await bench.done("03 00")
     dut.int_ni.value = 0
     await bench.silent("disabled")
@@ -172,7 +174,7 @@ async def messages_event_and_request(dut):
 @cocotb.test()
 @configs(SLOW)
 async def messages_reset(dut):
-    """rst_ni clears the rate, the events and the stored answer, and resets the part (UB-LIN-02,
+    """rst_ni restores the rate, disables events, clears the stored answer, and resets the part (UB-LIN-02,
     UB-SEQ-02, UB-MSG-01).
     """
     bench = await Bench.start(dut)

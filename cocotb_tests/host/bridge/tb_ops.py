@@ -1,4 +1,6 @@
-"""The ops without waits, the accesses to the part (UB-BUS-01), reset pulse, straps, counter, overflow."""
+"""Ops without waits, accesses to the part (UB-BUS-01), reset pulse, straps, counter, overflow of the
+answer.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ from .settings import ALL_RATES, FAST, NONE, SLOW, TWO, axes_of, params_of
 @cocotb.test()
 @configs(FAST, ALL_RATES, SLOW, TWO, NONE)
 async def ops_ident(dut):
-    """IDENT returns the 16 bytes of the table (UB-OPS-02)."""
+    """IDENT returns the 16 bytes of the table in the contract (UB-OPS-02)."""
     bench = await Bench.start(dut)
     params = params_of(bench.config)
     top = {8_000_000: 4, 15_000_000: 6, 2_000_000: 1}[bench.config.clk_hz]
@@ -30,7 +32,7 @@ async def ops_ident(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_bus_cycles(dut):
-    """Accesses to registers 0 to 15 have the right order, address, strobe length and gap, exact to the
+    """Accesses to registers 0 to 15 have the correct order, address, strobe length and gap, exact to the
     cycle (UB-OPS-02, UB-BUS-01).
     """
     bench = await Bench.start(dut)
@@ -57,13 +59,13 @@ def check_strobes(bench: Bench) -> int:
     for time, pin, level in bench.strobes:
         clk = round(bench.clk_of(time), 3)
         if pin in ("a_o", "d_o"):
-            assert clk - last_rise >= 1, f"{pin} changes {clk - last_rise} clk after the strobe"
+            assert clk - last_rise >= 1, f"{pin} changes {clk - last_rise} cycles after the strobe"
             last_change = clk
         elif level == 0:
             falls[pin] = clk
             if pin != "cs_no":
-                assert clk - last_change >= 1, f"strobe {clk - last_change} clk after {pin}"
-                assert clk - last_rise >= 4, f"only {clk - last_rise} clk between two strobes"
+                assert clk - last_change >= 1, f"strobe {clk - last_change} cycles after {pin}"
+                assert clk - last_rise >= 4, f"only {clk - last_rise} cycles between two strobes"
         else:
             same(
                 f"length of {pin}",
@@ -79,7 +81,7 @@ def check_strobes(bench: Bench) -> int:
 @cocotb.test()
 @configs(FAST)
 async def ops_counts(dut):
-    """READN, WRITEN and POST work with 1 and with their maximum counts (UB-OPS-02)."""
+    """READN, WRITEN and POST work with a count of 1 and with their maximum counts (UB-OPS-02)."""
     bench = await Bench.start(dut)
     for n in (1, 2, 251):
         data = bytes(bench.rng.getrandbits(8) for _ in range(n))
@@ -143,12 +145,14 @@ async def ops_illegal(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_overflow(dut):
-    """An answer holds 256 data bytes; the 257th causes result 4 (UB-ANS-02, UB-ANS-04, UB-ANS-05)."""
+    """An answer contains at most 256 data bytes; a further byte causes result 4 (UB-ANS-02, UB-ANS-04,
+    UB-ANS-05).
+    """
     bench = await Bench.start(dut)
     fill = bytes([0x32, 255])
     same("256", len(await bench.done(fill + b"\x06")), 256)
     bench.accesses()
-    # (preceding fill bytes, op, reads of the failing op, data bytes of it)
+    # (fill bytes before the op, op, reads of the failing op, its data bytes)
     cases = [
         (255, "06 06", 0, 1, 1),
         (255, "22 22", 1, 1, 1),
@@ -169,7 +173,7 @@ async def ops_overflow(dut):
         answer = await bench.ask(bytes([0x32, size]) + bytes.fromhex(text))
         same(f"{size}, {text} has room", (answer[0], len(answer) - 1), (0, size + more))
     bench.accesses()
-    # GET keeps the bytes that fit.
+    # The answer keeps the bytes of GET that fit.
     bench.slave.hold_obf = 1
     answer = await bench.ask(bytes([0x32, 254]) + b"\x63")
     same("GET", (answer[:2], len(answer) - 3), (b"\x04\x02", 256))
@@ -179,8 +183,8 @@ async def ops_overflow(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_board(dut):
-    """PINS, STRAPS and ZERO work, COUNT is one snapshot, RESET lasts 16 cycles with its pause
-    (UB-OPS-02).
+    """PINS, STRAPS and ZERO have their effects, COUNT returns one snapshot, and RESET lasts 16 cycles with
+    its pause (UB-OPS-02).
     """
     bench = await Bench.start(dut)
     for level in (0x00, 0x81, 0x7E, 0x55):
@@ -196,12 +200,12 @@ async def ops_board(dut):
     changes = watch(bench, dut.count_zero_o)
     await bench.done("00 09 00")
     same("ZERO", [level for _, level in changes], [1, 0])
-    same("one clk", bench.clk_of(changes[1][0] - changes[0][0]), 1)
+    same("one cycle", bench.clk_of(changes[1][0] - changes[0][0]), 1)
     resets = watch(bench, dut.part_rst_no)
     bench.strobes.clear()
     await bench.done("05 12 01")
     same("RESET", [level for _, level in resets], [0, 1])
-    same("16 clk", bench.clk_of(resets[1][0] - resets[0][0]), 16)
+    same("16 cycles", bench.clk_of(resets[1][0] - resets[0][0]), 16)
     strobe = next(time for time, pin, level in bench.strobes if pin == "wr_no" and not level)
     assert 16 <= bench.clk_of(strobe - resets[1][0]) <= 24, "pause after the reset"
     same("straps stay", int(dut.straps_o.value), 0x5A)
@@ -223,7 +227,7 @@ def watch(bench: Bench, pin) -> list[tuple[int, int]]:
 @cocotb.test()
 @configs(TWO)
 async def ops_two_counters(dut):
-    """COUNT and ZERO of axis 2 use the counter of axis 2; the next op codes stay illegal (UB-OPS-02,
+    """COUNT and ZERO of axis 2 use the counter of axis 2; the op codes after them stay illegal (UB-OPS-02,
     UB-ANS-05).
     """
     bench = await Bench.start(dut)
@@ -246,8 +250,8 @@ async def ops_two_counters(dut):
 @cocotb.test()
 @configs(TWO)
 async def ops_two_snapshots(dut):
-    """While both counters step, COUNT of axis 2 returns a value that its counter had, never a mixture
-    (UB-OPS-02).
+    """While both counters count, COUNT of axis 2 returns a value that its counter has had, never a mixture of
+    two values (UB-OPS-02).
     """
     bench = await Bench.start(dut)
 
@@ -276,13 +280,15 @@ async def ops_two_snapshots(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_count_snapshot(dut):
-    """While the counter steps, COUNT returns a value that it had, never a mixture (UB-OPS-02)."""
+    """While the counter counts, COUNT returns a value that it has had, never a mixture of two values
+    (UB-OPS-02).
+    """
     bench = await Bench.start(dut)
 
     async def run() -> None:
         value, step = 0x00FFFFF0, 1
         while True:
-            # The counter passes a carry through three bytes, in both directions.
+            # A carry of the counter passes through three bytes, in both directions.
             for _ in range(32):
                 value += step
                 dut.count_i.value = value

@@ -19,7 +19,7 @@ LONGEST_SCRIPT = 253
 
 
 def random_op(rng: random.Random) -> bytes:
-    """Return a random op; most are legal."""
+    """Return a random op; most ops are legal."""
 
     def some(n: int) -> bytes:
         return bytes(rng.choice((0x7D, 0x7E, rng.getrandbits(8))) for _ in range(n))
@@ -67,13 +67,13 @@ def random_script(rng: random.Random) -> bytes:
         script += op
     if rng.random() < 0.15:
         script = script[: rng.randint(0, len(script))]
-        # Without an op TIMEOUT the limit is 250 ms, which is too long for a test.
+        # Without an op TIMEOUT, the limit of a wait is 250 ms, which is too long for a test.
         script = script if len(script) >= 3 else b""
     return script
 
 
 class Pair:
-    """RTL and golden model, each with its own instance of the same part."""
+    """RTL and golden model, each with a separate instance of the same part model."""
 
     def __init__(self, bench: Bench, twin: RegisterModel) -> None:
         params = params_of(bench.config)
@@ -85,17 +85,17 @@ class Pair:
         bench.dut.count_i.value = sum((twin.count(n + 1) & 0xFFFFFFFF) << 32 * n for n in range(axes))
 
     def pins(self, level: int) -> None:
-        """Set the levels of all pins in the RTL and in the twin; bit 0 is int_n."""
+        """Set the levels of all pins for the RTL and for the golden model; bit 0 is int_n."""
         self.bench.slave.pin_levels = self.twin.pin_levels = level
         self.bench.dut.pins_i.value = level
 
     async def exchange(self, what: str, data: bytes) -> None:
-        """Send data; the bytes on the line and the accesses must be those of the model."""
+        """Send data; the bytes on the line and the accesses must equal those of the model."""
         bench = self.bench
         before = len(bench.line)
         want = self.model.receive(data)
         await bench.send(data)
-        # A wait that fails takes up to 2 ms, and at most one fails.
+        # At most one wait fails, which takes up to 2 ms.
         for _ in range(60):
             if len(bench.line) - before >= len(want):
                 break
@@ -114,8 +114,8 @@ class Pair:
 @cocotb.test()
 @configs(FAST, TWO)
 async def random_scripts(dut):
-    """For 250 random scripts, some repeated, some with SEQ 0 or >= 128, answers and accesses equal
-    those of the model (UB-ANS-01 to UB-ANS-05, UB-OPS-02).
+    """For 250 random scripts, some repeated, some with SEQ 0 or SEQ >= 128, answers and accesses equal those
+    of the model (UB-ANS-01 to UB-ANS-05, UB-OPS-02).
     """
     bench = await Bench.start(dut)
     rng = bench.rng
@@ -134,7 +134,7 @@ async def random_scripts(dut):
 @cocotb.test()
 @configs(FAST)
 async def random_noise(dut):
-    """For damaged frames the bridge sends the same NAKs as the model and executes nothing (UB-FRM-01 to
+    """For damaged frames, the bridge sends the same NAKs as the model and executes no op (UB-FRM-01 to
     UB-FRM-06).
     """
     bench = await Bench.start(dut)
@@ -142,7 +142,7 @@ async def random_noise(dut):
     pair = Pair(bench, RegisterModel())
     bench.slave = RegisterModel()
     for n in range(150):
-        # The script has only WRITE, READ and NOP, so that any remainder of it takes no time.
+        # The script contains only WRITE, READ and NOP, so no part of it can take long.
         script = b"".join(
             rng.choice((b"\x00", b"\x12\x7d", b"\x12\x7e", b"\x24")) for _ in range(rng.randint(0, 9))
         )

@@ -1,4 +1,4 @@
-"""The recorder of the bridge: every change with its cycle, full memory, read-back; VERSION."""
+"""The recorder of the bridge: each change with its cycle, full memory, read-back; and op VERSION."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LONGEST = (1 << 8 * BYTES - WIDTH) - 1
 
 
 async def drive(bench: Bench, levels: list[tuple[int, int]]) -> None:
-    """Drive watch_i with a list of (cycles to wait before, level)."""
+    """Drive watch_i with a list of (number of cycles before the change, level)."""
     for gap, level in levels:
         for _ in range(gap):
             await FallingEdge(bench.dut.clk_i)
@@ -40,8 +40,8 @@ async def read_all(bench: Bench) -> tuple[Recorded, list[tuple[int, int]]]:
 @cocotb.test()
 @configs(REC)
 async def recorder_changes(dut: Any) -> None:
-    """The recorder stores each change with its cycle, long pauses, and the end (UB-REC-01, UB-REC-02,
-    UB-REC-03, UB-REC-04, UB-OPS-02).
+    """The recorder stores each change with its cycle, also after long pauses, and the end (UB-REC-01,
+    UB-REC-02, UB-REC-03, UB-REC-04, UB-OPS-02).
     """
     bench = await Bench.start(dut)
     for turn in range(3):
@@ -62,7 +62,7 @@ async def recorder_changes(dut: Any) -> None:
         changes = [(t, now) for (_, was), (t, now) in zip(samples, samples[1:], strict=False) if was != now]
         same("levels", [now for _, now in changes], [level for _, level in steps])
         gaps = [b - a for (a, _), (b, _) in zip(changes, changes[1:], strict=False)]
-        same(f"clk between, turn {turn}", gaps, [gap for gap, _ in steps[1:]])
+        same(f"cycles between, turn {turn}", gaps, [gap for gap, _ in steps[1:]])
         same("a rest has a record of its own, and the end", len(samples), 1 + len(steps) + 1 + 1)
         assert samples[-1][0] - changes[-1][0] > 10, "the end is when END was done"
 
@@ -70,8 +70,8 @@ async def recorder_changes(dut: Any) -> None:
 @cocotb.test()
 @configs(REC)
 async def recorder_full(dut: Any) -> None:
-    """One record more than the memory holds sets FULL and ends the recording; the stored records are
-    right (UB-REC-04).
+    """One record more than the memory can store sets FULL and ends the recording; the stored records are
+    correct (UB-REC-04).
     """
     bench = await Bench.start(dut)
     await bench.done(BEGIN)
@@ -93,8 +93,8 @@ async def recorder_full(dut: Any) -> None:
 @cocotb.test()
 @configs(REC)
 async def recorder_reading(dut: Any) -> None:
-    """Bytes are read in order, REWIND returns to the first, reads return zeros while it runs; the data
-    limit and invalid operands are handled as the rules state (UB-REC-03, UB-ANS-05).
+    """Bytes are read in order, REWIND returns to the first byte, and reads during a recording return zeros.
+    The limit of the data and invalid operands have the effects in the rules (UB-REC-03, UB-ANS-05).
     """
     bench = await Bench.start(dut)
     bench.dut.watch_i.value = 0x155
@@ -120,7 +120,9 @@ async def recorder_reading(dut: Any) -> None:
 @cocotb.test()
 @configs(FAST, TWO)
 async def recorder_not_there(dut: Any) -> None:
-    """Without a recorder its ops are unknown; VERSION returns 16 bytes, here 0 (UB-REC-05, UB-VER-01)."""
+    """Without a recorder, its ops are unknown; VERSION returns 16 bytes, which are 0 here (UB-REC-05,
+    UB-VER-01).
+    """
     bench = await Bench.start(dut)
     for op in ("0D 00", "0D 01", "0E", "90 01"):
         same(op, await bench.ask(f"00 {op}"), bytes([3, 1, 0]))

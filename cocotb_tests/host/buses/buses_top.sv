@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // buses_top: both bus bridges with ModelBits address lines and bare strobe pins (model_*), and both with a
 //         PPMC-104, as the templates of packages/templates instantiate them (part_*).
-// Timing: one clock for all.
+// Timing: all blocks have the same clock.
 `default_nettype none
 
 module buses_top #(
-    parameter int unsigned ModelBits = 3  // address lines of the bridges with bare pins
+    parameter int unsigned ModelBits = 3  // address lines of model_*
 ) (
     input wire logic clk,
     input wire logic rst_n,

@@ -23,10 +23,9 @@ Write = Callable[[int, int], Awaitable[None]]
 
 
 class PartMonitor:
-    """Records each change of the pins of a part; edge 0 is the first that samples rst_n = 1 at the
-    part.
+    """Records each change of the pins of a part. Edge 0 is the first edge that samples rst_n = 1 at the part.
 
-    Inputs have the edge that samples them, outputs the edge on which they change.
+    The time of an input is the edge that samples it; the time of an output is the edge on which it changes.
     """
 
     def __init__(self, dut: Any, instance: str) -> None:
@@ -81,8 +80,8 @@ class PartMonitor:
 
 
 async def run_session(read: Read, write: Write, irq: Callable[[], int]) -> dict[str, int]:
-    """Initialise, move PULSES pulses, wait with the bridge register, read finish status and remaining
-    pulses.
+    """Initialise the part, move PULSES pulses, wait with the bridge register, then read finish status and
+    remaining pulses.
     """
 
     async def until(mask: int, value: int) -> int:
@@ -122,8 +121,8 @@ async def run_session(read: Read, write: Write, irq: Callable[[], int]) -> dict[
 
 
 def check_session(monitor: PartMonitor, result: dict[str, int]) -> None:
-    """Compare the answers with the expected ones, the pulses with the predictor, every output edge with
-    the golden model.
+    """Compare the answers with the expected ones, the pulses with the calculated times, and every output edge
+    with the golden model.
     """
     assert result == {"status": 0, "finish": 0x83, "left": 0}, result
     pulses = monitor.pulses()

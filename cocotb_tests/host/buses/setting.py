@@ -1,4 +1,4 @@
-"""Start of every bus test: idle inputs, clk, reset."""
+"""Start of each bus test: idle inputs, clock, reset."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ INPUT_ENDS += ("cyc", "stb", "we", "adr", "sel", "datwr", "bus_q")
 PREFIXES = ("model_axil", "part_axil", "model_wb", "part_wb")
 PERIOD_PS = 62_500
 TEN_LINES = Config("lines10", extra=(("ModelBits", 10),))
-"""The number of address lines of a bank."""
+"""Number of address lines of a bank."""
 
 
 def count_of(dut: Any) -> int:
-    """Return the number of registers accessed through the bridges with bare pins."""
+    """Return the number of registers that are accessible through the bridges with bare strobe pins."""
     return 1 << len(dut.model_wb_bus_a)
 
 
 async def start(dut: Any) -> random.Random:
-    """Set all inputs to 0 (int_n to 1), start clk and reset; return the random source of the test."""
+    """Set all inputs to 0 (int_n to 1), start clock and reset; return the random source of the test."""
     for prefix in PREFIXES:
         for end in INPUT_ENDS:
             if hasattr(dut, name := f"{prefix}_{end}"):
@@ -39,7 +39,8 @@ async def start(dut: Any) -> random.Random:
     await Timer(PERIOD_PS, "ps")
     dut.rst_n.value = 0
     await Timer(PERIOD_PS, "ps")
-    # Unlike the clock of cocotb, that of the backend enables assertions after its first rising edge.
+    # In contrast to the clock of cocotb, the clock of the backend enables assertions after its first rising
+    # edge.
     sim_backend().clock(sim_backend().port("clk"), PERIOD_PS // 2)
     for _ in range(4):
         await RisingEdge(dut.clk)

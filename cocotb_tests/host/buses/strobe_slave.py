@@ -1,4 +1,4 @@
-"""Register model on the strobe bus that checks the pins against UB-BUS-01 in every cycle."""
+"""Register model on the strobe bus, which checks the pins for UB-BUS-01 in every cycle."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class Registers:
 
 
 class StrobeSlave:
-    """Slave at the pins `<prefix>_*`; `cycles` lists ("w" or "r", address, value, cycle of its first low
-    level).
+    """Slave at the pins `<prefix>_*`.
 
-    A read outputs the value in the last cycle of its strobe only, and noise in all other cycles. Any
-    violation of the timing raises AssertionError in the simulation.
+    `cycles` lists ("w" or "r", address, value, cycle of the first low level) of each strobe. A read outputs
+    the value in the last cycle of its strobe only, and random data in all other cycles. Any violation of the
+    timing raises AssertionError in the simulation.
     """
 
     def __init__(self, dut: Any, prefix: str, count: int, rng: random.Random) -> None:
@@ -61,21 +61,22 @@ class StrobeSlave:
             self.clk += 1
             now = self._sample()
             cs_n, rd_n, wr_n, address, _ = now
-            where = f"clk {self.clk}, pins {now}"
+            where = f"cycle {self.clk}, pins {now}"
             assert cs_n == (rd_n and wr_n) and (rd_n or wr_n), f"{where}: cs_n goes with one strobe"
             if not cs_n:
                 if not low:
-                    assert high >= GAP_CLK, f"{where}: only {high} clk since the strobe before"
+                    assert high >= GAP_CLK, f"{where}: only {high} cycles since the strobe before"
                     first = self.clk
-                # At the first low level, `before` is the cycle before the strobe; it must match, too.
+                # At the first low level, `before` is the cycle before the strobe, in which the pins must have
+                # the same values.
                 assert before[3:] == now[3:], f"{where}: address or data changed from {before}"
                 low += 1
                 last = low == READ_CLK - 1 and not rd_n
                 self._pins["q"].value = self.registers.values[address] if last else self._rng.getrandbits(8)
             elif low:
-                assert before[3:] == now[3:], f"{where}: address or data not held 1 clk after the strobe"
+                assert before[3:] == now[3:], f"{where}: address or data not held 1 cycle after the strobe"
                 write = not before[2]
-                assert low == (WRITE_CLK if write else READ_CLK), f"{where}: strobe of {low} clk"
+                assert low == (WRITE_CLK if write else READ_CLK), f"{where}: strobe of {low} cycles"
                 self._end(write, before[3], before[4], first)
                 low, high = 0, 1
             else:
@@ -92,7 +93,7 @@ class StrobeSlave:
         self.ended.set()
 
     def check_alive(self) -> None:
-        """Raise the error of the checker, if it has found one."""
+        """Raise the error that the checker has found, if any."""
         if self._task.done():
             self._task.result()
 

@@ -30,7 +30,7 @@ def make_master(dut: Any, prefix: str) -> AxiLiteMaster:
 
 
 def channels(master: AxiLiteMaster) -> dict[str, Any]:
-    """Return the five channels of a master; each can pause."""
+    """Return the five channels of a master; each channel can pause."""
     write, read = master.write_if, master.read_if
     return {
         "aw": write.aw_channel,
@@ -42,29 +42,27 @@ def channels(master: AxiLiteMaster) -> dict[str, Any]:
 
 
 def pauses(rng: random.Random, share: float) -> Iterator[bool]:
-    """Yield stalls of random length that occupy `share` of the time."""
+    """Yield stalls of random length that occupy the fraction `share` of the time."""
     while True:
         stalled = rng.random() < share
         yield from itertools.repeat(stalled, rng.randint(1, 12))
 
 
 async def read_word(master: AxiLiteMaster, address: int) -> tuple[int, int]:
-    """Return (response, data) of a 32-bit read."""
+    """Make a 32-bit read; return (response, data)."""
     answer = await with_timeout(master.read(address, 4), 1, "ms")
     return int(answer.resp), int.from_bytes(answer.data, "little")
 
 
 async def write_bytes(master: AxiLiteMaster, address: int, data: bytes) -> int:
-    """Return the response of a write; lanes outside `data` have WSTRB = 0."""
+    """Make a write; return its response. Byte lanes outside `data` have WSTRB = 0."""
     return int((await with_timeout(master.write(address, data), 1, "ms")).resp)
 
 
 @cocotb.test()
 @configs(F16, TEN_LINES)
 async def axil_random_accesses(dut):
-    """For random accesses with stalls on all channels, data, responses and strobes follow the register
-    map.
-    """
+    """For random accesses with stalls on all channels, data, responses and strobes match the register map."""
     rng, count = await start(dut), count_of(dut)
     bridge = 4 * count
     slave, master = StrobeSlave(dut, "model_axil_bus", count, rng), make_master(dut, "model_axil")
@@ -109,7 +107,7 @@ async def axil_random_accesses(dut):
 
 @cocotb.test()
 async def axil_reads_and_writes_at_once(dut):
-    """Parallel queues of reads and writes each keep their order, and both make progress."""
+    """Parallel queues of reads and of writes each keep their order, and both progress."""
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_axil_bus", COUNT, rng), make_master(dut, "model_axil")
     written = [(rng.randrange(4), rng.getrandbits(8)) for _ in range(150)]
@@ -140,8 +138,8 @@ async def axil_reads_and_writes_at_once(dut):
 
 @cocotb.test()
 async def axil_channel_order(dut):
-    """AW long before W, W long before AW, and responses that the master does not accept cause exactly
-    one strobe each.
+    """AW long before W, W long before AW, and a response that the master does not accept yet each cause
+    exactly one strobe.
     """
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_axil_bus", COUNT, rng), make_master(dut, "model_axil")
@@ -158,7 +156,7 @@ async def axil_channel_order(dut):
         await with_timeout(event.wait(), 1, "ms")
         want.append(("w", 3, value))
         assert slave.accesses() == want
-    # While the master does not accept B, the next write may wait in the bridge, and reads continue.
+    # While the master does not accept B, the next write may wait in the bridge, and reads are executed.
     channel["b"].pause = True
     events = [master.init_write(4 * n, bytes([n])) for n in (1, 2)]
     for _ in range(40):
@@ -174,7 +172,7 @@ async def axil_channel_order(dut):
         await with_timeout(event.wait(), 1, "ms")
         assert event.data.resp == AxiResp.OKAY
     want.append(("w", 2, 2))
-    # While the master does not accept R, R must keep its data; a write and another read wait or run.
+    # While the master does not accept R, R must keep its data; a write and another read wait or are executed.
     channel["r"].pause = True
     reads = [master.init_read(4 * n, 4) for n in (1, 2)]
     await write_bytes(master, 4 * 5, b"\x77")
@@ -190,7 +188,7 @@ async def axil_channel_order(dut):
 
 @cocotb.test()
 async def axil_latency(dut):
-    """From an idle bridge, B and R are valid after the number of cycles that the header states."""
+    """In an idle bridge, B and R become valid after the number of cycles in the header of the module."""
     rng = await start(dut)
     StrobeSlave(dut, "model_axil_bus", COUNT, rng)
     edge = RisingEdge(dut.clk)
@@ -215,7 +213,7 @@ async def axil_latency(dut):
             await edge
             waited += 1
             assert waited < 50, f"no {answer}"
-        assert waited == want, f"{answer} at {address:#x}: {waited} clk, the header says {want}"
+        assert waited == want, f"{answer} at {address:#x}: {waited} cycles, the header says {want}"
         dut.model_axil_bready.value = dut.model_axil_rready.value = 1
         await edge
         dut.model_axil_bready.value = dut.model_axil_rready.value = 0
@@ -223,7 +221,7 @@ async def axil_latency(dut):
 
 @cocotb.test()
 async def axil_part_moves(dut):
-    """A PPMC-104 accessed through the bridge by a CPU behaves as the golden model does."""
+    """A PPMC-104 that a CPU accesses through the bridge behaves as the golden model does."""
     rng = await start(dut)
     monitor, master = PartMonitor(dut, "u_part_axil"), make_master(dut, "part_axil")
     for channel in channels(master).values():

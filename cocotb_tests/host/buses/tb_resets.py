@@ -1,5 +1,5 @@
-"""A reset during an access, on both buses: all outputs are idle immediately, and the access has no
-later effect.
+"""Resets during an access, on both buses: all outputs become idle immediately, and the access has no later
+effect.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ CALLS = {
     "model_axil": ({"awvalid": 1, "wvalid": 1, "wstrb": 15}, {"arvalid": 1}),
 }
 ADDRESS = {"model_wb": ("adr", 2), "model_axil": ("awaddr", 0)}
-"""Pin, and the number of bits by which a byte address is shifted."""
+"""Address pin, and the number of bits by which a byte address is shifted right."""
 LONGEST = 14
 """Maximum length of an access in cycles."""
 
 
 async def cut(dut: Any, prefix: str, call: dict[str, int], after: int) -> None:
-    """Start an access and assert the reset `after` cycles later, while clk is low."""
+    """Start an access and assert the reset `after` cycles later, while clk is low; check all outputs."""
 
     def put(**levels: int) -> None:
         for name, level in levels.items():
@@ -41,24 +41,24 @@ async def cut(dut: Any, prefix: str, call: dict[str, int], after: int) -> None:
     await FallingEdge(dut.clk)
     dut.rst_n.value = 0
     await Timer(PERIOD_PS // 4, "ps")
-    assert outputs() == REST[prefix], f"{after} clk into {call}"
+    assert outputs() == REST[prefix], f"{after} cycles into {call}"
     put(**dict.fromkeys(call, 0))
     for _ in range(3):
         await RisingEdge(dut.clk)
-        assert outputs() == REST[prefix], f"{after} clk into {call}, held"
+        assert outputs() == REST[prefix], f"{after} cycles into {call}, held"
     await FallingEdge(dut.clk)
     dut.rst_n.value = 1
     for n in range(2 * LONGEST):
         await RisingEdge(dut.clk)
         irq = 1 if n else 0
-        assert outputs() == {**REST[prefix], "bus_irq": irq}, f"{after} clk into {call}, {n} clk after"
+        assert outputs() == {**REST[prefix], "bus_irq": irq}, f"{after} cycles into {call}, {n} cycles after"
 
 
 @cocotb.test()
 @cocotb.parametrize(prefix=list(REST), register=[0, 1])
 async def bus_reset_in_an_access(dut: Any, prefix: str, register: int) -> None:
-    """A reset during an access to a register or to the bridge sets all outputs idle immediately; irq is
-    asserted again automatically.
+    """A reset during an access to a register or to the bridge sets all outputs to idle immediately. After the
+    reset, irq is asserted again, because int_n is low.
     """
     await start(dut)
     getattr(dut, f"{prefix}_bus_int_n").value = 0

@@ -1,6 +1,4 @@
-"""ppmc_wishbone with a classic master: register map, strobes, aborted requests, and a PPMC-104 that
-moves.
-"""
+"""ppmc_wishbone with a classic master: register map, strobes, aborted requests, and a PPMC-104 that moves."""
 
 from __future__ import annotations
 
@@ -22,7 +20,7 @@ WRITE_LATENCY, READ_LATENCY, QUICK_LATENCY = 6, 8, 1
 @cocotb.test()
 @configs(F16, TEN_LINES)
 async def wishbone_random_accesses(dut):
-    """For random accesses with and without pauses, data, responses and strobes follow the register map."""
+    """For random accesses with and without pauses, data, responses and strobes match the register map."""
     rng, count = await start(dut), count_of(dut)
     bridge = 4 * count
     slave, master = StrobeSlave(dut, "model_wb_bus", count, rng), WishboneMaster(dut, "model_wb")
@@ -65,8 +63,8 @@ async def wishbone_random_accesses(dut):
 
 @cocotb.test()
 async def wishbone_give_up(dut):
-    """If the master withdraws requests, strobes stay complete and no later access gets the response of
-    a withdrawn one.
+    """If the master withdraws requests, strobes stay complete, and no later access receives the response of a
+    withdrawn request.
     """
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_wb_bus", COUNT, rng), WishboneMaster(dut, "model_wb")
@@ -93,8 +91,8 @@ async def wishbone_give_up(dut):
 
 @cocotb.test()
 async def wishbone_latency(dut):
-    """From an idle bridge, responses occur after the number of cycles that the header states, also back
-    to back.
+    """In an idle bridge, responses occur after the number of cycles in the header of the module, also for
+    accesses without a pause between them.
     """
     rng = await start(dut)
     StrobeSlave(dut, "model_wb_bus", COUNT, rng)
@@ -107,17 +105,17 @@ async def wishbone_latency(dut):
     ):
         await master.clocks(20)
         await master.access(address, value)
-        assert master.latency == want, f"{address:#x}: {master.latency} clk, the header says {want}"
+        assert master.latency == want, f"{address:#x}: {master.latency} cycles, the header says {want}"
     for value, want in ((1, WRITE_LATENCY + 1), (None, READ_LATENCY + 1)):
         await master.clocks(20)
         await master.access(4, 1, keep=True)
         await master.access(4, value)
-        assert master.latency == want, f"in a row: {master.latency} clk, the header says {want}"
+        assert master.latency == want, f"in a row: {master.latency} cycles, the header says {want}"
 
 
 @cocotb.test()
 async def wishbone_part_moves(dut):
-    """A PPMC-104 accessed through the bridge by a CPU behaves as the golden model does."""
+    """A PPMC-104 that a CPU accesses through the bridge behaves as the golden model does."""
     rng = await start(dut)
     monitor, master = PartMonitor(dut, "u_part_wb"), WishboneMaster(dut, "part_wb")
 

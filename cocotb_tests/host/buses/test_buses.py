@@ -1,4 +1,4 @@
-"""Runs the tests of the on-chip bus bridges: one pytest item per cocotb test, one build for all."""
+"""Runs the tests of the on-chip bus bridges: one pytest item per cocotb test, one build for all tests."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ONE_FILE = ("--output-split", "0")
 
 
 def buses_design(item) -> Design:
-    """Return the design: the sources of a PPMC-104, the templates of both bridges and the test top."""
+    """Return the design: the sources of a PPMC-104, the templates of both bridges, and the test top."""
     part = part_design("ppmc104", item.config)
     templates = [
         ROOT / "packages" / "templates" / f"ppmc104_example_{bus}.sv" for bus in ("axil", "wishbone")

@@ -1,4 +1,6 @@
-"""Wishbone B4 master for classic cycles; it checks in every cycle that no unrequested response occurs."""
+"""Wishbone B4 master for classic cycles; it checks in each cycle that no response occurs without a
+request.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +11,10 @@ from cocotb.triggers import RisingEdge
 
 
 class WishboneMaster:
-    """Master at the pins `<prefix>_*`. `clk` counts rising edges; `latency` is that of the last
-    response.
+    """Master at the pins `<prefix>_*`. `clk` counts rising edges; `latency` is that of the last response.
 
-    Latency: cycles from the first edge that samples STB to the edge that samples the response.
+    The latency is the number of cycles from the first edge that samples STB to the edge that samples the
+    response.
     """
 
     TIMEOUT = 200
@@ -32,9 +34,9 @@ class WishboneMaster:
             self.clk += 1
             ack, err, stb = (int(self._pins[name].value) for name in ("ack", "err", "stb"))
             stb &= int(self._pins["cyc"].value)
-            assert not (ack and err), f"clk {self.clk}: ACK and ERR"
-            assert stb or not (ack or err), f"clk {self.clk}: answer without CYC and STB"
-            assert not (before and (ack or err)), f"clk {self.clk}: answer longer than one clk"
+            assert not (ack and err), f"cycle {self.clk}: ACK and ERR"
+            assert stb or not (ack or err), f"cycle {self.clk}: answer without CYC and STB"
+            assert not (before and (ack or err)), f"cycle {self.clk}: answer longer than one cycle"
             before = ack or err
 
     def _put(self, **levels: int) -> None:
@@ -58,9 +60,10 @@ class WishboneMaster:
     ) -> tuple[bool, int]:
         """Make one bus cycle at a byte address: a read, or a write of `value`; return (ok, data).
 
-        Args: keep: leave CYC and STB high for another access directly after this one.
+        Raises AssertionError if no response occurs.
 
-        Raises: AssertionError: no response.
+        Args:
+            keep: leave CYC and STB high for another access directly after this one.
         """
         self._offer(address, value, sel)
         for waited in range(self.TIMEOUT):
@@ -74,11 +77,12 @@ class WishboneMaster:
                 if not keep:
                     self.idle()
                 return bool(ack), data
-        raise AssertionError(f"no answer for {self.TIMEOUT} clk at address {address:#x}")
+        raise AssertionError(f"no answer for {self.TIMEOUT} cycles at address {address:#x}")
 
     async def give_up(self, address: int, value: int | None, after: int) -> bool:
-        """Request an access and withdraw it after `after` cycles (>= 1); return True if it was answered
-        before.
+        """Request an access and withdraw the request after `after` cycles (at least 1).
+
+        Return True if a response occurred before.
         """
         self._offer(address, value, 0xF)
         for _ in range(after):

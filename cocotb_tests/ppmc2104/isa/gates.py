@@ -1,5 +1,5 @@
-"""Tests that `make test-verilog` runs for the four axes on an ISA bus, and the tests that it omits,
-with the reason.
+"""Tests that `make test-verilog` runs for the four axes on an ISA bus, and the tests that it omits, with the
+reason.
 """
 
 from __future__ import annotations

@@ -14,7 +14,9 @@ from .setting import AXIS_INPUTS, AXIS_OUTPUTS, BASE, ISA_4AXIS, PARTS, SOURCE
 
 
 def part_pins(pins: dict[str, int], number: int) -> dict[str, int]:
-    """Return the input pins of part 0 or 1, from the pins of the module and the rules of its wiring."""
+    """Return the levels of the input pins of part 0 or 1, derived from the pins of the module and its wiring
+    rules.
+    """
     mine = not pins["aen"] and pins["sa"] >> 1 == (BASE >> 1) + number
     return {
         "rst_n": int(pins["rst_n"] and not pins["reset_drv"]),
@@ -29,7 +31,7 @@ def part_pins(pins: dict[str, int], number: int) -> dict[str, int]:
 
 
 def part_stimulus(bench: RtlBench, number: int) -> list[Change]:
-    """Return the pin changes of a part, as its clk edges sample them."""
+    """Return the pin changes of a part, with the edges of `clk` that sample them first."""
     pins = {**ISA_4AXIS.inputs, "rst_n": 1}
     seen: dict[str, int] = {"rst_n": 1, **PPMC2104.inputs}
     changes = []
@@ -75,9 +77,10 @@ def compare_part(bench: RtlBench, number: int) -> Comparison:
 def check_both(bench: RtlBench, at_least: int = 0) -> None:
     """Check that both parts equal their models and that irq follows int_n.
 
-    Args: at_least: minimum number of edges of each part that must have been compared.
+    Raises AssertionError if there is a difference; a report is then written.
 
-    Raises: AssertionError: a mismatch; a report was written.
+    Args:
+        at_least: minimum number of edges of each part to compare.
     """
     for number in range(PARTS):
         comparison = compare_part(bench, number)
@@ -90,8 +93,9 @@ def check_both(bench: RtlBench, at_least: int = 0) -> None:
 
 
 def arming_writes(bench: RtlBench) -> list[tuple[int, int]]:
-    """Return (edge, level) with level 1 from the edge that samples a write of the source register, any
-    byte (ISA-11).
+    """Return (edge, level) of the writes to the source register, of any byte (ISA-11).
+
+    The level is 1 from the first edge that samples a write to the first edge that does not.
     """
     pins, found = {**ISA_4AXIS.inputs}, [(0, 0)]
     for t, group in groupby(bench.stimulus, key=lambda change: change.t):
@@ -103,10 +107,10 @@ def arming_writes(bench: RtlBench) -> list[tuple[int, int]]:
 
 
 def check_irq(bench: RtlBench) -> None:
-    """Check that irq is the registered OR of both interrupts, low while a write re-arms it (ISA-06,
+    """Check that irq is the registered OR of both interrupts, and low during a write that re-arms it (ISA-06,
     ISA-11).
     """
-    # Edge from which a level counts: for int_n the next edge, for the pins the edge itself.
+    # The edge from which a level counts is the next edge for int_n, and the edge itself for the pins.
     calls = [(t + 1, "call", int(value != 0b11)) for t, value in bench.edges("int_n")]
     events = sorted(calls + [(t, "write", level) for t, level in arming_writes(bench)])
     now, level, expected = {"call": 0, "write": 0}, 0, []

@@ -41,7 +41,7 @@ ISA_4AXIS = Part(
         "clk_o": (1, 0),
         **{pin: (4, level) for pin, level in AXIS_OUTPUTS.items()},
         **{pin: (5, 0b11111) for pin in PHASES},
-        # These are not pins, but signals from the two parts to the slave.
+        # Signals from the two parts to the slave; they are not pins.
         "d": (16, 0),
         "d_oe": (2, 0b00),
         "int_n": (2, 0b11),
@@ -56,14 +56,14 @@ ISA_4AXIS = Part(
 
 
 def design(config: Config, **params: int) -> Design:
-    """Return the design of the module with its parts; `params` overrides or adds parameters."""
+    """Return the design of the module with its parts; `params` replaces or adds parameters."""
     ports = ("clk", "rst_n", *ISA_4AXIS.inputs, *ISA_4AXIS.outputs)
     values = {**ISA_4AXIS.params(config), "BASE_ADDR": BASE, **params}
     return Design("isa_4axis", sources(part("isa_4axis")), include_dirs(), values, ports=ports)
 
 
 class Setting:
-    """The test bench, one bus master, the host of each part, and the four axes as `axes[1]` … `axes[4]`."""
+    """The test bench with one bus master, the host of each part, and the four axes `axes[1]` to `axes[4]`."""
 
     def __init__(self, bench: RtlBench) -> None:
         self.bench = bench

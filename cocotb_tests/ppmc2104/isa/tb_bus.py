@@ -21,7 +21,7 @@ DATA_A, CODE_A, DATA_B, CODE_B = range(BASE, BASE + 4)
 @cocotb.test()
 @configs(F16, F8)
 async def isa_registers(dut: Any) -> None:
-    """After reset, each part responds at its own addresses (ISA-02, ISA-09)."""
+    """After reset, each part responds at its addresses only (ISA-02, ISA-09)."""
     setting = await Setting.start(dut)
     bench, (a, b) = setting.bench, setting.hosts
     levels = ISA_4AXIS.reset_levels()
@@ -44,7 +44,9 @@ async def isa_registers(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_other_addresses(dut: Any) -> None:
-    """With the module at 300h, accesses to other addresses drive and change nothing."""
+    """If the module has the base address 300h, accesses to other addresses do not drive the bus and change
+    nothing.
+    """
     setting = await Setting.start(dut)
     bench, master = setting.bench, setting.master
     await setting.hosts[0].run("c D1 c 42")
@@ -73,10 +75,11 @@ async def isa_other_addresses(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F8)
 async def isa_short_cycles(dut: Any) -> None:
-    """Accesses of 2 ns to 1.5 cycles, at any phase, are executed completely or not at all."""
+    """Accesses of 2 ns to 1.5 cycles, at any phase to `clk`, are executed completely or not at all."""
     setting = await Setting.start(dut)
     bench, master, rng = setting.bench, setting.master, setting.bench.rng
-    master.times = Times(late=0)  # data change with the strobe, so that only its length decides
+    # The data changes with the strobe, so only the length of the strobe matters.
+    master.times = Times(late=0)
     clk_ns = bench.period / 1000
     done = missed = 0
     shown = [0b11, 0b11]
@@ -106,7 +109,7 @@ async def isa_short_cycles(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_both_commands(dut: Any) -> None:
-    """With IOR and IOW low together, the module drives and stores nothing."""
+    """If IOR and IOW are low together, the module drives nothing and stores nothing."""
     setting = await Setting.start(dut)
     bench = setting.bench
     for address in range(BASE, SOURCE + 1):
@@ -126,8 +129,8 @@ async def isa_both_commands(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_address_moves_away(dut: Any) -> None:
-    """When a read of A ends because the address changes to B or to another device, or AEN rises, A
-    stops driving immediately.
+    """If the address changes from A to B or to another device during a read of A, or if AEN rises, A stops
+    driving the bus immediately.
     """
     setting = await Setting.start(dut)
     bench = setting.bench
@@ -159,14 +162,17 @@ async def isa_address_moves_away(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_resets(dut: Any) -> None:
-    """RESET DRV or rst_n between two edges, with both parts in motion, resets all pins immediately."""
+    """If RESET DRV or rst_n is asserted between two edges while both parts are in motion, all pins take their
+    reset levels immediately.
+    """
     setting = await Setting.start(dut)
     bench = setting.bench
     moved = ("pout_n", "dir", "hold", "auxo", *PHASES)
     for pin, on in (("reset_drv", 1), ("rst_n", 0)):
         for axis in (1, 4):
             await setting.set_up(axis, 0x02, 9, 4, 4)
-            await setting.axes[axis].go(0x4D, rate=9)  # CCW, so that dir differs from its reset level
+            # A CCW move, so that the level of dir differs from its reset level.
+            await setting.axes[axis].go(0x4D, rate=9)
         for host in setting.hosts:
             await host.command(0xF1)
         await setting.axes[4].pulse(3, 5)
@@ -189,7 +195,9 @@ async def isa_resets(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_source_register(dut: Any) -> None:
-    """Base + 4 returns which of A and B has an interrupt, and does not change during a read (ISA-07)."""
+    """A read of base + 4 returns which of the parts A and B have an interrupt, and is stable during the read
+    (ISA-07).
+    """
     setting = await Setting.start(dut, errint_n=0)
     bench, master, (a, b) = setting.bench, setting.master, setting.hosts
 

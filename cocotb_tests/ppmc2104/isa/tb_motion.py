@@ -18,10 +18,10 @@ RAMP_B = (0x63, 0x13, 0x0A)
 
 
 async def serve(setting: Setting, found: list[tuple[int, int]]) -> bool:
-    """Run the handler of docs/ppmc2104/isa.md: repeat while it clears causes; append (axis, end
+    """Run the handler of docs/ppmc2104/isa.md, which repeats while it clears causes; append (axis, end
     status).
 
-    Return False if it leaves a cause, because the axis moves again.
+    Return False if a cause remains, because its axis moves again.
     """
     while True:
         before = len(found)
@@ -42,7 +42,7 @@ async def serve(setting: Setting, found: list[tuple[int, int]]) -> bool:
 
 
 class Controller:
-    """An edge-triggered interrupt input, as of the 8259 of a PC: it stores a rising edge until the
+    """Edge-triggered interrupt input, like that of the 8259 in a PC: it stores a rising edge until the
     service.
     """
 
@@ -55,7 +55,7 @@ class Controller:
         return len(self.bench.rises("irq")) > self.served
 
     def acknowledge(self) -> None:
-        """Begin the service."""
+        """Begin the service, which clears the stored edge."""
         self.served = len(self.bench.rises("irq"))
 
 
@@ -72,7 +72,7 @@ async def isa_interrupt_handler(dut: Any) -> None:
     for turn in range(6):
         for axis, drive in setting.axes.items():
             # The lengths are equal, slightly different or very different, so that ends occur together, during
-            # the handler, or between two calls.
+            # the handler, or between two calls of the handler.
             await drive.go(
                 0x44, n=4 + (0, axis, 5 * axis, 0, -axis, 1)[turn] % 9, rate=(29, 10, 49)[turn % 3]
             )
@@ -83,8 +83,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
             controller.acknowledge()
             nothing_left = await serve(setting, found)
             await bench.align()
-            # With an edge-triggered input, a handler that returns with irq still high would never be called
-            # again.
+            # On an edge-triggered input, irq would cause no further call if it was still high when the
+            # handler returned.
             assert nothing_left, "ISA-08: a cause was left behind"
             assert controller.requests() or not bench.level("irq"), "ISA-08: irq stayed high"
         await bench.clocks(100)
@@ -96,8 +96,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_write_makes_a_new_edge(dut: Any) -> None:
-    """If the axis moves again and its cause cannot be read, a write of base + 4 makes a new edge of irq
-    (ISA-11).
+    """If the axis moves again and its cause cannot be read, a write to base + 4 causes another rising edge of
+    irq (ISA-11).
     """
     setting = await Setting.start(dut)
     bench, master = setting.bench, setting.master
@@ -109,7 +109,7 @@ async def isa_write_makes_a_new_edge(dut: Any) -> None:
     bench.check("ISA-11", "edges of irq without a cause", bench.edges("irq"), [])
     await setting.axes[1].go(0x42)
     await bench.edge("irq", 1)
-    await setting.axes[1].go(0x45, rate=99)  # END1 stays pending, and it cannot be read now
+    await setting.axes[1].go(0x45, rate=99)  # END1 stays pending, because it cannot be read now
     await bench.clocks(50)
     bench.check("ISA-11", "edges before", [level for _, level in bench.edges("irq")], [1])
     for byte in (0x00, 0xFF, 0x01):
@@ -137,8 +137,8 @@ async def isa_write_makes_a_new_edge(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_service_after_the_restart(dut: Any) -> None:
-    """If axes are started again before a late handler reads their end, the handler returns each time.
-    With a periodic write that re-arms pending causes, the last end of every axis is found.
+    """If axes are started again before a late handler reads their ends, the handler nevertheless returns each
+    time. If a periodic write re-arms pending causes, the last end of every axis is found.
     """
     setting = await Setting.start(dut)
     bench, controller, rng = setting.bench, Controller(setting), setting.bench.rng
@@ -150,7 +150,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
         for axis in rng.sample(sorted(setting.axes), 4):
             await setting.axes[axis].go(0x42)
         await bench.clocks(bench.config.us(20))
-        # Interrupts were disabled until here; some axes move again while their END is pending.
+        # Interrupts were disabled until here. Some axes now move again while their END is pending.
         again = rng.sample(sorted(setting.axes), 1 + turn % 4)
         for axis in again:
             await setting.axes[axis].go(0x44, n=rng.randrange(2, 30), rate=rng.choice((19, 49, 99)))
@@ -164,7 +164,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
                 services, idle = services + 1, 0
                 assert len(bench.accesses) - accesses < 200, "ISA-08: the handler goes round and round"
             else:
-                await bench.clocks(bench.config.us(400))  # the periodic tick of a clock
+                await bench.clocks(bench.config.us(400))  # until the periodic interrupt of a timer
                 if left:
                     left, ticks = False, ticks + 1
                     await setting.master.write(SOURCE, 0)
@@ -211,13 +211,13 @@ async def isa_four_axes_together(dut: Any) -> None:
 
 
 async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
-    """Send random instructions of all kinds to one part, some of them faulty."""
+    """Send random instructions of all kinds to one part; some are faulty."""
     bench, rng = setting.bench, setting.bench.rng
     for axis_bit in (0x00, 0x20):
         await host.init(
             rng.choice((0x02, 0x06, 0x13)) | axis_bit, rng.randrange(12, 40), rng.randrange(3, 9), 7
         )
-        if bench.config.datasheet:  # the setting's window is too long to poll
+        if bench.config.datasheet:  # do not poll during the long window of the setting
             await bench.clocks(bench.config.us(71_000))
     await host.poll(CMND1 | CMND2, 0)
     for _ in range(actions):
@@ -245,7 +245,7 @@ async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
 
 
 async def random_switches(setting: Setting) -> None:
-    """Move limits, alarms and RUN of all axes at random, until cancelled."""
+    """Change limits, alarms and RUN of all axes at random, until the task is cancelled."""
     bench, rng = setting.bench, setting.bench.rng
     while True:
         pin = f"{rng.choice(('fl_n', 'bl_n', 'fhl_n', 'bhl_n', 'alm_n', 'run'))}[{rng.randrange(1, 5)}]"

@@ -1,4 +1,4 @@
-"""ppmc_isa alone, with one part and no source register, as in the J105 board."""
+"""ppmc_isa alone, with one part and no source register, as on the J105 board."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ BLOCKS = {
 
 @cocotb.test()
 async def isa_slave_one_part(dut: Any) -> None:
-    """With one part at 3B0h, 3B0h and 3B1h select it unless AEN is high; IOR enables the data bus."""
+    """With one part at 3B0h, the addresses 3B0h and 3B1h select the part unless AEN is high; IOR enables the
+    data bus.
+    """
     unit = BlockDriver(dut, "one", BLOCKS, "cs_no a0_o sd_oe_o sd_o irq_o")
     await unit.reset(int_ni=1, ior_ni=1, iow_ni=1)
     for address in range(1024):
@@ -36,7 +38,7 @@ async def isa_slave_one_part(dut: Any) -> None:
     same("sd_oe_o without the part", unit.get("sd_oe_o"), 0)
     for level in (0, 0, 1, 0, 1, 1):
         await unit.clk(int_ni=level)
-        same("irq_o after one clk", (await unit.settle())[4], 1 - level)
+        same("irq_o after one cycle", (await unit.settle())[4], 1 - level)
 
 
 @cocotb.test()
@@ -62,9 +64,7 @@ async def isa_slave_three_parts(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_slave_write_of_the_source(dut: Any) -> None:
-    """While an interrupt is pending, only a write of the source register deasserts irq, and only during
-    the write.
-    """
+    """While an interrupt is pending, irq is low only during a write to the source register."""
     unit = BlockDriver(dut, "three", BLOCKS, "irq_o")
     await unit.reset(int_ni=5, ior_ni=1, iow_ni=1, aen_i=0, sa_i=0)
     await unit.clk()

@@ -14,7 +14,8 @@ from .tb_slave import BLOCKS
 ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_bus", "tb_motion", part=ISA_4AXIS, shared=True)
 SLAVE_ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_slave", part=ISA_4AXIS, shared=True)
 RANDOM = [item for (item,) in (param.values for param in ITEMS) if item.test == "isa_random_both_parts"]
-RANDOM = [item for item in RANDOM if not item.config.datasheet]  # one seed is enough: its set-up is long
+# One seed of DATASHEET is enough, because its set-up is long.
+RANDOM = [item for item in RANDOM if not item.config.datasheet]
 SEEDS = range(2, 7)
 
 
@@ -39,6 +40,6 @@ def test_isa_slave(item, sim_options):
 
 @pytest.mark.parametrize("base", [0x301, 0x304, 0x400], ids=hex)
 def test_bad_base_address(base):
-    """A base address that is not a multiple of 8, or beyond 3FFh, stops the elaboration (ISA-03)."""
+    """A base address that is not a multiple of 8, or is above 3FFh, stops the elaboration (ISA-03)."""
     with pytest.raises(SimError, match="Base must be 0 .. 3FFh and a multiple"):
         build(design(F16, BASE_ADDR=base))

@@ -1,6 +1,4 @@
-"""The C program of docs/ppmc2104/isa.md, compiled and run against two golden models at the register
-addresses.
-"""
+"""The C program of docs/ppmc2104/isa.md, compiled, and run on two golden models at the register addresses."""
 
 from __future__ import annotations
 
@@ -30,7 +28,7 @@ int inp(unsigned short port) { return on_inp(port); }
 int outp(unsigned short port, int byte) { return on_outp(port, byte); }
 void run(int high) { on_run(high); }
 """
-# Extensions of the DOS compilers; no function is static, so that the test can call it.
+# Extensions of the DOS compilers. No function is static, so that the test can call all of them.
 DEFINES = ("-Dinterrupt=", "-Dfar=", "-Dstatic=", "-Dmain=program")
 LATEST = 10_000_000
 STEP = 16  # cycles between samples of irq
@@ -38,11 +36,11 @@ ACCESS = 64  # cycles between two bus accesses
 
 
 class Module:
-    """Two golden models at one base address, accessed by inp and outp of the program, and one input of
-    an 8259 interrupt controller. The controller stores a rising edge of irq while irq stays high.
+    """Two golden models at one base address, accessed by inp and outp of the program, and an interrupt
+    controller.
 
-    `enabled` is the interrupt flag of the processor; `handler` is called when the processor would take
-    the interrupt.
+    One input of the controller (8259) stores a rising edge of irq while irq stays high. `enabled` is the
+    interrupt flag of the processor; `handler` is called when the processor would execute the interrupt.
     """
 
     def __init__(self) -> None:
@@ -58,7 +56,7 @@ class Module:
         return sum((not part.outputs["int_n"]) << number for number, part in enumerate(self.parts))
 
     def pass_time(self, clk: int, rearm: bool = False) -> None:
-        """Let this number of cycles pass; with `rearm`, during a write to the source register."""
+        """Simulate this number of cycles; with `rearm`, the source register is written during them."""
         for _ in range(0, clk, STEP):
             self.t += STEP
             for part in self.parts:
@@ -68,7 +66,9 @@ class Module:
             self._irq = irq
 
     def run_program(self, clk: int) -> None:
-        """Let the processor run other code for this number of cycles, and take interrupts."""
+        """Let the processor run other code for this number of cycles; it executes interrupts during this
+        time.
+        """
         for _ in range(0, clk, ACCESS):
             self.pass_time(ACCESS)
             if self._request and self.enabled and not self._serving:
@@ -83,7 +83,7 @@ class Module:
         self.pass_time(ACCESS)
         if self.t > LATEST:
             self.late += 1
-            return 0xFF * (self.late & 1)  # ends each loop of the program that would not terminate
+            return 0xFF * (self.late & 1)  # ends each loop of the program that would not terminate otherwise
         if port == SOURCE:
             return self.source()
         number, reg = divmod(port - BASE, 2)
@@ -100,7 +100,7 @@ class Module:
         return 0
 
     def run(self, high: int) -> int:
-        """Set all RUN pins."""
+        """Set the level of all RUN pins."""
         self.pass_time(ACCESS)
         for part in self.parts:
             part.pins(self.t, run=0b11 * high)
@@ -114,7 +114,7 @@ class Module:
 
 @pytest.fixture
 def program(tmp_path) -> tuple[ctypes.CDLL, Module, list[Callable[..., int]]]:
-    """The compiled program, the module that it accesses, and its callbacks (which must stay alive)."""
+    """The compiled program, the module that it accesses, and its callbacks (which must stay referenced)."""
     blocks = re.findall(r"^```c\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.S | re.M)
     assert len(blocks) == 2
     (tmp_path / "conio.h").write_text(CONIO)
@@ -132,7 +132,7 @@ def program(tmp_path) -> tuple[ctypes.CDLL, Module, list[Callable[..., int]]]:
         *DEFINES,
         f"-I{tmp_path}",
     ]
-    # The C library has a function `send`, too.
+    # The C library also has a function `send`.
     command += ["-Wl,-Bsymbolic", "program.c", "stubs.c", "-o", "program.so"]
     done = subprocess.run(command, cwd=tmp_path, text=True, check=False, capture_output=True)
     assert not done.returncode, done.stderr
@@ -152,7 +152,7 @@ def program(tmp_path) -> tuple[ctypes.CDLL, Module, list[Callable[..., int]]]:
 
 
 def test_program_moves_all_axes(program):
-    """The program moves axis 3 alone by 1000 pulses; then RUN starts all four axes on the same cycle."""
+    """The program moves axis 3 alone by 1000 pulses; then RUN starts all four axes in the same cycle."""
     library, module, _ = program
     assert library.program() == 0
     assert not module.late, "the program polls for ever"
@@ -166,7 +166,7 @@ def test_program_moves_all_axes(program):
 
 
 def steps(library: ctypes.CDLL, *axes: int) -> None:
-    """Start a single step of each axis, with interrupt."""
+    """Start a single step of each axis, with the interrupt enabled."""
     for axis in axes:
         library.send(axis, 0x42, None, 0)
 
@@ -177,12 +177,12 @@ def ends(library: ctypes.CDLL) -> list[int]:
 
 
 def left(library: ctypes.CDLL) -> int:
-    """Return whether the handler has left a cause."""
+    """Return whether the handler has left a cause pending."""
     return ctypes.c_ubyte.in_dll(library, "left").value
 
 
 def test_handler_serves_all_axes(program):
-    """After the ends of all four axes, a call of the handler finds each end status once."""
+    """After the ends of all four axes, one call of the handler finds each end status once."""
     library, module, _ = program
     for axis in (1, 2, 3, 4):
         library.setup(axis)
@@ -194,14 +194,14 @@ def test_handler_serves_all_axes(program):
 
 
 def test_handler_after_the_restart(program):
-    """A handler called while an axis moves again neither waits for it nor loses the end of another axis."""
+    """If an axis moves again, the handler neither waits for this axis nor misses the end of another axis."""
     library, module, _ = program
     for axis in (1, 2, 3, 4):
         library.setup(axis)
     module.enabled = False
     steps(library, 1, 2, 3, 4)
     module.pass_time(1000)
-    assert library.move(1, 0x43, 1000, 0) == 0  # the host has not read its end
+    assert library.move(1, 0x43, 1000, 0) == 0  # the host has not read the end of this axis
     module.enabled = True
     since = module.t
     module.run_program(3000)
@@ -230,7 +230,7 @@ def test_handler_after_the_restart(program):
 
 
 def test_start_takes_the_end_before(program):
-    """Moves that the program starts at any time each have an end with a separate edge."""
+    """Each move that the program starts at any time has an end with a separate edge of irq."""
     library, module, _ = program
     for axis in (1, 2, 3, 4):
         library.setup(axis)

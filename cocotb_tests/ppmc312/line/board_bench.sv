@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_board_bench: a PPMC-312 on its serial line with reset and LEDs of a board.
+// ppmc312_board_bench: a PPMC-312 on its serial line, with the reset and the LEDs of a board.
 //         All inputs that the serial line does not need are idle.
 `default_nettype none
 

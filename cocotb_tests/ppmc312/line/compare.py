@@ -1,4 +1,4 @@
-"""Compare each RTL station edge by edge with a golden model that receives the same input levels."""
+"""Compares each RTL station edge by edge with a golden model that receives the same input levels."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from .setting import ALL, LINE, OUTPUTS, SINGLE, STATIONS
 
 
 def line_recording(bench: RtlBench) -> Recording:
-    """Return everything that a bench of the line has recorded. The bench was not reset after its start."""
+    """Return the complete recording of a bench of the line, which was not reset after its start."""
     recording = bench.recording()
     recording.part = LINE.name
     return recording
 
 
 def driven(edges: Mapping[str, list[tuple[int, int]]]) -> Iterator[tuple[int, int]]:
-    """Yield (edge, levels) that the drivers of the stations put on the line."""
+    """Yield (edge, levels) that the drivers of the stations output to the line."""
     txd, snd = ALL, 0
     changes = [(t, name, value) for name in ("txd", "snd") for t, value in edges[name]]
     for t, group in groupby(sorted(changes), key=lambda change: change[0]):
@@ -34,9 +34,10 @@ def driven(edges: Mapping[str, list[tuple[int, int]]]) -> Iterator[tuple[int, in
 
 
 def stimulus(recording: Recording, outputs: Mapping[str, list[tuple[int, int]]]) -> list[list[Change]]:
-    """Return the pin changes of each station: its own pins, and rxd with the levels of master and stations.
+    """Return the pin changes of each station: its separate pins, and rxd with the levels of master and
+    stations.
 
-    A level that a station drives at an edge is received by the others at the next edge.
+    The other stations receive a level one edge after a station drives it.
     """
     levels, level = dict(LINE.inputs), ALL
     steps = [(t + 1, "", value) for t, value in driven(outputs)]
@@ -88,10 +89,12 @@ def compare_line(recording: Recording) -> list[Comparison]:
 
 
 def check_line(bench: RtlBench, at_least: int = 0) -> list[Comparison]:
-    """Check that every station equals its model; AssertionError with a report at the first that does not.
+    """Check that every station equals its model.
+
+    Raises AssertionError with a report for the first station that differs.
 
     Args:
-        at_least: least number of edges compared in total.
+        at_least: minimum number of edges to compare in total.
     """
     recording = line_recording(bench)
     comparisons = compare_line(recording)

@@ -1,7 +1,7 @@
 """Program of `make demo PART=ppmc312-serial`.
 
 Sixteen axes on one line are set up, started one after the other, polled until each has stopped, and read
-back. All stop at about the same time.
+back. All axes stop at about the same time.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from cocotb_tests.ppmc312.line.master import Master, RtlPort
 from cocotb_tests.ppmc312.line.setting import LINE, STATIONS
 
 SETTING = "00 00 0140 00A0 000360"
-"""8 MHz, rates 320 to 160 (25 to 50 kpps) in 864 pulses."""
+"""Base clock 8 MHz, rates 320 to 160 (25 to 50 kpps), ramp of 864 pulses."""
 PULSES = [2080 - 112 * number for number in range(STATIONS)]
-"""The later an axis starts, the fewer pulses it makes."""
+"""An axis that starts later makes fewer pulses."""
 EVERY = range(STATIONS)
 ROUNDS = 12
 
 
 def ccw(station: int) -> bool:
-    """Return whether an axis moves counterclockwise: every other one does."""
+    """Return whether an axis moves counterclockwise, as every second axis does."""
     return bool(station & 1)
 
 
@@ -35,12 +35,12 @@ Chapter = Callable[[str, str], AbstractContextManager[None]]
 
 
 def no_chapter(key: str, title: str) -> AbstractContextManager[None]:
-    """Replace `DemoLog.chapter` in a run without a log."""
+    """Return a context that does nothing: replacement of `DemoLog.chapter` in a run without a log."""
     return nullcontext()
 
 
 async def program(master: Master, chapter: Chapter = no_chapter) -> list[int]:
-    """Run the program of the master on RTL or models and return the positions that it reads back."""
+    """Run the program of the master on RTL or models; return the positions that the master reads back."""
     with chapter("scan", "who is there"):
         for station in EVERY:
             reply = await master.poll(station)
@@ -67,7 +67,7 @@ async def program(master: Master, chapter: Chapter = no_chapter) -> list[int]:
 
 @cocotb.test()
 async def demo_line(dut: Any) -> None:
-    """The master's program runs on sixteen stations that were just powered up, and the run is recorded."""
+    """The master's program runs on sixteen stations that were just powered up; the run is recorded."""
     bench = await RtlBench.start(dut, LINE, settle=8)
     master, demo_log = Master(RtlPort(bench)), DemoLog(bench)
     found = await program(master, demo_log.chapter)

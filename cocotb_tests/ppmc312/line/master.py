@@ -14,46 +14,46 @@ from .wave import Wave, length, wave
 
 T = TypeVar("T")
 T_EXEC, T_INIT = 4096, 65_536
-"""Maximum number of cycles from the end of a checksum's stop bit to the reply (P312-PRT-04).
+"""Maximum number of cycles from the end of the checksum's stop bit to the reply (P312-PRT-04).
 
-T_INIT applies to instruction 00, T_EXEC to all others.
+T_INIT applies to instruction 00, T_EXEC to all other instructions.
 """
 KINDS = {0x80: "busy", 0x90: "ready", 0xA0: "data", 0xB0: "specific"}
 
 
 class Port(Protocol):
-    """Pins and time of a line."""
+    """Interface of a master to a line: pins and time."""
 
     @property
     def now(self) -> int:
-        """The next edge."""
+        """Next edge."""
 
     async def until(self, edge: int) -> int:
-        """Go to just before an edge."""
+        """Run to just before an edge."""
 
     def set(self, **levels: int) -> int:
         """Set pins from edge `now` on."""
 
     async def fall(self, limit: int) -> int | None:
-        """Return the edge that makes the line low, `None` if it does not occur within `limit` cycles."""
+        """Return the edge at which the line falls, or None if this does not happen within `limit` cycles."""
 
     def line_at(self, edge: int) -> int:
         """Return the level of the line just after an edge."""
 
 
 class RtlPort:
-    """The bench of `ppmc312_line`."""
+    """Port of a master to the bench of `ppmc312_line`."""
 
     def __init__(self, bench: RtlBench) -> None:
         self.bench = bench
 
     @property
     def now(self) -> int:
-        """The next edge."""
+        """Next edge."""
         return self.bench.now
 
     async def until(self, edge: int) -> int:
-        """Go to just before an edge."""
+        """Run to just before an edge."""
         return await self.bench.until(max(edge, self.bench.now))
 
     def set(self, **levels: int) -> int:
@@ -61,7 +61,7 @@ class RtlPort:
         return self.bench.set(**levels)
 
     async def fall(self, limit: int) -> int | None:
-        """Return the edge that makes the line low, `None` if it does not occur within `limit` cycles."""
+        """Return the edge at which the line falls, or None if this does not happen within `limit` cycles."""
         if self.bench.level("line"):
             try:
                 return await self.bench.edge("line", 0, limit)
@@ -76,7 +76,7 @@ class RtlPort:
 
 
 def at_once(work: Coroutine[Any, Any, T]) -> T:
-    """Return the result of a coroutine that never waits, such as one that runs on golden models."""
+    """Return the result of a coroutine that never suspends, such as a coroutine on golden models."""
     try:
         work.send(None)
     except StopIteration as done:
@@ -85,7 +85,7 @@ def at_once(work: Coroutine[Any, Any, T]) -> T:
 
 
 class Reply(NamedTuple):
-    """Reply: "busy", "ready", "data" or "specific", number of the station, data."""
+    """A reply: kind ("busy", "ready", "data" or "specific"), number of the station, data."""
 
     kind: str
     station: int
@@ -97,7 +97,7 @@ class Reply(NamedTuple):
 
 @dataclass(frozen=True)
 class SentCharacters:
-    """Characters on the line: start of the first start bit, end of the last stop bit."""
+    """Characters on the line, from the start of the first start bit to the end of the last stop bit."""
 
     begin: int
     end: int
@@ -105,11 +105,11 @@ class SentCharacters:
 
 
 class NoFrameError(AssertionError):
-    """The characters received are not a frame."""
+    """Error: the received characters are not a frame."""
 
 
 def understood(data: bytes, mode: str = "BINARY") -> Reply:
-    """Decode a reply frame; raise NoFrameError if it is not one (P312-SER-02, -13)."""
+    """Decode a reply frame; raise NoFrameError if the characters are not a reply (P312-SER-02, -13)."""
     text = data[1:-1]
     good = len(data) >= 2 and data[0] & 0xC0 == 0x80 and not len(text) % 2
     if not good or not all(character in b"0123456789abcdef" for character in text):
@@ -121,9 +121,7 @@ def understood(data: bytes, mode: str = "BINARY") -> Reply:
 
 
 class Master:
-    """Master of the line.
-
-    `said` and `heard` record what was on the line.
+    """Master of the line. `said` and `heard` record the characters on the line.
 
     Args:
         bit: bit time in cycles.
@@ -143,7 +141,7 @@ class Master:
             self.port.set(master=level)
 
     async def send(self, data: bytes, gap: float = 0.0) -> None:
-        """Send characters with `gap` bits after each; return in the middle of the last stop bit."""
+        """Send characters, each followed by `gap` idle bits; return in the middle of the last stop bit."""
         begin = self.port.now
         end = begin + length(data, self.bit, gap)
         await self.drive(wave(data, begin, self.bit, gap))
@@ -151,7 +149,10 @@ class Master:
         self.said.append(SentCharacters(begin, round(end), data))
 
     async def hear(self, limit: int) -> bytes:
-        """Receive characters until the line stays high for two bits; b"" if none begins in `limit` cycles."""
+        """Receive characters until the line is high for two bits.
+
+        Return b"" if no character begins within `limit` cycles.
+        """
         data, begin, wait = bytearray(), 0, limit
         while (start := await self.port.fall(wait)) is not None:
             begin = begin or start
@@ -159,7 +160,7 @@ class Master:
             await self.port.until(middles[-1] + 1)
             data.append(sum(self.port.line_at(t) << place for place, t in enumerate(middles[1:-1])))
             if not self.port.line_at(middles[-1]):
-                break  # a break, or a collision
+                break  # a break or a collision
             wait = round(2.5 * self.bit)
         if data:
             self.heard.append(
@@ -183,9 +184,9 @@ class Master:
         return frame(control, data, self.mode)
 
     async def exchange(self, message: bytes, limit: int = T_EXEC) -> Reply | None:
-        """Send characters and return the reply, None if there is none.
+        """Send characters and return the reply, or None if there is no reply.
 
-        The call raises NoFrameError if the reply is not a frame.
+        Raises NoFrameError if the reply is not a frame.
         """
         await self.send(message)
         data = await self.hear(limit + round(1.2 * self.bit))
@@ -194,7 +195,7 @@ class Master:
     async def ask(self, station: int, text: str) -> Reply:
         """Send an instruction (hexadecimal text) and return its reply.
 
-        The call raises NoFrameError if there is no reply.
+        Raises NoFrameError if there is no reply.
         """
         data = bytes.fromhex(text)
         reply = await self.exchange(self.frame(INSTRUCTION | station, data), T_EXEC if data[0] else T_INIT)
@@ -208,5 +209,5 @@ class Master:
 
 
 def start_end(begin: int, count: int, bit: float) -> float:
-    """Return the time at which the last stop bit of back-to-back characters ends."""
+    """Return the duration of characters without a gap, up to the end of the last stop bit."""
     return begin + 10 * count * bit

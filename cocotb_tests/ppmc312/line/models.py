@@ -1,6 +1,6 @@
-"""A line of golden models: the pins of `ppmc312_line`, without a simulator.
+"""A line of golden models with the pins of `ppmc312_line`, without a simulator.
 
-The models run independently; the level that one drives at an edge is received by the others at the next edge.
+The models run independently. If a model drives a level at an edge, the others receive it at the next edge.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .setting import ALL, F8L, LINE, SEVERAL, SINGLE, STATIONS
 
 
 def straps(levels: Mapping[str, int], station: int) -> dict[str, int]:
-    """Return the pins of one station, taken from the pins of the line; the line itself is not included."""
+    """Return the pins of one station, taken from the pins of the line; rxd is not included."""
     rows = {pin: levels[pin] >> station & 1 for pin in SINGLE}
     for pin, width in SEVERAL.items():
         rows[pin] = levels[pin] >> width * station & (1 << width) - 1
@@ -38,7 +38,7 @@ def heard(levels: Mapping[str, int], driven: int, station: int) -> int:
 class ModelLine:
     """Line of `count` golden models.
 
-    `now` is the next edge: it samples the levels that are set now. Keyword arguments are pins of the line
+    `now` is the next edge, which samples the levels that are set now. Keyword arguments are pins of the line
     (`setting.LINE`) from edge 0 on.
     """
 
@@ -70,7 +70,7 @@ class ModelLine:
     # ------------------------------------------------------------------ as a bench
 
     async def until(self, edge: int) -> int:
-        """Go to just before this edge; do nothing if it has passed."""
+        """Run to just before this edge; do nothing if it has passed."""
         self.now = max(self.now, edge)
         self._run(self.now - 1)
         return self.now
@@ -93,7 +93,7 @@ class ModelLine:
         """Wait until the line is low.
 
         Returns:
-            The edge that made it low, None if that does not occur within `limit` cycles.
+            The edge at which it fell, or None if this does not happen within `limit` cycles.
         """
         end = self.now + limit
         while self._line:

@@ -1,6 +1,6 @@
 """Scenarios on a line of sixteen stations, valid and disturbed; each has a master and a random generator.
 
-After each disturbance the first poll recovers every station.
+After each disturbance, the first poll recovers every station.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from .wave import length, merged, wave
 Scene = Callable[[Master, random.Random], Awaitable[None]]
 
 SETTING = "00 00 0140 00A0 000360"
-"""8 MHz, rates 320 to 160 (25 to 50 kpps) in 864 pulses."""
+"""Base clock 8 MHz, rates 320 to 160 (25 to 50 kpps), ramp of 864 pulses."""
 STOPPED = b"\x38"
 EVERY = range(STATIONS)
 
 
 def polled(station: int, control: int = POLL) -> bytes:
-    """Return a poll as sent on the line."""
+    """Return the characters of a poll."""
     return bytes([control | station, ~(control | station) & 0x7F])
 
 
@@ -33,7 +33,7 @@ def check(got: object, want: object, what: str) -> None:
 
 
 async def all_back(master: Master, number: int = STATIONS) -> list[Reply]:
-    """Check that one poll recovers every station: each answers its first one."""
+    """Check that one poll recovers each station: each station answers its first poll."""
     await master.quiet()
     replies = []
     for station in range(number):
@@ -82,7 +82,7 @@ async def start_all(master: Master, rng: random.Random) -> None:
 
 
 async def speeds(master: Master, rng: random.Random) -> None:
-    """With a master clock that is 2 % slow or fast, every frame is received."""
+    """If the clock of the master is 2 % slow or fast, every frame is received."""
     exact = master.bit
     for factor in (0.98, 1.02):
         master.bit = exact * factor
@@ -97,7 +97,9 @@ async def speeds(master: Master, rng: random.Random) -> None:
 
 
 async def bad_checksums(master: Master, rng: random.Random) -> None:
-    """A wrong checksum is answered with 41 and counted; the instruction is not executed."""
+    """A frame with a wrong checksum is answered with reply 41 and counted; its instruction is not
+    executed.
+    """
     for station in (1, 14):
         good = master.frame(INSTRUCTION | station, b"\x26\x15")
         bad = good[:-1] + bytes([good[-1] ^ 1 << rng.randrange(7)])
@@ -109,7 +111,7 @@ async def bad_checksums(master: Master, rng: random.Random) -> None:
 
 
 async def foreign(master: Master, rng: random.Random) -> None:
-    """Undefined kinds, bit 6, frames without a control code, and cut frames are not answered."""
+    """Undefined kinds, bit 6, frames without a control code, and truncated frames are not answered."""
     for station in (0, 9):
         for control in (0xA0, 0xB0, 0xC0, 0xD0, 0xE0, 0xF0):
             check(await master.exchange(polled(station, control)), None, f"control code {control:02X}")
@@ -122,7 +124,7 @@ async def foreign(master: Master, rng: random.Random) -> None:
 
 
 async def two_masters(master: Master, rng: random.Random) -> None:
-    """Frames of two masters overlap at several distances; then one poll recovers every station."""
+    """After the frames of two masters overlap, at several distances, one poll recovers every station."""
     for _ in range(4):
         a, b = rng.sample(EVERY, 2)
         one = master.frame(INSTRUCTION | a, b"\x26\x2a")
@@ -136,7 +138,8 @@ async def two_masters(master: Master, rng: random.Random) -> None:
 
 
 async def out_of_turn(master: Master, rng: random.Random) -> None:
-    """The master sends while a station replies, to the same station (an overrun) and to others.
+    """The master sends while a station replies: to the same station, which is an overrun, and to other
+    stations.
 
     Each of the two frames to the station that replies counts as one overrun.
     """
@@ -156,7 +159,7 @@ async def out_of_turn(master: Master, rng: random.Random) -> None:
 
 
 async def noise(master: Master, rng: random.Random) -> None:
-    """Noise at all or some stations, between and within characters, leaves every station recoverable."""
+    """After noise at some or all stations, within and between characters, every station is recoverable."""
     port, bit = master.port, master.bit
     for _ in range(6):
         message = master.frame(INSTRUCTION | rng.randrange(STATIONS), b"\x26" + bytes([rng.randrange(64)]))
@@ -196,7 +199,7 @@ async def breaks(master: Master, rng: random.Random) -> None:
 
 
 async def babble(master: Master, rng: random.Random) -> None:
-    """Any characters, back to back and with pauses, leave every station recoverable."""
+    """After any characters, with and without pauses, every station is recoverable."""
     await master.send(rng.randbytes(30))
     await master.send(rng.randbytes(8), gap=rng.uniform(0, 3))
     await all_back(master)
@@ -211,13 +214,13 @@ BAD: tuple[Scene, ...] = (bad_checksums, foreign, two_masters, out_of_turn, nois
 TWIN = 5
 MUTE = 15
 TWINS = sum((TWIN if number == 6 else number) << 4 * number for number in EVERY)
-"""adr: station 6 has the address of station 5."""
+"""Pins adr: station 6 has the address of station 5."""
 ONE_MUTE = sum((0 if number == MUTE else 7) << 3 * number for number in EVERY)
-"""mod: the last station has no speed."""
+"""Pins mod: the last station has no valid speed."""
 
 
 async def twins(master: Master, rng: random.Random) -> None:
-    """Two stations with one address answer together: equal answers are valid, different ones are garbled.
+    """Two stations with one address answer together: equal answers are valid, different answers are garbled.
 
     The other stations are not affected.
     """
@@ -225,7 +228,7 @@ async def twins(master: Master, rng: random.Random) -> None:
     check(await master.poll(MUTE), None, "a station without a speed")
     check(await master.poll(TWIN), Reply("ready", TWIN, b""), "both answer alike")
     check(await master.ask(TWIN, SETTING), Reply("ready", TWIN, b""), "both are set")
-    # The alarm input of one of the two is asserted: their answers differ from now on.
+    # The alarm input of one of the two stations is asserted, so their answers differ from now on.
     master.port.set(alm_n=ALL & ~(1 << 6))
     await master.rest(4)
     await master.send(polled(TWIN))

@@ -11,13 +11,13 @@ from .library import FOLDER, station_library
 STATIONS = 16
 ALL = (1 << STATIONS) - 1
 FASTEST = 0b111
-"""mod for 83 333 bps."""
+"""Level of mod for 83 333 bps."""
 BIT = 96
-"""Cycles of a bit at that speed and 8 MHz."""
+"""Number of cycles per bit at this speed and 8 MHz."""
 F8L = Config("f8m", clk_hz=8_000_000)
 
 IN_TURN = sum(number << 4 * number for number in range(STATIONS))
-"""adr of stations 0 … 15."""
+"""Levels of adr of stations 0 to 15."""
 
 # Single-bit inputs of each station with their idle levels; address and speed have more bits.
 SINGLE = {"evt0_n": 1, "evt1_n": 1, "fl_n": 1, "bl_n": 1, "org_n": 1, "alm_n": 1, "end_n": 1, "run": 1}
@@ -26,7 +26,7 @@ OUTPUTS = PPMC312.outputs
 
 
 def repeat(level: int, width: int) -> int:
-    """Return a vector with the same level at every station."""
+    """Return a vector with the same level for every station."""
     return sum(level << width * number for number in range(STATIONS))
 
 
@@ -52,9 +52,9 @@ LINE = Part(
 
 
 def design(config: Config, args: tuple[str, ...] | None = None, **params: int | str) -> Design:
-    """Return the line with its stations; their library is built if it does not exist.
+    """Return the line with its stations; build their library if it does not exist.
 
-    `args` are those of Verilator for the stations; `params` overrides or adds parameters of the part.
+    `args` are Verilator arguments for the stations; `params` replaces or adds parameters of the part.
     """
     chosen = {**LINE.params(config), **params}
     library = station_library(chosen) if args is None else station_library(chosen, args)

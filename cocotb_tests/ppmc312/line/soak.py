@@ -1,9 +1,9 @@
 """Seeds of `make soak PART=ppmc312-serial`: random streams on a line of PPMC-312 stations.
 
 Each seed sends SIZE characters, bit by bit with noise, collisions and breaks, on a line of 4 to 16 golden
-models. Then it sends SINGLE whole characters to one station after the other. After every few dozen
-characters, at most one poll must recover every station. Every RTL_EACHth seed also runs on sixteen stations
-of RTL, and all their outputs are compared.
+models. Then it sends SINGLE complete characters to one station after the other. After every few dozen
+characters, at most one poll must recover every station. One of RTL_EACH seeds also runs on sixteen stations
+of RTL, whose outputs are all compared.
 """
 
 from __future__ import annotations

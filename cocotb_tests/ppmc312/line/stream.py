@@ -1,6 +1,6 @@
 """Random characters, frames, noise and silence on a line, for tests and for `make soak PART=ppmc312-serial`.
 
-After each part of a stream at most one poll recovers every station.
+After each part of a stream, at most one poll recovers every station.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ INSTRUCTIONS = (
         "7f 00",
     ),
 )
-"""Instructions with rates low enough for sixteen models to simulate."""
+"""Instructions whose rates are low enough for a simulation of sixteen models."""
 PART = 60
-"""Characters between two checks of the stations."""
+"""Number of characters between two checks of the stations."""
 
 
 async def disorder(master: Master, rng: random.Random, size: int, count: int = STATIONS) -> int:
@@ -118,7 +118,7 @@ async def _some(master: Master, rng: random.Random, count: int) -> int:
 
 
 async def _collision(master: Master, rng: random.Random, one: bytes, other: bytes) -> int:
-    """Send the frames of two masters that overlap."""
+    """Send the overlapping frames of two masters."""
     begin, bit = master.port.now, master.bit
     later = begin + rng.randrange(round(length(one, bit)))
     await master.drive(merged(wave(one, begin, bit), wave(other, later, bit * rng.uniform(0.98, 1.02))))
@@ -127,7 +127,7 @@ async def _collision(master: Master, rng: random.Random, one: bytes, other: byte
 
 
 async def _noisy(master: Master, rng: random.Random, frame: bytes) -> int:
-    """Send a frame of which some stations receive some bits inverted."""
+    """Send a frame; some stations receive some of its bits inverted."""
     begin, port = master.port.now, master.port
     steps = [(t, {"master": level}) for t, level in wave(frame, begin, master.bit)]
     for _ in range(rng.choice((1, 1, 3))):
@@ -143,7 +143,7 @@ async def _noisy(master: Master, rng: random.Random, frame: bytes) -> int:
 
 
 def pins_of(seed: int) -> dict[str, int]:
-    """Return the pins that decide which drivers the stations of a seed receive in addition to the master."""
+    """Return the pins that select the drivers that a station receives in addition to the master."""
     rng = random.Random(f"pins {seed}")
     return {"hear_others": int(rng.random() < 0.8), "hear_self": int(rng.random() < 0.2)}
 
@@ -155,5 +155,5 @@ async def play(master: Master, seed: int, size: int, count: int = STATIONS) -> i
 
 
 def model_line(seed: int, count: int) -> ModelLine:
-    """Return a line of models with the pins of a seed."""
+    """Return a line of models with the pins for a seed."""
     return ModelLine(count=count, **pins_of(seed))

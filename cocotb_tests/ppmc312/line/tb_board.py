@@ -1,4 +1,4 @@
-"""A board with a PPMC-312 on its serial line: straps, both lines, DE, LEDs, the button, pulses."""
+"""A board with a PPMC-312 on its serial line: straps, both lines, DE, LEDs, button, pulses."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Master(UartBfm):
         self.bytes = bytearray()
 
     def on_char(self, byte: int) -> None:
-        """Collect a reply; DE must be asserted."""
+        """Collect a byte of a reply; DE must be asserted."""
         same("DE", int(self._de.value), 1)
         self.bytes.append(byte)
 
@@ -49,7 +49,7 @@ class Master(UartBfm):
 
 
 class Board:
-    """The board with its straps, out of reset, with a master on each line."""
+    """The board with its straps after reset, and a master on each line."""
 
     def __init__(self, dut: Any, **straps: int) -> None:
         self.dut = dut
@@ -61,7 +61,7 @@ class Board:
         self.speed(7)
 
     def speed(self, mod: int) -> None:
-        """Set both masters to the speed of these straps."""
+        """Set both masters to the speed that these straps select."""
         self.usb.rate = self.rs485.rate = float(SPEEDS[mod])
 
     def led(self, which: int) -> int:
@@ -76,7 +76,7 @@ class Board:
 
 
 async def start(dut: Any, **straps: int) -> Board:
-    """Power on the board; both lines are recorded from then on."""
+    """Power on the board; record both lines from then on."""
     board = Board(dut, **straps)
     await board.boot()
     for master in (board.usb, board.rs485):
@@ -105,7 +105,7 @@ async def board312_serial_open_straps(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_half_a_bit(dut: Any) -> None:
-    """DE is asserted half a bit after the master's stop bit, the start bit follows a bit later (+ 1 us)."""
+    """DE is asserted half a bit after the master's stop bit; the start bit follows one bit later (+ 1 us)."""
     board = await start(dut)
     bit = 1e6 / board.rs485.rate
     for master in (board.usb, board.rs485):
@@ -123,9 +123,9 @@ async def board312_serial_half_a_bit(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_straps_and_button(dut: Any) -> None:
-    """The straps are sampled at the end of a reset, also of one by the button.
+    """The straps are sampled at the end of a reset, including a reset by the button.
 
-    This reset stops everything and clears all state.
+    This reset stops all motions and clears all state.
     """
     board = await start(dut, adr=3, mod=6)
     rs485 = board.rs485
@@ -147,7 +147,9 @@ async def board312_serial_straps_and_button(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_motion_and_leds(dut: Any) -> None:
-    """A move commanded by USB makes its pulses and is polled on RS-485; limit and alarm light an LED."""
+    """A move commanded through USB makes its pulses and is polled through RS-485; limit and alarm light an
+    LED.
+    """
     board = await start(dut)
     usb, pulses = board.usb, []
 

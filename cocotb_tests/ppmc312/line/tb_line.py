@@ -1,4 +1,4 @@
-"""Run the scenes on sixteen RTL stations, then compare each station with its own golden model."""
+"""Runs the scenarios on sixteen RTL stations, then compares each station with a separate golden model."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .setting import F8L, LINE
 
 
 async def play(dut: Any, scenes: Sequence[Scene], at_least: int, **pins: int) -> None:
-    """Run all scenes one after the other, then compare every output."""
+    """Run all scenarios one after the other, then compare every output."""
     bench = await RtlBench.start(dut, LINE, settle=8, **pins)
     cocotb.log.info("seed %d", bench.seed)
     master = Master(RtlPort(bench))
@@ -51,5 +51,5 @@ async def line_bad_input(dut: Any) -> None:
 @configs(F8L)
 @verifies("P312-PRT-03", "P312-BAD-16", "P312-BAD-17")
 async def line_twins(dut: Any) -> None:
-    """Two stations with one address that answer together do not disturb the other fourteen."""
+    """Two stations with one address that answer together do not disturb the other fourteen stations."""
     await play(dut, (twins,), 400, adr=TWINS, mod=ONE_MUTE)

@@ -1,4 +1,6 @@
-"""Run the stream of one seed on sixteen RTL stations, then compare each station with its own golden model."""
+"""Runs the stream of one seed on sixteen RTL stations, then compares each station with a separate golden
+model.
+"""
 
 from __future__ import annotations
 

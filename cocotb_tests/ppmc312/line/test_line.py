@@ -32,7 +32,7 @@ def test_line(item: Item, sim_options: SimOptions) -> None:
 
 @pytest.fixture
 def seeds(request: pytest.FixtureRequest) -> list[int]:
-    """Return two fixed seeds, or that of the command line; they are printed when a test fails."""
+    """Return two fixed seeds, or the seed of the command line; pytest prints them when a test fails."""
     chosen = request.config.getoption("--seed")
     picked = [2, 3] if chosen is None else [chosen]
     print(f"seeds {picked}")
@@ -40,7 +40,9 @@ def seeds(request: pytest.FixtureRequest) -> list[int]:
 
 
 def test_scenes_on_models(seeds: list[int]) -> None:
-    """On golden models alone, the disturbances and the scene with twins pass with other seeds."""
+    """On golden models alone, the disturbances and the scenario with equal addresses pass with other
+    seeds.
+    """
     for seed in seeds:
         for scenes, line in ((BAD, ModelLine()), ((twins,), ModelLine(adr=TWINS, mod=ONE_MUTE))):
             at_once(line.until(8))
@@ -49,9 +51,9 @@ def test_scenes_on_models(seeds: list[int]) -> None:
 
 
 def test_streams_on_models(seeds: list[int]) -> None:
-    """On golden models alone, streams with other seeds leave every station recoverable.
+    """On golden models alone, every station is recoverable after streams with other seeds.
 
-    On an undisturbed line few stations need a second poll.
+    On an undisturbed line, few stations need a second poll.
     """
     late = sum(at_once(play(Master(model_line(seed, 8)), seed, SIZE, 8)) for seed in seeds)
     assert late <= 8 * len(seeds)

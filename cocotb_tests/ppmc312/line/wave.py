@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import ceil
 
 Wave = list[tuple[int, int]]
-"""Changes of a line that is high at the beginning and at the end: (edge, level from that edge on)."""
+"""Changes of a line that is high at the beginning and at the end: (edge, level from this edge on)."""
 
 
 def wave(data: bytes, start: float, bit: float, gap: float = 0.0) -> Wave:
-    """Return the levels of characters from time `start` on, each followed by `gap` more bits.
+    """Return the levels of characters from time `start` on, each followed by `gap` idle bits.
 
     All times are in cycles.
     """
@@ -30,7 +30,7 @@ def length(data: bytes, bit: float, gap: float = 0.0) -> float:
 
 
 def merged(*waves: Wave) -> Wave:
-    """Return the levels of a line with several drivers: low while any of them is low."""
+    """Return the levels of a line with several drivers, which is low while any of them is low."""
     changes: Wave = []
     levels = [1] * len(waves)
     for t, number, level in sorted((t, i, level) for i, one in enumerate(waves) for t, level in one):

@@ -45,7 +45,7 @@ BLOCKS = {
 
 
 def pack(*fields: tuple[int, int]) -> int:
-    """Return a packed struct of (value, width) fields; the first field is the most significant."""
+    """Return a packed struct of (value, width) fields, the most significant field first."""
     number = 0
     for value, width in fields:
         assert 0 <= value < 1 << width, f"{value} does not fit {width} bits"
@@ -57,7 +57,7 @@ class Target(NamedTuple):
     """target_t: a rate and its look-up result.
 
     Attributes:
-        ge: t(rate); if there is no such stage, one before the first stage in use.
+        ge: t(rate); if there is no such stage, the number before that of the first stage in use.
     """
 
     rate: int
@@ -84,12 +84,15 @@ class Target(NamedTuple):
 
 
 def walk_start(table: Table, pulses: int) -> tuple[int, int]:
-    """Return the stage where the last `pulses` pulses of the deceleration begin, and their number in it."""
+    """Return the stage in which the last `pulses` pulses of the deceleration begin.
+
+    Also return the number of these pulses that are in this stage.
+    """
     stage = next(i for i in range(table.sd, LAST + 1) if table.sums_down[i] >= pulses)
     return stage, pulses - (table.sums_down[stage - 1] if stage else 0)
 
 
 def brief(table: Table) -> str:
-    """Return a text of the used stages of a table."""
+    """Return the used stages of a table as text."""
     first = table.first
     return f"{table.rates[first:]} up {table.pa[first:]} down {table.pd[first:]}, from {table.sa}, {table.sd}"

@@ -1,4 +1,6 @@
-"""Contract of ppmc312_interval: when pulses are scheduled and how long they last, for every base clock."""
+"""Contract of ppmc312_interval: times at which pulses are scheduled, and their lengths, for each base
+clock.
+"""
 
 from __future__ import annotations
 
@@ -20,11 +22,11 @@ from .stage_types import CLOCKS
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 XTAL = 16_000_000
 LONGEST = 12_000
-"""Longest interval in cycles."""
+"""Maximum interval in cycles."""
 
 
 class Bench:
-    """A running clock; times are numbers of its rising edges."""
+    """Instance of the block with a running clock; times are numbers of its rising edges."""
 
     def __init__(self, u: BlockDriver) -> None:
         self.u = u
@@ -48,7 +50,7 @@ class Bench:
 
     @property
     def now(self) -> int:
-        """Number of the last edge."""
+        """Number of the last rising edge."""
         return int(get_sim_time("step") - self.since) // 2
 
     async def record(self, edge: type, times: list[int]) -> None:
@@ -75,7 +77,9 @@ class Bench:
 
 
 def some_rates(rand: random.Random, tick: Fraction, count: int) -> list[int]:
-    """Return rates of at least 4 cycles: short ones, some near twice the pulse width, longer ones."""
+    """Return rates with intervals of at least 4 cycles: short ones, one near the pulse width, and longer
+    ones.
+    """
     least, most = max(2, ceil(4 / tick)), max(3, int(LONGEST / tick))
     around = int(10e-6 * XTAL / 16e6 * 16e6 / tick) if tick else 0
     picks = (lambda: least + rand.randrange(5), lambda: rand.randint(least, most), lambda: around)
@@ -85,7 +89,9 @@ def some_rates(rand: random.Random, tick: Fraction, count: int) -> list[int]:
 @cocotb.test()
 @cocotb.parametrize(clk=list(CLOCKS))
 async def interval_exact(dut, clk):
-    """For every internal base clock, pulse 1 follows after the set-up time and all others without drift."""
+    """For every internal base clock, pulse 1 occurs after the set-up time, and all other pulses occur without
+    drift.
+    """
     rand = rng()
     u = BlockDriver(dut, f"interval{clk // 1_000_000}", BLOCKS, limit=BlockDriver.FREE)
     width = ceil(Fraction(80 * clk, XTAL))
@@ -113,7 +119,7 @@ async def interval_exact(dut, clk):
 
 @cocotb.test()
 async def interval_shortest(dut):
-    """Intervals below 4 cycles last 4 cycles, and the next interval counts from the actual pulse."""
+    """Intervals below 4 cycles last 4 cycles; the next interval is counted from the actual pulse."""
     u = BlockDriver(dut, "interval8", BLOCKS)
     rates = [2, 2, 3, 2, 100, 3, 4, 5, 2, 7, 50]
     async with Bench(u) as bench:
@@ -125,9 +131,11 @@ async def interval_shortest(dut):
 
 @cocotb.test()
 async def interval_external(dut):
-    """With clock edges at a pin, pulse k + 1 follows edge R_k after that of pulse k, within 3 cycles.
+    """With clock edges at a pin, a pulse follows the R-th edge after the edge of the previous pulse, R being
+    its rate.
 
-    A pulse ends after half of these edges or after its width, even if the clock stops.
+    The delay is less than 3 cycles. A pulse ends after half of these edges or after its width, even if the
+    clock stops.
     """
     rand = rng()
     for clk, base in ((8_000_000, 6), (16_000_000, 7), (50_000_000, 6)):
@@ -140,7 +148,9 @@ async def interval_external(dut):
             u.put(base_i=base, extck_i=base == 7)
 
             async def clock(bench=bench, u=u, base=base, ticks=ticks) -> None:
-                """Drive edges of both kinds; record the edge of `clk_i` that samples each active edge."""
+                """Drive edges of both directions; record the edge of `clk_i` that samples each active
+                edge.
+                """
                 slow = False
                 while True:
                     for level in (base == 6, base == 7):

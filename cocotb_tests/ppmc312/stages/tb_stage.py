@@ -23,8 +23,9 @@ from .stage_types import Target, brief, pack, walk_start
 
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 LONGEST_BUILD, LONGEST_PLAN = 127 * 300, 135 + 5 * 131 + 53
-# start, stop, high, acceleration, deceleration, sigmoid, separate: T1..T5 of docs/ppmc312/README.md, the
-# boundaries of its error conditions, the fastest and the slowest rates, the most pulses.
+# start, stop, high, acceleration, deceleration, sigmoid, separate. The rows are T1..T5 of
+# docs/ppmc312/README.md, the boundaries of its error conditions, the fastest and the slowest rates, and the
+# most pulses.
 SETTINGS = [
     (1000, 0, 200, 2000, 0, 0, 0),
     (1000, 0, 200, 2000, 0, 1, 0),
@@ -48,17 +49,17 @@ SETTINGS = [
 
 @cocotb.test()
 async def muldiv_exact(dut):
-    """For random and extreme operands, products, quotients and remainders are exact and in time."""
+    """For random and extreme operands, products, quotients and remainders are exact and on time."""
     rand = rng()
     u = BlockDriver(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
     await u.reset()
     for n in range(300):
         steps, mul = rand.randint(1, 24), rand.randrange(2)
         small = rand.choice(((1 << steps) - 1, rand.getrandbits(steps)))
-        bits = 39 + mul  # the remainder needs one bit more
+        bits = 39 + mul  # the remainder needs one more bit
         operand = rand.choice(((1 << bits) - 1, rand.getrandbits(rand.randint(1, bits)) | 1))
         if mul:
-            hi, lo = 0, small  # the low bits of the product are output in the top bits of lo
+            hi, lo = 0, small  # the low bits of the product are output in the upper bits of lo
         else:
             hi = rand.randrange(operand)
             lo = small << 24 - steps
@@ -66,9 +67,9 @@ async def muldiv_exact(dut):
         u.put(start_i=0, lo_i=rand.getrandbits(24), mul_i=rand.randrange(2), operand_i=operand)
         last = steps + (1 - mul)
         for clk in range(last):
-            same(f"{n}: busy in clk {clk} of {last}", (await u.clk())[0], 1)
+            same(f"{n}: busy in cycle {clk} of {last}", (await u.clk())[0], 1)
         busy, got_hi, got_lo = await u.settle()
-        same(f"{n}: busy after {last} clk", busy, 0)
+        same(f"{n}: busy after {last} cycles", busy, 0)
         if mul:
             same(f"{n}: {small} * {operand}", got_hi << steps | got_lo >> 24 - steps, small * operand)
         else:
@@ -78,7 +79,7 @@ async def muldiv_exact(dut):
 
 @cocotb.test()
 async def muldiv_product_is_divided(dut):
-    """A product that is kept can be divided without a reload."""
+    """A product that is kept in the block can be divided without a reload."""
     rand = rng()
     u = BlockDriver(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
     await u.reset()
@@ -99,7 +100,7 @@ async def muldiv_product_is_divided(dut):
 
 @cocotb.test()
 async def cosine_weights(dut):
-    """Two cycles after its index, the weight of a stage is valid; with linear_i = 1 it is the index."""
+    """The weight of a stage is valid two cycles after its index; with linear_i = 1 it equals the index."""
     u = BlockDriver(dut, "rom", BLOCKS, "weight_o")
     u.choose()
     order = [*range(STAGES), *rng().sample(range(STAGES), STAGES)]
@@ -116,7 +117,7 @@ async def _idle(u: BlockDriver, port: str) -> int:
 
 
 def curve_word(setting: tuple[int, ...]) -> int:
-    """Return curve_t of a setting, with base clock 5."""
+    """Return curve_t for a setting, with base clock 5."""
     start, stop, high, acc, dec, sigmoid, separate = setting
     stop, dec = (stop, dec) if separate else (start, acc)
     return pack(
@@ -125,7 +126,7 @@ def curve_word(setting: tuple[int, ...]) -> int:
 
 
 async def _read(u: BlockDriver) -> list[list[tuple[int, ...]]]:
-    """Return rate, acceleration and deceleration pulses of all stages, from both read ports."""
+    """Return rate, acceleration pulses and deceleration pulses of all stages, read through both ports."""
     words: list[list[tuple[int, ...]]] = []
     for side in (0, 1):
         seen = []
@@ -133,14 +134,14 @@ async def _read(u: BlockDriver) -> list[list[tuple[int, ...]]]:
             u.put(read_addr_i=pack((side, 1), (i, 7)), table_addr_i=pack((side, 1), (LAST - i, 7)))
             await u.clk()
             seen.append((*divmod(u.get("read_stage_o"), 1 << 24), *divmod(u.get("stage_o"), 1 << 24)))
-        words.append(seen[1:-1])  # read after the edge, thus one cycle less
+        words.append(seen[1:-1])  # the output is read after the edge, so one cycle less is needed
     planner = [(*up[:2], down[1]) for up, down in zip(*words, strict=True)]
     motion = [(*up[2:], down[3]) for up, down in zip(*words, strict=True)]
     return [planner, motion[::-1]]
 
 
 async def _check(u: BlockDriver, table: Table, what: str, clk: int, pulses: tuple[int, int]) -> None:
-    """Check description, look-ups and words of the active table."""
+    """Check description, look-up results and words of the active table."""
     want = pack(
         (1, 1), (table.separate, 1), (clk, 3), (table.sa, 7), (table.sd, 7), (table.rates[table.sa], 16)
     )
@@ -153,14 +154,16 @@ async def _check(u: BlockDriver, table: Table, what: str, clk: int, pulses: tupl
     )
     for port, got in zip(("planner", "motion"), await _read(u), strict=True):
         for i in range(table.first, STAGES):
-            # Below the first stage of a ramp, its pulse numbers have no meaning.
+            # The pulse numbers below the first stage of a ramp have no meaning.
             rate, acc, dec = got[i]
             seen = (rate, acc if i >= table.sa else 0, dec if i >= table.sd else 0)
             same(f"{what}: stage {i}, port of the {port}", seen, (table.rates[i], table.pa[i], table.pd[i]))
 
 
 def settings(rand: random.Random, count: int) -> list[tuple[int, ...]]:
-    """Return the corner settings and random ones that can be rejected only for stages with too few pulses."""
+    """Return the corner settings, and random settings that can only be rejected because a stage has too few
+    pulses.
+    """
     found = list(SETTINGS)
     while len(found) < len(SETTINGS) + count:
         high = int(2 ** rand.uniform(1, 15.9))
@@ -173,7 +176,9 @@ def settings(rand: random.Random, count: int) -> list[tuple[int, ...]]:
 
 @cocotb.test()
 async def stage_tables_exact(dut):
-    """For reference and random settings, all stages equal those of the model, or both reject the setting."""
+    """For reference and random settings, either all stages equal those of the model, or both reject the
+    setting.
+    """
     u = BlockDriver(dut, "unit", BLOCKS, limit=BlockDriver.FREE)
     await u.reset()
     thin = longest = 0
@@ -182,7 +187,7 @@ async def stage_tables_exact(dut):
         await u.clk(build_i=1, curve_i=curve_word(setting))
         u.put(build_i=0)
         took = await _idle(u, "busy_o")
-        assert 0 < took <= LONGEST_BUILD, f"{setting}: {took} clk"
+        assert 0 < took <= LONGEST_BUILD, f"{setting}: {took} cycles"
         longest = max(longest, took)
         try:
             table = build(start, stop, high, acc, dec, 5, bool(sigmoid), bool(separate))
@@ -204,7 +209,7 @@ async def stage_tables_exact(dut):
 
 
 def curves(rand: random.Random) -> Table:
-    """Return a free curve: few or all stages, one table or two, mostly descending rates."""
+    """Return a free curve with few or all stages, one table or two, and mostly descending rates."""
     counts = [rand.choice((2, 3, rand.randint(2, 12), rand.randint(2, 127), 127)) for _ in range(2)]
     split = rand.random() < 0.7
     if rand.random() < 0.2:
@@ -219,7 +224,7 @@ def curves(rand: random.Random) -> Table:
 
 
 async def _load(u: BlockDriver, table: Table) -> None:
-    """Load a free curve, word by word, fastest stage first."""
+    """Load a free curve word by word, fastest stage first."""
     await u.clk(
         open_i=1,
         open_acc_i=table.sa,
@@ -241,7 +246,7 @@ async def _load(u: BlockDriver, table: Table) -> None:
 
 
 def operation(rand: random.Random, table: Table) -> tuple[int, int | None]:
-    """Return rate and pulses (None: endless) near the limits between the kinds of plans."""
+    """Return a rate and a number of pulses (None: endless) near the limits between the kinds of profiles."""
     used = table.rates[table.first :]
     rate = rand.choice((table.high, rand.choice(used), rand.choice(used) + 1, rand.randint(2, 0xFFFF)))
     if rand.random() < 0.1:
@@ -255,7 +260,7 @@ def operation(rand: random.Random, table: Table) -> tuple[int, int | None]:
 
 @cocotb.test()
 async def stage_plans_exact(dut):
-    """For random curves, rates and pulse counts, plans and rate look-ups equal those of the model."""
+    """For random curves, rates and pulse counts, profiles and rate look-ups equal those of the model."""
     rand = rng()
     u = BlockDriver(dut, "unit", BLOCKS)
     await u.reset()
@@ -272,7 +277,7 @@ async def stage_plans_exact(dut):
             u.put(profile_req_i=pack((0, 1), *steady))
             took = await _idle(u, "plan_busy_o")
             where = f"curve {case} {brief(table)}, rate {rate}, {count} pulses"
-            assert 0 < took <= LONGEST_PLAN, f"{where}: {took} clk"
+            assert 0 < took <= LONGEST_PLAN, f"{where}: {took} cycles"
             got = u.get("profile_o")
             same(f"{where}: target", Target.split(got & (1 << 38) - 1), Target.of(table, rate))
             endless, climb = got >> 127, got >> 126 & 1

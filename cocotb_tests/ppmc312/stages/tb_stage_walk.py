@@ -1,4 +1,6 @@
-"""Contract of ppmc312_stage_seq: the rate of the next pulse, or the reason why there is no next pulse."""
+"""Contract of ppmc312_stage_seq: it outputs the rate of the next pulse, or the reason why no pulse
+follows.
+"""
 
 from __future__ import annotations
 
@@ -17,18 +19,20 @@ from .stage_types import Target, brief, pack, walk_start
 
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 LEADS = {"slow": 2, "jump": 5, "ramp": 9}
-"""Least number of cycles before a boundary at which a request takes effect at this boundary."""
+"""Minimum number of cycles before a boundary at which a request takes effect at this boundary."""
 SHORTEST, TARGET_CLK = 4, 2
-"""Least cycles of an interval; cycles from change_i to the sampling of the target in profile_i."""
+"""Cycles: minimum length of an interval; time from change_i to the edge that samples the target in
+profile_i.
+"""
 FLAT, SEARCH, FOUND = 7, 129, 3
-"""Cycles of constant rate before a ramp can begin; of a search; from its end to the final deceleration."""
+"""Cycles: of constant rate before a ramp can begin; of a search; from its end to the final deceleration."""
 WATCH = "next_end_o next_low_o next_count_o next_rate_o"
 
 
 def small_curve(rand: random.Random) -> Table:
     """Return a curve of a few stages with a few pulses each.
 
-    The rates mostly descend, half of the curves have equal neighbours, and the two ramps may differ.
+    The rates mostly descend, half of the curves have equal neighbouring rates, and the two ramps may differ.
     """
     counts = [rand.choice((2, 3, 5)), rand.choice((2, 3, 4))]
     split = rand.random() < 0.7
@@ -43,14 +47,14 @@ def small_curve(rand: random.Random) -> Table:
 
 
 def some_rate(rand: random.Random, table: Table) -> int:
-    """Return a rate that an instruction may request; often one of the table, or next to it."""
+    """Return a rate that an instruction may request, often a rate of the table or a rate next to it."""
     low, high = sorted((table.high, table.slowest))
     near = rand.choice(table.rates[table.first :]) + rand.choice((0, 0, 1, -1))
     return rand.choice((min(max(near, low), high), rand.randint(low, high)))
 
 
 class SequencerRun:
-    """The sequencer during a motion, with a table that responds two cycles after the address."""
+    """The sequencer during a motion, with a table that returns data two cycles after the address."""
 
     def __init__(self, u: BlockDriver, table: Table, plan: Plan, rand: random.Random) -> None:
         self.u, self.table, self.plan, self.rand = u, table, plan, rand
@@ -70,7 +74,7 @@ class SequencerRun:
         return out
 
     async def sample(self, **inputs: int) -> tuple[int, ...]:
-        """Return the watched outputs with these inputs and the response of the table in this cycle."""
+        """Return the watched outputs with these inputs and the data that the table returns in this cycle."""
         side, i = self.reads[0]
         table, i = self.table, min(i, STAGES - 1)
         pulses = table.pd if side else table.pa
@@ -78,7 +82,7 @@ class SequencerRun:
         return await self.u.settle(**inputs)
 
     async def load(self) -> None:
-        """Begin the operation."""
+        """Load the operation and wait until it has begun."""
         table, plan = self.table, self.plan
         self.u.put(first_acc_i=table.sa, first_dec_i=table.sd, rate_dec_i=table.rates[table.sd])
         self.u.put(slow_i=0, change_i=0)
@@ -93,11 +97,13 @@ class SequencerRun:
             await self.clk()
 
     def plan_word(self, target: int) -> int:
-        """Return profile_t after the load: only its target has a meaning."""
+        """Return profile_t for the time after the load, when only its target is used."""
         return self.rand.getrandbits(90) << 38 | target
 
     def plan_requests(self) -> dict[int, str]:
-        """Return the requests in the coming interval, by their lead in cycles; at most one change."""
+        """Return the requests in the next interval, by their lead in cycles; at most one of them is a
+        change.
+        """
         rand, found = self.rand, {}
         if rand.random() < 0.08:
             found[LEADS["slow"] + rand.choice((0, 0, 1, 7))] = "slow"
@@ -109,7 +115,7 @@ class SequencerRun:
         return found
 
     def aim(self) -> int:
-        """Return the rate of a change."""
+        """Return the rate that a change requests."""
         return some_rate(self.rand, self.table)
 
     async def interval(self) -> None:
@@ -117,7 +123,7 @@ class SequencerRun:
         requests = self.plan_requests()
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
         if self.sequence.was_searched and self.rand.random() < 0.3:
-            # A boundary at which the result of the search just takes effect, or just does not.
+            # At this boundary, the result of the search just takes effect, or just does not.
             cycles = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
             longest = max(longest, cycles - self.flat_for)
         self.flat_for += longest
@@ -168,7 +174,7 @@ class SequencerRun:
 
 
 def some_plan(rand: random.Random, table: Table) -> Plan:
-    """Return an 82, 85, 83 or 86 with a number of pulses near the interesting limits."""
+    """Return the plan of instruction 82, 83, 85 or 86 with a number of pulses near the interesting limits."""
     rate = some_rate(rand, table)
     most = table.na + table.nd + 12
     n = rand.choice((None, rand.randint(1, most), rand.randint(1, most), rand.randint(1, 4)))
@@ -192,10 +198,10 @@ async def stage_seq_walks(dut):
 
 
 class CollisionRun(SequencerRun):
-    """A ramp of instruction 87 collides with the deceleration point; random requests follow."""
+    """A ramp of instruction 87 reaches the deceleration point; random requests follow."""
 
     def plan_requests(self) -> dict[int, str]:
-        """Request 88 some pulses before that point and 87 closer to it."""
+        """Request an 88 (change) some pulses before the deceleration point, and an 87 (ramp) closer to it."""
         plan = self.plan
         before = (plan.n or 0) - plan.down - self.sequence.done
         if before in (self.jump, self.ramp):
@@ -203,7 +209,7 @@ class CollisionRun(SequencerRun):
         return {} if 0 < before else super().plan_requests()
 
     def aim(self) -> int:
-        """Return a rate where a ramp has stages, then a higher speed."""
+        """Return a rate at which a ramp has stages, then a higher speed."""
         before = (self.plan.n or 0) - self.plan.down - self.sequence.done
         if self.rand.random() < 0.2 or before < 1:
             return super().aim()
@@ -211,7 +217,7 @@ class CollisionRun(SequencerRun):
 
     @classmethod
     def some(cls, u: BlockDriver, rand: random.Random) -> CollisionRun:
-        """Return a table and an operation with a deceleration of enough pulses for several requests."""
+        """Return a table and an operation whose deceleration has enough pulses for several requests."""
         while True:
             table = small_curve(rand)
             rate = some_rate(rand, table)
@@ -219,7 +225,7 @@ class CollisionRun(SequencerRun):
             n = plan.up + sum(table.pd[table.sd : table.stage(rate) + 1]) + rand.randint(12, 18)
             plan = ramped(table, rate, n)
             if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
-                # often with stages that only the acceleration ramp has, where no final deceleration starts
+                # often, only the acceleration ramp has some stages, in which no final deceleration starts
                 break
         run = cls(u, table, plan, rand)
         run.jump, run.ramp, run.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
@@ -244,12 +250,12 @@ async def stage_seq_searches(dut):
 class LateStopRun(SequencerRun):
     """A change is decided during a search, and a deceleration stop follows.
 
-    A stage of the acceleration ramp becomes a constant rate. 88 is decided during the search for this rate,
-    and 81 arrives before the boundary.
+    A stage of the acceleration ramp becomes a constant rate. Instruction 88 is decided during the search for
+    this rate, and 81 arrives before the boundary.
     """
 
     def plan_requests(self) -> dict[int, str]:
-        """Request 88 and 87 to begin the search; during it 88, then 81."""
+        """Request an 88 and an 87, which begin the search, then an 88 and an 81 during the search."""
         if self.sequence.was_searched and self.jump:
             requests = {self.jump: "jump", LEADS["slow"]: "slow"}
             self.jump = 0
@@ -257,15 +263,15 @@ class LateStopRun(SequencerRun):
         return {37: {LEADS["jump"]: "jump"}, 44: {LEADS["ramp"]: "ramp"}}.get(self.sequence.done, {})
 
     def aim(self) -> int:
-        """Return a rate slower than all stages, then that of the first stage."""
+        """Return a rate that is slower than all stages, then the rate of the first stage."""
         return 169 if self.sequence.done == 44 else 363
 
 
 @cocotb.test()
 async def stage_seq_stop_during_a_search_for_a_change(dut):
-    """Instruction 81 discards an 88 that was decided within a search if the search has ended.
+    """Instruction 81 discards an 88 that was decided during a search if the search has ended.
 
-    Otherwise it waits for the 88.
+    If the search has not ended, 81 waits until the 88 has taken effect.
     """
     rand = rng()
     u = BlockDriver(dut, "seq", BLOCKS, WATCH)
@@ -278,6 +284,6 @@ async def stage_seq_stop_during_a_search_for_a_change(dut):
         await run.load()
         end = await run.run(80)
         ends.add((end, run.searched > 0))
-    # At 363, loaded where 81 waits, no deceleration is left; the final deceleration lasts
-    # until the end of the count.
+    # If 81 waits for the 88, the rate 363 is loaded, at which no deceleration is left; the final deceleration
+    # then lasts until the end of the count.
     same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])

@@ -1,4 +1,4 @@
-"""Unit tests of the stage blocks of the PPMC-312, one simulation each."""
+"""Unit tests of the stage blocks of the PPMC-312, one simulation per test."""
 
 from __future__ import annotations
 
