@@ -172,9 +172,9 @@ def part_of(arguments: list[str] | None) -> str:
 
 
 def chosen(arguments: list[str] | None) -> Demo | Callable[[], int]:
-    """Return the demo of the part that the command line names, or a function that runs a separate demo.
+    """Return the demo of the part that the command line names, or a function that runs a special demo.
 
-    If the part has no demo, ProjectError lists the parts that have one.
+    If the part has no demo, the call raises ProjectError, which lists the parts that have one.
     """
     name = part_of(arguments)
     known = [row.name for row in parts.having("demo")]

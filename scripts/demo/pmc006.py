@@ -22,7 +22,7 @@ from scripts.demo.scenes import Changes, bit, frame_text, heading, pin, rises, s
 PHASES = {"a": "#0b6fb8", "b": "#c26a1b"}
 REFERENCE, SWITCH, LAMP = "#6b7785", "#8c2d62", "#2f9e6e"
 FULL_STEP = 128
-"""Units of the electrical angle."""
+"""One full step in units of the electrical angle."""
 LOOKED = tuple(dict.fromkeys(name for pins in BRIDGES.values() for name in pins[:-1]))
 By = Mapping[str, Mapping[str, Any]]
 
@@ -34,7 +34,7 @@ CHOPPER = (
 
 
 class Motor:
-    """Both windings, simulated from the recorded half bridges up to edge `end`."""
+    """Both windings, simulated with the recorded levels of the half bridges up to edge `end`."""
 
     def __init__(self, comparison: Any, end: int) -> None:
         self.hz = int(comparison.recording.params["CLK_HZ"])
@@ -57,7 +57,7 @@ class Motor:
 
 
 class Step(NamedTuple):
-    """A step at edge `t`: full steps from the start, full steps a second (nan for the first of a motion)."""
+    """A step at edge `t`: position in full steps, speed in full steps/s (nan at the first of a motion)."""
 
     t: int
     place: float
@@ -144,7 +144,7 @@ def currents(axes: Axes, motor: Motor, begin: int, end: int, title: str, referen
 
 
 def cycle(steps: Sequence[Step], chapter: Mapping[str, Any]) -> tuple[int, int]:
-    """Return the first and last edge of four full steps in the middle of a move."""
+    """Return the first and the last edge of four full steps in the middle of a move."""
     inside = [step for step in steps if chapter["begin"] <= step.t < chapter["end"]]
     low = min(inside[0].place, inside[-1].place)
     middle = [step for step in inside if abs(step.place - low - WAY / 2) <= 2.001]

@@ -22,7 +22,7 @@ TITLES = {
 
 
 def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
-    """Return phases, pulses, flags, and the limit switch that the demo presses."""
+    """Return the rows of the picture: phases, pulses, flags, and the limit switch that the demo presses."""
     rows = [Trace(f"S{n}", initial["s"] >> (n - 1) & 1, bit(outputs["s"], n - 1)) for n in range(1, 6)]
     rows += [
         Trace(name, initial[pin], outputs[pin])

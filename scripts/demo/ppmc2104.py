@@ -24,7 +24,7 @@ LINKED = "#1b7f79"
 def axis_traces(
     axis: int, outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]
 ) -> list[Trace]:
-    """Return phases, pulses, HOLD and the switch of one axis, named as in the data sheet."""
+    """Return the rows of one axis (phases, pulses, HOLD, its switch) with the names of the data sheet."""
     phases, colour = f"s{axis}_n", COLOURS[axis]
     rows = [
         Trace(f"S{n}{axis}*", initial[phases] >> (n - 1) & 1, bit(outputs[phases], n - 1), colour)
@@ -149,7 +149,7 @@ _PER_AXIS = (
 
 
 def _name(port: str, axis: int) -> str:
-    """Return the name of one axis's pin: pout_n becomes pout1_n, run becomes run1."""
+    """Return the pin name with the axis number: pout_n becomes pout1_n, run becomes run1."""
     return f"{port.removesuffix('_n')}{axis}{'_n' if port.endswith('_n') else ''}"
 
 

@@ -59,7 +59,7 @@ def micros(clk: int, clk_hz: int) -> str:
 
 
 def spans(edges: Sequence[int], clk_hz: int) -> list[tuple[int, int, str]]:
-    """Return dimension lines from edge to edge."""
+    """Return a dimension line between each two consecutive edges."""
     return [(a, b, micros(b - a, clk_hz)) for a, b in zip(edges, edges[1:], strict=False)]
 
 

@@ -22,7 +22,7 @@ SWITCHES = (("L3*", "l3_n"), ("L1*", "l1_n"), ("CNP*", "cnp_n"))
 
 
 def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
-    """Return driver outputs, flags, and the switches that the demo presses."""
+    """Return the rows of the picture: driver outputs, flags, and the switches that the demo presses."""
     rows = [
         Trace(f"DRV{n}", initial["drv"] >> (n - 1) & 1, bit(outputs["drv"], n - 1), COLOURS[f"S{n}"])
         for n in range(1, 5)

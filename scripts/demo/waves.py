@@ -51,7 +51,7 @@ def single_pins(
 
 
 def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
-    """Return the scope of each motor -> edges of its pulses or steps at the RTL."""
+    """Return scope of each motor -> edges of its pulses or steps as recorded at the RTL."""
     pins = single_pins(comparison.initial, comparison.actual, view.split)
     whole = comparison.actual
     return {
@@ -105,7 +105,7 @@ def full_names(part: str, view: View) -> Mapping[str, str]:
 
 
 def gtkwave(vcd: Path, target: Path, part: str, view: View, end_ps: int, marks: Sequence[int]) -> None:
-    """Write a GTKWave save file: the whole run, the speed as an analog curve, marks in ps as A, B and on."""
+    """Write a GTKWave save file: the whole run, speed as an analog curve, marks A, B, … at times in ps."""
     # The zoom is minus log2 of the time between two grid lines; the window shows about five grid lines.
     zoom = math.log2(end_ps / 5)
     names = full_names(part, view)

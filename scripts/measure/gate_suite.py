@@ -1,6 +1,6 @@
 """Tests that run on netlists: the unchanged part tests, on every family of the part.
 
-Most tests run in every configuration. Exceptions of each part, with reasons: cocotb_tests/<part>/gates.py.
+Most tests run in every configuration. cocotb_tests/<part>/gates.py lists the exceptions, with reasons.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from openppmc import parts
 from scripts.fpga.flow import gates, plain
 
 QUICK = "quick"
-# The quick subset: the tests listed by each part, in one build on all its families, and the board on this
-# family.
+# The quick subset: the tests that each part lists, in one build on all its families; and the board top on
+# this family.
 QUICK_BOARD = "ice40"
 
 TOO_BIG = "the part does not fit in this family"

@@ -32,7 +32,7 @@ from scripts.measure.gate_suite import GateTest, chosen, everything, left_out
 
 # Up to this number of tests, a failing test runs again with waves, which needs another build.
 WAVES_UP_TO = 20
-# Wall-clock limit of a simulation in s; a netlist takes five times as long as the RTL.
+# Wall-clock limit of a simulation in s; a netlist runs at a fifth of the speed of the RTL.
 LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 
@@ -97,7 +97,7 @@ def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], worke
     """Build each row's netlist; if a build fails, all its tests fail."""
     first = {" ".join(test.group): test for test in reversed(tests)}
     jobs = [Job(name, test) for name, test in first.items()]
-    # Always fresh: builds are on disk, and an earlier result does not show that they still exist.
+    # Builds are never reused: they are on disk, and a stored result does not show that they still exist.
     for done in run(
         Campaign(_named("gates-build"), build_one, jobs, len(jobs), "building netlists"), workers, True
     ):

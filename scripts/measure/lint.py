@@ -43,7 +43,7 @@ BANKS = (
     (32, 100_000_000, 16_000_000),
     (64, 200_000_000, 16_000_000),
 )
-"""Checked sets of AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
+"""Checked combinations of AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
@@ -61,7 +61,7 @@ class Check:
 
 
 def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
-    """Run a tool from the project's root; return its output, with `ok_output` only if the tool failed."""
+    """Run a tool from the project's root; return its output. With `ok_output`, a success returns ""."""
     try:
         done = subprocess.run(
             command,
@@ -268,7 +268,7 @@ def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
             params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
             label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
             if "PHASE_IDLE" in known:
-                # Covers both levels with both timings without doubling the number of runs.
+                # These sets cover both levels with both timings without doubling the number of runs.
                 params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
                 label += f" PHASE_IDLE={params['PHASE_IDLE']}"
             yield label, params

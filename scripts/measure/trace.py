@@ -68,7 +68,7 @@ class Trace:
 
 
 def _part(record: Record) -> str:
-    """Return the part whose manual a record refers to, if its rules do not name it."""
+    """Return the part whose manual a record refers to, if the rules of the record do not name it."""
     row = PARTS.get(record["part"])
     return row.folder if row else str(record["part"])
 

@@ -22,7 +22,7 @@ SESSION_AXES = 32
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # 5 to 25 kpps within 100 pulses
 BITS = ((0x80, "ERR"), (4, "BUSY"), (2, "IBF"), (1, "OBF"))
 Lines = list[tuple[str, int]]
-"""Explanation, and the number of accesses up to it."""
+"""Explanations, each with the number of accesses up to its end."""
 
 
 def meaning(one: Access) -> str:
@@ -48,7 +48,7 @@ def flags(byte: int) -> str:
 
 
 def rows(accesses: list[Access], notes: Lines) -> list[list[str]]:
-    """Return one row for each access; equal polls are combined."""
+    """Return one row for each access; consecutive equal polls are one row."""
     found, at = list[list[str]](), 0
     for note, end in notes:
         first = True
@@ -223,7 +223,7 @@ def sampled(host: Session, columns: Iterable[int | None], more: Callable[[int], 
 
 
 def changes_of(pin: tuple[list[tuple[int, int]], int], edge: int) -> tuple[list[tuple[int, int]], int, int]:
-    """Return the arguments of level_at."""
+    """Return the arguments for level_at."""
     changes, initial = pin
     return changes, edge, initial
 
@@ -239,7 +239,7 @@ def turn(edge: int) -> int:
 
 
 def visits() -> dict[str, Any]:
-    """Return the diagram of two pulses of two axes, each ordered at a visit for its cycle."""
+    """Return the diagram of two pulses of two axes; a visit of each axis schedules its pulse."""
     host = ready()
     for axis in (ONE, OTHER):
         host.send(axis, 0x45, 9 + axis)

@@ -29,7 +29,7 @@ BUILDS = {"F16": F16, "F50": F50, "D16": D16}
 
 
 def _block(text: str) -> Sequence[str]:
-    """Return blocks for a set-up: those of a name in `blocks`, or a text of bytes."""
+    """Return blocks for a set-up: the blocks with a name in `blocks`, or one block as a text of bytes."""
     found = getattr(blocks, text, text)
     return (found,) if isinstance(found, str) else found
 
@@ -38,7 +38,7 @@ def _block(text: str) -> Sequence[str]:
 
 
 def _table(build_or_curve: Mapping[str, Any]) -> Table:
-    """Return the table of an entry: `curve`, or `build` with `sigmoid` and `separate`; lists of arguments."""
+    """Return a table from an entry: its key `curve` or `build` has the arguments of that function."""
     if "curve" in build_or_curve:
         return curve(*build_or_curve["curve"])
     rest = {name: value for name, value in build_or_curve.items() if name != "build"}
@@ -207,7 +207,9 @@ def times(modes: Mapping[str, str], rows: Sequence[Sequence[str]]) -> str:
     """Return a table of events with their times in builds (`modes`: build -> head of its column).
 
     Args:
-        rows: text, end of the time, then the block and the blocks before it.
+        rows: name of the event, event that ends the time (a key of MEASURES), the measured block, then the
+            blocks
+            that are sent before it.
     """
     found = []
     for text, end, *blocks_ in rows:
@@ -231,7 +233,7 @@ def flags(chip: Any) -> Levels:
 
 @dataclass(frozen=True)
 class BlockStart(Start):
-    """The model at the beginning of a diagram; further actions: block (its header ends at the edge)."""
+    """The model at the beginning of a diagram; it adds the action block, whose header ends at the edge."""
 
     def action(self, edge: int, what: str, *values: Any) -> Schedule:
         """Return the pin changes of an action, with names of registers."""
@@ -268,10 +270,11 @@ async def _ready(setting: str, build: str, then: Sequence[Sequence[Any]]) -> Hos
 def ready(
     setting: str = "", build: str = "F16", then: Sequence[Sequence[Any]] = (), ahead: int = 0
 ) -> BlockStart:
-    """Return the model after a set-up and the calls `then` of methods of Host, with interrupts for answers.
+    """Return the model after a set-up; irq_n reports answers.
 
     Args:
-        ahead: cycles to the base.
+        then: methods of Host with their arguments, called after the set-up.
+        ahead: cycles from the end of the calls to the base.
     """
     host = on_model(_ready(setting, build, then))
     return _start(host, host.t + ahead)

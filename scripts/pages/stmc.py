@@ -103,7 +103,7 @@ class Bench:
         return chip.now
 
     def steps(self) -> list[int]:
-        """Return the edges of the steps since `mark`, without a chopper."""
+        """Return the edges of the steps since `mark`; the chopper must be off."""
         return [t for t, _ in self.chip.log.of("s", self.mark)]
 
     def in_gap(self, gap: int) -> None:
@@ -112,7 +112,7 @@ class Bench:
         self.t = self.chip.now + 300
 
     def start(self, command: str) -> int:
-        """Send a motion command; its steps count from here. Return value as for `send`."""
+        """Send a motion command, from which steps are counted; return the same edge as `send`."""
         self.mark = self.t
         return self.send(command)
 
@@ -284,7 +284,7 @@ def times(inits: Sequence[Sequence[Any]], motions: Sequence[Sequence[Any]]) -> s
 
 
 def ready(code: int = 0x0A, then: Sequence[Sequence[Any]] = (), **parameters: object) -> Start:
-    """Return the model after its initialisation and the calls `then` of methods of Bench."""
+    """Return the model after its initialisation and the calls `then` of Bench methods."""
     bench = _ready(code, **parameters)
     for step in then:
         act(bench, step)

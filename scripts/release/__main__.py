@@ -23,7 +23,7 @@ SLOW = ("bitstreams", "site")
 
 
 Job = Callable[[Release, Path, Path], None]
-"""Function that writes its files to the first folder; the second one is its work folder."""
+"""A function that writes its files to the first folder and uses the second folder for its work."""
 
 
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:

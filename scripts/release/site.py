@@ -27,7 +27,7 @@ def dated(pdf: bytes, epoch: int) -> bytes:
 
 
 def check() -> None:
-    """Raise ProjectError if a tool of the site, other than Python, is missing; called before all steps."""
+    """Raise ProjectError if a tool of the site, except Python, is missing. Called before all steps."""
     if shutil.which("npm") is None:
         raise ProjectError(
             "npm is not installed; install Node.js (Debian: apt-get install npm), or use SKIP=site"

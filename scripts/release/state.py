@@ -54,7 +54,7 @@ def git(*words: str) -> str:
 def section(changelog: str, version: str, trial: bool = False) -> str:
     """Return the text below the newest heading of a changelog.
 
-    The call raises ProjectError unless it is of this version.
+    The call raises ProjectError unless the heading is that of this version.
 
     [Unreleased] may be above it, without text. In a trial, its text is returned if there is any.
     """

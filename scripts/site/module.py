@@ -17,9 +17,9 @@ from scripts.site.webparts import WebPart
 
 ROW = struct.Struct("<dII")
 INPUT = 1 << 16
-"""A row with the change of an input word has this value plus the number of the word."""
+"""Row number INPUT + n is a change of input word n; lower numbers are those of output words."""
 QUEUE = 1 << 16
-"""Number of future changes that a module can store."""
+"""Number of future changes that the queue of a module can store."""
 Call = Callable[..., Any]
 _KINDS = {
     "power_up": (None, []),

@@ -1,6 +1,7 @@
-"""`make demo PART=bank`: 32 axes with 32 ramps, started by one GO, RTL against golden model and prediction.
+"""`make demo PART=bank`: start 32 axes with 32 different ramps by one GO, and check every edge.
 
-The host's bytes are played on the golden model first; the same pin changes go into the Verilated RTL.
+The host runs on the golden model first. The Verilated RTL then receives the same pin changes. Its edges are
+compared with those of the golden model, and its pulses with a prediction.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ class Played:
 
     @property
     def first(self) -> int:
-        """The edge of all first pulses (BANK-GRP-02)."""
+        """Edge on which all axes output their first pulse (BANK-GRP-02)."""
         model = self.session.model
         return self.go + 4 + model.round + model.timebase.w
 
@@ -102,7 +103,7 @@ def simulate(program: Path, played: Played) -> Comparison:
 
 
 def trains(comparison: Comparison) -> list[list[int]]:
-    """Return the edges of the pulses of each axis at the RTL."""
+    """Return the pulse edges of each axis of the RTL."""
     changes = comparison.actual["pout_n"]
     return [
         [t for t, level in bit_changes(changes, axis, comparison.initial["pout_n"]) if not level]
@@ -150,7 +151,7 @@ def show(pulses: list[list[int]], played: Played, faults: dict[int, str]) -> Non
 
 
 def main() -> int:
-    """Run the demo; return 0 if every edge equals the golden model's and every profile its prediction."""
+    """Run the demo; return 0 if all edges equal the golden model's and all profiles equal the prediction."""
     steps, begin = Steps(), time.monotonic()
     picture, vcd = FOLDER / "profile.png", FOLDER / f"{NAME}.vcd"
     try:

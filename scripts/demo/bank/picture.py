@@ -38,7 +38,7 @@ def profile(times: Sequence[float]) -> tuple[list[float], list[float]]:
 
 
 def panel(axes: Axes, one: Order, pulses: Sequence[int], first: int) -> None:
-    """Draw the speed of an axis at the RTL, and the predicted speed as a line."""
+    """Draw the measured speed of an axis of the RTL as steps, and the predicted speed as a line."""
     axes.set_xlim(-1, 42)
     axes.set_ylim(0, 33)
     bare(axes)
@@ -144,7 +144,7 @@ def draw(comparison: Any, pulses: Sequence[Sequence[int]], first: int, path: Pat
     Raises IndexError if an axis has no pulses.
 
     Args:
-        first: edge of all first pulses.
+        first: edge on which all axes output their first pulse.
     """
     plt.rcParams["font.family"] = "DejaVu Sans"
     figure = plt.figure(figsize=(16, 15), dpi=110, facecolor="white")

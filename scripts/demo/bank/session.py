@@ -1,4 +1,4 @@
-"""A host at the window of a bank, run on the golden model; every pin change is recorded for the RTL."""
+"""Host of a bank's register window; it runs on the golden model and records all pin changes for the RTL."""
 
 from __future__ import annotations
 
@@ -116,6 +116,6 @@ class Session:
             self.t += 1000
 
     def run(self, edge: int) -> None:
-        """Run to an edge without an access."""
+        """Run up to an edge without making an access."""
         self.model.run_until(edge)
         self.t = max(self.t, edge + 1)

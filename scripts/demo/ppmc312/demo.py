@@ -24,12 +24,12 @@ Chapters = Mapping[str, Mapping[str, Any]]
 
 
 def within(edges: Sequence[int], chapter: Mapping[str, Any]) -> list[int]:
-    """Return the edges of one chapter."""
+    """Return the edges that are within a chapter."""
     return [t for t in edges if chapter["begin"] <= t < chapter["end"]]
 
 
 def kpps(axes: Axes) -> None:
-    """Set up the vertical axis of a speed."""
+    """Label the vertical axis of a speed."""
     axes.set_ylabel("kpps", fontsize=9, color=GREY)
 
 
@@ -41,7 +41,7 @@ def marks(axes: Axes, at: Sequence[tuple[float, str]], top: float) -> None:
 
 
 def ramps(axes: Axes, pulses: Sequence[int], by_key: Chapters, clk_hz: int) -> None:
-    """Draw the same move with three tables, each from its pulse 1 on."""
+    """Draw the same move with three tables, each over the time after its pulse 1."""
     count = end = 0
     for key, colour in RAMPS:
         edges = within(pulses, by_key[key])
@@ -63,7 +63,7 @@ def ramps(axes: Axes, pulses: Sequence[int], by_key: Chapters, clk_hz: int) -> N
 def override(
     axes: Axes, pulses: Sequence[int], chapter: Mapping[str, Any], pressed: int, clk_hz: int
 ) -> None:
-    """Draw the continuous motion that two positions and an event pin change."""
+    """Draw the continuous motion whose speed changes at two positions and with an event pin."""
     edges = within(pulses, chapter)
     moved = Speed("", FORCED, [t - edges[0] for t in edges])
     end = moved.pulses[-1]

@@ -20,7 +20,7 @@ PORT = re.compile(
 
 
 BY_PARAMETER = re.compile(r"(?:(?P<times>\d+)\*)?(?P<name>[A-Z]\w*)-1")
-"""The highest bit of a vector whose width depends on a parameter."""
+"""Form of the highest bit of a vector whose width depends on a parameter."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Carrier:
         }
 
     def side(self, name: str) -> Port:
-        """Return the port that represents such a pin: its input, or its output if it has no input."""
+        """Return the port of a pin that is not always driven: its input, or its output if it has no input."""
         return self.ports.get(f"{name}_i") or self.ports[f"{name}_o"]
 
 

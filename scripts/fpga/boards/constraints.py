@@ -52,7 +52,7 @@ APART = ("cst", "qsf")
 
 
 def preamble(fitted: Fitted) -> list[str]:
-    """Return the lines before the pins: statements of the board, and the device for Quartus."""
+    """Return the lines before the pins: the board's own statements, and the device for Quartus."""
     board, lines = fitted.board, list[str]()
     mark = COMMENT[board.language]
     if board.statements:

@@ -99,7 +99,7 @@ class Carried:
 
 @dataclass(frozen=True)
 class Description:
-    """A whole board.yml; sections that only one writer reads are kept in their original form."""
+    """A whole board.yml; sections that only one generator reads are kept in their original form."""
 
     name: str
     path: Path

@@ -11,7 +11,7 @@ from scripts.fpga.boards.texts import clk, head, title, wrapped
 from scripts.fpga.boards.verilog import declaration, instance, literal, part_select, without_comma
 
 OWN_LEDS = ("lock", "req_n", "lamps")
-"""Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_leds."""
+"""Ports of a carrier that contains reset and LED logic; for other carriers, the top adds ppmc_board_leds."""
 
 
 class Top:
@@ -116,7 +116,7 @@ class Top:
         return instance("ppmc_board_leds", {"ClkHz": "ClkHz"}, "u_leds", {**start, **leds})
 
     def own_connection(self, port: Port) -> tuple[bool, str | None]:
-        """Return whether a port of the carrier is for clock, reset or LEDs, and its connection."""
+        """Return whether a port of the carrier is for clock, reset or LEDs, and what it is connected to."""
         if port.name == "clk":
             return True, None if self.clk == "clk" else self.clk
         if self.own_leds and port.name in OWN_LEDS:
@@ -125,7 +125,7 @@ class Top:
         return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
 
     def connection(self, port: Port) -> str | None:
-        """Return the connection of a port of the carrier; None: the signal with the same name."""
+        """Return what a port of the carrier is connected to; None means the signal with the same name."""
         own, known = self.own_connection(port)
         if own:
             return known
@@ -174,7 +174,7 @@ class Top:
         return instance(self.carrier.name, params, "u_carrier", ports)
 
     def pads(self) -> list[str]:
-        """Return the assignments of bidirectional pins, and of ports of which the carrier has more bits."""
+        """Return the assignments of bidirectional pins, and of ports whose high bits have no pin."""
         lines = []
         for name, drives in self.two_way.items():
             if self.fitted.bits(name):

@@ -57,7 +57,11 @@ class Board:
 
 
 def _board(of: Description, device: Device, same: list[Carried]) -> Board:
-    """Return a part on a board with one of its FPGAs; `same` has one entry, or one for each host."""
+    """Return a part on a board with one of its FPGAs.
+
+    Args:
+        same: entries of this part in the description: one, or one for each host.
+    """
     on = same[0]
     return Board(
         name=device.name,
@@ -81,7 +85,7 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
 
 
 def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]]:
-    """Return part -> name -> board for boards built by the tools of `make setup`; parts as in their table."""
+    """Return part -> name -> board for boards built by the tools of `make setup`, in the order of parts."""
     found: dict[str, dict[str, Board]] = {}
     for part in table.PARTS:
         for of in descriptions:
@@ -93,7 +97,7 @@ def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]
 
 try:
     DESCRIPTIONS = load_all()
-except ProjectError as error:  # one line, for any script
+except ProjectError as error:  # one line, in any script that imports this module
     raise SystemExit(project.fail(str(error))) from None
 BY_PART = by_part(DESCRIPTIONS)
 BOARDS = BY_PART["ppmc104"]

@@ -140,7 +140,7 @@ def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
 
 
 def met(figures: dict) -> bool:
-    """Return whether a run reached the clock rate of the top (which is not below the goal)."""
+    """Return whether a run reached the clock rate of the top, which is never below the goal."""
     return figures["fmax"] >= figures["clk_hz"] / 1e6
 
 

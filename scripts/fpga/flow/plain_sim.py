@@ -17,8 +17,8 @@ from openppmc.check.records import Edge, Recording
 
 RESET_CLK = 8
 WORD = 32  # bits
-# Options of the test harness (assertions enabled), except those that make pins accessible from outside.
-# There is one C++ file, because the precompiled header of split files does not work with every Verilator.
+# Options of the test harness (with assertions), except those that make pins accessible from outside. One C++
+# file, because the precompiled header of split files does not work with every version of Verilator.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
 VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0

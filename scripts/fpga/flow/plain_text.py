@@ -11,7 +11,7 @@ import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-WIDTH = 110  # of a line, and of an expression in which wires are replaced
+WIDTH = 110  # maximum length of a line, and of an expression in which wires are replaced
 _MODULE = re.compile(r"^module (\\\S+|\w+) ?\((.*?)\);\n(.*?)^endmodule$", re.S | re.M)
 _DECLARED = re.compile(
     r"^  (?P<kind>input|output|inout|wire|reg)(?P<range> \[\d+:\d+\])? (?P<name>\w+)(?P<rest>.*);$"
@@ -21,11 +21,11 @@ _NUMBERED = re.compile(r"\b_\d+_\b")
 _ASSIGN = re.compile(r"^  assign (_\d+_) = (.*);$")
 _BIT = re.compile(r"^  assign (_\d+_)\[(\d+)\] = (.*);$")
 _CLEAR = re.compile(r"^    (\w+)\[\d+\] = ([^;]*);$")
-_INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # never negative
+_INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # an index that is never negative
 _ATOM = r"(?:\w+(?:\[[^\]]*\])?|\d+'h[0-9a-f]+)"
 _OPERAND = rf"(?:{_ATOM}|\{{[^{{}}]*\}}|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))"
-# The value of these expressions does not depend on the width of their context: one-bit results of operands
-# with a fixed width, and a conditional whose two sides have its own width.
+# The value of these expressions does not depend on the width of their context: operators with a one-bit
+# result whose operands have a fixed width, and a conditional whose two branches have the width of its result.
 _ANYWHERE = re.compile(
     rf"(?:! |~\| |[|&^] ){_OPERAND}|{_OPERAND} (?:&&|\|\||==|!=|<|<=|>|>=) {_OPERAND}"
     rf"|{_OPERAND} \? {_OPERAND} : {_OPERAND}"
@@ -162,7 +162,7 @@ def _inline(module: Module) -> None:
 
 
 def _wide_not(module: Module) -> None:
-    """Replace `!` by `~|` before more than one bit."""
+    """Replace `!` by `~|` before an operand of more than one bit."""
 
     def nor(match: re.Match[str]) -> str:
         found = module.declared.get(match[1])

@@ -30,7 +30,7 @@ class Device:
     ask_mhz: float
     goal_mhz: float
     pins: int
-    wrapped: bool = False  # too few pins for any part: signals pass through shift registers
+    wrapped: bool = False  # True: too few pins for a part, so its signals pass through shift registers
 
 
 DEVICES = (

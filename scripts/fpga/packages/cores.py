@@ -16,7 +16,7 @@ WAIVERS = ROOT / "rtl" / "common" / "waivers.vlt"
 HEAD = """CAPI=2:
 # Written by `make packages` from rtl/files.yml; change that, not this.
 """
-SMOKE_PART = "ppmc104"  # the part with a sim target
+SMOKE_PART = "ppmc104"  # the part whose core has a sim target
 # Vendor's tool -> options of a FuseSoC target; suffix of a constraint file -> its type in FuseSoC.
 FLOWS = {
     "vivado": "    flow: vivado\n    flow_options:\n      part: {device}\n",

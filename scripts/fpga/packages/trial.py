@@ -56,7 +56,7 @@ def warnings(text: str) -> list[str]:
 
 @dataclass(frozen=True)
 class Verilator:
-    """Verilator of this environment, or another one with the path `program`."""
+    """Verilator of this environment, or another Verilator with the path `program`."""
 
     program: Path | None = None
 

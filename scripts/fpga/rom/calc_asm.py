@@ -63,7 +63,7 @@ class Program:
 
 
 def names_of(package: str) -> Names:
-    """Return {enumeration: {name: code}} of a SystemVerilog package; a missing code is the last one + 1."""
+    """Return {enumeration: {name: code}} of a SystemVerilog package; an omitted code is the last one + 1."""
     found: dict[str, dict[str, int]] = {}
     for body, enum in ENUM.findall(re.sub(r"//[^\n]*", "", package)):
         code = -1

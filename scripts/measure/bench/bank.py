@@ -20,7 +20,7 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
 
 
 def measure() -> tuple[int, int, list[list[float]]]:
-    """Return cycles, output edges, seconds of each run of both sides.
+    """Return cycles, output edges, and the seconds of each run on Verilator and on the golden model.
 
     The call raises ProjectError if the edges differ.
     """

@@ -30,7 +30,7 @@ HEADS = [
     "bytes per edge at the peak",
 ]
 CLK_HZ = 20_000_000
-"""Clock rate of the chip in a capture that is compared."""
+"""Clock rate of the chip in a capture that is compared with the golden model."""
 NS = 10**9 // CLK_HZ
 COMPARED = "compared.vcd"
 FILES = {
@@ -175,8 +175,8 @@ def write_compared(path: Path, edges: int) -> int:
 def decode_alone(path: Path) -> None:
     """Decode a file in this process and print the result as JSON.
 
-    The result has its seconds, those of a plain numpy pass, and the additional memory in bytes. A file for
-    the golden model is also compared.
+    The result contains the seconds of the decoding and of a plain numpy pass, and the additional memory in
+    bytes. A file for the golden model is also compared with it.
     """
     from openppmc.capture.common.compare import compare
     from openppmc.capture.common.decoding import decode, part_decoder
@@ -235,7 +235,7 @@ class Figures(NamedTuple):
 
 
 def measure(folder: Path, name: str, edges: int = EDGES, runs: int = 3) -> Figures:
-    """Decode one of FILES `runs` times; return the fastest run and the largest size."""
+    """Decode one of FILES `runs` times; return the seconds of the fastest run and the largest size."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / name
     if name == COMPARED:

@@ -1,4 +1,4 @@
-"""Sides that run a demo, and their times: RTL under cocotb, RTL alone, golden model.
+"""Run times of a demo on three sides: RTL under cocotb, RTL alone in Verilator, golden model.
 
 The sides run in turns, so that a ratio of one turn is meaningful on a machine with other load.
 """

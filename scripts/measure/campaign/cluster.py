@@ -42,7 +42,7 @@ class Workers:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of each campaign."""
+    """Add the command-line arguments that all campaigns share."""
     parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="worker processes (2)")
     parser.add_argument("--scheduler", default="", metavar="TCP", help="use the workers of tcp://host:port")
     parser.add_argument("--fresh", action="store_true", help="ignore the results of earlier runs")

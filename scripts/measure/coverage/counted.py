@@ -67,7 +67,7 @@ class Copy:
 
 
 def _returns(node: Any) -> bool:
-    """Return whether no code after this statement runs."""
+    """Return True if no code runs after this statement."""
     if kind(node) == "SequentialBlockStatement":
         inside = list(children(node))
         return bool(inside) and _returns(inside[-1])

@@ -48,7 +48,7 @@ def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
 
 
 def find_tests(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
-    """Return the tests that find the mutant: the listed test, else the first that its words select."""
+    """Return the tests that must find the mutant: the listed one, or else the first that its words select."""
     items, every = mutant.items(), mutant.items(wide=True)
     listed = [item for item in every if item.test == mutant.caught]
     return failing(mutant, listed) or failing(mutant, items) or (failing(mutant, every) if wide else {})

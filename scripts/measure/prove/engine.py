@@ -16,7 +16,7 @@ from cocotb_tests.harness.project import ProjectError
 _HIT = re.compile(r"Output\s+(\d+)(?: of miter \S+)? was asserted in frame\s+(\d+)")
 PROVED, FAILED, OPEN = "proved", "failed", "open"
 REACH = 20
-"""An induction begins with a bounded search of this number of cycles more than its length."""
+"""Number of cycles by which the bounded search before an induction exceeds the length of the induction."""
 
 
 def abc() -> Path:
@@ -45,7 +45,7 @@ def ask(folder: Path, what: str, script: str) -> str:
 
 
 def hits(said: str) -> dict[int, int]:
-    """Return number of an output that can be true -> cycles after reset, from ABC's output."""
+    """Parse ABC's output; return number of an output that can be true -> cycles after reset."""
     return {int(output): int(frame) for output, frame in _HIT.findall(said)}
 
 

@@ -79,7 +79,7 @@ def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
             change = f"{key}: {title} {old[name]} -> {new[name]}"
             if old[name]:
                 change += f" ({100 * (new[name] - old[name]) / old[name]:+.1f} %)"
-            # In whole numbers: growth of exactly the limit passes.
+            # Integer arithmetic, so that a growth of exactly the limit passes.
             if 100 * new[name] > (100 + limit) * old[name]:
                 found.wrong.append(f"{change}, more than {limit} % larger")
             elif 100 * new[name] < (100 - limit) * old[name]:

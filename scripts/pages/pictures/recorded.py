@@ -219,7 +219,7 @@ def lane(entry: Mapping[str, Any], samples: Samples, host: bool = False) -> dict
 
 
 def columns_of(text: str) -> list[int | None]:
-    """Return the columns of a text with edges, ranges of edges (first..last), and | for a gap."""
+    """Return the columns of a text that contains edges, ranges of edges (first..last), and | for a gap."""
     found: list[int | None] = []
     for word in text.split():
         first, _, last = word.partition("..")
@@ -260,7 +260,7 @@ def diagram(
     shown = columns_of(columns)
     schedule = [change for action in do for change in start.action(*action)]
     groups = rows if isinstance(rows, dict) else {"": rows}
-    # In place of a gap, the edge before the column after it, to find changes that the gap would hide.
+    # A gap is replaced by the edge before the next column, to find changes that the gap would hide.
     at = [start.base + (shown[n + 1] - 1 if edge is None else edge) for n, edge in enumerate(shown)]
     found = record(start.model, start.inputs, schedule, at, start.flags)
     gaps = [] if hides else [n for n, edge in enumerate(shown) if edge is None]

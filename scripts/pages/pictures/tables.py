@@ -22,7 +22,7 @@ def spaced(value: float, digits: int = 0) -> str:
 
 
 def _cell(rate: int, us: Fraction, column: Entry) -> list[str]:
-    """Return the cells of a rate: its speed with marks for short intervals, and the moves it is legal for."""
+    """Return the cells of a rate: its speed, marked if the interval is short; the moves that permit it."""
     speed = 1_000_000 / us
     text = spaced(float(speed), column.get("digits", 0 if speed >= 10_000 else 1))
     text = next((mark.format(text) for limit, mark in column.get("marks", {}).items() if us < limit), text)
@@ -38,8 +38,9 @@ def speeds(heads: Sequence[str], rates: Sequence[int], columns: Sequence[Entry],
     An interval is rate + `offset` periods of `us` µs, and `extra` µs.
 
     Args:
-        columns: each with `us`, `extra`, `marks` (an interval in µs -> format of the speed at a shorter one),
-            `limits` (name of a kind of move -> smallest rate), `digits`.
+        columns: each with `us`, `extra`, `digits`, `marks` (interval in µs -> format of the speed if the
+            interval
+            is shorter) and `limits` (name of a kind of move -> smallest rate).
     """
     rows = []
     for rate in rates:

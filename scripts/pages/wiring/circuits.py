@@ -43,12 +43,12 @@ class Circuit:
 
 
 def _idle(pad: Pad) -> str:
-    """Return "3.3 V" for the resistor of an output that is inactive when high, else "GND"."""
+    """Return the level to which the resistor pulls an output: "3.3 V" if it is active low, else "GND"."""
     return "3.3 V" if pad.port.endswith("_n") else "GND"
 
 
 FROM_ONE = ("gpi", "gpo")
-"""Ports whose bit 0 has the number 1 on the old chip."""
+"""Ports whose bit 0 has the number 1 in the data sheet of the old chip."""
 
 
 def _old(pad: Pad) -> str:
@@ -90,7 +90,7 @@ class Use:
         return STRONG if self.strong else WEAK
 
     def number(self, of: int | str) -> int:
-        """Return a quantity of circuits.yml: a number, or one for each pin, chip, or pin of a port."""
+        """Return a quantity of circuits.yml: a number, or the count of pins, chips, or pins of a port."""
         pins = sum(pad.port != "d_oe" for pad in self.pads)
         counts = {"pin": pins, "chip": -(-pins // self.circuit.channels)}
         return of if isinstance(of, int) else counts.get(of, sum(pad.port == of for pad in self.pads))

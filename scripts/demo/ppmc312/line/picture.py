@@ -1,4 +1,4 @@
-"""The picture of sixteen axes on one line: positions, transmissions over time, three exchanges bit by bit."""
+"""The picture of sixteen axes on one line: positions, transmissions over time, bits of three exchanges."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def traffic(axes: Axes, talk: Sequence[Exchange], count: int, ms: float) -> None
 
 
 def characters(one: Exchange) -> list[tuple[int, str]]:
-    """Return (edge in the middle of a character, its text) for both frames."""
+    """Return (edge in the middle of a character, its text) for each character of both frames."""
     rows = []
     for begin, frame in ((one.begin, one.question), (one.replied, one.answer)):
         for place, byte in enumerate(frame):

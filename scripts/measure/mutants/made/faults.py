@@ -1,8 +1,8 @@
 """The mutants of an RTL file: small faults at places of slang's syntax tree.
 
-Only code that hardware evaluates is changed: expressions and assignments of always blocks, continuous
-assignments, inputs of instances. Unchanged are parameters, declarations, widths and ranges, generate
-conditions, case labels, functions, assertions and all other code that SYNTHESIS excludes.
+Only code that becomes hardware is changed: expressions and assignments of always blocks, continuous
+assignments, inputs of instances. Parameters, declarations, widths and ranges, generate conditions, case
+labels, functions, assertions and all other code that SYNTHESIS excludes are not changed.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ class Finder:
                 self._walk(child)
 
     def _condition(self, predicate: Any) -> None:
-        """Add an if that is always true, and one that is never true; for a reset only the second."""
+        """Add two faults of an if: an always true condition, and a never true one; for a reset only this."""
         text = self._of(predicate)
         if "rst" not in text:
             self._add(predicate, "1'b1", "always")

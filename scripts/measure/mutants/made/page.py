@@ -32,7 +32,7 @@ SO_FAR = "The mutants ran at different times; for some survivors only the first 
 
 @dataclass(frozen=True)
 class Tried:
-    """A mutant and its verdict.
+    """A mutant and the result of its tests.
 
     Attributes:
         test: the test that killed the mutant.

@@ -1,9 +1,11 @@
-"""Tests for the mutants of a file: groups of tests, each a simulator process, the fastest first.
+"""Tests for the mutants of a file: groups of tests, each in one simulator process, the fastest first.
 
-If results of a coverage campaign are stored (`make coverage`), the groups are those that cover the line of
-the mutant: first those of its block, then groups newer than the campaign, then by their time for each covered
-point of the file. Otherwise, they are the groups of the folder: tests of blocks, then of the parts that
-contain the file, directed tests before random tests.
+If results of a coverage campaign are stored (`make coverage`), the groups that cover the line of the mutant
+run in this order: groups of its block, groups that are newer than the campaign, all others by their time for
+each covered point of the file.
+
+Without such results, the groups of the folder run: tests of blocks before those of the parts that contain the
+file, directed tests before random tests.
 """
 
 from __future__ import annotations
@@ -33,7 +35,7 @@ AT_LAST = ("cocotb_tests/common/test_benches.py", "cocotb_tests/board/")
 
 Group = tuple[str, ...]
 GUIDED, FEW = 6, 2
-"""Number of groups in one pytest: of those that cover the line, and of those that may cover it."""
+"""Number of groups in one pytest run: of those that cover the line, and of those that may cover it."""
 
 
 @cache
@@ -92,7 +94,8 @@ class Suites:
             points = Points.unpack(done.data["points"])
             self._reached.append(_Reach(known[key], done.seconds, _lines(points), _weights(points)))
         self._new = [group for key, group in known.items() if key not in latest]
-        # A sample of coverage is not sufficient, because groups are missing; a few new tests are permitted.
+        # A sample of coverage is not sufficient, because it lacks groups; a few tests newer than it are
+        # permitted.
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
