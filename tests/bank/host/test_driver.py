@@ -235,7 +235,9 @@ def test_stop_all_of_another_program() -> None:
 
 
 def test_ends_of_several_axes_hide_no_other() -> None:
-    """If axes end one by one, the wait for the last one returns without another poll of BUSY after its end."""
+    """If axes end one by one, the wait for the last one returns without another poll of BUSY after
+    its end.
+    """
     with opened() as bank:
         motions = [bank.axis[number].start_constant(200 * number, 2000) for number in (1, 2, 3)]
         begin = bank.link.clock()

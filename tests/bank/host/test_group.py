@@ -106,7 +106,9 @@ def test_go_refused_by_an_axis() -> None:
 
 
 def test_go_finds_nothing_held() -> None:
-    """If the motion of an axis outside MASK is complete before GO, GO is rejected and the error states this."""
+    """If the motion of an axis outside MASK is complete before GO, GO is rejected and the error
+    states this.
+    """
     with opened() as bank:
         with pytest.raises(GroupRefused, match="axis 2: GO found no motion that it holds"):  # noqa: PT012
             with bank.group((2,)):

@@ -38,7 +38,9 @@ def test_byte_replaced(early, status):
 
 
 def test_status_read_with_a_byte_in_the_buffer():
-    """All bits of the status change on the edge of the visit that accepts a byte (BANK-HSK-01, BANK-HSK-04)."""
+    """All bits of the status change on the edge of the visit that accepts a byte (BANK-HSK-01,
+    BANK-HSK-04).
+    """
     host = Host(64)
     host.t = host.model.visit(9, 400) - 12
     host.write(9, STATUS, 0x84)

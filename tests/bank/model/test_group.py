@@ -122,7 +122,9 @@ def test_go_and_the_end_of_a_held_operation():
 
 
 def test_mask_taken_away_from_a_held_operation():
-    """While a GO acts, each visit uses the value that MASK had 5 cycles earlier (BANK-GRP-02, BANK-GRP-03)."""
+    """While a GO acts, each visit uses the value that MASK had 5 cycles earlier (BANK-GRP-02,
+    BANK-GRP-03).
+    """
     host = held(64)
     last = host.visit(2)
     host.write_at(last - 20, 0, GO, 0)
@@ -153,7 +155,9 @@ def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
 
 @pytest.mark.parametrize("gap, acts_at", [(5, 64), (63, 64), (64, 64), (65, 65)])
 def test_second_go_waits(gap, acts_at):
-    """A GO while another GO acts has its effect as if it were written R cycles after that one (BANK-GRP-03)."""
+    """A GO while another GO acts has its effect as if it were written R cycles after that one
+    (BANK-GRP-03).
+    """
     host, go = not_found_by_the_first((gap,))
     host.go(go + 2000)
     assert host.model.pulses(0) == [first_pulse(go + acts_at, host)] and host.status(0) == 0x04
@@ -161,7 +165,9 @@ def test_second_go_waits(gap, acts_at):
 
 @pytest.mark.parametrize("third, status", [(20, 0x04), (63, 0x04), (64, 0x94), (70, 0x94)])
 def test_third_go(third, status):
-    """A third GO has no effect while the second one waits; after that it waits for the second (BANK-GRP-03)."""
+    """A third GO has no effect while the second one waits; after that it waits for the second
+    (BANK-GRP-03).
+    """
     host, go = not_found_by_the_first((5, third))
     host.go(go + 6 + 64)
     assert host.status(0) == 0x04

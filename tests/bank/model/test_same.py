@@ -125,7 +125,9 @@ def test_same_edges(clk_hz, move, axis):
 
 @pytest.mark.parametrize("config", range(4))
 def test_same_ramp(config):
-    """For each csel and vsel, the worked ramp on a bank equals that on a PPMC-104 (BANK-GEN-04, BANK-MOT-01)."""
+    """For each csel and vsel, the worked ramp on a bank equals that on a PPMC-104 (BANK-GEN-04,
+    BANK-MOT-01).
+    """
     move = Move(config, (0x0A, 0x13, 0x09, 0x0A, 0), (0x43, 0x40, 0, 0), None)
     pout_n, _, end = in_bank(move, 100_000_000, 7)
     assert (pout_n, end) == alone(move, 100_000_000)[::2] and len(pout_n) == 2 * 65

@@ -226,7 +226,7 @@ def test_who_was_not_ready(bench: Bench) -> None:
 
 
 def test_groups_that_are_none(bench: Bench) -> None:
-    """A group without axes, with an absent axis or with a moving axis is rejected, and so is a GO after that."""
+    """A group without axes, with an absent axis or with a moving axis is rejected, and so is the next GO."""
     lib = bench.lib
     hold = lib.ppmc_bank_hold
     assert hold(bench.bank, 0) == hold(bench.bank, 1 << AXES) == BAD_ARGUMENT

@@ -65,7 +65,7 @@ def test_interrupts(lines: Lines) -> None:
 
 
 def test_base_clock_of_an_axis(lines: Lines) -> None:
-    """With the slow base clock, intervals of this axis are four times as long; other axes are not affected."""
+    """With the slow base clock, intervals of this axis are four times as long; other axes do not change."""
     assert [line["result"] for line in lines["config"]] == ["0", "0"]
     assert pulses(lines, "slow") == (4, 0, [1280] * 3)
 
