@@ -1,4 +1,4 @@
-"""Pages of the manual with sessions that tests play."""
+"""Reader of the pages with sessions that tests play."""
 
 from __future__ import annotations
 

@@ -148,7 +148,7 @@ def test_open_inputs_are_pulled_up(top: str, file: str, clock_file: str, clock: 
         "btn",
         "btn_f1",
         "key_n",
-    }  # buttons have pull-downs; key_n has a resistor and a Schmitt trigger on the board
+    }  # key_n: resistor and Schmitt trigger; others: pull-down
     for name, port in ports(top).items():
         if name in buttons | {clock}:
             continue
