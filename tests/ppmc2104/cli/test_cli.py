@@ -214,9 +214,8 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
         assert text.endswith(f", axis 1: position {after[0]}, axis 2: position {after[1]}")
         low, high = (0, 500) if again else (1900, 2300)
         assert all(low <= b - a <= high for a, b in zip(before, after, strict=True))
-        assert (
-            again or abs(after[0] - after[1]) < 5
-        )  # both immediate stops are sent directly after each other
+        # Both immediate stops are sent one directly after the other.
+        assert again or abs(after[0] - after[1]) < 5
         assert not any(part.status().busy)
 
 
