@@ -60,7 +60,7 @@ class Demo:
     config: Config = F16
 
     def draw(self, comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
-        """Draw the picture of a run."""
+        """Draw the picture of a recorded run to a file."""
         if self.own is not None:
             self.own(comparison, chapters, path)
         elif self.picture is not None:

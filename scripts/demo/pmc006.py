@@ -1,4 +1,4 @@
-"""`make demo PART=pmc006`: test, display of the bus, waveforms and picture."""
+"""`make demo PART=pmc006`: the demo's test, the text of bus accesses, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def way(steps: Sequence[int], forward: Changes, chapters: By, hz: int) -> list[S
 
 
 def overview(axes: Axes, steps: Sequence[Step], comparison: Any, by_key: By, ms: float) -> None:
-    """Draw position and speed of the whole demo, the switch and the output."""
+    """Draw position and speed for the whole demo, with the levels of the switch and the output."""
     speed = axes.twinx()
     xs = [step.t / ms for step in steps]
     speed.plot(xs, [step.speed for step in steps], color=PALE, linewidth=1.1, zorder=1)
@@ -152,7 +152,7 @@ def cycle(steps: Sequence[Step], chapter: Mapping[str, Any]) -> tuple[int, int]:
 
 
 def chopper(axes: Axes, motor: Motor, comparison: Any, begin: int) -> None:
-    """Draw the current with its reference, and the half bridges of phase A."""
+    """Draw the current of phase A, its reference, and the half bridges."""
     us, end = motor.hz / 1e6, begin + motor.hz // 1800
     rows = motor.curve("a", begin, end, 3000)
     xs = [(t - begin) / us for t, *_ in rows]
@@ -185,7 +185,7 @@ def chopper(axes: Axes, motor: Motor, comparison: Any, begin: int) -> None:
 
 
 def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
-    """Draw the picture of a comparison's recording into a PNG."""
+    """Draw the picture of the compared recording into a PNG."""
     hz = int(comparison.recording.params["CLK_HZ"])
     by_key: By = {chapter["key"]: chapter for chapter in chapters}
     motor = Motor(comparison, by_key["load"]["begin"])
@@ -202,7 +202,7 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
     currents(
         middle, motor, first["begin"], first["end"], f"Phase currents: {first['title']}", references=False
     )
-    # The legend is in the line of the heading, because the curves fill their axes.
+    # The legend is next to the title, because the curves fill their axes.
     middle.legend(
         loc="lower right",
         bbox_to_anchor=(1, 0.98),

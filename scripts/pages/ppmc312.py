@@ -208,8 +208,7 @@ def times(modes: Mapping[str, str], rows: Sequence[Sequence[str]]) -> str:
 
     Args:
         rows: name of the event, event that ends the time (a key of MEASURES), the measured block, then the
-            blocks
-            that are sent before it.
+            blocks that are sent before it.
     """
     found = []
     for text, end, *blocks_ in rows:

@@ -66,7 +66,7 @@ class Played:
 
 
 def play() -> Played:
-    """Run the host: initialise every axis, load every axis, send GO, read the results of all axes."""
+    """Run the host: initialise all axes, load all axes, send GO, read the results of all axes."""
     host = Session(AXES, CLK_HZ)
     for one in ORDERS:
         host.send(one.axis, INIT, *one.ramp)
@@ -93,7 +93,7 @@ def build() -> Path:
 
 
 def simulate(program: Path, played: Played) -> Comparison:
-    """Apply the same pin changes to the RTL and compare all output edges with those of the golden model."""
+    """Apply the host's pin changes to the RTL; compare all output edges with those of the golden model."""
     model = played.session.model
     recording = Recording(NAME, {"AXES": AXES, "CLK_HZ": CLK_HZ}, end=model.now, stimulus=model.stimulus)
     recording.edges = plain_sim.play(program, recording, TABLE)
@@ -112,7 +112,7 @@ def trains(comparison: Comparison) -> list[list[int]]:
 
 
 def wrong(one: Order, pulses: list[int], played: Played) -> str:
-    """Return the first deviation of an axis from the prediction; "" if there is no deviation."""
+    """Return the first deviation of an axis from the prediction, or ""."""
     status, position = played.ends[one.axis]
     if len(pulses) != one.pulses:
         return f"{len(pulses)} pulses, not {one.pulses}"

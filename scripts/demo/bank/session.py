@@ -10,7 +10,7 @@ from openppmc.model.bank.window import DATA, MASK, POSITION, STATUS
 from openppmc.model.single.codes import BUSY, IBF
 
 WRITE, READ, GAP = 2, 6, 3
-"""Length of the strobes and of the gaps between them, in cycles (BANK-WIN-04)."""
+"""Length of a strobe, and of the gap after it, in cycles (BANK-WIN-04)."""
 READ_FINISH = 0x80
 
 
@@ -29,12 +29,12 @@ class Access(NamedTuple):
 
 
 class Recorder(PpmcBank):
-    """The golden model with a record of its input pin changes."""
+    """Golden model that records the changes of its input pins."""
 
     stimulus: list[Change]
 
     def pins(self, t: int, **levels: int) -> None:
-        """Record the levels, then set them as in the base class."""
+        """Record the levels, then set them like the base class."""
         super().pins(t, **levels)
         self.__dict__.setdefault("stimulus", []).extend(
             Change(t, pin, level) for pin, level in levels.items()
@@ -82,7 +82,7 @@ class Session:
         return byte
 
     def poll(self, axis: int, bits: int = IBF) -> int:
-        """Read the status until these bits are 0; return the status."""
+        """Read the status until the bits of `mask` are 0; return the status."""
         while (status := self.read(axis, STATUS)) & bits:
             pass
         return status

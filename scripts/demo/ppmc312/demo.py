@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc312`: test, display of the bus, waveforms and picture."""
+"""`make demo PART=ppmc312`: the demo's test, the text of bus accesses, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def override(
 def zero_return(
     axes: Axes, pulses: Sequence[int], chapter: Mapping[str, Any], changes: Levels, begin: int, clk_hz: int
 ) -> None:
-    """Draw the signed speed over the position, and the range in which the switch is closed."""
+    """Draw the signed speed over the position, and the range of positions in which the switch is closed."""
     turned = next(t for t, level in changes["dir"] if level == 0 and t > chapter["begin"])
     position, where, speed = begin, [], []
     for first, second in pairwise(within(pulses, chapter)):
@@ -114,7 +114,7 @@ def zero_return(
 def traces(
     outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any], names: Sequence[str]
 ) -> list[Trace]:
-    """Return the pins of a close-up."""
+    """Return the rows of a close-up, one for each pin."""
     shown = {"pout": "POUT", "dir": "DIR", "irq_n": "IRQ*", "evt0_n": "EVT0*", "org_n": "ORG*", "we_n": "WE*"}
     return [
         Trace(
@@ -128,7 +128,7 @@ def traces(
 
 
 def start(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk_hz: int) -> Section:
-    """Return the close-up from the instruction to the first pulses of the move to the left."""
+    """Return the close-up of the move to the left, from the instruction to the first pulses."""
     us = clk_hz // 1_000_000
     first = within(pulses, chapter)[:3]
     turned = next(t for t in rises(list(outputs["dir"])) if chapter["begin"] < t)
@@ -172,7 +172,7 @@ def turn(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk
 
 
 def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
-    """Draw the picture of a comparison's recording into a PNG."""
+    """Draw the picture of the compared recording into a PNG."""
     recording, outputs, initial = comparison.recording, comparison.actual, comparison.initial
     clk_hz = int(recording.params["CLK_HZ"])
     by_key = {chapter["key"]: chapter for chapter in chapters}

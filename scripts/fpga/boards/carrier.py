@@ -1,4 +1,4 @@
-"""Ports and parameters of <part>_carrier, read from its module header, the only place that defines them."""
+"""Ports and parameters of <part>_carrier, read from its module header, which is their only definition."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Port:
         return len(self.bits) if self.bits else 1
 
     def bit_names(self) -> list[str]:
-        """Return the bits (`s[1]`, …) from the lowest; the port name if it is not a vector."""
+        """Return the names of the bits (`s[1]`, …), lowest first; the port name if it is not a vector."""
         return [f"{self.name}[{bit}]" for bit in self.bits] if self.bits else [self.name]
 
 

@@ -15,7 +15,7 @@ OWN_LEDS = ("lock", "req_n", "lamps")
 
 
 class Top:
-    """The text of one top; its methods are in the order of the sections of the file."""
+    """Writer of one top; its methods are in the order of the file's sections."""
 
     def __init__(self, fitted: Fitted) -> None:
         self.fitted = fitted
@@ -101,7 +101,7 @@ class Top:
         return instance(self.pll, params, "u_clock", {f"{port}_i": port, "clk_o": "clk", "lock_o": "lock"})
 
     def reset_request(self) -> str:
-        """Return the expression that is 0 while the button or the host requests a reset."""
+        """Return an expression that is 0 while the button or the host requests a reset."""
         button = f"{'!' if self.board.reset['active'] else ''}{self.board.reset['port']}"
         return f"{button} && {HOST_RESET}" if self.fitted.bits(HOST_RESET) else button
 
@@ -162,7 +162,7 @@ class Top:
         return name
 
     def idle(self, port: Port, width: int) -> str:
-        """Return the constant that an input without a pin reads."""
+        """Return the constant for an input without a pin."""
         level = "0" if port.name in (self.on.low or {}) else "1"
         return f"'{level}" if width == port.width > 1 else f"{width}'b{level * width}"
 
@@ -220,7 +220,7 @@ class Top:
         return "\n".join(lines)
 
     def signals(self) -> list[str]:
-        """Return the declarations of the signals between the blocks, with all single bits on one line."""
+        """Return the declarations of the signals between the blocks; all single bits are on one line."""
         single = [wire for wire in self.wires if "[" not in wire]
         wide = ["[3:0] leds", *(wire for wire in self.wires if "[" in wire)]
         lines = [f"  logic {', '.join(single)};"] if single else []

@@ -29,7 +29,7 @@ OURS = {"procs": "proc", "renames": "rename"}  # names in place of commands that
 
 
 def run_tcl(script: str) -> None:
-    """Run a file of Tcl commands; a command that Tcl does not know is a yosys command."""
+    """Run a file of Tcl commands; commands that Tcl does not know are yosys commands."""
     import tkinter
 
     import pyosys.libyosys as ys
@@ -71,7 +71,7 @@ def yosys(words: list[str]) -> int:
 
 
 def fail(text: str) -> int:
-    """Print the reason as one line and return exit code 1."""
+    """Print an error as one line and return exit code 1."""
     print(f"error: {text}", file=sys.stderr)
     return 1
 

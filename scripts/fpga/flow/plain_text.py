@@ -34,7 +34,7 @@ _ANYWHERE = re.compile(
 
 @dataclass
 class Module:
-    """One module: its name in yosys, ports in order, declarations (line without `;`), other lines."""
+    """One module: its name in yosys, ports in order, declarations (lines without `;`), other lines."""
 
     name: str
     ports: list[str]
@@ -150,7 +150,7 @@ def _inline(module: Module) -> None:
             if re.match(r"^ *(?:assign )?[^=]*\b" + name + r"\b[^=]*<?= ", target) and not re.match(
                 r"^ *(?:if|else|else if) ", target
             ):
-                continue  # the name is on the left
+                continue  # the wire is on the left side
             whole = re.search(rf"(?: = |<= |\(){name}[;)]", target) or re.fullmatch(_ATOM, value)
             module.lines[user] = re.sub(rf"\b{name}\b", lambda _: value if whole else f"({value})", target)  # noqa: B023
             module.lines[number] = ""
@@ -190,7 +190,7 @@ def _pickers(module: Module) -> None:
 
 
 def _one_clear(module: Module) -> None:
-    """Replace equal lines that set every word of a memory by a loop."""
+    """Replace lines that set every word of a memory to the same value by a loop."""
     lines, at = [], 0
     while at < len(module.lines):
         match = _CLEAR.match(module.lines[at])

@@ -1,4 +1,4 @@
-"""Bender.yml and file lists: of each part for Verilator; of plain Verilog for Vivado, Quartus, Gowin EDA."""
+"""Bender.yml and file lists: each part for Verilator, plain Verilog for vendors' tools."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def part_files(part: Row) -> list[Path]:
 
 
 def bender() -> str:
-    """Return Bender.yml with one source group for each group of rtl/files.yml; carriers have a target."""
+    """Return Bender.yml with a source group for each group of rtl/files.yml; carriers have their own target."""
     text = f"# {FROM}\npackage:\n  name: openppmc\n  authors: [OpenPPMC]\n\n"
     text += "export_include_dirs: [rtl/common]\n\nsources:\n"
     carriers = carrier_groups()
@@ -54,7 +54,7 @@ WRITE = "make verilog TOP=<top> PARAMS=CLK_HZ=<Hz of your clk>"
 
 
 def plain_tcl(use: str, add: str) -> str:
-    """Return Tcl that adds the plain Verilog of one top, or stops with one line if it does not exist yet."""
+    """Return Tcl that adds the plain Verilog of one top; without this file, it stops with one line."""
     return (
         f"# {FROM}\n# {NOT_RUN}\n"
         "# Plain Verilog-2005 of one part, bridge or board, written earlier by\n"

@@ -52,7 +52,7 @@ class Word:
 
 @dataclass
 class Program:
-    """Words from address 0 on; labels with their addresses."""
+    """Program: words from address 0 on, and labels with their addresses."""
 
     words: list[Word] = field(default_factory=list)
     labels: dict[str, int] = field(default_factory=dict)
@@ -228,14 +228,14 @@ class Coder:
 
 
 def one(what: str, words: list[str]) -> str:
-    """Return the only word; raise ValueError for another number of words."""
+    """Return the word of a list with one word; raise ValueError for another number of words."""
     if len(words) != 1:
         raise ValueError(f"{what} expects one word, not {len(words)}")
     return words[0]
 
 
 def none(what: str, words: list[str]) -> str:
-    """Return an empty text; raise ValueError if there are words."""
+    """Check that there is no operand; raise ValueError if there are words, else return ""."""
     if words:
         raise ValueError(f"{what} expects no word, not {' '.join(words)}")
     return ""

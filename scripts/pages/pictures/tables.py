@@ -38,9 +38,8 @@ def speeds(heads: Sequence[str], rates: Sequence[int], columns: Sequence[Entry],
     An interval is rate + `offset` periods of `us` µs, and `extra` µs.
 
     Args:
-        columns: each with `us`, `extra`, `digits`, `marks` (interval in µs -> format of the speed if the
-            interval
-            is shorter) and `limits` (name of a kind of move -> smallest rate).
+        columns: each with `us`, `extra`, `digits`, `marks` (interval in µs -> format of the speed of shorter
+            intervals) and `limits` (name of a kind of move -> smallest rate).
     """
     rows = []
     for rate in rates:

@@ -22,8 +22,7 @@ def written(clk_hz: int, phase: Fraction) -> int:
 
     Args:
         phase: time in ns from a clock edge to the change of the data. This change is sampled one cycle late,
-            as
-            by a synchroniser.
+            as by a synchroniser.
     """
     period = Fraction(10**9, clk_hz)
     model = Ppmc312(clk_hz)

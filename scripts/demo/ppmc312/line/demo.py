@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc312-serial`: sixteen axes on one line, every station compared with its golden model."""
+"""`make demo PART=ppmc312-serial`: sixteen axes on one line, each station compared with its golden model."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def show_axes(run: LineRun, comparisons: list[Comparison]) -> None:
 
 
 def main() -> int:
-    """Run the demo; return 0 if RTL and golden models agree in every edge."""
+    """Run the demo; return 0 if every edge of the RTL equals that of the golden models."""
     steps = Steps()
     begin = time.monotonic()
     try:
