@@ -40,7 +40,7 @@ def families(of: PartTests) -> list[str]:
 
 @dataclass(frozen=True)
 class GateTest:
-    """One simulation of one netlist. `item` is tagged with the family; `group` is its row in the table.
+    """One simulation of a netlist. `item` has the tag of the family; `group` is its row in the table.
 
     Attributes:
         params: parameters of the part's top.
@@ -60,7 +60,7 @@ class GateTest:
         return board.TOP if self.item.module == board.MODULE else project.part(self.item.part).top
 
     def design(self) -> Design:
-        """Return the simulated design; synthesise the netlist if it is missing."""
+        """Return the design to be simulated; its netlist is synthesised if it is missing."""
         config = self.item.config
         if self.top == board.TOP:
             folder = gates.netlist(self.family, board.TOP, board.sources(), board.params(config))
@@ -69,7 +69,7 @@ class GateTest:
 
     @property
     def group(self) -> tuple[str, str]:
-        """Family, and top with its configuration."""
+        """Family, and name of the top with its configuration."""
         return self.family, f"{self.top} {self.item.config.name}"
 
 
@@ -127,7 +127,7 @@ def _board(family: str) -> list[GateTest]:
 
 
 def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> list[GateTest]:
-    """Return all tests of these families, grouped by netlist; `seed` selects another random host."""
+    """Return all tests of these families, grouped by netlist; `seed` selects other random hosts."""
     tests = []
     every = suites()
     for family in of:

@@ -30,7 +30,7 @@ from scripts.measure.campaign.jobs import Campaign, Done, Job, Result
 from scripts.measure.campaign.run import run
 from scripts.measure.gate_suite import GateTest, chosen, everything, left_out
 
-# Up to this number of tests, a failing test runs again with waves, which needs another build.
+# If there are no more tests than this, a failing test runs again with waves, which needs another build.
 WAVES_UP_TO = 20
 # Wall-clock limit of a simulation in s; a netlist runs at a fifth of the speed of the RTL.
 LIMIT = {"OPENPPMC_WALL_S": "1500"}
@@ -38,7 +38,7 @@ LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 @dataclass
 class Row:
-    """One netlist in the table; `old` tests passed in an earlier run on the same sources."""
+    """Row of a netlist in the table; `old` tests have passed in an earlier run on the same sources."""
 
     tests: int = 0
     passed: int = 0
@@ -59,7 +59,7 @@ def _measured(work: Callable[[], str]) -> Result:
 
 
 def build_one(test: GateTest) -> Result:
-    """Build the netlist and the simulator of this test's row."""
+    """Build the netlist and the simulator for the row of this test."""
 
     def work() -> str:
         try:
@@ -89,7 +89,7 @@ def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
 
 
 def _named(campaign: str) -> str:
-    """Return the name of a campaign for the current main program or simulator; results are not shared."""
+    """Return the name of a campaign; each main program and simulator has its own results."""
     return campaign if sim_main() == "own" else f"{campaign}-{sim_main()}"
 
 
@@ -114,7 +114,7 @@ def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], worke
 def run_all(
     tests: Sequence[GateTest], seed: int | None, workers: Workers, fresh: bool = False
 ) -> dict[tuple[str, str], Row]:
-    """Build, then run; print failures immediately."""
+    """Build the netlists, then run the tests; print failures immediately."""
     rows: dict[tuple[str, str], Row] = {}
     for test in tests:
         rows.setdefault(test.group, Row()).tests += 1

@@ -71,7 +71,7 @@ def run(*command: str) -> str:
 
 
 def differences(folder: Path) -> str:
-    """Return the words that differ, one on each line.
+    """Return the words that differ between simulation and netlist, one on each line.
 
     Raises ProjectError if a tool fails.
 
@@ -90,7 +90,7 @@ def differences(folder: Path) -> str:
 
 
 def main() -> int:
-    """Write each module as Verilog after elaboration, with the words of its table and the name net_<name>."""
+    """Write each module as Verilog after elaboration, with its table's words and the name net_<name>."""
     import pyosys.libyosys as ys
 
     for top in MEMORIES:

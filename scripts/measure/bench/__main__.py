@@ -29,7 +29,7 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Veril
 
 
 def write_section(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
-    """Print a table and write it, with `text` above it, to docs/benchmarks.md."""
+    """Print a table; write it, with `text` above it, into docs/benchmarks.md."""
     table = Table(title=title, title_justify="left")
     for index, head in enumerate(heads):
         table.add_column(head, justify="right" if index else "left")

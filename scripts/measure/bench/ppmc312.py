@@ -82,7 +82,7 @@ def measure() -> list[tuple[str, int, float, float]]:
 
 
 def rows_of(measured: list[tuple[str, int, float, float]], clk_hz: int) -> list[list[str]]:
-    """Return the rows of the table; the line time relative to the processor time is shown as 1/n."""
+    """Return the rows of the table; the ratio of line time to processor time is printed as 1/n."""
     rows = []
     for text, clk, wall, used in measured:
         ratio = used * clk_hz / clk

@@ -32,7 +32,7 @@ LABELS = {
 
 @dataclass(frozen=True)
 class Times:
-    """Recording of the run, and seconds of each side, one value for each turn."""
+    """Recording of the demo's run, and the seconds of each side, with one value per turn."""
 
     recording: Recording
     seconds: dict[str, list[float]]
@@ -42,13 +42,16 @@ class Times:
         return median(self.seconds[side])
 
     def ratio(self, side: str) -> float:
-        """Return the median ratio of a side's time to that of Verilator alone in the same turn."""
+        """Return the median of the ratio of a side's time to that of Verilator alone in the same turn."""
         pairs = zip(self.seconds[side], self.seconds[PLAIN], strict=True)
         return median(taken / plain for taken, plain in pairs)
 
 
 def turns(demo: Demo, count: int) -> Iterator[Times]:
-    """Run `count` turns; yield all times so far after each. SimError, ProjectError if a run fails."""
+    """Run `count` turns and yield all times so far after each turn.
+
+    Raises SimError or ProjectError if a run fails.
+    """
     designs = {main: replace(part_design(demo.part, demo.config), main=main) for main in MAINS}
     for design in designs.values():
         build(design)

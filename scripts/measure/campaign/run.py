@@ -1,6 +1,6 @@
-"""Run a campaign on Dask: stored results are reused, workers run the other jobs, each result is stored.
+"""Run a campaign on Dask: stored results are reused, workers run the other jobs, and each result is stored.
 
-Another worker repeats the job of a lost worker. Ctrl-C ends the workers and their child processes; the next
+If a worker is lost, another one repeats its job. Ctrl-C ends the workers and their child processes; the next
 run of the same campaign continues after the stored results.
 """
 
@@ -39,7 +39,7 @@ def run(
         left: list[Job] = []
 
         def todo() -> Iterator[Job]:
-            """Yield the jobs without a stored result; append stored results to `olds`."""
+            """Yield the jobs that have no stored result; append the stored results to `olds`."""
             for job in campaign.jobs:
                 stamps[job.key] = job.stamp or now
                 if (old := file.good(campaign.name, job.key, stamps[job.key])) is None:

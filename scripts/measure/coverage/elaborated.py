@@ -23,7 +23,7 @@ CONSTANT = (
     *("ParameterDeclaration", "ParameterDeclarationStatement", "ParameterValueAssignment"),
     *("VariableDimension", "LoopGenerate"),
 )
-"""Kinds of nodes that contain only constants; for a LoopGenerate, its head."""
+"""Kinds of nodes that contain only constants; of a LoopGenerate, only the head does."""
 NAMES = ("IdentifierName", "IdentifierSelectName", "ScopedName")
 
 

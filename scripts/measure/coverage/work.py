@@ -1,4 +1,4 @@
-"""One job of the coverage campaign: a group of tests with counting builds, in a separate pytest."""
+"""One job of the coverage campaign: it runs a group of tests with counting builds in a separate pytest."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from scripts.measure.coverage.collecting import OUT
 from scripts.measure.coverage.counted import copies
 
 WALL_S = {"OPENPPMC_WALL_S": "1200"}
-"""Longer limit, because a counting simulation takes several times as long."""
+"""Time limit of a test; longer, because a counting simulation takes several times as long."""
 
 
 def groups(words: Sequence[str] = ()) -> list[list[str]]:
-    """Return the simulating tests of `make test` whose names contain a word, one list for each process."""
+    """Return the tests of `make test` that simulate and whose names contain a word, one list per process."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
         out = Path(folder) / "groups.json"
         command = [

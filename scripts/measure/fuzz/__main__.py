@@ -25,7 +25,7 @@ from scripts.measure.fuzz.lines import LINES
 from scripts.measure.fuzz.words import stream
 
 BLOCK = 250_000
-"""Characters of a seed."""
+"""Number of characters in the block of a seed."""
 
 
 def play(what: tuple[str, int, int]) -> Result:

@@ -1,6 +1,6 @@
-"""The serial lines: generators of valid frames, and the events of the golden model for received words.
+"""The serial lines: generators of valid frames, and the events of the golden models for received words.
 
-Valid frames are made without the functions of the models, so that a mistake in one of them is detected.
+The functions of the models are not used to make frames, so that mistakes in them are detected.
 """
 
 from __future__ import annotations

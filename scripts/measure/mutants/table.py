@@ -54,7 +54,7 @@ class Mutant:
         return text.replace(self.old, self.new)
 
     def items(self, wide: bool = False) -> list[Item]:
-        """Return the tests of one build that the words select, or with `wide` all tests of the suite."""
+        """Return the tests of the mutant's build that its words select, or with `wide` the whole suite."""
         build = self.build or MAIN_BUILD.get(self.part, "f16")
         words = [""] if wide else self.tests.split(",")
         every = [param.values[0] for param in self._module().ITEMS]

@@ -29,7 +29,7 @@ PEER = "peer "
 
 @dataclass
 class Comparison:
-    """Result of a comparison. Each line of `wrong` fails the check; a line of `smaller` does not."""
+    """Result of a comparison; a line of `wrong` makes the check fail, a line of `smaller` does not."""
 
     wrong: list[str] = field(default_factory=list)
     smaller: list[str] = field(default_factory=list)
@@ -68,7 +68,7 @@ def write(figures: Figures, path: Path = FILE) -> None:
 
 
 def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
-    """Compare counts: growth by more than `limit` per cent is wrong, as is a design without figures."""
+    """Compare counts; growth by more than `limit` per cent is wrong, and so is a design without figures."""
     found = Comparison()
     for key, new in sorted(now.items()):
         old = committed.get(key)

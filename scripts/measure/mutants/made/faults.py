@@ -29,7 +29,7 @@ SWAPS = {
     "<<": ">>",
     ">>": "<<",
 }
-"""Operator -> its replacement."""
+"""its> Operator -> the operator that replaces it."""
 LOGIC = ("&&", "||")
 ASSIGNMENTS = ("AssignmentExpression", "NonblockingAssignmentExpression")
 SKIPPED = (
@@ -84,7 +84,7 @@ class Finder:
         return self.text[start:end]
 
     def _module(self, node: Any) -> None:
-        """Find code that runs: always blocks, assignments, instances."""
+        """Find the code that becomes hardware: always blocks, assignments, instances."""
         name = kind(node)
         if name in ("AlwaysFFBlock", "AlwaysCombBlock", "AlwaysBlock", "ContinuousAssign"):
             if self._of(node).startswith("assign unused"):
@@ -97,7 +97,7 @@ class Finder:
                 self._module(child)
 
     def _walk(self, node: Any) -> None:
-        """Add the faults of a node that runs."""
+        """Add the faults of a node in such code."""
         name = kind(node)
         if name in SKIPPED or "Event" in name:
             return
@@ -155,7 +155,7 @@ class Finder:
 
 
 def faults(text: str) -> list[Fault]:
-    """Return all mutants of a file, in order of their places; code that only silences lint is unchanged."""
+    """Return all mutants of a file, in order of their places, except in code that only silences lint."""
     finder = Finder(text)
     return [
         fault for fault in finder.found if not any(start <= fault.start < end for start, end in finder.unused)

@@ -50,7 +50,7 @@ class Tried:
 
     @property
     def why(self) -> str:
-        """The reason why it is equivalent; "" if it has not been reviewed."""
+        """The reason why the mutant is equivalent; "" if it has not been reviewed."""
         return judged().get((self.file, self.source, self.fault.what), "")
 
 

@@ -71,7 +71,7 @@ def _rank(group: Group, file: str) -> int:
 
 @dataclass(frozen=True)
 class _Reach:
-    """Coverage of a group: lines of files, and the number of covered points of each file."""
+    """Coverage of a group: covered lines of each file, and the number of covered points of each file."""
 
     group: Group
     seconds: float
@@ -80,7 +80,7 @@ class _Reach:
 
 
 class Suites:
-    """Groups of tests for lines of files, returned by `of`."""
+    """Groups of tests; `of` returns those for a line of a file."""
 
     def __init__(self) -> None:
         self._reached: list[_Reach] = []
@@ -99,7 +99,7 @@ class Suites:
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
-        """Return the groups in order of their runs; several are joined, because each start takes seconds."""
+        """Return the groups in the order of their runs; some are joined, because each start takes seconds."""
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
@@ -119,7 +119,7 @@ class Suites:
 
 
 def _together(all_groups: Sequence[Group], size: int) -> Iterator[Group]:
-    """Yield `size` groups as one, in their order."""
+    """Join every `size` groups into one, in their order."""
     for at in range(0, len(all_groups), size):
         yield tuple(test for group in all_groups[at : at + size] for test in group)
 
