@@ -25,7 +25,7 @@ def part_files(part: Row) -> list[Path]:
 
 
 def bender() -> str:
-    """Return Bender.yml with a source group for each group of rtl/files.yml; carriers need a target."""
+    """Return Bender.yml with a source group for each group of rtl/files.yml; carriers have a target."""
     text = f"# {FROM}\npackage:\n  name: openppmc\n  authors: [OpenPPMC]\n\n"
     text += "export_include_dirs: [rtl/common]\n\nsources:\n"
     carriers = carrier_groups()

@@ -29,7 +29,7 @@ def breakdown_table(results: dict[str, Breakdown]) -> Table:
 
 
 def breakdown_rows(results: dict[str, Breakdown], indent: str) -> list[list[str]]:
-    """Return rows: instance, module, and flat LUTs, own LUTs, FF, RAM of each family; the last is the total."""
+    """Return rows: instance, module, flat LUTs, own LUTs, FF, RAM of each family; the last is the total."""
     first = next(iter(results.values()))
     rows = []
     for path in sorted(first.kept):

@@ -29,7 +29,7 @@ SWAPS = {
     "<<": ">>",
     ">>": "<<",
 }
-"""its> Operator -> the operator that replaces it."""
+"""Operator -> the operator that replaces it."""
 LOGIC = ("&&", "||")
 ASSIGNMENTS = ("AssignmentExpression", "NonblockingAssignmentExpression")
 SKIPPED = (
