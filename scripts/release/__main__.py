@@ -27,7 +27,7 @@ Job = Callable[[Release, Path, Path], None]
 
 
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:
-    """Return name -> function of each step; fast steps first, the notes last."""
+    """Return name -> function of each step; the fast steps are first, the notes last."""
     from scripts.release import sbom
 
     return {
@@ -42,11 +42,11 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
 
 
 def build(release: Release, skip: set[str], dist: Path = DIST, scratch: Path = SCRATCH, made_by=jobs) -> None:
-    """Run all steps into a folder of `scratch`, which becomes `dist` when all are done."""
+    """Run all steps in a folder of `scratch`; when all are complete, it becomes `dist`."""
     shutil.rmtree(scratch, ignore_errors=True)
     out = scratch / "dist"
     out.mkdir(parents=True)
-    # Time that tools write (setuptools, MkDocs), and modes of files.
+    # Set the time that tools write (setuptools, MkDocs), and the modes of files.
     os.environ["SOURCE_DATE_EPOCH"] = str(release.epoch)
     os.umask(0o022)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())

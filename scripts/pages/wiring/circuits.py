@@ -14,18 +14,18 @@ from scripts.fpga.boards.pads import Fitted, Pad
 
 WEAK, STRONG = "2.2 kΩ", "1 kΩ"
 STRONG_FPGA = ("artix7", "cyclone5")
-"""Families whose internal pull-ups need the stronger resistor."""
+"""Families with stronger internal pull-ups, which need the resistor STRONG."""
 Choice = str | Mapping[str, str]
-"""Text for all ports, or patterns of ports -> text."""
+"""One text for all ports, or patterns of ports -> text."""
 
 
 @dataclass(frozen=True)
 class Circuit:
-    """The circuit of a group of pins, from circuits.yml, which explains the values.
+    """The circuit of a group of pins, from circuits.yml; comments there explain the values.
 
     Attributes:
         chip: name of the chip in the drawing; it has `channels` channels.
-        level: signal level on the other side.
+        level: signal level on the far side.
         note: text below the drawing.
     """
 
@@ -78,7 +78,7 @@ def text(choice: Choice, pad: Pad) -> str:
 
 @dataclass(frozen=True)
 class Use:
-    """A circuit with its pins."""
+    """A circuit with the pins that use it."""
 
     circuit: Circuit
     pads: tuple[Pad, ...]
@@ -115,7 +115,7 @@ def _circuit_of(fitted: Fitted, pad: Pad) -> str:
 
 
 def uses(fitted: Fitted) -> list[Use]:
-    """Return the circuits of a part on a board, in order; raise ValueError for a pin without a circuit."""
+    """Return the circuits of a part on a board in order; raise ValueError for a pin without a circuit."""
     own = {pad.bit for group in fitted.groups if group.title == "Board" for pad in group.pads}
     own |= {"uart_rxd", "uart_txd"}
     pads: dict[str, list[Pad]] = {}
@@ -132,7 +132,7 @@ def uses(fitted: Fitted) -> list[Use]:
 
 
 def order(found: list[Use]) -> list[tuple[int, str, str]]:
-    """Return quantity, description and order number; equal items of several circuits are one line."""
+    """Return quantity, description and order number; equal items of several circuits are added."""
     lines = Counter[tuple[str, str]]()
     for use in found:
         value = "2K2" if not use.strong else "1K"
