@@ -10,7 +10,7 @@ from typing import Any
 from scripts.pages.pictures.kinds import made
 
 Levels = Mapping[str, int]
-Schedule = Sequence[tuple[int, Levels]]  # (first edge of clk that samples them, pin levels), in time order
+Schedule = Sequence[tuple[int, Levels]]  # (first edge that samples them, pin levels), in time order
 Samples = Sequence[Levels | None]  # one for each column; None for cycles that are not shown
 
 LEVEL = re.compile(r"(\w+)(?: while (\w+) = (\w+))?")
