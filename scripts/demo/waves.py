@@ -67,7 +67,7 @@ def _writer(file: IO[str], recording: Recording) -> VCDWriter:
 
 
 def write_vcd(comparison: Any, view: View, path: Path) -> None:
-    """Write all pins, the host's accesses, and pulse count and speed of each motor."""
+    """Write all pins, the host's accesses, and each motor's pulse count and speed."""
     recording = comparison.recording
     part = recorded(recording.part, recording.params)
     clk_hz = int(recording.params["CLK_HZ"])

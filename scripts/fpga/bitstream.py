@@ -42,7 +42,7 @@ def parameters(texts: list[str]) -> dict[str, int | str]:
 
 
 def share(used: int, total: int) -> str:
-    """Return a text such as '1257 of 5280 (23.8 %)'."""
+    """Return the used part of a total as text, such as '1257 of 5280 (23.8 %)'."""
     return f"{used} of {total} ({100 * used / total:.1f} %)" if total else str(used)
 
 

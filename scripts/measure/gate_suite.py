@@ -74,9 +74,9 @@ class GateTest:
 
 
 def left_out() -> dict[str, str]:
-    """Return the tests of the parts' test modules that do not run on netlists, with the reason.
+    """Return the tests in the parts' test modules that do not run on netlists, each with its reason.
 
-    Raises ProjectError for a test function without a reason, so that no test is omitted by mistake.
+    ProjectError is raised for a test function that has no reason, so that no test is omitted by mistake.
     """
     every = suites()
     reasons: dict[str, str] = {}
@@ -139,9 +139,10 @@ def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> l
 
 
 def chosen(tests: Sequence[GateTest], word: str | None, four_state: bool = False) -> list[GateTest]:
-    """Return the tests whose name contains `word`, or one of several words separated by commas (any case).
+    """Return the tests whose name contains `word`, or one of several words separated by commas.
 
-    `quick` selects the quick subset, or that of a simulator with X.
+    Upper and lower case are equal. The word `quick` selects the quick subset; if `four_state` is True, it
+    selects the subset for a simulator with X.
     """
     if word is None:
         return list(tests)

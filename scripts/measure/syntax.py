@@ -1,4 +1,4 @@
-"""slang's syntax trees of the RTL: nodes, their kinds, their places."""
+"""The nodes of slang's syntax trees of the RTL, with their kinds and places."""
 
 from __future__ import annotations
 

@@ -210,7 +210,7 @@ def moves(cases: Sequence[Sequence[Any]]) -> str:
 
 
 def ramps(ramps: Sequence[Sequence[int]], long: Sequence[int], some: Sequence[int]) -> str:
-    """Return a table of the divisors of all levels of ramps, and of some levels of a long one."""
+    """Return a table of the divisors: of all levels for short ramps, of some levels for a long ramp."""
     rows = []
     for ramp in (*ramps, long):
         values = [rate + 1 for rate in profile(*ramp).rates()]

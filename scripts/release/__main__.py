@@ -19,7 +19,7 @@ from scripts.release.state import Release, current_release
 DIST = project.ROOT / "dist"
 SCRATCH = project.BUILD / "release"
 SLOW = ("bitstreams", "site")
-"""Steps that SKIP may omit in a trial."""
+"""Steps that SKIP may omit if the release is only a trial."""
 
 
 Job = Callable[[Release, Path, Path], None]

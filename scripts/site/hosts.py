@@ -1,4 +1,4 @@
-"""Random hosts on the golden model: pin changes of each host, and the expected edges."""
+"""Random hosts on the golden model: the pin changes that each host makes, and the expected edges."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ class BlockPlayer(Player):
         return []
 
     async def count(self, words: list[str]) -> list[str]:
-        """Check the number of pulses since the beginning or the last `count`."""
+        """Check the number of pulses since the beginning or since the last `count`."""
         found = self.pulses(self.part.motors[0])
         self.mark = self.bench.now
         if found != int(words[0]):

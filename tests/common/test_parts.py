@@ -83,7 +83,7 @@ def test_rtl_and_carrier(row):
 
 @own
 def test_docs(row):
-    """The pages of a device are those of the table, and the indexes link to them."""
+    """The manual of a device consists of the pages in the table of parts, and the indexes link to them."""
     pages = {"README.md", *row.docs}
     there = {path.name for path in (ROOT / "docs" / row.name).glob("*.md")} - {"traceability.md"}
     assert there == pages

@@ -172,7 +172,7 @@ def test_example_6(board):
 
 
 def test_examples_without_motion(board):
-    """In examples 7, 8 and 9, every byte is the printed one."""
+    """In examples 7, 8 and 9, the model returns exactly the printed bytes."""
     board.play(EXAMPLES.blocks(7)[0], "example 7")
     Board().play(EXAMPLES.blocks(8)[0], "example 8")
     Board(read_map="SHEET").play(EXAMPLES.blocks(9)[0], "example 9")

@@ -80,7 +80,7 @@ def train(axes: Axes, pulses: Sequence[Sequence[int]], first: int) -> None:
 
 
 def edge(axes: Axes, levels: Any, pulses: Sequence[Sequence[int]], first: int) -> None:
-    """Draw the levels of all pulse outputs, cycle by cycle, around the first falling edge."""
+    """Draw the level of every pulse output in each cycle around the first falling edge."""
     span = range(-6, 7)
     for axis in range(AXES):
         found = [t for t, bits in levels if first + span[0] <= t <= first + span[-1]]

@@ -106,7 +106,7 @@ class Session:
             self.write(k, MASK, members >> 8 * k & 0xFF)
 
     def position(self, axis: int) -> int:
-        """Return the position: four reads, byte 0 first (BANK-WIN-07)."""
+        """Return the position from four reads that begin with byte 0 (BANK-WIN-07)."""
         raw = bytes(self.read(axis, POSITION + place) for place in range(4))
         return int.from_bytes(raw, "little", signed=True)
 

@@ -34,7 +34,7 @@ def kpps(axes: Axes) -> None:
 
 
 def marks(axes: Axes, at: Sequence[tuple[float, str]], top: float) -> None:
-    """Draw vertical lines and the name of each event."""
+    """Draw a vertical line and the name of each event."""
     for x, text in at:
         axes.plot([x, x], [0, top], color=GREY, linewidth=0.8, linestyle=(0, (3, 2)), zorder=0)
         axes.text(x, top, text, fontsize=8, color=INK, ha="center", va="bottom", linespacing=1.1)

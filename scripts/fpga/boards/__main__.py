@@ -16,7 +16,7 @@ from scripts.fpga.boards.verilog import laid_out
 
 
 def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
-    """Return each part on each board."""
+    """Return every combination of a board and a part that it supports."""
     return [
         fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
         for board in boards

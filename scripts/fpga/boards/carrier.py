@@ -57,7 +57,7 @@ class Carrier:
     ports: dict[str, Port]
 
     def two_way(self) -> dict[str, str]:
-        """Return pins that are not always driven: name -> driving port, "" if the pin is only pulled low."""
+        """Return each pin that is not always driven, with its driving port ("" if it is only pulled low)."""
         names = [name.removesuffix("_oe") for name in self.ports if name.endswith("_oe")]
         return {
             name: f"{name}_o" if f"{name}_o" in self.ports else ""

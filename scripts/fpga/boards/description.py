@@ -246,6 +246,6 @@ def load(path: Path) -> Description:
 
 @cache
 def load_all(folder: Path = FOLDER) -> tuple[Description, ...]:
-    """Return every board, in the order of `place`."""
+    """Return every board, sorted by `place`."""
     found = (load(path) for path in sorted(folder.glob("*/board.yml")))
     return tuple(sorted(found, key=lambda board: (board.place, board.name)))

@@ -57,7 +57,7 @@ class Top:
         return [*start, *ports, ");", ""]
 
     def ports(self) -> list[str]:
-        """Return the ports: those of the board, then the carrier's in its order, then LEDs and constants."""
+        """Return the ports: the board's, then the carrier's in its order, then LEDs and constants."""
         reset = self.board.reset
         lines = [
             declaration("in", [self.board.clock["port"]], f"{self.board.clock['mhz']:g} MHz"),
@@ -200,7 +200,7 @@ class Top:
         return lines
 
     def ties(self) -> list[str]:
-        """Return the constant outputs, each with its reason."""
+        """Return the assignments of the constant outputs, each with its reason."""
         lines = []
         for name, tie in self.board.ties.items():
             lines += ["", f"  // {tie['reason']}", f"  assign {name} = 1'b{tie['level']};"]

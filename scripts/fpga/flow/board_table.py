@@ -47,7 +47,7 @@ class Board:
         return project.BUILD / "boards" / self.stem(host)
 
     def stem(self, host: str) -> str:
-        """Return the name of folder and file: the board with its part and host."""
+        """Return the name of the board's folder and of its file: the board with its part and its host."""
         part = "" if self.part == "ppmc104" else f"-{self.part}"
         return self.name + part + ("" if host == "uart" else f"-{host}")
 

@@ -40,10 +40,9 @@ class Breakdown:
     """Figures of one family: total, and figures for each instance path ('' is the top)."""
 
     total: Count = field(default_factory=Count)
-    flat: dict[str, Count] = field(
-        default_factory=dict
-    )  # from the flattened netlist; a LUT counts for the instance that it feeds
-    kept: dict[str, Count] = field(default_factory=dict)  # each module mapped separately
+    # From the flattened netlist; a LUT counts for the instance that it feeds.
+    flat: dict[str, Count] = field(default_factory=dict)
+    kept: dict[str, Count] = field(default_factory=dict)  # each module is mapped separately
     module: dict[str, str] = field(default_factory=dict)  # instance path -> module name
 
     def as_dict(self) -> dict:

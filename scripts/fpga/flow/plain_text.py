@@ -1,7 +1,7 @@
 """Make the output of yosys' `write_verilog` readable; the logic does not change.
 
-Plain names, comments of the sources, ports in the module header, expressions in place of numbered wires,
-equal modules only once. Input and output are texts.
+The result has plain names, the comments of the sources, ports in the module header, and expressions in place
+of numbered wires. Equal modules occur only once. Input and output are texts.
 """
 
 from __future__ import annotations
@@ -247,12 +247,12 @@ def _children(text: str, names: Mapping[str, str]) -> str:
 
 
 def readable(text: str, top: str, sources: Mapping[str, str]) -> str:
-    """Return the modules of yosys' file, the top first.
+    """Return the modules of yosys' file, with the top first.
 
-    Other modules get the name of the top as a prefix, so that the files of two parts have no names in common.
+    The names of other modules get the top's name as a prefix, so that the files of two parts share no name.
 
     Args:
-        sources: module -> its SystemVerilog, from which the comments are copied.
+        sources: name of a module -> its SystemVerilog, from which the comments are copied.
     """
     raw = {match[1]: match for match in _MODULE.finditer(text)}
     used = {

@@ -69,14 +69,14 @@ def plain_tcl(use: str, add: str) -> str:
 
 
 def vivado() -> str:
-    """Return Tcl for a Vivado project or a non-project script."""
+    """Return Tcl that adds the files to a Vivado project or to a non-project script."""
     return plain_tcl(
         "Vivado, in a project: set top ppmc104; source .../packages/vivado.tcl", "add_files -norecurse $plain"
     )
 
 
 def quartus() -> str:
-    """Return lines of a Quartus settings file."""
+    """Return the lines that add the files to a Quartus settings file."""
     return plain_tcl(
         "Quartus, in the .qsf: set root <checkout>; set top ppmc104; source $root/packages/quartus.qsf",
         "set_global_assignment -name VERILOG_FILE $plain",
@@ -84,7 +84,7 @@ def quartus() -> str:
 
 
 def gowin() -> str:
-    """Return Tcl for gw_sh or the console of Gowin EDA."""
+    """Return Tcl that adds the files in gw_sh or in the console of Gowin EDA."""
     return plain_tcl(
         "Gowin EDA, with a project open: set top ppmc104; source .../packages/gowin.tcl",
         "add_file -type verilog $plain",

@@ -43,7 +43,7 @@ _FMAX = re.compile(r"Max frequency for clock .*: ([\d.]+) MHz \((PASS|FAIL) at (
 
 @dataclass(frozen=True)
 class Built:
-    """A bitstream with its clock rate and the required clock rate in MHz."""
+    """A bitstream, its clock rate in MHz, and the clock rate that is required."""
 
     path: Path
     mhz: float

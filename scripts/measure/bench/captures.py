@@ -64,7 +64,7 @@ class _Writer:
             self.file.writelines(f"{level}{self._codes[name]}\n" for name, level in self._levels.items())
 
     def put(self, t: int, **changes: int) -> None:
-        """Change wires at a time in ns."""
+        """Set the levels of wires at this time, in ns."""
         if not self.csv:
             self._lines.append(f"#{t}")
         for name, level in changes.items():

@@ -55,7 +55,7 @@ class Store:
         return Done(key, True, json.loads(row[0]), row[1], old=True) if row else None
 
     def all(self, campaign: str) -> Iterator[tuple[str, Done]]:
-        """Yield (stamp, result) of every stored job of a campaign, by key."""
+        """Yield (stamp, result) of every stored job of a campaign, sorted by key."""
         query = "select stamp, key, good, data, seconds from results where campaign = ? order by key, ended"
         with closing(self._base.execute(query, (campaign,))) as rows:
             for stamp, key, good, data, seconds in rows:

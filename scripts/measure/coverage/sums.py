@@ -105,7 +105,7 @@ def folder_of(file: str) -> str:
 
 
 class Sums:
-    """Points covered by all groups together, and the explained holes."""
+    """Points that all groups together cover, and the holes that are explained."""
 
     def __init__(self, points: Points) -> None:
         self._why = {(e["file"], e["line"], e.get("what", "")): e["why"] for e in explained()}

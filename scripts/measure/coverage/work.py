@@ -50,7 +50,7 @@ def groups(words: Sequence[str] = ()) -> list[list[str]]:
 
 
 def run_group(tests: Sequence[str]) -> Result:
-    """Run these tests; return the covered points, packed, and their crosses."""
+    """Run these tests; return the packed covered points and the crosses."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
         environment = {**os.environ, **WALL_S, COVERAGE: folder, COVERAGE_COPIES: str(copies())}
         command = [

@@ -99,5 +99,5 @@ def fill(folder: Path) -> None:
 
 
 def covered(folder: Path, bound: int, limit: int) -> dict[int, int]:
-    """Return the covers of cover.aig that are reached within `bound` cycles, and when."""
+    """Return the covers of cover.aig that are reached within `bound` cycles, with their cycles."""
     return hits(ask(folder, "cover", f"bmc3 -a -F {bound} -T {limit}"))

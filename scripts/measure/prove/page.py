@@ -20,7 +20,7 @@ SHOWN = 6
 
 
 def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
-    """Return files of the shared folders without a separate proof -> proofs whose blocks use them."""
+    """Return each shared file that has no separate proof, with the proofs whose blocks use it."""
     proved = {one.block for one in every}
     paths = [path for room in ROOMS for path in sorted((RTL / room).glob("*.sv")) if path.stem not in proved]
     sources = {path: path.read_text(encoding="utf-8") for one in every for path in one.sources()}

@@ -14,7 +14,7 @@ RESULTS = BUILD / "prove" / "results.json"
 
 
 def kept() -> dict[str, bool]:
-    """Return name of a proof that has run -> whether it holds."""
+    """Return, for the name of each proof that has run, whether the proof holds."""
     found: dict[str, bool] = {}
     if RESULTS.is_file():
         found = json.loads(RESULTS.read_text(encoding="utf-8"))

@@ -50,7 +50,7 @@ BRIDGES: tuple[tuple[str, str, dict[str, int], tuple[str, ...]], ...] = (
         ("ecp5",),
     ),
 )
-"""Module, description, parameters, families."""
+"""Module, description, parameters and FPGA families of a design."""
 HOST = "uart"
 """Host of the bitstreams that are measured."""
 FOLDER = project.BUILD / "sizes"

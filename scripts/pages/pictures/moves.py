@@ -50,7 +50,7 @@ def ramped(
 
 
 def speeds(axes: Axes, train: Train, entry: Entry, over: str, unit: int, line: bool) -> None:
-    """Draw the speed of each interval over ms or over pulse numbers, as stairs or as a line."""
+    """Draw the speed of each interval over ms or over the pulse number, as stairs or as a line."""
     colour = COLOURS[entry["colour"]]
     times = [ticks / (train.hz / 1000) for ticks in accumulate(train.intervals, initial=0)]
     edges = times if over == "time" else [train.first + n for n in range(len(times))]

@@ -16,7 +16,7 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
 
 
 def spaced(value: float, digits: int = 0) -> str:
-    """Return a number with spaces between thousands and without zeros at the end of its decimals."""
+    """Return a number as text, with spaces between thousands and without zeros at the end of its decimals."""
     text = f"{value:,.{digits}f}".replace(",", " ")
     return text.rstrip("0").rstrip(".") if digits else text
 

@@ -123,7 +123,7 @@ def uses(fitted: Fitted) -> list[Use]:
         if pad.bit not in own:
             pads.setdefault(_circuit_of(fitted, pad), []).append(pad)
     if "steps" in pads:
-        # Sorted by motor, because a driver carrier counts as a chip.
+        # Step pins are sorted by motor, because the driver carrier of a motor counts as one chip.
         pads["steps"].sort(
             key=lambda pad: int(pad.bit.rstrip("]").rpartition("[")[2]) if "[" in pad.bit else 0
         )

@@ -32,7 +32,7 @@ class Host:
         return event
 
     def write_at(self, event: int, axis: int, register: int, byte: int) -> None:
-        """Make a write access with its write event on this edge."""
+        """Make a write access whose write event is on this edge."""
         assert event - 4 >= self.t, (event, self.t)
         self.t = event - 4
         assert self.write(axis, register, byte) == event
@@ -106,7 +106,7 @@ class Host:
         self.t = max(self.t, edge + 1)
 
     def idle(self, axis: int) -> int:
-        """Run to the fall of BUSY; return its edge."""
+        """Run until BUSY falls; return this edge."""
         self.sync()
         while self.model.busy(axis):
             self.step()
@@ -128,7 +128,7 @@ class Host:
         return self.model.outputs[signal] >> width * axis & ((1 << width) - 1)
 
     def changes(self, signal: str, axis: int, since: int) -> list[tuple[int, int]]:
-        """Return the changes of a motor pin from an edge on."""
+        """Return the changes of a motor pin that happen on or after an edge."""
         return self.model.bits(signal, axis, since)
 
 

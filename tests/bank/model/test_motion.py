@@ -14,7 +14,7 @@ SEEN = 2
 
 
 def start(host: Host, axis: int, script: str, init: str = INIT_B) -> int:
-    """Initialise and start; return the visit of the start."""
+    """Initialise and start a motion; return the visit on which it starts."""
     host.ready(axis, init)
     return host.send(axis, script)
 

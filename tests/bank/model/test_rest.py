@@ -35,7 +35,7 @@ def test_completion_to_the_clk(wait, monkeypatch):
     host = Host()
     last = host.send(2, "c 0A d 14 d 0A d 04 d 00")
     host.write_at(last + 20, 2, STATUS, 0x42)
-    # The visit that completes accepts no byte; the next one accepts it.
+    # The visit that completes the initialisation accepts no byte; the next visit accepts it.
     started = last + build + wait + 8
     host.go(started - 1)
     assert not host.model.busy(2)
@@ -149,7 +149,7 @@ def test_excitation_off_and_second_initialisation():
 
 
 def test_output_register_shows_pins_of_its_axis():
-    """0x82 of an axis of a bank returns its own phases, hold and dir (P104-RD-06)."""
+    """On an axis of a bank, read command 82 returns the phases, hold and dir of this axis (P104-RD-06)."""
     host = Host()
     for axis, code in ((0, 0x42), (2, 0x4A)):
         host.ready(axis)

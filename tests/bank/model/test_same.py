@@ -23,7 +23,7 @@ class Move:
 
     Attributes:
         config: levels of csel and vsel.
-        cut: a stop code or a switch, and its time in rounds after the start.
+        cut: the stop code or the switch that cuts the move short, and its time in rounds after the start.
     """
 
     config: int
@@ -33,7 +33,7 @@ class Move:
 
 
 def script(code: tuple[int, ...]) -> str:
-    """Return a command with its data bytes as a script."""
+    """Return a command and its data bytes as a script."""
     return " ".join(f"{'d' if place else 'c'} {byte:02X}" for place, byte in enumerate(code))
 
 

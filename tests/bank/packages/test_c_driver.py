@@ -98,7 +98,7 @@ class Bench:
         return result
 
     def init(self, *numbers: int) -> None:
-        """Call ppmc104_init for these axes."""
+        """Call ppmc104_init for each of these axes."""
         for number in numbers:
             assert self.lib.ppmc104_init(self.parts[number], ctypes.byref(Config(**INIT))) == OK
 
@@ -172,7 +172,7 @@ def test_axes_are_parts(bench: Bench) -> None:
 
 
 def test_what_a_bank_does_not_have(bench: Bench) -> None:
-    """The part rejects an external clock and AUX as unknown."""
+    """An axis of a bank rejects an external clock and AUX as undefined commands."""
     config = Config(**INIT, external_clock=True)
     assert bench.lib.ppmc104_init(bench.parts[1], ctypes.byref(config)) == Error.UNDEFINED + 1
     assert bench.lib.ppmc104_aux(bench.parts[0], True) == Error.UNDEFINED + 1

@@ -25,7 +25,7 @@ def lines() -> Lines:
 
 
 def test_opening(lines: Lines) -> None:
-    """During reset the driver finds no bank; after it, it finds all axes and empties MASK."""
+    """During the reset the driver finds no bank. After the reset it finds all axes and empties MASK."""
     assert result(lines, "absent")[0] == NO_PART
     assert result(lines, "open") == (0, "ok")
     assert (lines["found"][0]["axes"], lines["found"][0]["mask"]) == ("8", "0")

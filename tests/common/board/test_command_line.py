@@ -36,7 +36,7 @@ def test_init_move_home(board: SimBoard, openppmc: CommandLine) -> None:
 
 
 def test_limit_is_one_line(start_board: StartBoard, openppmc: CommandLine) -> None:
-    """A move into the limit switch ends with status 1 and one line."""
+    """A move into the limit switch ends with status 1 and prints one line."""
     board = start_board(start=39_500)
     code, _, err = openppmc.run(board.port, "move", "2000", *SLOW)
     assert code == 1 and one_line(err), err

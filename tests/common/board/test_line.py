@@ -79,7 +79,7 @@ def test_broken_checksum_is_told_and_nothing_done(line: Line) -> None:
 
 
 def test_half_a_frame(line: Line) -> None:
-    """Silence inside a frame causes NAK 5 after 100 ms of board time, and the next frame is answered."""
+    """Silence inside a frame causes NAK 5 after 100 ms of board time; the frame that follows is answered."""
     line.port.write(IDENT[:-2])
     assert line.frame() == bytes([MESSAGE_NAK, Nak.SILENCE])
     line.port.write(IDENT)

@@ -115,7 +115,7 @@ def test_garbage(foreign_device: MakeForeignDevice) -> None:
 
 
 def test_board_dies_in_a_move(board: SimBoard) -> None:
-    """If the board disappears during a motion, Disconnected is raised within 10 s, in one line."""
+    """If the board ends during a motion, Disconnected is raised within 10 s, with a text of one line."""
     axis = Ppmc104.open(board.port)
     axis.initialise(**SETUP)
     motion = axis.start_move(30_000)

@@ -118,7 +118,7 @@ def test_foreground(tmp_path: Path, until: Wait) -> None:
 
 
 def test_foreground_bad_text() -> None:
-    """A mistake produces one line and status 1."""
+    """A mistake on the command line prints one line and exits with status 1."""
     done = subprocess.run([*PYTHON, "cw=x"], cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
     assert done.returncode == 1 and done.stderr.startswith("error: cw=x") and done.stderr.count("\n") == 1
 

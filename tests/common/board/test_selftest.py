@@ -112,7 +112,9 @@ def test_datasheet_timing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_fault_is_found(fault: str, tmp_path: Path) -> None:
-    """A fault in one line of RTL is found, reported, drawn and listed on the page."""
+    """If one line of RTL is wrong, the self-test finds the fault, reports and draws it, and lists it on the
+    page.
+    """
     file, good, bad, signal = FAULTS[fault]
     root = changed_tree(tmp_path / "tree", file, good, bad)
     words = ("--only", "registers", "--only", "moves")

@@ -18,7 +18,7 @@ CODES = (0x2A, 0x43, 0x63, 0x4D, 0x42, 0x80, 0xA0, 0x83, 0xA3, 0xC3, 0x81, 0x40,
 
 
 def session(source: random.Random, count: int) -> Accesses:
-    """Return random commands, data, responses and polls in any order."""
+    """Return random commands, data writes, responses and polls in a random order."""
     np = numpy()
     rows = []
     t = 0

@@ -92,7 +92,7 @@ def saleae(
 def edited(
     seen: Seen, path: Path, *edits: tuple[str, str], encoding: str = "utf-8", bom: bytes = b""
 ) -> Path:
-    """Write a VCD in which regular expressions were replaced."""
+    """Write a VCD after replacing the matches of regular expressions."""
     text = write_vcd(seen, path).read_text()
     for old, new in edits:
         text, count = re.subn(old, new, text, flags=re.MULTILINE)

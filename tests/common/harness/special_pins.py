@@ -14,9 +14,9 @@ class Kind(Enum):
 
     NEVER = auto()  # configuration, flash, JTAG, control lines of a monitor: not usable
     DRIVEN = auto()  # another chip on the board can drive it: not usable as an output, limit or alarm
-    SOCKET = auto()  # a socket or a section that can be left empty
+    SOCKET = auto()  # in a socket or a section of the header that can be left empty
     LOADED = auto()  # LED, converter, amplifier, other bank voltage, a function during configuration
-    NEAR_5V = auto()  # next to a header pin of 5 V
+    NEAR_5V = auto()  # next to a header pin that carries 5 V
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ MODELS = [row.name for row in parts.folders()]
 
 
 def accesses() -> list[Change]:
-    """Return an initialisation and a move of 14 pulses, as pin changes."""
+    """Return the pin changes of an initialisation and a move of 14 pulses."""
     rows, t = [], 100
     for register, byte in [(1, 0x0A), (0, 9), (0, 4), (0, 4), (0, 0), (1, 0x43), (0, 13), (0, 0), (0, 0)]:
         rows += [Change(t, "a0", register), Change(t, "d_i", byte), Change(t, "cs_n", 0)]

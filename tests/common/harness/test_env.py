@@ -54,7 +54,7 @@ def start(project: Path, *groups: str) -> subprocess.Popen[str]:
 
 
 def install(project: Path, *groups: str) -> tuple[int | None, str, str]:
-    """Run it to its end; return exit code and both outputs."""
+    """Run scripts.env to its end; return its exit code and both outputs."""
     process = start(project, *groups)
     out, err = process.communicate(timeout=120)
     return process.returncode, out, err

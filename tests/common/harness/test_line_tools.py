@@ -24,7 +24,7 @@ from scripts.measure.soak import main as soak
 
 
 def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:
-    """Return one question and its response."""
+    """Return one frame of the master and its reply."""
     return [(0, 100, "master", question.hex()), (200, 300, "station", answer.hex())]
 
 

@@ -106,7 +106,7 @@ def _struck(root: ET.Element) -> list[str]:
 
     def walk(node: ET.Element, x: float, y: float) -> None:
         if "rotate" in node.get("transform", ""):
-            return  # the name of a group, left of all lines
+            return  # the name of a group, which is left of all lines
         dx, dy = _moved(node)
         x, y = x + dx, y + dy
         if node.tag.endswith("use") and any(value == "#gap" for value in node.attrib.values()):

@@ -146,7 +146,7 @@ class AcceptedError(Exception):
 
 @pytest.mark.parametrize("words, whole, page", of("python -m"))
 def test_python(words: list[str], whole: bool, page: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The module exists, and its parser accepts the arguments."""
+    """The module of each printed command exists, and its parser accepts the arguments."""
     module, *arguments = words
     spec = importlib.util.find_spec(module)
     assert spec is not None, module

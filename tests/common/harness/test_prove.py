@@ -96,7 +96,7 @@ def test_unknown_proof_in_one_line() -> None:
 
 
 def test_missing_tool_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without pyosys, one line states what to do."""
+    """Without pyosys, the command prints one line that states what to do."""
     monkeypatch.setattr(engine, "find_spec", lambda name: None)
     with pytest.raises(ProjectError, match="yosys-abc: not found.*make setup"):
         engine.abc()

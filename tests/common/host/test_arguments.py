@@ -222,7 +222,7 @@ class Lamp(check.Checked):
 
     on = False
     watts: float
-    """Declared by its annotation only."""
+    """A name that is declared only by its annotation."""
     _spare = 0
 
     def __init__(self, watts: float) -> None:
@@ -242,7 +242,7 @@ class Lamp(check.Checked):
 
     @classmethod
     def large(cls, watts: int) -> Lamp:
-        """Of the class that it was called by."""
+        """A function of the class through which it was called."""
         return cls(watts)
 
 

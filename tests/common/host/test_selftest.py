@@ -129,7 +129,7 @@ def test_a_step_and_one_clk_too_late() -> None:
     """A recorded step that equals the golden model has no difference; a pulse one cycle late is reported."""
     samples = recorded("ppmc104", initialisation(), 120_000)
     count, wrong = compared("ppmc104", samples)
-    assert count == 6 and not wrong  # edges of s, hold, pout_n, s, pout_n, int_n
+    assert count == 6 and not wrong  # the edges are those of s, hold, pout_n, s, pout_n and int_n
     pulse = 1 << sum(bits for name, bits in plan_of("ppmc104").layout(49)[:-2])
     place = next(n for n, (t, levels) in enumerate(samples) if t > BEGIN + RESET and not levels & pulse)
     late = samples[place]

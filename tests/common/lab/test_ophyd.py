@@ -101,7 +101,9 @@ def test_two_axes_at_once():
 
 @pytest.mark.parametrize("success", (False, True))
 def test_stop_in_motion(success):
-    """A stop during a motion decelerates the motor; the Status fails unless success=True."""
+    """A stop during a motion decelerates the motor. The Status then fails, unless the call has
+    success=True.
+    """
     with started(words="speed=1") as device:
         motor = PpmcPositioner(device, name="x")
         motor.stop()  # no error without a motion

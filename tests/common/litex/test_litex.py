@@ -182,7 +182,8 @@ def test_sources_once():
     names = [Path(entry[0]) for entry in platform.sources]
     assert len(names) == len(set(names)) and len(platform.verilog_include_paths) == 1
     assert {ROOT / "rtl/bank/ppmc_bank.sv", ROOT / "rtl/host/ppmc_wishbone.sv"} <= set(names)
-    assert [name for name in names if not name.is_file()] == []  # options of the list are not files
+    # Options in the list of files are not added as files.
+    assert [name for name in names if not name.is_file()] == []
 
 
 @pytest.mark.parametrize("name", PARTS)

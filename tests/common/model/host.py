@@ -80,7 +80,7 @@ class ModelHost:
         return got
 
     def statuses(self, script: str) -> list[int]:
-        """Do the same as `run` without r; return the status after each byte."""
+        """Run a script without the statement r; return the status after each byte."""
         words = script.split()
         pairs = zip(words[::2], words[1::2], strict=True)
         return [self.command(int(b, 16)) if kind == "c" else self.data(int(b, 16)) for kind, b in pairs]

@@ -97,7 +97,7 @@ def test_vcd():
 
 def test_data_sheet(tmp_path):
     """In the PDF of a page, links to the web and within the page remain; links to local files are removed."""
-    checked()  # skips if there is no browser
+    checked()  # the fixture skips the test if there is no browser
     (tmp_path / "page.html").write_text(
         '<h1 id="top">T</h1><a href="#top">a</a> <a href="other.html">b</a> <a href="https://example.org/">c</a>',
         encoding="utf-8",

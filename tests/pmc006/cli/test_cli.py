@@ -122,7 +122,7 @@ def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.Monkey
 def test_stops_and_flags(run: Run, tmp_path: Path) -> None:
     settings = ("set", "stops=3", *QUICK, *ONE)
     assert run(*PART, *settings).code == 0
-    # Each command has its own board here: a program enables the stops at power-up.
+    # Each command starts a fresh board. Therefore, the board's program enables the stops at power-up.
     text = tmp_path / "stops.asm"
     text.write_text("EXTEN on\n")
     port = ("--port", f"{PORT},program={text}")

@@ -307,7 +307,7 @@ def test_refusals_say_why(motor: tuple[SpoiledLine, Pmc006]) -> None:
     part.free = 0
     with pytest.raises(SpeedRefused, match=r"maximum speed of 100 steps/s is below the start speed \(2000\)"):
         part.move(5, speed=100)
-    motion = part.jog(FORWARD, speed=100)  # the setting does not affect a free run
+    motion = part.jog(FORWARD, speed=100)  # the start speed does not limit a free run
     part.halt()
     assert motion.result is not None
     port.node().part.context.settings.vmax = 0  # only a program can set this value

@@ -68,7 +68,7 @@ class Bench:
             self.run(edge)
 
     def do(self, action: Callable[[int], None], phase: Phase = Phase.STORE) -> int:
-        """Call action(t) at the next edge t, and run this edge."""
+        """Call action(t) at the next edge t, then run this edge."""
         t = self.t
         self.queue.at(t, phase, action)
         self.run(t)
@@ -94,7 +94,7 @@ class Bench:
         return self.do(self.motion.halt, Phase.GUARD)
 
     def references(self) -> tuple[int, int, int, int]:
-        """Return phase_a_ref, its sign, phase_b_ref, its sign."""
+        """Return phase_a_ref and its sign, then phase_b_ref and its sign."""
         levels = self.log.levels
         a, b = (levels[f"phase_{x}_ref"] for x in "ab")
         return a, levels["phase_a_sign"], b, levels["phase_b_sign"]

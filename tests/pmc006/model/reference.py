@@ -22,7 +22,7 @@ def full(progress: Fraction, up: bool) -> int:
 
 
 class Reference:
-    """Reference motion; it ends when `done`.
+    """A motion computed independently of the golden model, in steps of 1 us, until `done` is True.
 
     Attributes:
         steps: pairs (us, speed).

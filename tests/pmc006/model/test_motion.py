@@ -1,4 +1,4 @@
-"""Motions of the PMC006B4 at clock edges: t = 0, steps, ends, stops, live registers (P006-MOT)."""
+"""Motions of the PMC006B4, exact to the clock edge: start, steps, ends, stops, live registers (P006-MOT)."""
 
 from __future__ import annotations
 

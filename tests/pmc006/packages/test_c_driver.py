@@ -58,7 +58,9 @@ def test_positions(lines):
 
 
 def test_speed_mode_and_stops(lines):
-    """A run ends with its ramp or immediately; a move has no deceleration stop (P006-CMD-06, P006-CMD-11)."""
+    """A run can be stopped with its ramp or immediately, a move only immediately (P006-CMD-06,
+    P006-CMD-11).
+    """
     for name in ("open", "speed", "zero", "run", "faster", "slowly", "stop"):
         assert result(lines, name)[0] == OK, name
     slowly, stop = end(lines, "slowly"), end(lines, "stop")

@@ -45,7 +45,7 @@ def _timing(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> 
 
 @contextmanager
 def board(plant: str = "", **setup: object) -> Iterator[Ppmc104]:
-    """Yield an initialised axis; `setup` has the keyword arguments of `initialise`."""
+    """Yield an initialised axis; `setup` holds the keyword arguments of `initialise`."""
     with Ppmc104.open(f"model:speed=max,timing={timing},{plant}") as axis:
         axis.initialise(**setup)  # type: ignore[arg-type]
         yield axis

@@ -54,7 +54,7 @@ def position(lines: Lines, name: str) -> tuple[int, int]:
     ],
 )
 def test_motion_makes_the_pulses_of_the_model(lines, name, cw, ccw, rate, raw):
-    """Count, direction and every interval of a motion are those of the model (P2104-RMP-01)."""
+    """The count, the direction and every interval of a motion equal those of the model (P2104-RMP-01)."""
     want = predict_move(INIT, cw + ccw, rate, part="ppmc2104").intervals
     assert pulses(lines, name) == (cw, ccw, want)
     assert (ending(lines, name)["raw"], ending(lines, name)["left"]) == (raw, 0)

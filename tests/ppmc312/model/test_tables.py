@@ -31,7 +31,7 @@ ROM = [
 
 
 def weighted(values: tuple[int, ...]) -> int:
-    """Return the sum of (i + 1) x value."""
+    """Return the sum of (i + 1) x value over all entries i of a table."""
     return sum((i + 1) * value for i, value in enumerate(values))
 
 

@@ -18,7 +18,7 @@ def sheet(script: str = INTERNAL, **parameters: object) -> Host:
 
 
 def ready(host: Host) -> Host:
-    """Wait until the initialisation is complete."""
+    """Wait until the part has completed the initialisation."""
     host.run("c 80 r")
     return host
 

@@ -48,7 +48,7 @@ def lines(request) -> Lines:
     [("move", 20, None, 0, 3), ("constant", 5, 7, 1, 4), ("step", 1, 1, 1, 2), ("internal", 4, None, 0, 3)],
 )
 def test_motion_makes_the_steps_of_the_model(lines, name, count, divisor, ccw, op):
-    """Count, direction and every gap of a motion by the driver are the predicted ones."""
+    """The count, the direction and every gap of a motion by the driver equal the predicted values."""
     assert result(lines, name) == (0, "ok")
     want = gaps(count, divisor)
     if name == "internal":

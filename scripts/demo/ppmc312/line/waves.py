@@ -1,4 +1,4 @@
-"""VCD and saved views of the line: the sender, and pins, position and speed of each station."""
+"""VCD and saved views of the line: who sends, and each station's pins, position and speed."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ LEFT_OUT = ("boards",)
 
 @cache
 def of_file(file: str) -> list[Fault]:
-    """Return all mutants of a file."""
+    """Return all mutants of a file of rtl/."""
     return faults((ROOT / file).read_text(encoding="utf-8"))
 
 

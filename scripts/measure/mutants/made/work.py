@@ -67,7 +67,7 @@ def copy_of(file: str) -> Path:
 
 
 def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
-    """Run tests; return the verdict on the mutant, and the first test that failed."""
+    """Run the tests; return what became of the mutant, and the name of the first test that failed."""
     environment = {
         **os.environ,
         MUTANT: f"{mutant.file} {mutant.fault.number} {copy_of(mutant.file)}",
@@ -87,7 +87,7 @@ def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
 
 
 def met(mutant: Mutant) -> tuple[str, str]:
-    """Return the verdict on the mutant, and the test that killed it, or `PROOF` and the proof."""
+    """Return what became of the mutant, and the test that killed it, or `PROOF` and the name of the proof."""
     own, others = proofs_of(mutant.file)
     if name := failing(mutant.file, mutant.fault, own):
         return KILLED, PROOF + name
