@@ -238,9 +238,9 @@ def motion_time(timing: str, which: str, command: str, stop: bool = False) -> in
     """Return a time of a motion in cycles.
 
     Args:
-        which: begin, step: from the end of the last write to BUSY, or to step 0. end, accepted: from the last
-            step,
-            or from the cause of the end (`stop`), to the end, or until bytes are accepted again.
+        which: begin, step: time from the end of the last write until BUSY rises, or until step 0.
+            end, accepted: time from the last step, or from the cause of the end (`stop`), until the end, or
+            until bytes are accepted again.
     """
     bench = Bench(timing)
     bench.init()

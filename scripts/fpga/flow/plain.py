@@ -90,7 +90,6 @@ def vendor_attributes(modules: Mapping[str, Any]) -> dict[str, dict[str, str]]:
     for cell in cells:
         # Attributes of vendors have names in capitals, those of yosys do not. yosys adds a space to a text
         # that could be read as bits.
-        # like bits.
         own = {
             name: re.sub(r"^([01xz]*) ", r"\1", value)
             for name, value in cell["attributes"].items()

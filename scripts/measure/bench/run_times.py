@@ -38,7 +38,7 @@ class Times:
     seconds: dict[str, list[float]]
 
     def middle(self, side: str) -> float:
-        """Return the median of the times, in s, that one of the two variants took."""
+        """Return the median of the times that a side took, in s."""
         return median(self.seconds[side])
 
     def ratio(self, side: str) -> float:

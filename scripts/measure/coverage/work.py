@@ -20,7 +20,7 @@ from scripts.measure.coverage.collecting import OUT
 from scripts.measure.coverage.counted import copies
 
 WALL_S = {"OPENPPMC_WALL_S": "1200"}
-"""Time limit of a test; longer, because a counting simulation takes several times as long."""
+"""Wall-clock limit of a test in s; it is high, because a counting simulation takes several times as long."""
 
 
 def groups(words: Sequence[str] = ()) -> list[list[str]]:

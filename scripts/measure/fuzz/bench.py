@@ -72,7 +72,7 @@ def rtl_events(name: str, words: array[int]) -> Iterator[tuple[int, int]]:
 
 
 def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | None:
-    """Return the first word whose events in RTL and golden model differ, and these events; None if all agree."""
+    """Return the first word whose events in RTL and golden model differ, with these events; else None."""
     for real, ideal in zip_longest(rtl_events(name, words), line.expected(words)):
         if real != ideal:
             place = min(event[0] for event in (real, ideal) if event)

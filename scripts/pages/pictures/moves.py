@@ -75,9 +75,8 @@ def moves(
 
     Args:
         panels: each with `axes` and `legend` (arguments of matplotlib), `over` (time or pulses), and `moves`.
-            A move has `colour`, `label`, a `kind` that returns its Train, and the arguments of the kind. A
-                move of
-            one pulse has `mark` instead of `label`, and only its triangle is drawn.
+            A move has `colour`, `label`, a `kind` that returns its Train, and the arguments of the kind.
+            A move of one pulse has `mark` instead of `label`, and only its triangle is drawn.
         unit: pulses per second of the vertical axis.
         line: True to draw a line through the middles of the intervals instead of stairs.
     """

@@ -155,8 +155,8 @@ def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
 
 @pytest.mark.parametrize("gap, acts_at", [(5, 64), (63, 64), (64, 64), (65, 65)])
 def test_second_go_waits(gap, acts_at):
-    """A GO while another GO acts has its effect as if it were written R cycles after that one
-    (BANK-GRP-03).
+    """A second GO that is written while the first one acts has the same effect as one R cycles after the
+    first (BANK-GRP-03).
     """
     host, go = not_found_by_the_first((gap,))
     host.go(go + 2000)
@@ -165,7 +165,7 @@ def test_second_go_waits(gap, acts_at):
 
 @pytest.mark.parametrize("third, status", [(20, 0x04), (63, 0x04), (64, 0x94), (70, 0x94)])
 def test_third_go(third, status):
-    """A third GO has no effect while the second one waits; after that it waits for the second
+    """A third GO has no effect while the second one waits; written later, it acts after the second one
     (BANK-GRP-03).
     """
     host, go = not_found_by_the_first((5, third))

@@ -27,8 +27,10 @@ def test_completion(rl, rh):
 
 @pytest.mark.parametrize("wait", [4, 3, 10])
 def test_completion_to_the_clk(wait, monkeypatch):
-    """The initialisation completes at the first visit 3 or more cycles after the end of the build: tried with
-    builds that end 4, 3 and 2 cycles before a visit (BANK-INI-02).
+    """The initialisation completes at the first visit 3 or more cycles after the end of the build
+    (BANK-INI-02).
+
+    Here the build ends 4, 3 and 2 cycles before a visit.
     """
     build = 4000 - wait
     monkeypatch.setattr(part, "Latency", lambda **rest: Latency(build_clk=lambda rl, rh, pa: build, **rest))
@@ -78,8 +80,8 @@ def test_config_of_a_phase(early, off):
 
 
 def test_reinitialisation_keeps_chopping_until_it_completes():
-    """During a re-initialisation the chopping continues unchanged until it completes (P104-INI-08,
-    BANK-INI-02, BANK-CHP-01).
+    """During a re-initialisation the chopping continues unchanged until the re-initialisation completes
+    (P104-INI-08, BANK-INI-02, BANK-CHP-01).
     """
     host = Host()
     complete = host.send(3, FLAT) + 8

@@ -90,8 +90,8 @@ def test_pins_of_another_part(part: str, named: str, says: str, run: Run, tmp_pa
 
 @pytest.mark.parametrize("part", ["ppmc104", "ppmc2104"])
 def test_the_other_timing(part: str, run: Run, tmp_path: Path) -> None:
-    """If a FAST core is compared with the DATASHEET model, one line names the TIMING that matches; if not,
-    there is no such line.
+    """If a FAST core is compared with the DATASHEET model, one line names the TIMING that matches. If no
+    TIMING matches, there is no such line.
     """
     comment = core_comment(part, CORE | {"TIMING": "DATASHEET"})
     path = write_vcd(probe(session(part)), tmp_path / "own.vcd", comment)

@@ -70,9 +70,9 @@ def test_rules_are_known() -> None:
 
 
 def test_names_choose() -> None:
-    """A full name selects one proof, a word all proofs whose names contain it, no word all quick proofs.
+    """A full name selects one proof; a part of a name selects all proofs whose names contain it.
 
-    Any other word raises an error of one line.
+    Without a name, all quick proofs are selected. A word that matches no proof raises an error of one line.
     """
     assert [one.name for one in chosen(["ppmc_sync"], night=False)] == ["ppmc_sync"]
     assert {one.name for one in chosen(["ppmc_axis_"], night=False)} > {"ppmc_axis_stop"}

@@ -34,8 +34,8 @@ from scripts.measure.replay import main as replay
 
 
 def busy_run(seed: int = 1) -> Recording:
-    """Return a run of over sixty transactions on a PPMC-104: among them a change of csel, an alarm, a read of
-    it.
+    """Return a run of over sixty transactions on a PPMC-104, which include a change of csel, an alarm and a
+    read of the alarm.
     """
 
     async def run(bench: ModelBench) -> None:

@@ -53,8 +53,8 @@ def test_drivers_that_do_not_fit() -> None:
 
 
 def test_optocoupler_of_a_limit_is_fail_safe() -> None:
-    """A dark photo-interrupter gives low, the active level: collector to 3.3 V, emitter to pin, resistor to
-    GND.
+    """A dark photo-interrupter gives low, which is the active level. Its collector is connected to 3.3 V, its
+    emitter to the pin and through a resistor to GND.
     """
     page = (project.DOCS / "boards.md").read_text()
     row = next(line for line in page.splitlines() if line.startswith("|") and "PC817" in line)

@@ -237,7 +237,7 @@ class Lamp(check.Checked):
         self.watts = 4 if value else 60
 
     def blink(self, times: int = 1, self_test: bool = False) -> list[str]:
-        """Return the functions that called it."""
+        """Return the names of the functions on the call stack, this one first."""
         return [frame.f_code.co_name for frame, _ in traceback.walk_stack(sys._getframe())]
 
     @classmethod

@@ -125,7 +125,7 @@ def test_one_pulse_left(lines):
 
 
 def test_origin_and_stops(lines):
-    """The origin ends home, a stop command ends jog and run, and the driver returns the cause."""
+    """Home ends at the origin, jog and run end after a stop command; the driver returns the cause."""
     home, jog, fast = (ending(lines, name) for name in ("home", "jog", "run"))
     assert (home["raw"], jog["raw"], fast["raw"]) == (0x87, 0xC5, 0xC6)
     assert jog["stopped"] and fast["stopped"] and not home["stopped"]

@@ -171,7 +171,7 @@ def test_a_strobe_on_the_edge_of_the_copy_is_too_late(late: int) -> None:
     bench.run(origin + 10_000 * 16 - 2 + late)
     bench.do(partial(_strobe, bench, 1), Phase.PINS)
     bench.wait(250)
-    # The target is 8000 if the strobe was too late, else the speed falls to 7.
+    # If the strobe was too late, the target remains 8000; otherwise the target is 7.
     engine = bench.motion.engine
     assert engine and engine.goal == (8000 if late else 7)
 
