@@ -1,4 +1,6 @@
-"""Constraint files against special_pins.py: no unsafe use of a pin, and no other function undocumented."""
+"""Constraint files against special_pins.py: they use no pin unsafely, and each other function is
+documented.
+"""
 
 from __future__ import annotations
 
