@@ -262,7 +262,7 @@ def motion_time(timing: str, which: str, command: str, stop: bool = False) -> in
 
 
 def init_time(timing: str, which: str, ramp: Sequence[int]) -> int:
-    """Return the cycles from the first initialisation's last byte until phases are on, or bytes are accepted."""
+    """Return how many cycles after an initialisation's last byte phases are on, or bytes are accepted."""
     bench = Bench(timing)
     sent = bench.init(ramp=ramp)
     if which == "phases":
