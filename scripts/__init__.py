@@ -1,6 +1,7 @@
-"""Programs of the make targets: `python -m scripts.<folder>.<name>` from the project's root.
+"""Programs that make targets start: `python -m scripts.<folder>.<name>` from the project's root.
 
-fpga, demo, site, release: products for users. pages: pictures and tables of docs/. measure: checks and
-measurements. targets, run, env: the table of targets, and the modules that make starts. Permitted imports:
-release → site → demo → fpga, measure → demo, pages → measure.
+fpga, demo, site and release make products for users. pages makes the pictures and tables of docs/. measure
+checks and measures the project. targets is the table of targets; make starts run and env.
+
+Permitted imports: release → site → demo → fpga, measure → demo, pages → measure.
 """

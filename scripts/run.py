@@ -1,7 +1,8 @@
 """Print the shell text of a make target: ``python -m scripts.run GOAL GOAL … NAME=VALUE …``.
 
-The text is that of the first goal. The words after it are all goals and variables of this `make`. If one of
-them is wrong, only the first fault is printed, as one line that begins with "error:". Standard library only.
+The text is that of the first goal; the other words are all goals and variables of this `make`. If a word is
+wrong, only the first fault is printed, as a line that begins with "error:". The module imports only the
+standard library.
 """
 
 from __future__ import annotations
@@ -24,19 +25,19 @@ OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
 
 
 class WrongError(Exception):
-    """Wrong goal, variable or machine: one line that states what is wrong and what to do."""
+    """Raised for a wrong goal, variable or machine: one line that states what is wrong and what to do."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Return a hint that names the most similar known name, or an empty text."""
+    """Return a hint with the most similar known name, or an empty text."""
     near = get_close_matches(word, list(known), 1, 0.7)
     return f"; nearest: {OLD.get(near[0], near[0])}" if near else ""
 
 
 class Goal:
-    """A goal with its row of the table and the values of its variables; WrongError if there is no such goal.
+    """A goal with its row of the table and the values of its variables; WrongError if it does not exist.
 
-    Variables of the environment are used, too, if the target has them.
+    Variables of the environment are also used, if the target has them.
 
     Args:
         given: variables of the command line.
@@ -74,7 +75,7 @@ class Goal:
                 raise WrongError(f"{name}={values[name]}: {text}")
 
     def command(self) -> str:
-        """Return the shell text."""
+        """Return the shell text of the goal."""
 
         def optional(part: re.Match[str]) -> str:
             marks = MARK.findall(part[0])
@@ -103,7 +104,7 @@ class Goal:
 
 def check_machine(python: str | None) -> None:
     """Raise WrongError if the folder, the tools or the Python cannot be used to make the environment."""
-    # Spaces and letters of any language work. These characters end a name in PATH or in the scripts of pip.
+    # Spaces and letters of any language work; these characters end a name in PATH or in the scripts of pip.
     if re.search(r"[:\"$`\\\x00-\x1f\x7f]", str(ROOT)):
         shown = re.sub(r"[\x00-\x1f\x7f]", "?", str(ROOT))
         raise WrongError(f"the project's folder must not have : \" $ ` or \\ in its path: {shown}")

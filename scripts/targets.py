@@ -32,7 +32,7 @@ SHORT = {
         f"[-G {name}={{{name}}}]"
         for name in ("XTAL_HZ", "TIMING", "PHASE_IDLE", "PHASE_ON", "READ_MAP", "BAUD", "RECORD")
     ),
-    # The exit code of pytest is 5 if it has collected no test.
+    # Exit code 5 of pytest means that it has collected no test.
     "else": "|| { code=$?; test $code != 5 || echo 'error: no test matches' [T={T}] [CLK_HZ={CLK_HZ}] >&2;"
     " exit $code; }",
     "clean": "rm -rf build .pytest_cache .ruff_cache .hypothesis &&"
@@ -146,9 +146,9 @@ OLD = {
     "test-fusesoc": "test WITH=fusesoc",
     "prove-night": "prove NIGHT=1",
 }
-"""Old names of targets, which work until the next release."""
+"""Old names of targets; they work until the next release."""
 OLD_VARIABLES = {"INSIDE": "PROBE"}
-"""Old names of variables, which work until the next release."""
+"""Old names of variables; they work until the next release."""
 
 # Name | values | line of help, in the order of the checks: HOST and the parameters depend on PART and BOARD.
 VARIABLE_TABLE = """
@@ -194,7 +194,7 @@ OTHER_VALUES = {
     "trace": ("PART", "part folders"),
     "test-verilog": ("SIM", "icarus own cocotb"),
 }
-"""Target -> a variable and its values for this target."""
+"""Target -> one of its variables, with the values that this target permits."""
 
 FORMS = {
     "any": ("(?s:.*)", ""),
@@ -223,7 +223,7 @@ class Target:
 
     @property
     def defaults(self) -> dict[str, str]:
-        """Each variable of the command with its default; the default may be empty."""
+        """Each variable of the command with its default, which may be empty."""
         found: dict[str, str] = {}
         for name, default in re.findall(r"\{([A-Z_]+)(?:/or|:([^}]*))?\}", self.command):
             found[name] = found.get(name) or default
@@ -232,7 +232,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable of the command line with its values: a range, words, or a key that `fault` resolves."""
+    """A variable of the command line; its values are a range, words, or a key that `fault` resolves."""
 
     values: str
     says: str
@@ -262,7 +262,7 @@ VARIABLES = {
 
 
 def boards() -> dict[str, dict[str, list[str]]]:
-    """Return board -> part -> hosts from `devices` in the board descriptions; PyYAML is not used."""
+    """Return board -> part -> hosts, from `devices` in the board descriptions; read without PyYAML."""
     found = {}
     for path in sorted(ROOT.glob("constraints/*/board.yml")):
         text = path.read_text(encoding="utf-8")
@@ -288,7 +288,7 @@ def limits(name: str, part: str, default: str) -> list[int]:
 
 
 def part_names(columns: list[str]) -> list[str]:
-    """Return the parts that have one of these columns in their table, or their `tops` or `folders`."""
+    """Return the parts whose table has one of these columns, or one of their `tops` or `folders`."""
     if columns in (["tops"], ["folders"]):
         return [row.name for row in (parts.tops() if columns == ["tops"] else parts.folders())]
     found = [row.name for row in parts.PARTS.values() if any(getattr(row, column) for column in columns)]
@@ -296,7 +296,7 @@ def part_names(columns: list[str]) -> list[str]:
 
 
 def fault(name: str, values: Mapping[str, str], target: str) -> str:
-    """Return what is wrong with the value of a variable, or an empty text.
+    """Return a text about the fault in the value of a variable; empty if the value is valid.
 
     Args:
         values: values of all variables.
@@ -309,7 +309,7 @@ def fault(name: str, values: Mapping[str, str], target: str) -> str:
         return "" if value in names else f"no such {kind} (known: {','.join(names)})"
     if kind == "host":
         board, part = values["BOARD"], values["PART"]
-        # The build reports a part that the board does not support.
+        # If the board does not support the part, the build reports this.
         hosts = boards()[board].get(part, [value])
         return (
             "" if value in hosts else f"{board} with {part} has only {','.join(hosts)}; choose one of these"

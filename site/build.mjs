@@ -1,5 +1,5 @@
 // Build the script and the style of the page: node build.mjs [FOLDER].
-// The script contains the worker as text, so that the page also works from a file.
+// The script contains the worker as text, so that the page also works if it is opened from a file.
 import { build } from "esbuild";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
@@ -24,7 +24,7 @@ await build({
   jsxImportSource: "preact",
   define: { WORKER: JSON.stringify(worker.outputFiles[0].text) },
 });
-// The engine without the page, for tests.
+// The tests use the engine without the page.
 await build({
   ...common,
   minify: false,

@@ -1,1 +1,3 @@
-"""Tests in Python: golden models, host package, command line, scripts; one folder per device, one common."""
+"""Python tests of golden models, host package, command line and scripts: one folder per device, one
+common.
+"""

@@ -1,6 +1,6 @@
-"""Hypothesis profiles: fixed examples by default, new ones with OPENPPMC_EXPLORE=1.
+"""Hypothesis profiles: fixed examples by default, new examples with OPENPPMC_EXPLORE=1.
 
-A new example that fails prints the line that repeats it; `--hypothesis-seed=N` repeats a whole run.
+If a new example fails, the line that repeats it is printed; `--hypothesis-seed=N` repeats a whole run.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""A host on the bus of the PPMC-104: initialise, move, count pulses. It needs only cocotb: copy it."""
+"""Initialise a PPMC-104 over its bus, make a move and count the pulses.
+
+The test needs only cocotb, so you can copy this file.
+"""
 
 import cocotb
 from cocotb.clock import Clock
@@ -7,7 +10,7 @@ from cocotb.utils import get_sim_time
 
 PERIOD = 62_500  # ps: 16 MHz, the default of CLK_HZ
 IDLE_HIGH = "cs_n rd_n wr_n csel vsel l1_n l2_n l3_n l4_n cnp_n alm_n".split()
-DATA, COMMAND = 0, 1  # a0 at a write; at a read 1 is the status register
+DATA, COMMAND = 0, 1  # values of a0; a read of address 1 returns the status register
 IBF, BUSY = 0x02, 0x04
 
 

@@ -1,6 +1,7 @@
-"""The same move with the host of this project, compared with the golden model at every edge of every output.
+"""Make the move of test_ppmc104.py with a host of this project, and compare it with the golden model.
 
-It runs with the main program of cocotb as well, without `directed` and without `make test`.
+Every edge of every output is compared. The test runs with cocotb's own main program, too; it needs neither
+`directed` nor `make test`.
 """
 
 import cocotb

@@ -49,8 +49,8 @@ module axil_host (
       .dir
   );
 
-  // Both tasks start and end after a falling edge. A ready that is sampled high on a falling edge is still
-  // high at the next rising edge, at which the transfer takes place.
+  // Both tasks start and end after a falling edge. If ready is high on a falling edge, it is still high at
+  // the next rising edge, and the transfer takes place there.
   task automatic write_reg(input logic register, input logic [7:0] value);
     logic aw_taken, w_taken;
     awvalid = 1'b1;

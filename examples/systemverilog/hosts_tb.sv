@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // hosts_tb: a PPMC-104 on each bridge (Wishbone, AXI4-Lite, SPI), and the same move through each of them.
-// Timing: prints "hosts_tb: PASS" and ends with exit code 0, or stops with $fatal in the check that failed.
+// Timing: prints "hosts_tb: PASS" and ends with exit code 0; a failing check ends the simulation with $fatal.
 //         All inputs change on the falling edge: see README.md.
 `default_nettype none
 

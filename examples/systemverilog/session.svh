@@ -26,7 +26,7 @@ task automatic send(input logic register, input logic [7:0] value);
   write_reg(register, value);
 endtask
 
-// Read a byte of an answer: OBF (bit 0) is 1 when it can be read.
+// Read a byte of an answer. OBF (bit 0) is 1 when the byte can be read.
 task automatic receive(output logic [7:0] value);
   logic [7:0] status;
   do read_reg(Status, status); while (!status[0]);

@@ -8,7 +8,7 @@ module spi_host (
     output logic      done    // 1: the session has passed
 );
 
-  localparam int HalfCycles = 4;  // half a period of sck, cycles; low needs more than 3
+  localparam int HalfCycles = 4;  // half a period of sck in cycles; sck must be low for more than 3
 
   logic sck = 1'b0, mosi = 1'b0, ss_n = 1'b1;
   logic miso, irq, hold, pout_n, dir;
@@ -112,7 +112,7 @@ module spi_host (
     end_frame();
   endtask
 
-  // FF requests one read; its value is returned with the next byte, 00, which requests no read.
+  // Byte FF requests one read. The next byte, 00, requests no read and returns the value that was read.
   task automatic read_reg(input logic register, output logic [7:0] value);
     logic [7:0] unused;
     header(1'b0, register);

@@ -39,8 +39,8 @@ module wishbone_host (
       .dir
   );
 
-  // Starts and ends after a falling edge. ack is sampled on falling edges too. The transfer is complete at
-  // the rising edge that follows, so the request is stable until the next falling edge.
+  // The task starts and ends just after a falling edge. It samples ack on falling edges, too. The transfer is
+  // complete at the rising edge that follows, so the request is stable until the next falling edge.
   task automatic transfer(input logic write, input logic register, input logic [7:0] value);
     cyc       = 1'b1;
     stb       = 1'b1;

@@ -1,1 +1,1 @@
-"""`make demo`: a part from the host bus to the motor pins."""
+"""`make demo`: run a part from its host bus to its motor pins."""

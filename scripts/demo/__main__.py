@@ -1,4 +1,4 @@
-"""`make demo`: build a part's RTL, drive it like a host, compare it with the golden model, draw it."""
+"""`make demo`: build a part's RTL, drive it as a host does, compare it with the golden model, draw it."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def last_line(path: Path) -> str:
 
 
 def newest_build(part: str) -> str:
-    """Return the progress of the Verilator build: the number of object files."""
+    """Return the number of object files that the Verilator build has completed, as text."""
     folders = sorted((BUILD / "sim").glob(f"{part}-*/"), key=lambda path: path.stat().st_mtime)
     count = len(list(folders[-1].glob("*.o"))) if folders else 0
     return f"{count} object files" if count else "reading SystemVerilog"
@@ -53,7 +53,7 @@ def repro(demo: Demo) -> str:
 
 
 def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
-    """Build and run; return the recording and the chapters."""
+    """Build the RTL and run the demo; return the recording and the chapters."""
     design = part_design(demo.part, demo.config)
     steps.run("build the RTL with Verilator", lambda: build(design), lambda: newest_build(demo.part))
     item = Item(demo.module, demo.test, demo.config, demo.part, ())
@@ -68,13 +68,13 @@ def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]
 
 
 def hexes(data: list[int]) -> str:
-    """Return bytes as pairs of hex digits; a long block is truncated."""
+    """Return bytes in hexadecimal, two digits each; a long block is truncated."""
     text = " ".join(f"{byte:02X}" for byte in data[:MOST])
     return text + (" …" if len(data) > MOST else "")
 
 
 def show_talk(demo: Demo, recording: Recording, chapters: list[dict[str, Any]]) -> None:
-    """Print the table of bytes sent by the host and the responses."""
+    """Print the table of the bytes that the host has sent, and of the responses."""
     clk_hz = int(str(recording.params["CLK_HZ"]))
     table = Table(title="Host and chip", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("ms", justify="right")
@@ -132,7 +132,7 @@ def spread(first: float, second: float) -> str:
 
 
 def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> None:
-    """Print the motions of the motors, measured at the pins."""
+    """Print the motions of the motors, as measured at the pins of the RTL."""
     recording = comparison.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
     motors = waves.motor_pulses(comparison, demo.view)
@@ -152,7 +152,7 @@ def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]
 
 
 def write_waves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> list[Path]:
-    """Write the VCD and its saved views; return their paths."""
+    """Write the VCD file and its saved views; return their paths."""
     vcd, gtkw, sucl = (FOLDER / f"{demo.name}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
     waves.write_vcd(comparison, demo.view, vcd)
     period = 1_000_000_000_000 // int(str(comparison.recording.params["CLK_HZ"]))
@@ -172,9 +172,9 @@ def part_of(arguments: list[str] | None) -> str:
 
 
 def chosen(arguments: list[str] | None) -> Demo | Callable[[], int]:
-    """Return the demo of the part that the command line names, or a function that runs a separate demo.
+    """Return the demo of the part that the command line names, or a function that runs a special demo.
 
-    If the part has no demo, ProjectError lists the parts that have one.
+    If the part has no demo, the call raises ProjectError, which lists the parts that have one.
     """
     name = part_of(arguments)
     known = [row.name for row in parts.having("demo")]
@@ -185,13 +185,13 @@ def chosen(arguments: list[str] | None) -> Demo | Callable[[], int]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the demo; return 0 if RTL and golden model agree in every edge."""
+    """Run the demo; return 0 if every edge of the RTL equals that of the golden model."""
     demo = chosen(arguments)
     return play(demo) if isinstance(demo, Demo) else demo()
 
 
 def play(demo: Demo) -> int:
-    """Run a demo on the pins of a part; return 0 if RTL and golden model agree in every edge."""
+    """Run a demo on the pins of a part; return 0 if every edge of the RTL equals that of the golden model."""
     steps = Steps()
     begin = time.monotonic()
     try:
@@ -203,7 +203,7 @@ def play(demo: Demo) -> int:
         try:
             steps.run("draw the picture", lambda: demo.draw(comparison, chapters, picture))
         except (IndexError, StopIteration):
-            # Faulty RTL may lack the edges that the close-ups show.
+            # The close-ups need edges that faulty RTL may not have.
             if comparison.mismatch is None:
                 raise
     except SimError as error:

@@ -1,6 +1,6 @@
 """Description of a demo: its test, the wording of host accesses, its waveforms and its picture.
 
-Each part has its own in scripts/<part>/demo.py, named in the table of parts.
+Each part has its own description in scripts/demo/; the column `demo` of the table of parts names it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class View:
 
     Attributes:
         split: names of the single bits of a vector, lowest first.
-        motors: scope -> the pin or vector in which `pulses` finds the pulses of that motor.
+        motors: scope -> the pin or vector from which `pulses` derives the pulses of that motor.
         groups: (title, signals) of the saved views.
         access: function that returns the text of a host access.
     """
@@ -37,9 +37,9 @@ class View:
 
 @dataclass(frozen=True)
 class Demo:
-    """One demo of PART=`name`, which runs on `part`.
+    """A demo: `name` is the value of PART, `part` is the part that it runs on.
 
-    `picture` returns the content of the standard picture; `own` draws another one.
+    `picture` returns the content of the standard picture; `own` draws a special picture instead.
 
     Attributes:
         config: build of the part.
@@ -60,7 +60,7 @@ class Demo:
     config: Config = F16
 
     def draw(self, comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
-        """Draw the picture of a run."""
+        """Draw the picture of a recorded run to a file."""
         if self.own is not None:
             self.own(comparison, chapters, path)
         elif self.picture is not None:

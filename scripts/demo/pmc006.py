@@ -1,4 +1,4 @@
-"""`make demo PART=pmc006`: test, display of the bus, waveforms and picture."""
+"""`make demo PART=pmc006`: the demo's test, the text of bus accesses, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from scripts.demo.scenes import Changes, bit, frame_text, heading, pin, rises, s
 PHASES = {"a": "#0b6fb8", "b": "#c26a1b"}
 REFERENCE, SWITCH, LAMP = "#6b7785", "#8c2d62", "#2f9e6e"
 FULL_STEP = 128
-"""Units of the electrical angle."""
+"""One full step in units of the electrical angle."""
 LOOKED = tuple(dict.fromkeys(name for pins in BRIDGES.values() for name in pins[:-1]))
 By = Mapping[str, Mapping[str, Any]]
 
@@ -34,7 +34,7 @@ CHOPPER = (
 
 
 class Motor:
-    """Both windings, simulated from the recorded half bridges up to edge `end`."""
+    """Both windings, simulated with the recorded levels of the half bridges up to edge `end`."""
 
     def __init__(self, comparison: Any, end: int) -> None:
         self.hz = int(comparison.recording.params["CLK_HZ"])
@@ -57,7 +57,7 @@ class Motor:
 
 
 class Step(NamedTuple):
-    """A step at edge `t`: full steps from the start, full steps a second (nan for the first of a motion)."""
+    """A step at edge `t`: position in full steps, speed in full steps/s (nan at the first of a motion)."""
 
     t: int
     place: float
@@ -81,7 +81,7 @@ def way(steps: Sequence[int], forward: Changes, chapters: By, hz: int) -> list[S
 
 
 def overview(axes: Axes, steps: Sequence[Step], comparison: Any, by_key: By, ms: float) -> None:
-    """Draw position and speed of the whole demo, the switch and the output."""
+    """Draw position and speed for the whole demo, with the levels of the switch and the output."""
     speed = axes.twinx()
     xs = [step.t / ms for step in steps]
     speed.plot(xs, [step.speed for step in steps], color=PALE, linewidth=1.1, zorder=1)
@@ -144,7 +144,7 @@ def currents(axes: Axes, motor: Motor, begin: int, end: int, title: str, referen
 
 
 def cycle(steps: Sequence[Step], chapter: Mapping[str, Any]) -> tuple[int, int]:
-    """Return the first and last edge of four full steps in the middle of a move."""
+    """Return the first and the last edge of four full steps in the middle of a move."""
     inside = [step for step in steps if chapter["begin"] <= step.t < chapter["end"]]
     low = min(inside[0].place, inside[-1].place)
     middle = [step for step in inside if abs(step.place - low - WAY / 2) <= 2.001]
@@ -152,7 +152,7 @@ def cycle(steps: Sequence[Step], chapter: Mapping[str, Any]) -> tuple[int, int]:
 
 
 def chopper(axes: Axes, motor: Motor, comparison: Any, begin: int) -> None:
-    """Draw the current with its reference, and the half bridges of phase A."""
+    """Draw the current of phase A, its reference, and the half bridges."""
     us, end = motor.hz / 1e6, begin + motor.hz // 1800
     rows = motor.curve("a", begin, end, 3000)
     xs = [(t - begin) / us for t, *_ in rows]
@@ -185,7 +185,7 @@ def chopper(axes: Axes, motor: Motor, comparison: Any, begin: int) -> None:
 
 
 def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
-    """Draw the picture of a comparison's recording into a PNG."""
+    """Draw the picture of the compared recording into a PNG."""
     hz = int(comparison.recording.params["CLK_HZ"])
     by_key: By = {chapter["key"]: chapter for chapter in chapters}
     motor = Motor(comparison, by_key["load"]["begin"])
@@ -202,7 +202,7 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
     currents(
         middle, motor, first["begin"], first["end"], f"Phase currents: {first['title']}", references=False
     )
-    # The legend is in the line of the heading, because the curves fill their axes.
+    # The legend is next to the title, because the curves fill their axes.
     middle.legend(
         loc="lower right",
         bbox_to_anchor=(1, 0.98),

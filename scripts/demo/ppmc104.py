@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc104`: test, display of the bus, waveforms and picture."""
+"""`make demo PART=ppmc104`: the demo's test, the text of bus accesses, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TITLES = {
 
 
 def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
-    """Return phases, pulses, flags, and the limit switch that the demo presses."""
+    """Return the rows of the picture: phases, pulses, flags, and the limit switch that the demo presses."""
     rows = [Trace(f"S{n}", initial["s"] >> (n - 1) & 1, bit(outputs["s"], n - 1)) for n in range(1, 6)]
     rows += [
         Trace(name, initial[pin], outputs[pin])
@@ -71,7 +71,7 @@ def zooms(
 
 
 def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
-    """Return the picture of a comparison's recording."""
+    """Return the content of the picture for the compared recording."""
     recording, outputs = comparison.recording, comparison.actual
     clk_hz = int(recording.params["CLK_HZ"])
     pulses = [t for t, level in outputs["pout_n"] if level == 0]

@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc2104`: test, display of the bus, waveforms and picture."""
+"""`make demo PART=ppmc2104`: the demo's test, the text of bus accesses, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LINKED = "#1b7f79"
 def axis_traces(
     axis: int, outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]
 ) -> list[Trace]:
-    """Return phases, pulses, HOLD and the switch of one axis, named as in the data sheet."""
+    """Return the rows of one axis (phases, pulses, HOLD, its switch) with the names of the data sheet."""
     phases, colour = f"s{axis}_n", COLOURS[axis]
     rows = [
         Trace(f"S{n}{axis}*", initial[phases] >> (n - 1) & 1, bit(outputs[phases], n - 1), colour)
@@ -49,7 +49,7 @@ def first(changes: Changes, level: int, since: int) -> int:
 
 
 def start(pulses: Mapping[int, list[int]], run: int, clk_hz: int) -> Section:
-    """Return the close-up of RUN, which starts both axes."""
+    """Return the close-up of RUN, which starts both axes at the same time."""
     after = {axis: [t for t in found if t >= run][:6] for axis, found in pulses.items()}
     us = clk_hz // 1_000_000
     together = "on one edge" if after[1][0] == after[2][0] else "NOT on one edge"
@@ -65,7 +65,7 @@ def start(pulses: Mapping[int, list[int]], run: int, clk_hz: int) -> Section:
 def ends(
     pulses: Mapping[int, list[int]], outputs: Levels, chapter: Mapping[str, Any], clk_hz: int
 ) -> Section:
-    """Return the close-up of two motion ends with one interrupt."""
+    """Return the close-up of the end of two motions, which share one interrupt."""
     us = clk_hz // 1_000_000
     last = {axis: [t for t in found if t < chapter["end"]][-1] for axis, found in pulses.items()}
     calls = [t for t, _ in outputs["int_n"] if t >= last[1]][:4]
@@ -85,7 +85,7 @@ def ends(
 
 
 def limit(pulses: Mapping[int, list[int]], outputs: Levels, press: int, clk_hz: int) -> Section:
-    """Return the close-up of axis 1 at its limit; axis 2 continues."""
+    """Return the close-up in which axis 1 reaches its limit and axis 2 continues."""
     us = clk_hz // 1_000_000
     before = [t for t in pulses[1] if press - 310 * us < t < press]
     done = first(outputs["int_n"], 0, press)
@@ -100,7 +100,7 @@ def limit(pulses: Mapping[int, list[int]], outputs: Levels, press: int, clk_hz: 
 
 
 def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
-    """Return the picture of a comparison's recording."""
+    """Return the content of the picture for the compared recording."""
     recording, outputs = comparison.recording, comparison.actual
     clk_hz = int(recording.params["CLK_HZ"])
     pulses = {axis: falls(outputs, axis) for axis in COLOURS}
@@ -149,7 +149,7 @@ _PER_AXIS = (
 
 
 def _name(port: str, axis: int) -> str:
-    """Return the name of one axis's pin: pout_n becomes pout1_n, run becomes run1."""
+    """Return the pin name with the axis number: pout_n becomes pout1_n, run becomes run1."""
     return f"{port.removesuffix('_n')}{axis}{'_n' if port.endswith('_n') else ''}"
 
 

@@ -1,4 +1,4 @@
-"""Functions for the pictures of all parts: single bits, pin changes, accesses and times as text."""
+"""Functions that the pictures of all parts share: single bits, pin changes, accesses and times as text."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def bit(changes: Sequence[tuple[int, int]], index: int) -> Changes:
 
 
 def falls(changes: Changes) -> list[int]:
-    """Return the edges on which a pin becomes low: the pulses of a pulse output."""
+    """Return the edges on which a pin becomes low, which are the pulses of an active-low pulse output."""
     return [t for t, level in changes if level == 0]
 
 
@@ -34,17 +34,17 @@ def rises(changes: Changes) -> list[int]:
 
 
 def access_text(access: Any) -> str:
-    """Return a host access as a word: C43 command, DE7 data, S04 status read, R83 data read."""
+    """Return a host access as one word: C43 command, DE7 data, S04 status read, R83 data read."""
     return f"{('DC' if access.kind == 'write' else 'RS')[access.reg]}{access.byte:02X}"
 
 
 def register_text(access: Any) -> str:
-    """Return an access to named registers as text: the name, with `:=` for a write, and the byte."""
+    """Return an access to a named register as text: name, `:=` for a write, and byte."""
     return f"{access.kind.removesuffix(' read')} {access.byte:02X}"
 
 
 def frame_text(access: Any) -> str:
-    """Return a frame of a serial host, or its reply, as text with the data."""
+    """Return a frame of a serial host, or the reply to it, as text with the data."""
     return f"{access.kind} {access.byte:X}"
 
 
@@ -59,7 +59,7 @@ def micros(clk: int, clk_hz: int) -> str:
 
 
 def spans(edges: Sequence[int], clk_hz: int) -> list[tuple[int, int, str]]:
-    """Return dimension lines from edge to edge."""
+    """Return a dimension line between each two consecutive edges."""
     return [(a, b, micros(b - a, clk_hz)) for a, b in zip(edges, edges[1:], strict=False)]
 
 
@@ -69,7 +69,7 @@ def heading(axes: Axes, text: str) -> None:
 
 
 def subtitle(comparison: Any, clk_hz: int) -> str:
-    """Return the content of the picture and the result of the comparison as text."""
+    """Return the subtitle: what the picture shows, and the result of the comparison."""
     verdict = "no difference" if comparison.mismatch is None else "DIFFERENT, see compare.txt"
     return (
         f"RTL in simulation at {clk_hz / 1e6:g} MHz. {comparison.edges_compared} edges of all "

@@ -1,4 +1,4 @@
-"""The steps of a demo on the terminal: running step, its progress, completed steps."""
+"""Display of the steps of a demo on the terminal: the running step, its progress, completed steps."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 
 class Steps:
-    """The list of steps with a spinner at the running step; plain lines if there is no terminal."""
+    """The list of steps, with a spinner at the running one; without a terminal, plain lines."""
 
     def __init__(self) -> None:
         self.done: list[str] = []
@@ -29,13 +29,13 @@ class Steps:
         return text.append(f"{mark} {running} … {seconds:.0f} s  ", style="bold").append(detail, style="dim")
 
     def run(self, what: str, work: Callable[[], T], detail: Callable[[], str] = lambda: "") -> T:
-        """Run `work` in a thread and show `what` and its detail; return its result or raise its exception."""
+        """Run `work` in a thread and display `what` with its detail; return its result or raise its error."""
         outcome: dict[str, Any] = {}
 
         def inner() -> None:
             try:
                 outcome["result"] = work()
-            except BaseException as error:  # raised again in the caller, including SystemExit of a runner
+            except BaseException as error:  # raised again in the caller; a runner may also raise SystemExit
                 outcome["error"] = error
 
         begin, shown = time.monotonic(), ""
@@ -59,7 +59,7 @@ class Steps:
 
     @contextmanager
     def display(self) -> Iterator[Callable[[Text], None]]:
-        """Provide a live area on a terminal; elsewhere the updates are ignored."""
+        """Provide an area that is updated in place on a terminal; without a terminal, updates are ignored."""
         if not console.is_terminal:
             yield lambda text: None
             return

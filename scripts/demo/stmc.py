@@ -1,4 +1,4 @@
-"""`make demo PART=stmc`: test, display of the bus, waveforms and picture."""
+"""`make demo PART=stmc`: the demo's test, the text of bus accesses, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SWITCHES = (("L3*", "l3_n"), ("L1*", "l1_n"), ("CNP*", "cnp_n"))
 
 
 def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
-    """Return driver outputs, flags, and the switches that the demo presses."""
+    """Return the rows of the picture: driver outputs, flags, and the switches that the demo presses."""
     rows = [
         Trace(f"DRV{n}", initial["drv"] >> (n - 1) & 1, bit(outputs["drv"], n - 1), COLOURS[f"S{n}"])
         for n in range(1, 5)
@@ -32,7 +32,7 @@ def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any])
 
 
 def first(changes: Sequence[tuple[int, int]], level: int, since: int) -> int:
-    """Return the edge of the first change to a level from `since` on."""
+    """Return the edge of the first change to a level, at `since` or later."""
     return next(t for t, value in changes if value == level and t >= since)
 
 
@@ -51,7 +51,7 @@ def start(outputs: Levels, moves: Sequence[int], begin: int, clk_hz: int) -> Sec
 
 
 def stop(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Section:
-    """Return the close-up of the stop limit in the deceleration ramp."""
+    """Return the close-up in which the stop limit acts in the deceleration ramp."""
     us = clk_hz // 1_000_000
     before = [t for t in moves if t < press][-4:]
     end = first(outputs["irq"], 1, press)
@@ -66,7 +66,7 @@ def stop(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Sect
 
 
 def reference(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Section:
-    """Return the close-up of the reference point, then chopping."""
+    """Return the close-up of the reference point and the chopping after it."""
     us = clk_hz // 1_000_000
     before = [t for t in moves if t < press][-3:]
     off = [t for t, level in outputs["drv"] if t > press][:3]
@@ -82,7 +82,7 @@ def reference(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) ->
 
 
 def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
-    """Return the picture of a comparison's recording."""
+    """Return the content of the picture for the compared recording."""
     recording, outputs = comparison.recording, comparison.actual
     clk_hz = int(recording.params["CLK_HZ"])
     moves = steps(outputs["drv"])

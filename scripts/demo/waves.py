@@ -21,7 +21,7 @@ from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 
 TEXTS = ("host.access", "line.question", "line.answer")
-LATEST_FALL = 2.1e-3  # seconds without a pulse that count as speed 0
+LATEST_FALL = 2.1e-3  # after this time in seconds without a pulse, the speed is 0
 
 
 def speed_changes(pulses: Sequence[int], clk_hz: int) -> Iterator[tuple[int, float]]:
@@ -40,7 +40,7 @@ def single_pins(
     changes: Mapping[str, Sequence[tuple[int, int]]],
     split: Mapping[str, Sequence[str]],
 ) -> dict[str, tuple[int, Sequence[tuple[int, int]]]]:
-    """Return pin -> (first level, changes); vectors in `split` are replaced by their bits."""
+    """Return pin -> (first level, changes); a vector in `split` is replaced by its bits."""
     pins: dict[str, tuple[int, Sequence[tuple[int, int]]]] = {}
     for name, level in levels.items():
         for index, single in enumerate(split.get(name, ())):
@@ -51,7 +51,7 @@ def single_pins(
 
 
 def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
-    """Return the scope of each motor -> edges of its pulses or steps at the RTL."""
+    """Return scope of each motor -> edges of its pulses or steps as recorded at the RTL."""
     pins = single_pins(comparison.initial, comparison.actual, view.split)
     whole = comparison.actual
     return {
@@ -61,13 +61,13 @@ def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
 
 
 def _writer(file: IO[str], recording: Recording) -> VCDWriter:
-    """Return a writer of a VCD that names its core for `openppmc decode`."""
+    """Return a writer of a VCD that names part and parameters, so that `openppmc decode` can read it."""
     comment = core_comment(recording.part, recording.params)
     return VCDWriter(file, timescale="1 ps", date="", comment=comment)
 
 
 def write_vcd(comparison: Any, view: View, path: Path) -> None:
-    """Write all pins, the host's accesses, and pulse count and speed of each motor."""
+    """Write all pins, the host's accesses, and each motor's pulse count and speed."""
     recording = comparison.recording
     part = recorded(recording.part, recording.params)
     clk_hz = int(recording.params["CLK_HZ"])
@@ -97,7 +97,7 @@ def write_vcd(comparison: Any, view: View, path: Path) -> None:
 
 
 def full_names(part: str, view: View) -> Mapping[str, str]:
-    """Return the names declared in the VCD: vectors with their range."""
+    """Return the names as declared in the VCD, where a vector has its range."""
     pins = PARTS[part]
     widths = {name: pins.width(name) for name in (*pins.inputs, *pins.outputs) if name not in view.split}
     vectors = {f"pins.{name}": f"[{width - 1}:0]" for name, width in widths.items() if width > 1}
@@ -105,7 +105,7 @@ def full_names(part: str, view: View) -> Mapping[str, str]:
 
 
 def gtkwave(vcd: Path, target: Path, part: str, view: View, end_ps: int, marks: Sequence[int]) -> None:
-    """Write a GTKWave save file: the whole run, the speed as an analog curve, marks in ps as A, B and on."""
+    """Write a GTKWave save file: the whole run, speed as an analog curve, marks A, B, … at times in ps."""
     # The zoom is minus log2 of the time between two grid lines; the window shows about five grid lines.
     zoom = math.log2(end_ps / 5)
     names = full_names(part, view)

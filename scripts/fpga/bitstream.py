@@ -31,7 +31,7 @@ def arguments() -> argparse.Namespace:
 
 
 def parameters(texts: list[str]) -> dict[str, int | str]:
-    """Return the parameters of NAME=VALUE texts; raise ProjectError if a text has another form."""
+    """Return the parameters in NAME=VALUE texts; raise ProjectError for a text in another form."""
     params: dict[str, int | str] = {}
     for text in texts:
         name, equals, value = text.partition("=")
@@ -42,7 +42,7 @@ def parameters(texts: list[str]) -> dict[str, int | str]:
 
 
 def share(used: int, total: int) -> str:
-    """Return a text such as '1257 of 5280 (23.8 %)'."""
+    """Return the used part of a total as text, such as '1257 of 5280 (23.8 %)'."""
     return f"{used} of {total} ({100 * used / total:.1f} %)" if total else str(used)
 
 

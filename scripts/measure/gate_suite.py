@@ -1,6 +1,6 @@
 """Tests that run on netlists: the unchanged part tests, on every family of the part.
 
-Most tests run in every configuration. Exceptions of each part, with reasons: cocotb_tests/<part>/gates.py.
+Most tests run in every configuration. cocotb_tests/<part>/gates.py lists the exceptions, with reasons.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from openppmc import parts
 from scripts.fpga.flow import gates, plain
 
 QUICK = "quick"
-# The quick subset: the tests listed by each part, on one family; each family has some of the parts. Synthesis
+# The quick subset: the tests that each part lists, on one family; each family has some of the parts. Synthesis
 # takes most of its time.
 QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
 QUICK_DEFAULT = "ecp5"
@@ -41,7 +41,7 @@ def families(of: PartTests) -> list[str]:
 
 @dataclass(frozen=True)
 class GateTest:
-    """One simulation of one netlist. `item` is tagged with the family; `group` is its row in the table.
+    """One simulation of a netlist. `item` has the tag of the family; `group` is its row in the table.
 
     Attributes:
         params: parameters of the part's top.
@@ -61,7 +61,7 @@ class GateTest:
         return board.TOP if self.item.module == board.MODULE else project.part(self.item.part).top
 
     def design(self) -> Design:
-        """Return the simulated design; synthesise the netlist if it is missing."""
+        """Return the design to be simulated; its netlist is synthesised if it is missing."""
         config = self.item.config
         if self.top == board.TOP:
             folder = gates.netlist(self.family, board.TOP, board.sources(), board.params(config))
@@ -70,14 +70,14 @@ class GateTest:
 
     @property
     def group(self) -> tuple[str, str]:
-        """Family, and top with its configuration."""
+        """Family, and name of the top with its configuration."""
         return self.family, f"{self.top} {self.item.config.name}"
 
 
 def left_out() -> dict[str, str]:
-    """Return the tests of the parts' test modules that do not run on netlists, with the reason.
+    """Return the tests in the parts' test modules that do not run on netlists, each with its reason.
 
-    Raises ProjectError for a test function without a reason, so that no test is omitted by mistake.
+    ProjectError is raised for a test function that has no reason, so that no test is omitted by mistake.
     """
     every = suites()
     reasons: dict[str, str] = {}
@@ -132,7 +132,7 @@ def _board(family: str) -> list[GateTest]:
 
 
 def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> list[GateTest]:
-    """Return all tests of these families, grouped by netlist; `seed` selects another random host."""
+    """Return all tests of these families, grouped by netlist; `seed` selects other random hosts."""
     tests = []
     every = suites()
     for family in of:
@@ -144,9 +144,10 @@ def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> l
 
 
 def chosen(tests: Sequence[GateTest], word: str | None, four_state: bool = False) -> list[GateTest]:
-    """Return the tests whose name contains `word`, or one of several words separated by commas (any case).
+    """Return the tests whose name contains `word`, or one of several words separated by commas.
 
-    `quick` selects the quick subset, or that of a simulator with X.
+    Upper and lower case are equal. The word `quick` selects the quick subset; if `four_state` is True, it
+    selects the subset for a simulator with X.
     """
     if word is None:
         return list(tests)

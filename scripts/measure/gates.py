@@ -30,15 +30,15 @@ from scripts.measure.campaign.jobs import Campaign, Done, Job, Result
 from scripts.measure.campaign.run import run
 from scripts.measure.gate_suite import GateTest, chosen, everything, left_out
 
-# Up to this number of tests, a failing test runs again with waves, which needs another build.
+# If there are no more tests than this, a failing test runs again with waves, which needs another build.
 WAVES_UP_TO = 20
-# Wall-clock limit of a simulation in s; a netlist takes five times as long as the RTL.
+# Wall-clock limit of a simulation in s; a netlist runs at a fifth of the speed of the RTL.
 LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 
 @dataclass
 class Row:
-    """One netlist in the table; `old` tests passed in an earlier run on the same sources."""
+    """Row of a netlist in the table; `old` tests have passed in an earlier run on the same sources."""
 
     tests: int = 0
     passed: int = 0
@@ -59,7 +59,7 @@ def _measured(work: Callable[[], str]) -> Result:
 
 
 def build_one(test: GateTest) -> Result:
-    """Build the netlist and the simulator of this test's row."""
+    """Build the netlist and the simulator for the row of this test."""
 
     def work() -> str:
         try:
@@ -89,7 +89,7 @@ def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
 
 
 def _named(campaign: str) -> str:
-    """Return the name of a campaign for the current main program or simulator; results are not shared."""
+    """Return the name of a campaign; each main program and simulator has its own results."""
     return campaign if sim_main() == "own" else f"{campaign}-{sim_main()}"
 
 
@@ -97,7 +97,7 @@ def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], worke
     """Build each row's netlist; if a build fails, all its tests fail."""
     first = {" ".join(test.group): test for test in reversed(tests)}
     jobs = [Job(name, test) for name, test in first.items()]
-    # Always fresh: builds are on disk, and an earlier result does not show that they still exist.
+    # Builds are never reused: they are on disk, and a stored result does not show that they still exist.
     for done in run(
         Campaign(_named("gates-build"), build_one, jobs, len(jobs), "building netlists"), workers, True
     ):
@@ -114,7 +114,7 @@ def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], worke
 def run_all(
     tests: Sequence[GateTest], seed: int | None, workers: Workers, fresh: bool = False
 ) -> dict[tuple[str, str], Row]:
-    """Build, then run; print failures immediately."""
+    """Build the netlists, then run the tests; print failures immediately."""
     rows: dict[tuple[str, str], Row] = {}
     for test in tests:
         rows.setdefault(test.group, Row()).tests += 1

@@ -43,7 +43,7 @@ BANKS = (
     (32, 100_000_000, 16_000_000),
     (64, 200_000_000, 16_000_000),
 )
-"""Checked sets of AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
+"""Checked combinations of AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
@@ -61,7 +61,7 @@ class Check:
 
 
 def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
-    """Run a tool from the project's root; return its output, with `ok_output` only if the tool failed."""
+    """Run a tool from the project's root; return its output. With `ok_output`, a success returns ""."""
     try:
         done = subprocess.run(
             command,
@@ -127,7 +127,7 @@ def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
         words.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
     words += ["lint/verilator.vlt", "lint/verilator_newer.vlt", *(relative(path) for path in files)]
     text = tool(*verilator_command(words, project.ROOT), env=verilator_environment(project.ROOT))
-    # Lines that begin with a dash are statistics.
+    # Lines that begin with a dash are statistics, not findings.
     return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
 
 
@@ -199,7 +199,7 @@ def text_files() -> list[Path]:
 
 
 def text_marks() -> str:
-    """Check for leftover marks, tabs, and spaces at line ends."""
+    """Check for marks of unfinished work, tabs, and spaces at line ends."""
     found = []
     for path in text_files():
         if path.suffix == ".json" or path.name == "Makefile":
@@ -241,7 +241,7 @@ def locked() -> str:
 
 
 def board_checks() -> list[Check]:
-    """Return the checks of the board tops and of their shared carrier, with each host that they support."""
+    """Return the checks of the board tops and their shared carrier, each with all hosts that it supports."""
     every = []
     on_boards = [path.stem for path in project.listed()["boards"].files if path.stem.startswith("board_")]
     for top in ["ppmc104_carrier", *on_boards]:
@@ -255,7 +255,7 @@ def board_checks() -> list[Check]:
 
 
 def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
-    """Yield the parameter sets for checks of a part's top, each with a label for the summary."""
+    """Yield the parameter sets with which a part's top is checked, each with a label for the summary."""
     known = header.parameters(project.top_file(part))
     if "AXES" in known:
         for index, (axes, clk_hz, xtal_hz) in enumerate(BANKS):
@@ -268,14 +268,14 @@ def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
             params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
             label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
             if "PHASE_IDLE" in known:
-                # Covers both levels with both timings without doubling the number of runs.
+                # These sets cover both levels with both timings without doubling the number of runs.
                 params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
                 label += f" PHASE_IDLE={params['PHASE_IDLE']}"
             yield label, params
 
 
 def checks() -> list[Check]:
-    """Return all checks, the slow ones first, so that the workers end at about the same time."""
+    """Return all checks, the slow ones first, so that all workers end at about the same time."""
     every = []
     for part in tops():
         files = project.sources(part)
@@ -339,7 +339,7 @@ def checks() -> list[Check]:
 
 
 def guarded(check: Check) -> str:
-    """Return a check's findings; a ProjectError is a finding."""
+    """Return the findings of a check; a ProjectError also counts as a finding."""
     try:
         return check.run()
     except ProjectError as error:

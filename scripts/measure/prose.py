@@ -24,7 +24,7 @@ from cocotb_tests.harness.project import ROOT, console, run
 
 WORDS = ROOT / "lint" / "prose.txt"
 NEUTRAL = "X"
-"""Replaces code within a sentence."""
+"""Text that replaces code within a sentence."""
 SLASHES = {".sv", ".svh", ".c", ".h", ".cpp", ".ts", ".tsx", ".mjs", ".css"}
 HASHES = {".yml", ".toml", ".sh", ".txt"}
 LONGEST = 30
@@ -39,7 +39,7 @@ SHARES = {
     "changelog": 4,
     "commit": 4,
 }
-"""Items of each kind among 60 of a sample."""
+"""Number of passages of each kind in a sample of 60."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def slashed(file: str, text: str) -> Iterator[Item]:
             inside = "*/" not in part
             lines.append((number, part.split("*/")[0].strip(" *")))
         elif found and "SPDX" not in line:
-            # A comment after code has no sentence in common with that of the line before.
+            # A comment after code never continues the sentence of the line before.
             if line.strip()[:2] != "//":
                 lines.append((number - 1, ""))
             lines.append((number, found[1]))

@@ -1,6 +1,6 @@
 """Run tests of the parts on both main programs of simulations: `python -m scripts.measure.sim_mains WORD`.
 
-Both must record the same pins, host accesses and output edges. WORD is a part of a test name, as for
+Both programs must record the same pins, host accesses and output edges. WORD is a part of a test name, as for
 `make test T=`.
 """
 

@@ -26,12 +26,12 @@ from scripts.measure.campaign.run import run
 
 ALL = "all"
 BLOCK, LARGE_BLOCK = 25, 250
-"""Seeds in a job, and in a job of LARGE or more seeds: more seeds in one simulation, fewer stored results."""
+"""Seeds in a job, and in a job of a run with LARGE or more seeds, which stores fewer and longer jobs."""
 LARGE = 10_000
 
 
 class Hosts(Protocol):
-    """Type of the column `soak` of a part: `RandomItems`, or a class that does more with a seed."""
+    """Type of the column `soak` of a part: `RandomItems`, or a class that runs further checks with a seed."""
 
     def some(self, seeds: Sequence[int]) -> Played:
         """Run these seeds in this process."""
@@ -66,7 +66,7 @@ def some(what: tuple[str, int, int]) -> Result:
 
 
 def blocks(first: int, count: int) -> Iterator[tuple[int, int]]:
-    """Yield (first seed, number) of each job; the limits of blocks do not depend on `first` and `count`."""
+    """Yield (first seed, number) of each job; all limits between jobs are multiples of the job size."""
     size, end = (LARGE_BLOCK if count >= LARGE else BLOCK), first + count
     while first < end:
         last = min(end, (first // size + 1) * size)

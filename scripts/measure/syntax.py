@@ -1,4 +1,4 @@
-"""slang's syntax trees of the RTL: nodes, their kinds, their places."""
+"""The nodes of slang's syntax trees of the RTL, with their kinds and places."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 
 def _hidden(text: str) -> str:
-    """Return the text with code that is not for synthesis blanked; all other letters keep their places.
+    """Return the text in which code that is not for synthesis is blank; all other letters keep their places.
 
     slang counts bytes, so each letter is one byte.
     """
@@ -51,7 +51,7 @@ def children(node: Any) -> Iterator[Any]:
 
 
 def found(node: Any, *kinds: str) -> Iterator[Any]:
-    """Yield the nodes of these kinds, from this one downwards; nodes inside a found node are skipped."""
+    """Yield the nodes of these kinds below and including a node, but none inside a node that was found."""
     if kind(node) in kinds:
         yield node
         return

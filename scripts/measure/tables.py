@@ -1,9 +1,9 @@
 """Compare each table of the RTL in synthesis and in simulation, word by word.
 
-The front end of the synthesis evaluates `initial` blocks itself. A function with branches in such a block
-produced wrong values in three tables, which simulations of the RTL could not detect. `make lint` runs this
-check. Started as ``python -m scripts.measure.tables FOLDER``, this module makes the netlists, in a separate
-process for yosys.
+The front end of the synthesis evaluates `initial` blocks itself. For a function with branches in such a
+block, it produced wrong values in three tables, and simulations of the RTL could not detect this. `make lint`
+runs this check. ``python -m scripts.measure.tables FOLDER`` makes the netlists in a separate process, because
+yosys needs one.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def run(*command: str) -> str:
 
 
 def differences(folder: Path) -> str:
-    """Return the words that differ, one on each line.
+    """Return the words that differ between simulation and netlist, one on each line.
 
     Raises ProjectError if a tool fails.
 
@@ -90,7 +90,7 @@ def differences(folder: Path) -> str:
 
 
 def main() -> int:
-    """Write each module as Verilog after elaboration, with the words of its table and the name net_<name>."""
+    """Write each module as Verilog after elaboration, with its table's words and the name net_<name>."""
     import pyosys.libyosys as ys
 
     for top in MEMORIES:

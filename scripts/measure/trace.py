@@ -32,7 +32,7 @@ Record = Mapping[str, Any]
 
 @dataclass
 class Group:
-    """All runs of one test function: its configurations, numbers of runs and passes."""
+    """All runs of one test function: its configurations, and the numbers of runs and passes."""
 
     name: str
     configs: set[str] = field(default_factory=set)
@@ -47,7 +47,7 @@ class Group:
 
 @dataclass
 class Trace:
-    """Rules joined with results; `problems` is empty if every rule has tests and all pass."""
+    """The rules with their results; `problems` is empty if every rule has tests and all tests pass."""
 
     rules: dict[str, str]
     groups: dict[str, list[Group]]
@@ -60,7 +60,7 @@ class Trace:
         return "<br>".join(f"`{name}`{words}" for name, words in bound.items())
 
     def result(self, rule: str) -> str:
-        """Return the word for the table: pass, FAIL or NO TEST."""
+        """Return the word for the column "Result": pass, FAIL or NO TEST."""
         groups = self.groups.get(rule, [])
         if not groups:
             return "NO TEST"
@@ -68,7 +68,7 @@ class Trace:
 
 
 def _part(record: Record) -> str:
-    """Return the part whose manual a record refers to, if its rules do not name it."""
+    """Return the part whose manual a record refers to, if the rules of the record do not name it."""
     row = PARTS.get(record["part"])
     return row.folder if row else str(record["part"])
 
@@ -87,14 +87,14 @@ def load_records(path: Path, part_name: str) -> list[Record]:
 
 
 def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Trace:
-    """Join rules and records; every gap and failure becomes a problem."""
+    """Assign the records to the rules; each rule without a test and each failure becomes a problem."""
     found: dict[str, dict[str, Group]] = defaultdict(dict)
     failed, unknown = [], []
     for record in records:
         if record["outcome"] != "passed":
             failed.append(f"test {record['outcome']}: {record['test']}")
         for rule in record["rules"]:
-            # Each part numbers its rules AC-NN separately.
+            # The IDs AC-NN are not unique: each part has its own.
             if (part_of_rule(rule) or _part(record)) != part_name:
                 continue
             if rule not in rules:
@@ -116,7 +116,7 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
 
 
 def unproved(proofs: Mapping[str, Sequence[Proof]], rules: Mapping[str, str], part_name: str) -> list[str]:
-    """Return the problems of a part's proofs: unknown rules, proofs whose last run has failed."""
+    """Return the problems of a part's proofs: unknown rules, and proofs whose last run has failed."""
     own = {rule: every for rule, every in proofs.items() if part_of_rule(rule) == part_name}
     strange = [
         f"unknown rule {rule}: named by proof {every[0].name}"
@@ -142,7 +142,7 @@ def _table(trace: Trace, rules: Sequence[str], part_name: str) -> list[str]:
 
 
 def page(trace: Trace, part_name: str) -> str:
-    """Return the Markdown page; equal results produce equal text."""
+    """Return the page in Markdown; the same results always give the same text."""
     checks = [rule for rule in trace.rules if CHECK.match(rule)]
     rules = [rule for rule in trace.rules if not CHECK.match(rule)]
     passing = sum(trace.result(rule) == "pass" for rule in rules)

@@ -1,7 +1,7 @@
-"""`make test WITH=versions`: test the package with oldest and newest dependencies in separate environments.
+"""`make test WITH=versions`: test the package with its oldest and newest dependencies.
 
-The lowest version of each dependency of pyproject.toml is tested with the oldest Python that is found (3.10
-or newer), the newest versions with the newest Python.
+Each test has a separate environment. The lowest version of each dependency in pyproject.toml is tested with
+the oldest Python that is found (3.10 or newer), the newest versions with the newest Python.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "versions"
 EXTRAS = "[decode,ophyd,plot]"
 TOOLS = re.compile(r"(?:cocotb|find_libpython|hypothesis|pytest[\w-]*)==.*")
-"""Lines of requirements.lock that the tests need, too."""
+"""Lines of requirements.lock for packages that only the tests need."""
 TESTS = ("tests/*/host", "tests/*/cli", "tests/common/capture", "tests/common/lab")
 QUICK = (
     "tests/common/host/test_arguments.py",
@@ -33,11 +33,11 @@ FOUND = "import sys, venv, ensurepip; print(*sys.version_info[:2], sys.executabl
 
 
 class VersionsError(Exception):
-    """No suitable Python, or a failed step; the text is one line."""
+    """Raised if there is no suitable Python or a step fails; the text is one line."""
 
 
 def pythons(names: Iterable[str]) -> list[tuple[tuple[int, int], str]]:
-    """Return versions and paths of the interpreters that can make an environment, oldest first."""
+    """Return (version, path) of all interpreters that can make an environment, oldest first."""
     found: dict[tuple[int, int], str] = {}
     for name in names:
         try:
@@ -59,12 +59,12 @@ def candidates() -> list[str]:
 
 
 def lowest(project: str) -> list[str]:
-    """Return constraints `name==version`, one for each `name>=version` of a pyproject.toml."""
+    """Return a constraint `name==version` for each `name>=version` in the text of a pyproject.toml."""
     return [f"{name}=={version}" for name, version in re.findall(r'"([\w-]+)>=([\w.]+)"', project)]
 
 
 def step(what: str, words: list[str], folder: Path = ROOT) -> None:
-    """Run a command; raise VersionsError if it fails."""
+    """Run the command of a step; raise VersionsError if it fails."""
     env = {**os.environ, "PIP_REQUIRE_VIRTUALENV": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
     env["OPENPPMC_STATE"] = str(WORK / "state")
     if subprocess.run(words, cwd=folder, env=env, check=False).returncode:
@@ -93,7 +93,7 @@ def trial(name: str, python: str, constraints: list[str], tests: list[str]) -> N
 
 
 def main(words: list[str] | None = None) -> int:
-    """Test both; return the exit status."""
+    """Test with the lowest and with the newest versions; return the exit status."""
     parser = argparse.ArgumentParser(prog="make test WITH=versions", description=__doc__)
     parser.add_argument("-k", default="", help="names of tests; `quick`: the sample of CI")
     word = parser.parse_args(words).k

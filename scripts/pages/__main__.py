@@ -1,7 +1,7 @@
 """Generate the pictures of docs/ (WaveDrom JSON and plots, in docs/<part>/img/) and the tables of manuals.
 
-`python -m scripts.pages` (`make docs`) writes the files. `--check` writes nothing, lists outdated files and
-exits with 1 if there is one. The files are identical on each run.
+`python -m scripts.pages` (`make docs`) writes the files. `--check` writes nothing; it lists outdated files
+and exits with 1 if there are any. Each run generates identical files.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def wanted() -> dict[Path, bytes]:
 
 
 def stale(files: dict[Path, bytes]) -> list[Path]:
-    """Return generated files that are missing or differ, and pictures of a part without a source."""
+    """Return the generated files that are missing or differ, and pictures without a source."""
     changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
     kept = sorted(DOCS.glob("**/img/*.svg"))
     kept += sorted(wiring.FOLDER.glob("*.md"))

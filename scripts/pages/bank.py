@@ -22,7 +22,7 @@ SESSION_AXES = 32
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # 5 to 25 kpps within 100 pulses
 BITS = ((0x80, "ERR"), (4, "BUSY"), (2, "IBF"), (1, "OBF"))
 Lines = list[tuple[str, int]]
-"""Explanation, and the number of accesses up to it."""
+"""Explanations, each with the number of accesses up to its end."""
 
 
 def meaning(one: Access) -> str:
@@ -48,7 +48,7 @@ def flags(byte: int) -> str:
 
 
 def rows(accesses: list[Access], notes: Lines) -> list[list[str]]:
-    """Return one row for each access; equal polls are combined."""
+    """Return one row for each access; consecutive equal polls are one row."""
     found, at = list[list[str]](), 0
     for note, end in notes:
         first = True
@@ -75,7 +75,7 @@ HEADS = ["a", "register", "write", "read", ""]
 
 
 def axis_session() -> str:
-    """Return a session with axis 5: INFO, CONFIG, initialisation, a move, its end, its position."""
+    """Return a session with axis 5: INFO, CONFIG, initialisation, a move, its end, and the position."""
     host, notes = Session(SESSION_AXES, 100_000_000), []
 
     def note(text: str) -> None:
@@ -107,7 +107,7 @@ def axis_session() -> str:
 
 
 def group_session() -> str:
-    """Return a session with axes 5 and 6 in a group, and STOP."""
+    """Return a session in which axes 5 and 6 move as a group and are stopped by STOP."""
     host = Session(SESSION_AXES, 100_000_000)
     for axis in (5, 6):
         host.send(axis, *RAMP)
@@ -146,12 +146,12 @@ def group_session() -> str:
 
 
 def cost_table() -> str:
-    """Return size and clock rate over the number of axes."""
+    """Return the table of size and clock rate by the number of axes."""
     return size_page.bank(figures.read())
 
 
 def axis_cost() -> Figure:
-    """Draw COMB of an axis over the number of axes: bank, parts with similar axes, other designs."""
+    """Draw COMB per axis over the number of axes: bank, parts with similar axes, other designs."""
     found = figures.read()
     figure, axes = plt.subplots(figsize=(8.4, 4.6), layout="constrained")
     for name, color in (("plain", BLUE), ("tuned", RED)):
@@ -169,7 +169,8 @@ def axis_cost() -> Figure:
     for title, comb in others.items():
         axes.axhline(comb, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
         near = any(0 < other - comb < 0.1 * comb for other in others.values())
-        side = "top" if near else "bottom"  # if two lines are close together, the lower one is named below
+        # If two lines are close together, the name of the lower one is below its line.
+        side = "top" if near else "bottom"
         axes.text(73, comb, f"{title}: {comb}", va=side, ha="right", size=7.5, color="#444444")
     axes.set(xscale="log", yscale="log", xlabel="axes", ylabel="COMB of an axis, ECP5")
     ticks = (1, 2, *designs.BANKS)
@@ -194,7 +195,7 @@ VISITS = {axis: VisitSchedule(axis, AXES, 0) for axis in (ONE, OTHER)}
 
 
 def ready() -> Session:
-    """Return a host with two axes initialised at one speed, vsel = L."""
+    """Return a host that has initialised two axes with one speed and vsel = L."""
     host = Session(AXES, CLK_HZ)
     for axis in (ONE, OTHER):
         host.write(axis, CONFIG, 0b01)
@@ -204,7 +205,7 @@ def ready() -> Session:
 
 
 def sampled(host: Session, columns: Iterable[int | None], more: Callable[[int], Levels]) -> Samples:
-    """Return the pins of both axes, the host's pins and `more` at these edges."""
+    """Return the levels of both axes' pins, of the host's pins and of `more`, sampled at these edges."""
     model, outputs, inputs = host.model, {}, {}
     for axis in (ONE, OTHER):
         for name in PINS:
@@ -223,13 +224,13 @@ def sampled(host: Session, columns: Iterable[int | None], more: Callable[[int], 
 
 
 def changes_of(pin: tuple[list[tuple[int, int]], int], edge: int) -> tuple[list[tuple[int, int]], int, int]:
-    """Return the arguments of level_at."""
+    """Return the arguments for level_at."""
     changes, initial = pin
     return changes, edge, initial
 
 
 def words(columns: Sequence[int | None], names: Mapping[int, str]) -> list[str | None]:
-    """Return the words below the columns, "" for a column without a word."""
+    """Return the word below each column; "" for a column without a word, None for a gap."""
     return [None if edge is None else names.get(edge, "") for edge in columns]
 
 
@@ -239,7 +240,7 @@ def turn(edge: int) -> int:
 
 
 def visits() -> dict[str, Any]:
-    """Return the diagram of two pulses of two axes, each ordered at a visit for its cycle."""
+    """Return the diagram of two pulses of two axes; a visit of each axis schedules its pulse."""
     host = ready()
     for axis in (ONE, OTHER):
         host.send(axis, 0x45, 9 + axis)

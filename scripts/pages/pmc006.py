@@ -65,12 +65,12 @@ def moves(rows: Sequence[Sequence[int]]) -> str:
     """Return a table of moves with their times and highest speeds.
 
     Args:
-        rows: steps, the settings L, S, v, and the coefficient u = o.
+        rows: steps, the settings L, S, v, and the coefficient (u and o are equal).
     """
     found = []
     for count, start, stop, top, coefficient in rows:
         gaps = move(count, L=start, S=stop, v=top, u=coefficient, o=coefficient).intervals
-        # Two intervals together, because a single interval is rounded to 1 µs.
+        # The sum of two intervals, because a single interval is rounded to 1 µs.
         shortest = min(a + b for a, b in pairwise(gaps))
         fastest = _number(round(2 * CLK_HZ / shortest))
         limits, both = f"{start}, {stop}, {_number(top)}", f"{coefficient}, {coefficient}"
@@ -87,7 +87,7 @@ def _number(value: int) -> str:
 
 
 async def _retargeted() -> tuple[list[int], list[tuple[int, str]]]:
-    """Return the edges of the steps in speed mode, and edge and text of each instruction."""
+    """Return the edges of the steps in speed mode, and (edge, text) of each instruction."""
     host = await new(FAST | {"v": 3000})
     await host.ask("N", 1)
     begin, marks = host.mark, []
@@ -156,7 +156,7 @@ CASES: tuple[Callable[[], Awaitable[tuple[str, int]]], ...] = (_start, _first_st
 
 
 def times() -> str:
-    """Return a table of latencies of this core, in cycles after the last stop-bit sample or the pin."""
+    """Return a table of latencies of this core in cycles after the last stop-bit sample or after the pin."""
     head = f"This core, at {CLK_HZ // 1_000_000} MHz, in cycles (from the stop bit or the pin):"
     return f"{head}\n\n{table(['', 'cycles'], [on_model(case()) for case in CASES])}"
 
@@ -170,7 +170,7 @@ CURRENTS = (400, 1000, 1900)
 SLOW = tuple(
     Case(mstep=mstep, full=full, scomp=300, periods=1) for mstep in (16, 2, 0) for full in (40, 100, 200)
 )
-"""P 300 has a lead of 0 units here, so that the angle includes the zeros of both references."""
+"""With factor P = 300, the lead is 0 units here, so that the angle includes the zeros of both references."""
 RUNS = (
     *(Case(cur=cur, full=full, periods=1) for full in (500, 800, 1000) for cur in CURRENTS),
     *(Case(cur=cur, full=1000, emf=6.0, periods=1) for cur in CURRENTS),
@@ -234,7 +234,7 @@ def _percent(share: float) -> str:
 
 
 def _left(both: tuple[Waves, Waves]) -> str:
-    """Return the remaining current at a reference of 0, approached from above and from below."""
+    """Return the current that remains at a reference of 0 after positive and after negative currents."""
     if not any(0 in found.reference for found in both):
         return ""
     above, below = zip(*(residual_current(found) for found in both), strict=True)
@@ -242,7 +242,7 @@ def _left(both: tuple[Waves, Waves]) -> str:
 
 
 def currents_table() -> str:
-    """Return a table: error and distortion in motion, remaining current at 0, then ripple at standstill."""
+    """Return a table: error and distortion in motion, remaining current at 0, ripple at standstill."""
     heads = ["Microsteps", "Current / A", "Full steps/s", "Back EMF / V", "Error / %", "Beside / %"]
     rows = []
     for case in (*SLOW, *RUNS):

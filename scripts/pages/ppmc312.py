@@ -29,7 +29,7 @@ BUILDS = {"F16": F16, "F50": F50, "D16": D16}
 
 
 def _block(text: str) -> Sequence[str]:
-    """Return blocks for a set-up: those of a name in `blocks`, or a text of bytes."""
+    """Return blocks for a set-up: the blocks with a name in `blocks`, or one block as a text of bytes."""
     found = getattr(blocks, text, text)
     return (found,) if isinstance(found, str) else found
 
@@ -38,7 +38,7 @@ def _block(text: str) -> Sequence[str]:
 
 
 def _table(build_or_curve: Mapping[str, Any]) -> Table:
-    """Return the table of an entry: `curve`, or `build` with `sigmoid` and `separate`; lists of arguments."""
+    """Return a table from an entry: its key `curve` or `build` has the arguments of that function."""
     if "curve" in build_or_curve:
         return curve(*build_or_curve["curve"])
     rest = {name: value for name, value in build_or_curve.items() if name != "build"}
@@ -58,7 +58,7 @@ def _side(of: Table) -> str:
 
 
 def settings(rows: Sequence[Sequence[Any]]) -> str:
-    """Return a table of settings (name, text, table) with rates and pulses of the first and last stages."""
+    """Return a table of settings (name, text, table), with rates and pulses of the first and last stages."""
     found = [(name, text, _table(of)) for name, text, of in rows]
     heads = ["", "Setting", "Rates R[0] … R[126]", "Pulses of the stages"]
     return table(heads, [[name, text, _ends(of.rates), _side(of)] for name, text, of in found])
@@ -104,13 +104,13 @@ async def _changed(block: str, number: int, change: str) -> list[int]:
 
 
 def changed(block: str, number: int = 0, change: str = "") -> Train:
-    """Return a move with the table TF in which `change` is sent after pulse `number`."""
+    """Return a move with the table TF during which `change` is sent after pulse `number`."""
     intervals = on_model(_changed(block, number, change))
     return Train(intervals, F_HZ, cause=number - 1 if change else None)
 
 
 def curves(curves: Sequence[Mapping[str, Any]]) -> Figure:
-    """Draw accelerations: speed over time, and pulses of each stage except those of free curves."""
+    """Draw accelerations: speed over time, and pulses of each stage (not for free curves)."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained")
     for entry in curves:
         of = _table(entry["table"])
@@ -128,7 +128,7 @@ def curves(curves: Sequence[Mapping[str, Any]]) -> Figure:
 
 
 async def _returned(switch: int, free: int, out: int) -> list[int]:
-    """Return the pulses of a zero return with `out` pulses in phase 1; the switch as in `zero_return`."""
+    """Return the pulses of a zero return with `out` pulses in phase 1; for the switch see `zero_return`."""
     host = await Host.start(OnModel(), *blocks.TF)
     await host.ask("03 04 11 00 0000")
     await host.pulse(switch)
@@ -143,7 +143,7 @@ async def _returned(switch: int, free: int, out: int) -> list[int]:
 
 def zero_return() -> Figure:
     """Draw a zero return: speed and position over time."""
-    switch, free = 24, 4  # pulses until the switch closes; width of the switch in pulses
+    switch, free = 24, 4  # number of pulses until the switch closes; width of the switch in pulses
     out = switch + 12
     edges = on_model(_returned(switch, free, out))
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.0), layout="constrained")
@@ -169,7 +169,7 @@ def zero_return() -> Figure:
 
 
 async def _to_answer(mode: Config, block: str, *setting: str) -> int:
-    """Return the cycles from the header to the answer; a motion in `setting` is at pulse 2."""
+    """Return the cycles from a block's header to its answer; with `setting`, the block is sent at pulse 2."""
     host = await Host.start(OnModel(mode), *setting)
     await host.write(CSR, ANSWERS)
     if setting:
@@ -207,7 +207,8 @@ def times(modes: Mapping[str, str], rows: Sequence[Sequence[str]]) -> str:
     """Return a table of events with their times in builds (`modes`: build -> head of its column).
 
     Args:
-        rows: text, end of the time, then the block and the blocks before it.
+        rows: name of the event, event that ends the time (a key of MEASURES), the measured block, then the
+            blocks that are sent before it.
     """
     found = []
     for text, end, *blocks_ in rows:
@@ -225,16 +226,16 @@ def times(modes: Mapping[str, str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def flags(chip: Any) -> Levels:
-    """Return MWEF and MREF, as a read of CSR returns them."""
+    """Return the flags MWEF and MREF of CSR."""
     return {"mwef": chip.csr >> 3 & 1, "mref": chip.csr >> 2 & 1}
 
 
 @dataclass(frozen=True)
 class BlockStart(Start):
-    """The model at the beginning of a diagram; further actions: block (its header ends at the edge)."""
+    """The model at the beginning of a diagram; it adds the action block, whose header ends at the edge."""
 
     def action(self, edge: int, what: str, *values: Any) -> Schedule:
-        """Return the pin changes of an action, with names of registers."""
+        """Return the pin changes of an action, whose registers may be given by name."""
         if what != "block":
             return super().action(edge, what, *(_number(value) for value in values))
         data = bytes.fromhex(values[0])[::-1]
@@ -268,10 +269,11 @@ async def _ready(setting: str, build: str, then: Sequence[Sequence[Any]]) -> Hos
 def ready(
     setting: str = "", build: str = "F16", then: Sequence[Sequence[Any]] = (), ahead: int = 0
 ) -> BlockStart:
-    """Return the model after a set-up and the calls `then` of methods of Host, with interrupts for answers.
+    """Return the model after a set-up; irq_n reports answers.
 
     Args:
-        ahead: cycles to the base.
+        then: methods of Host with their arguments, called after the set-up.
+        ahead: cycles from the end of the calls to the base.
     """
     host = on_model(_ready(setting, build, then))
     return _start(host, host.t + ahead)
@@ -293,7 +295,7 @@ async def _before(number: int, block: str, origin: int) -> tuple[Host, int]:
 
 
 def before(pulse: int, block: str, early: int = 0, origin: int = 0) -> BlockStart:
-    """Return the model shortly before a pulse of a motion; the base is `early` cycles before the pulse.
+    """Return the model shortly before a pulse of a motion; the base is `early` cycles before this pulse.
 
     Args:
         origin: the pulse after which the origin switch closes; it opens again five pulses later.
@@ -303,7 +305,7 @@ def before(pulse: int, block: str, early: int = 0, origin: int = 0) -> BlockStar
 
 
 def accesses(title: str, write: str, reads: Sequence[str], columns: str) -> dict[str, Any]:
-    """Draw all accesses of a block and its answer, with one column for each access.
+    """Draw all accesses of a block and of its answer, with a column for each access.
 
     Args:
         write: the block. Its header ends at edge 0.

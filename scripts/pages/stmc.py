@@ -48,7 +48,7 @@ class Bench:
         self.mark = 0
 
     def pause(self, cycles: int) -> None:
-        """Let a number of cycles pass."""
+        """Let this number of cycles pass."""
         self.t += cycles
 
     def pins(self, **levels: int) -> None:
@@ -91,7 +91,7 @@ class Bench:
         return self.taken()
 
     def until(self, seen: Callable[[], bool], limit: int = 1 << 34) -> int:
-        """Run from event to event until `seen`; return the edge."""
+        """Run from event to event until `seen` is true; return the edge."""
         chip = self.chip
         chip.run_until(max(chip.now, self.t - 1))
         while not seen():
@@ -103,16 +103,16 @@ class Bench:
         return chip.now
 
     def steps(self) -> list[int]:
-        """Return the edges of the steps since `mark`, without a chopper."""
+        """Return the edges of the steps since `mark`; the chopper must be off."""
         return [t for t, _ in self.chip.log.of("s", self.mark)]
 
     def in_gap(self, gap: int) -> None:
-        """Run into gap i of the last motion."""
+        """Run to a point within gap i of the last motion."""
         self.until(lambda: len(self.steps()) > gap)
         self.t = self.chip.now + 300
 
     def start(self, command: str) -> int:
-        """Send a motion command; its steps count from here. Return value as for `send`."""
+        """Send a motion command, from which steps are counted; return the same edge as `send`."""
         self.mark = self.t
         return self.send(command)
 
@@ -135,7 +135,7 @@ def play(
     """Run a move with the internal clock.
 
     Args:
-        gap: gap in which a method of Bench is called with arguments (`event`); -1: before step 0.
+        gap: gap in which `event` happens, a method of Bench with arguments; -1: before step 0.
     """
     bench = Bench()
     bench.init(ramp=ramp)
@@ -151,7 +151,7 @@ def play(
 
 
 def act(bench: Bench, step: Sequence[Any]) -> None:
-    """Call a method of the bench: its name and arguments."""
+    """Call a method of the bench; `step` is its name and arguments."""
     name, *values = step
     if name == "pins":
         bench.pins(**values[0])
@@ -173,7 +173,7 @@ def move(command: str, cause: int | None = None, shown: int | None = None, **cas
 
 
 def _gaps(gaps: Sequence[int], limit: int = 30) -> str:
-    """Return gaps as text: runs of more than three as 5×8, long lists without their middle."""
+    """Return gaps as text: more than three equal gaps as 5×8, long lists without their middle."""
     words = []
     for value, group in groupby(gaps):
         count = len(list(group))
@@ -184,7 +184,10 @@ def _gaps(gaps: Sequence[int], limit: int = 30) -> str:
 
 
 def moves(cases: Sequence[Sequence[Any]]) -> str:
-    """Return a table of worked moves: name, ramp, command, then text, gap and event of a disturbance."""
+    """Return a table of worked moves.
+
+    Each row has a name, ramp and command, then the text, gap and event of a disturbance, if any.
+    """
     heads = [
         "No.",
         "D1/D2/PA",
@@ -207,7 +210,7 @@ def moves(cases: Sequence[Sequence[Any]]) -> str:
 
 
 def ramps(ramps: Sequence[Sequence[int]], long: Sequence[int], some: Sequence[int]) -> str:
-    """Return a table of the divisors of all levels of ramps, and of some levels of a long one."""
+    """Return a table of the divisors: of all levels for short ramps, of some levels for a long ramp."""
     rows = []
     for ramp in (*ramps, long):
         values = [rate + 1 for rate in profile(*ramp).rates()]
@@ -235,8 +238,9 @@ def motion_time(timing: str, which: str, command: str, stop: bool = False) -> in
     """Return a time of a motion in cycles.
 
     Args:
-        which: begin, step: from the end of the last write to BUSY, to step 0; end, accepted: from the last
-            step, or from its cause (`stop`), to the end, and until bytes are accepted again.
+        which: begin, step: time from the end of the last write until BUSY rises, or until step 0.
+            end, accepted: time from the last step, or from the cause of the end (`stop`), until the end, or
+            until bytes are accepted again.
     """
     bench = Bench(timing)
     bench.init()
@@ -258,7 +262,7 @@ def motion_time(timing: str, which: str, command: str, stop: bool = False) -> in
 
 
 def init_time(timing: str, which: str, ramp: Sequence[int]) -> int:
-    """Return the cycles from the last byte of the first initialisation to phases, or until accepted."""
+    """Return how many cycles after an initialisation's last byte phases are on, or bytes are accepted."""
     bench = Bench(timing)
     sent = bench.init(ramp=ramp)
     if which == "phases":
@@ -267,7 +271,7 @@ def init_time(timing: str, which: str, ramp: Sequence[int]) -> int:
 
 
 def times(inits: Sequence[Sequence[Any]], motions: Sequence[Sequence[Any]]) -> str:
-    """Return a table of times of both modes, at 16 MHz with the internal clock.
+    """Return a table of times with both timings, at 16 MHz with the internal clock.
 
     Args:
         inits, motions: text, and arguments of `init_time` and `motion_time`.
@@ -284,7 +288,7 @@ def times(inits: Sequence[Sequence[Any]], motions: Sequence[Sequence[Any]]) -> s
 
 
 def ready(code: int = 0x0A, then: Sequence[Sequence[Any]] = (), **parameters: object) -> Start:
-    """Return the model after its initialisation and the calls `then` of methods of Bench."""
+    """Return the model after its initialisation and the calls `then` of Bench methods."""
     bench = _ready(code, **parameters)
     for step in then:
         act(bench, step)
@@ -302,7 +306,7 @@ def _ready(code: int, **parameters: object) -> Bench:
 
 
 def moved(command: str, code: int = 0x0A) -> Start:
-    """Return the model with a move; the base is the future edge of the last step."""
+    """Return the model during a move; the base is the edge of the last step, which is in the future."""
     ahead = _ready(code)
     ahead.start(command)
     last = ahead.end().steps[-1]

@@ -19,15 +19,15 @@ from scripts.release.state import Release, current_release
 DIST = project.ROOT / "dist"
 SCRATCH = project.BUILD / "release"
 SLOW = ("bitstreams", "site")
-"""Steps that SKIP may omit in a trial."""
+"""Steps that SKIP may omit if the release is only a trial."""
 
 
 Job = Callable[[Release, Path, Path], None]
-"""Function that writes its files to the first folder; the second one is its work folder."""
+"""A function that writes its files to the first folder and uses the second folder for its work."""
 
 
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:
-    """Return name -> function of each step; fast steps first, the notes last."""
+    """Return name -> function of each step; the fast steps are first, the notes last."""
     from scripts.release import sbom
 
     return {
@@ -42,11 +42,11 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
 
 
 def build(release: Release, skip: set[str], dist: Path = DIST, scratch: Path = SCRATCH, made_by=jobs) -> None:
-    """Run all steps into a folder of `scratch`, which becomes `dist` when all are done."""
+    """Run all steps in a folder of `scratch`; when all are complete, it becomes `dist`."""
     shutil.rmtree(scratch, ignore_errors=True)
     out = scratch / "dist"
     out.mkdir(parents=True)
-    # Time that tools write (setuptools, MkDocs), and modes of files.
+    # Set the time that tools write (setuptools, MkDocs), and the modes of files.
     os.environ["SOURCE_DATE_EPOCH"] = str(release.epoch)
     os.umask(0o022)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())

@@ -1,4 +1,4 @@
-"""Archives whose bytes depend only on their content: order, times, owners and modes are fixed."""
+"""Archives whose bytes depend only on their contents: order, times, owners and modes are fixed."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ MODE = 0o644
 
 
 def files_below(folder: Path) -> dict[str, Path]:
-    """Return name in an archive -> file, for all files below a folder."""
+    """Return name in the archive -> file, for all files below a folder."""
     found = (path for path in folder.rglob("*") if path.is_file())
     return {path.relative_to(folder).as_posix(): path for path in found}
 
 
 def tar_gz(target: Path, files: Mapping[str, Path | bytes], epoch: int) -> None:
-    """Write a .tar.gz of these names; executable files stay executable."""
+    """Write a .tar.gz with these names; executable files stay executable."""
     with target.open("wb") as raw, gzip.GzipFile("", "wb", 9, raw, mtime=0) as packed:
         with tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as tar:
             for name, source in sorted(files.items()):
@@ -34,7 +34,7 @@ def tar_gz(target: Path, files: Mapping[str, Path | bytes], epoch: int) -> None:
 
 
 def zipped(target: Path, files: Mapping[str, Path | bytes], epoch: int) -> None:
-    """Write a .zip of these names."""
+    """Write a .zip with these names."""
     when = datetime.fromtimestamp(epoch, timezone.utc).timetuple()[:6]
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed:
         for name, source in sorted(files.items()):
@@ -45,7 +45,7 @@ def zipped(target: Path, files: Mapping[str, Path | bytes], epoch: int) -> None:
 
 
 def again(path: Path, epoch: int) -> None:
-    """Repack a .tar.gz in this way, in place."""
+    """Repack a .tar.gz in place with fixed order, times, owners and modes."""
     with tarfile.open(path) as tar:
         members = [member for member in tar.getmembers() if member.isfile()]
         files = {member.name: tar.extractfile(member).read() for member in members}  # type: ignore[union-attr]

@@ -1,4 +1,4 @@
-"""Bitstreams of all boards and parts with their reports, in one archive."""
+"""Bitstreams and reports of all boards and parts, in one archive."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Release notes: the section of CHANGELOG.md, missing files, a description of each file; and digests."""
+"""Release notes (section of CHANGELOG.md, missing files, description of each file) and digests of files."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def pinned(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _packages() -> Iterator[Component]:
-    """Yield the packages for tools and tests; dependencies of the Python package are in its metadata."""
+    """Yield the packages for tools and tests; the Python package's metadata lists its own dependencies."""
     for name, version in pinned((ROOT / "requirements.lock").read_text(encoding="utf-8")):
         purl = PackageURL("pypi", name=name.lower().replace("_", "-"), version=version)
         yield Component(

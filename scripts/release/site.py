@@ -21,13 +21,13 @@ NO_PDF = "No data sheets as PDF: there was no browser."
 
 
 def dated(pdf: bytes, epoch: int) -> bytes:
-    """Return a PDF with another creation time of the same length."""
+    """Return a PDF in which the creation time is replaced by another one of the same length."""
     when = time.strftime("%Y%m%d%H%M%S", time.gmtime(epoch)).encode()
     return _DATE.sub(lambda match: match[0][: -len(match[1])] + when, pdf)
 
 
 def check() -> None:
-    """Raise ProjectError if a tool of the site, other than Python, is missing; called before all steps."""
+    """Raise ProjectError if a tool of the site, except Python, is missing. Called before all steps."""
     if shutil.which("npm") is None:
         raise ProjectError(
             "npm is not installed; install Node.js (Debian: apt-get install npm), or use SKIP=site"
@@ -35,9 +35,9 @@ def check() -> None:
 
 
 def run(say: Callable[[str], None], scratch: Path) -> None:
-    """Build the site and pass each line to `say` when it is printed.
+    """Build the site and pass each line to `say` as soon as it is printed.
 
-    Raises ProjectError with the last line of its errors if it fails.
+    If the build fails, raise ProjectError with the last line of its errors.
     """
     errors = scratch / "errors.txt"
     with errors.open("w", encoding="utf-8") as sink:

@@ -36,7 +36,7 @@ class Release:
     trial: bool = False
 
     def name(self, what: str, suffix: str) -> str:
-        """Return the file name of a part of the release, such as openppmc-site-1.2.3.tar.gz."""
+        """Return the file name of an item of the release, such as openppmc-site-1.2.3.tar.gz."""
         return f"openppmc-{what}-{self.version}{suffix}"
 
 
@@ -54,7 +54,7 @@ def git(*words: str) -> str:
 def section(changelog: str, version: str, trial: bool = False) -> str:
     """Return the text below the newest heading of a changelog.
 
-    The call raises ProjectError unless it is of this version.
+    The call raises ProjectError unless the heading is that of this version.
 
     [Unreleased] may be above it, without text. In a trial, its text is returned if there is any.
     """
@@ -89,7 +89,7 @@ def check_tag(version: str, commit: str, tagged: str) -> None:
 
 
 def current_release(only: tuple[str, ...] = (), trial: bool = False) -> Release:
-    """Return the release of this checkout; raise ProjectError if it cannot make one.
+    """Return the release of this checkout; raise ProjectError if the checkout cannot be released.
 
     A trial only needs a commit: text below [Unreleased] and a tag of the version on another commit are
     permitted.

@@ -53,7 +53,8 @@ if (window.Worker !== Own) window.Worker = function (url, options) {
 };
 })();
 """
-"""The shim of the search worker. A page from a file can start a worker from a blob (the playground)."""
+"""The shim of the search worker. Pages opened from a file can only start a worker from a blob (playground).
+"""
 APP = """---
 hide: [navigation, toc, footer]
 title: Playground
@@ -80,7 +81,7 @@ def linked(page: Path) -> Iterator[Path]:
 
 
 def stage() -> None:
-    """Copy all inputs of MkDocs to PAGES; each file has its path in the checkout, so links are unchanged."""
+    """Copy all inputs of MkDocs to PAGES; files keep their paths in the checkout, so links do not change."""
     shutil.rmtree(PAGES, ignore_errors=True)
     sources = [*(ROOT / name for name in OTHERS), *(p for p in (ROOT / "docs").rglob("*") if p.is_file())]
     for source in dict.fromkeys([*sources, *(p for s in sources if s.suffix == ".md" for p in linked(s))]):
@@ -93,7 +94,7 @@ def stage() -> None:
     )
     shutil.copytree(playground(), PAGES / "playground", ignore=shutil.ignore_patterns("index.html"))
     shutil.copy(SITE / "site.css", PAGES)
-    # For the search in local files; MkDocs Material would load this script from another host.
+    # The search in local files needs this script, which MkDocs Material would load from another host.
     shim = (SITE / "node_modules/iframe-worker/shim/index.js").read_text(encoding="utf-8")
     (PAGES / "iframe-worker.js").write_text(SHIM.replace("SHIM", shim), encoding="utf-8")
     folder = PAGES / "api"

@@ -1,6 +1,8 @@
-"""Data of each part for the page: pins, words, sessions, module; as scripts, which also load from a file.
+"""Write the data of each part for the page: pins, texts, sessions, module.
 
-python -m scripts.site.export [PART …]          into build/site/playground
+The data are scripts, which a page can also load from a file.
+
+    python -m scripts.site.export [PART …]          into build/site/playground
 """
 
 from __future__ import annotations
@@ -29,12 +31,12 @@ LENGTHS = {
     "window": {"lead": 1, "strobe": 2, "readStrobe": 6, "gap": 3},
     "block": {"lead": 0, "strobe": 3, "readStrobe": 5, "gap": 3},
 }
-"""Cycles of each section of an access, equal to the hosts of `players`."""
+"""Cycles of each phase of an access; the hosts of `players` use the same."""
 PLAYGROUND = wasm.OUT / "playground"
 
 
 def ports(part: WebPart, names: Sequence[str], levels: dict[str, int]) -> list[dict[str, object]]:
-    """Return the ports in the order of the module's words."""
+    """Return the ports in the order in which the module numbers their words."""
     found, word = [], 0
     for name in names:
         width = part.part.width(name)

@@ -1,4 +1,4 @@
-"""Hooks of MkDocs: they add a link to the playground to each session that can be run."""
+"""Hooks of MkDocs, which add a link to the playground to each session that can be run."""
 
 from __future__ import annotations
 
@@ -26,19 +26,22 @@ PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
 
 
 def data_sheet(part: str) -> str:
-    """Return the path of a part's manual as PDF, relative to the site's root."""
+    """Return the path of the PDF of a part's manual, relative to the site's root."""
     return f"pdf/{part}.pdf"
 
 
 def button(source: str, part: str, run: str, words: str) -> str:
-    """Return a link from a page to a session of a part, which starts immediately."""
+    """Return a link from a page to a session of a part; the session starts immediately."""
     up = os.path.relpath("playground.html", os.path.dirname(source))
     go = f"&run={run}&go=1" if run else ""
     return f'<a class="md-button run-this" href="{up}#v=1&part={part}{go}">{words}</a>'
 
 
 def run_links(source: str, markdown: str) -> str:
-    """Return a page with links in place of its comments, and after the title of manuals and first page."""
+    """Return a page in which links replace the comments of sessions.
+
+    Manuals and the first page get a link after the title.
+    """
     if source == START:
         title, _, rest = markdown.partition("\n")
         return f"{title}\n\n{button(source, PARTS[0], '2', 'Try it in the browser')}\n{rest}"
@@ -82,7 +85,7 @@ def on_post_template(output_content: str, template_name: str, **_: Any) -> str:
 
 
 def on_page_context(context: Any, page: Any, nav: Any, **_: Any) -> Any:
-    """Name the device in the titles of pages that share a name in the navigation; called by MkDocs."""
+    """Put the name of the device into the title if several pages have the same title; called by MkDocs."""
     names: dict[str, int] = {}
     for other in nav.pages:
         names[str(other.title)] = names.get(str(other.title), 0) + 1

@@ -1,4 +1,4 @@
-"""Random hosts on the golden model: pin changes of each host, and the expected edges."""
+"""Random hosts on the golden model: the pin changes that each host makes, and the expected edges."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from openppmc.check.records import Recording
 from scripts.site.webparts import WebPart
 
 IN_MOTION = 3
-"""Number of hosts of the bank that keep all axes in motion; each makes 50 000 intervals."""
+"""Number of bank hosts that keep all axes in motion; each one makes 50 000 intervals."""
 
 
 def _items(part: WebPart) -> RandomItems:
@@ -23,7 +23,7 @@ def _items(part: WebPart) -> RandomItems:
 
 
 def seeds(part: WebPart) -> Iterator[int]:
-    """Return seeds of `make test` with the build of the playground, then those of `make soak`."""
+    """Yield the seeds of `make test` that use the build of the playground, then those of `make soak`."""
     items = _items(part)
     fitting = (seed for seed in count(1) if items.takes(seed) and items.build(seed) == part.config)
     if part.name != "bank":

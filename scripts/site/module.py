@@ -17,9 +17,9 @@ from scripts.site.webparts import WebPart
 
 ROW = struct.Struct("<dII")
 INPUT = 1 << 16
-"""A row with the change of an input word has this value plus the number of the word."""
+"""Row number INPUT + n is a change of input word n; lower numbers are those of output words."""
 QUEUE = 1 << 16
-"""Number of future changes that a module can store."""
+"""Number of future changes that the queue of a module can store."""
 Call = Callable[..., Any]
 _KINDS = {
     "power_up": (None, []),
@@ -79,15 +79,15 @@ class Module:
         self._write = lambda at, data: memory.write(store, data, at)
 
     def rows(self) -> Iterator[tuple[int, int, int]]:
-        """Yield (t, pin, value) since the last call; see core.cpp."""
+        """Yield (t, number of the word, value) of all changes since the last call; see core.cpp."""
         count = self.call["take"]()
         for t, pin, value in ROW.iter_unpack(self._bytes(self.call["row_at"](), count * ROW.size)):
             yield int(t), pin, value
 
     def play(self, recording: Recording) -> list[Edge]:
-        """Apply the pin changes from a reset on; return the output edges.
+        """Apply the pin changes of a recording after power-up; return the output edges.
 
-        Edges of a wide port have its complete level.
+        If a word of a wide port changes, the edge has the level of the whole port.
         """
         self.call["power_up"]()
         levels = self.part.reset_levels(recording.params)

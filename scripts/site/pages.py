@@ -37,9 +37,10 @@ def node(*command: str, folder: Path = SITE) -> None:
 
 
 def packages(folder: Path) -> None:
-    """Install the packages of a package-lock.json, once for each of its states, by one process at a time.
+    """Install the packages of a package-lock.json once for each of its states.
 
-    `npm ci` empties node_modules first, so another process would find an incomplete folder.
+    Only one process at a time installs: `npm ci` empties node_modules first, so another process would find an
+    incomplete folder.
     """
     lock, mark = folder / "package-lock.json", folder / "node_modules/.openppmc"
     with locked(wasm.OUT / f"{folder.name}.lock"):
@@ -50,7 +51,7 @@ def packages(folder: Path) -> None:
 
 @cache
 def playground() -> Path:
-    """Build all that has changed; return the folder. Several processes may call it at the same time."""
+    """Build all that has changed; return the folder. Several processes may do so at the same time."""
     with locked(wasm.OUT / "playground.lock"):
         return _made()
 

@@ -1,4 +1,4 @@
-"""Hosts of parts with a register window, with blocks, and with frames on a line; see `script`."""
+"""Hosts of parts with a register window, with blocks, or with frames; their base class is in `script`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from scripts.site.webparts import WebPart
 
 
 class WindowPlayer(BytePlayer):
-    """The bank: `axis 3` selects the axis; `put 9 01`, `get 4 00`: its registers other than 0 and 1."""
+    """Host of the bank: `axis 3` selects an axis; `put 9 01`, `get 4 00` access its other registers.
+
+    Other registers are those except 0 (data) and 1 (status and command).
+    """
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
@@ -37,7 +40,11 @@ class WindowPlayer(BytePlayer):
 
 
 class BlockPlayer(Player):
-    """The PPMC-312: `w 3 15`, `r 3 3D`: a register; `> 03 01 40`, `< 03 02 40 12`: blocks; `count 30`."""
+    """Host of the PPMC-312: `w 3 15`, `r 3 3D` access a register.
+
+    `> 03 01 40` sends a block, `< 03 02 40 12` checks a block that is received, and `count 30` checks the
+    number of pulses.
+    """
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
@@ -84,7 +91,7 @@ class BlockPlayer(Player):
         return []
 
     async def count(self, words: list[str]) -> list[str]:
-        """Check the number of pulses since the beginning or the last `count`."""
+        """Check the number of pulses since the beginning or since the last `count`."""
         found = self.pulses(self.part.motors[0])
         self.mark = self.bench.now
         if found != int(words[0]):
@@ -93,7 +100,10 @@ class BlockPlayer(Player):
 
 
 class FramePlayer(Player):
-    """The PMC006B4: `f v 2000`: a frame and its reply; `f j = 0`: with the expected data; `idle`."""
+    """Host of the PMC006B4: `f v 2000` sends a frame; `f j = 0` also checks the data of the reply.
+
+    `idle` waits until the motor is stopped.
+    """
 
     ADDRESS = 0xFF
 
@@ -154,5 +164,5 @@ PLAYERS: dict[str, type[Player]] = {
 
 
 def player(part: WebPart, **pins: int) -> Player:
-    """Return a part after power-up with the host of its bus."""
+    """Return the host for a part's bus, with the part after power-up."""
     return PLAYERS[part.bus](part, **pins)

@@ -1,4 +1,4 @@
-"""Sessions of the PMC006B4 for the playground: a move, an emergency input, the program of its demo."""
+"""Sessions of the PMC006B4 for the playground: a move, an emergency input, and the demo's program."""
 
 from __future__ import annotations
 

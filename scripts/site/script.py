@@ -16,9 +16,9 @@ from openppmc.check.records import Recording, steps
 from scripts.site.webparts import Motor, WebPart
 
 DENSE, FIRST, LONGEST = 16, 4, 8_000
-"""Number of polls without a pause; first pause in cycles, which grows by a quarter; longest pause."""
+"""Number of polls without a pause; first pause in cycles, which then grows by a quarter; longest pause."""
 PATIENCE = 400_000_000
-"""Longest wait of a statement in cycles."""
+"""Maximum wait of a statement in cycles."""
 RESET = 16
 """Length of a reset in cycles."""
 UNITS = {"clk": 0, "us": 1_000_000, "ms": 1_000}
@@ -26,11 +26,11 @@ LENGTH = re.compile(r"(\d+(?:\.\d+)?)(clk|us|ms)?")
 
 
 class ScriptError(ValueError):
-    """A line that is not a statement, or an answer that differs from the one in the line."""
+    """Raised for a line that is not a statement, or for an answer that differs from the one in the line."""
 
 
 def statements(text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield (line, words) of each statement; the words are a keyword and its arguments."""
+    """Yield (line number, words) of each statement; the words are a keyword and its arguments."""
     for number, line in enumerate(text.splitlines(), 1):
         for part in line.partition("#")[0].split(";"):
             if words := part.split():
@@ -38,7 +38,7 @@ def statements(text: str) -> Iterator[tuple[int, list[str]]]:
 
 
 class Pauses:
-    """Growing pauses between polls; raise ScriptError if PATIENCE is exceeded."""
+    """Growing pauses between polls; raises ScriptError if their sum exceeds PATIENCE."""
 
     def __init__(self, bench: ModelBench) -> None:
         self.bench, self.end, self.count, self.pause = bench, bench.now + PATIENCE, 0, FIRST
@@ -92,7 +92,7 @@ class Player:
                     raise ScriptError(f"line {number}: {' '.join(words)}: {error}") from None
 
     def check(self, what: str, got: int, words: list[str]) -> list[str]:
-        """Store a byte; compare it with the byte in the text, if there is one; return the remaining words."""
+        """Store a byte that was read; compare it with that of the text, if any; return the other words."""
         self.got.append(got)
         if words and re.fullmatch("[0-9A-Fa-f]{2}", words[0]):
             if got != int(words[0], 16):
@@ -122,7 +122,7 @@ class Player:
         return round(float(found[1]) * self.part.config.clk_hz / unit) if unit else int(float(found[1]))
 
     async def pulse(self, words: list[str]) -> list[str]:
-        """Wait for a number of pulses of an axis since the last command: `pulse 10`, `pulse 10 2`."""
+        """Wait until an axis has made a number of pulses since the last command: `pulse 10`, `pulse 10 2`."""
         first = self.part.first
         axis = int(words[1]) if len(words) > 1 and words[1].isdigit() else first
         motor = self.part.motors[axis - first]
@@ -132,7 +132,7 @@ class Player:
 
     @staticmethod
     def output(motor: Motor) -> str:
-        """Return the output with a motor's steps."""
+        """Return the name of the output with a motor's steps."""
         return motor.step.partition("[")[0] if motor.phases else motor.step
 
     def pulses(self, motor: Motor) -> int:
@@ -180,7 +180,7 @@ class Player:
 
 
 class BytePlayer(Player):
-    """Parts with a data register and a register for commands and status."""
+    """Host for parts with a data register and a register for commands and status."""
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)

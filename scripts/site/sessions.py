@@ -32,7 +32,7 @@ class Session:
 
 
 def _line(line: str) -> str:
-    """Return a line of the manual as statements, with its explanation as a comment."""
+    """Return a line of the manual as statements, with the explanation in it as a comment."""
     if re.match(r"[wr] \d |[<>=] |(?:pin|at|ms) ", line):
         return _block_line(line)
     found = LINE.fullmatch(line.rstrip())
@@ -40,13 +40,13 @@ def _line(line: str) -> str:
         raise ValueError(f"cannot read {line!r}")
     words = re.sub(r" +", " ", found[1].strip())
     words = re.sub(r"^p st", "p", words)
-    # A single step may end before a slow host reads the status.
+    # A single step may end before a slow host has read the status.
     words = re.sub(r"^(c [4-7][2A]) st ..", r"\1 st", words)
     return f"{words:<12}  # {found[2]}" if found[2] else words
 
 
 def _block_line(line: str) -> str:
-    """Return a line of the PPMC-312's page as statements; two blanks begin the explanation."""
+    """Return a line of the PPMC-312's page as statements; two spaces begin the explanation."""
     words, _, comment = line.strip().partition("  ")
     kind, _, rest = words.partition(" ")
     if kind == "pin":
@@ -58,7 +58,7 @@ def _block_line(line: str) -> str:
 
 
 def sessions(part: str) -> list[Session]:
-    """Return the sessions of a part, in the order of its page; raise ValueError for an invalid line."""
+    """Return the sessions of a part in the order of its page; raise ValueError for an invalid line."""
     page = ROOT / "docs" / part / "examples.md"
     if not page.is_file():
         return own_sessions(part)
@@ -87,7 +87,7 @@ def sessions(part: str) -> list[Session]:
 
 
 def own_sessions(part: str) -> list[Session]:
-    """Return the sessions of scripts/site/<part>.py, for a part without sessions in its manual."""
+    """Return the sessions in scripts/site/<part>.py, for a part whose manual has no sessions."""
     module = importlib.import_module(f"scripts.site.{part}")
     return [
         Session(str(number), f"{number} {title}", text.strip())

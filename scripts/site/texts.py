@@ -26,7 +26,7 @@ KINDS = {
     Kind.AUX_ON: "AUX on",
     Kind.AUX_OFF: "AUX off",
 }
-"""Meanings of commands that no demo sends, and of codes with don't-care bits."""
+"""Meanings of the commands that no demo sends, and of codes with don't-care bits."""
 TABLES = {END_STATUS: "end", INPUTS: "inputs", OUTPUTS: "outputs"}
 REGISTERS = {
     f"{kind} {register}": names[place]
@@ -34,7 +34,7 @@ REGISTERS = {
     for register, names in BANK_REGISTERS.items()
 }
 Field = tuple[str, int, int]
-"""Name, number of bytes, and the number that is added for display."""
+"""Name, number of bytes, and the number that is added before the value is displayed."""
 
 
 def _fields(command: Command, words: CommandDecoder) -> list[Field]:
@@ -74,7 +74,7 @@ def _code(command: Command, words: CommandDecoder) -> dict[str, object]:
 
 
 def tables(part: str, words: CommandDecoder) -> dict[str, Any]:
-    """Return the tables of a part: codes, status, answers, meanings of its host's accesses."""
+    """Return the tables of a part: codes, status, answers, and the meanings of its host's accesses."""
     if part == "ppmc312":
         return blocks()
     if part == "pmc006":

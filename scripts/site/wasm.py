@@ -34,7 +34,7 @@ from scripts.site.webparts import WEB_PARTS, WebPart
 CORE = ROOT / "site/core"
 BOARD = ROOT / "tb/board"
 OUT = ROOT / "build/site"
-# Without assertions, because they cost a third of the speed and `make test` checks them. $fatal remains.
+# Assertions are disabled: they cost a third of the speed, and `make test` checks them. $fatal remains.
 VERILATE = "--cc -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0 -Wno-fatal"
 VERILATE += " -Wno-lint -Wno-style --prefix Vpart"
 COMPILE = "-target wasm32-wasi -O2 -fno-exceptions -std=c++20 -DVL_IGNORE_UNKNOWN_ARCH -DVL_USER_STOP"
@@ -43,14 +43,15 @@ COMPILE += " -D_WASI_EMULATED_SIGNAL -w"
 LINK = "-target wasm32-wasi -O2 -s -mexec-model=reactor"
 NATIVE = "-O2 -fPIC -fno-exceptions -std=c++20 -DVL_USER_STOP -DVL_USER_FATAL -DVL_USER_FINISH -w"
 SAME_EVERYWHERE = "-ffile-prefix-map={}=."
-"""Makes paths in __FILE__ relative to this folder, so that each checkout makes the same module."""
+"""Option that makes paths in __FILE__ relative to this folder, so that each checkout gives the same module.
+"""
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")
 MOST = 200 * 1024
 """Maximum size of a packed module in bytes."""
 
 
 def _bit(part: WebPart, pin: str, table: list[tuple[str, int]]) -> str:
-    """Return C++ for a bit of a port: its word and place; {-1, 0} if there is no pin."""
+    """Return C++ for a bit of a port: its word and its place in the word; {-1, 0} if there is no pin."""
     if not pin:
         return "{-1, 0}"
     port, place = part.part.locate(pin)
@@ -153,13 +154,13 @@ def _compile(jobs: list[tuple[Path, Path]], includes: list[Path], folder: Path, 
 
 
 def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
-    """Call `make`, safe for several processes."""
+    """Call `make`; several processes may do so at the same time."""
     with locked(OUT / "build.lock"):
         return make(name, native, bound)
 
 
 def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
-    """Build the module of a part, or with `native` a shared library of this machine with the same functions.
+    """Build the module of a part, or with `native` a shared library for this machine with the same functions.
 
     Existing files are not built again. Raises ProjectError with the name of the log if a tool fails.
 
@@ -227,7 +228,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
 
 
 def packed(path: Path) -> int:
-    """Return the size in bytes of a module as sent by a web server."""
+    """Return the size of a module in bytes, as a web server sends it."""
     return len(gzip.compress(path.read_bytes(), 9))
 
 

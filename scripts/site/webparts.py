@@ -1,6 +1,6 @@
-"""The parts of the playground: builds, and the devices at their pins. Source: docs/playground.md.
+"""The parts of the playground, with their builds and the devices at their pins. Source: docs/playground.md.
 
-Each part has one build, with the parameters for which the sessions of the manuals are written.
+Each part has one build, whose parameters are those for which the sessions of the manuals were written.
 """
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ WEB_PARTS: dict[str, WebPart] = {
             hint="f s 2000",
             config=F8B,
             settle=1200,
-            # The EEPROM is not powered, which holds its data line low, so the part boots immediately.
+            # The EEPROM has no supply, so its data line is low, and the part boots immediately.
             idle={"sda_i": 0},
         ),
         WebPart(

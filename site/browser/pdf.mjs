@@ -1,5 +1,5 @@
 // node pdf.mjs HTML PAGE.html=NAME.pdf …: print pages of the site as PDF.
-// Without a browser the program ends with one line and exit code 3.
+// If no browser starts, the program prints one line and ends with exit code 3.
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 import { launch } from "./launch.mjs";
@@ -10,7 +10,7 @@ const page = await view.newPage({ locale: "en-US" });
 for (const job of jobs) {
   const [from, to] = job.split("=");
   await page.goto(pathToFileURL(path.join(html, from)).href);
-  // A data sheet is read alone: references to other pages stay as text, links to files of the build go.
+  // The PDF is read without the other pages: references to them stay as text, but without a link to a file.
   await page.evaluate(() => {
     for (const link of document.querySelectorAll("a[href]"))
       if (link.protocol === "file:" && link.pathname !== location.pathname) link.removeAttribute("href");

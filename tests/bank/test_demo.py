@@ -1,4 +1,4 @@
-"""`make demo PART=bank` without RTL: its host on the golden model, and its reports about wrong pulses."""
+"""`make demo PART=bank` without RTL: the host on the golden model, and the report of wrong pulses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pages of the manual with sessions that tests play."""
+"""Reader of the pages with sessions that tests play."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ DOCS = ROOT / "docs"
 
 
 def chapters(page: Path) -> dict[str, list[list[str]]]:
-    """Return title of a chapter with sessions -> its sessions, one line per access."""
+    """Return each chapter with sessions: its title -> its sessions, with one line for each access."""
     parts = re.split(r"^##+ (?=\d)", page.read_text(encoding="utf-8"), flags=re.M)[1:]
     found = {}
     for text in parts:

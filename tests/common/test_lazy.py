@@ -1,4 +1,4 @@
-"""Packages that import a name when it is first used: those of `openppmc`, and the test harness."""
+"""Packages that import a name only when it is first used: those of `openppmc`, and the test harness."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LAZY = (*PACKAGES, "cocotb_tests.harness")
 
 
 def written_out(package: str) -> dict[str, tuple[str, str]]:
-    """Return public name -> (module, name), from the imports under `TYPE_CHECKING`."""
+    """Return public name -> (module, name), read from the imports under `TYPE_CHECKING`."""
     tree = ast.parse((ROOT / package.replace(".", "/") / "__init__.py").read_text(encoding="utf-8"))
     (block,) = (node for node in tree.body if isinstance(node, ast.If))
     imports = [node for node in block.body if isinstance(node, ast.ImportFrom)]
@@ -31,7 +31,7 @@ def written_out(package: str) -> dict[str, tuple[str, str]]:
 
 @pytest.mark.parametrize("package", LAZY)
 def test_names_are_those_of_the_imports_written_out(package: str) -> None:
-    """Each name of `__all__` is the object that the import for type checkers names, without other names."""
+    """`__all__` contains exactly the names imported for type checkers, and each name is the same object."""
     module, names = import_module(package), written_out(package)
     assert sorted(names) == sorted(module.__all__)
     for public, (place, own) in names.items():
@@ -42,7 +42,7 @@ def test_names_are_those_of_the_imports_written_out(package: str) -> None:
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_a_name_needs_no_name_before_it(package: str) -> None:
-    """Each name, and each module of the package, can be the first that a program imports."""
+    """Each public name, and each module of the package, can be the first import of a program."""
     folder = ROOT / package.replace(".", "/")
     modules = sorted(
         ".".join(path.relative_to(ROOT).with_suffix("").parts)
@@ -62,7 +62,7 @@ def test_a_name_needs_no_name_before_it(package: str) -> None:
 
 
 def test_an_unknown_name_is_an_attribute_error() -> None:
-    """A wrong name fails as in any module, also in `hasattr` and `from … import`."""
+    """A wrong name raises the errors of a normal module, also in `hasattr` and `from … import`."""
     host = import_module("openppmc.host")
     assert not hasattr(host, "Ppmc105")
     with pytest.raises(AttributeError, match=r"^module 'openppmc\.host' has no attribute 'Ppmc105'$"):
@@ -79,7 +79,7 @@ def test_a_name_is_looked_up_once() -> None:
 
 
 def test_type_checkers_refuse_a_wrong_name(tmp_path: Path) -> None:
-    """mypy resolves the names of a lazy package, and reports an import of another one."""
+    """mypy resolves the names of a lazy package and reports the import of an unknown name."""
     pytest.importorskip("mypy", reason="mypy is not installed; run make setup")
     names = {package: next(iter(written_out(package))) for package in PACKAGES}
     program = tmp_path / "program.py"

@@ -1,4 +1,4 @@
-"""The table of devices against the tree: places load, folders have rows, rows have folders."""
+"""The table of devices agrees with the tree: places load, folders have rows, rows have folders."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from cocotb_tests.harness.paths import ROOT
 from openppmc import parts
 from openppmc.parts import LAYER_OF, PARTS, Row, UnknownPartError, folders, tops
 
-# Shared folders: the only folders of a layer that do not belong to one device.
+# Shared folders: the only folders of a layer that belong to no single device.
 SHARED = {
     "openppmc/model": {"motion", "single", "carrier"},
     "openppmc/host": {"selftest"},
@@ -39,7 +39,7 @@ every = pytest.mark.parametrize("row", PARTS.values(), ids=lambda row: row.name)
 
 
 def subfolders(layer: str) -> set[str]:
-    """Return the folders with files of this project in a layer."""
+    """Return the folders of a layer that contain files of this project."""
     found = (path for path in (ROOT / layer).iterdir() if path.is_dir() and path.name != "__pycache__")
     return {path.name for path in found if any(file.suffix != ".pyc" for file in path.rglob("*.*"))}
 
@@ -51,19 +51,19 @@ def modules(layer: str) -> set[str]:
 
 @pytest.mark.parametrize(("name", "column"), PLACES)
 def test_every_place_loads(name, column):
-    """Each place in the table loads."""
+    """Each place in the table can be loaded."""
     assert parts.part(name).load(column) is not None
 
 
 @pytest.mark.parametrize("layer", SHARED)
 def test_every_folder_has_a_row(layer):
-    """The folders of a layer are the shared folders and those of devices in the table."""
+    """Each folder of a layer is a shared folder or belongs to a device in the table."""
     assert subfolders(layer) - SHARED[layer] <= {row.name for row in folders()}
 
 
 @own
 def test_every_row_has_its_folders(row):
-    """Each device has RTL, a manual and a golden model, and the folders that its columns require."""
+    """Each device has RTL, a manual, a golden model, and a folder or module for each of its columns."""
     wanted = {
         "rtl",
         "docs",
@@ -74,7 +74,7 @@ def test_every_row_has_its_folders(row):
 
 @every
 def test_rtl_and_carrier(row):
-    """The top of a device is in its group of rtl/files.yml; it has a carrier if the table has one."""
+    """The top of a device is in its group of rtl/files.yml; a carrier exists exactly if the table has one."""
     assert project.top_file(row).stem == row.top
     assert row.families and set(row.families) <= {"ecp5", "ice40"}
     carrier = (f"{row.rtl}_carrier" in project.listed()) and not row.of
@@ -83,7 +83,7 @@ def test_rtl_and_carrier(row):
 
 @own
 def test_docs(row):
-    """The pages of a device are those of the table, and the indexes link to them."""
+    """The manual of a device consists of the pages in the table of parts, and the indexes link to them."""
     pages = {"README.md", *row.docs}
     there = {path.name for path in (ROOT / "docs" / row.name).glob("*.md")} - {"traceability.md"}
     assert there == pages
@@ -101,7 +101,7 @@ def test_rules(row):
 
 
 def test_names_and_numbers_are_unique():
-    """No name and no number occurs twice, and `of` names a device with folders."""
+    """Names and numbers are unique, and `of` names a device with folders."""
     assert len(PARTS) == len(parts.ROWS)
     numbers = [row.number for row in PARTS.values() if row.number]
     assert len(set(numbers)) == len(numbers)
@@ -112,13 +112,13 @@ def test_names_and_numbers_are_unique():
 
 
 def asked(*words: str, root: Path = ROOT) -> subprocess.CompletedProcess[str]:
-    """Run the table as make does: with a Python that has no access to the project."""
+    """Run the table as make does: with a Python that does not find the project's modules."""
     command = [sys.executable, "-I", "-S", str(root / "openppmc/parts.py"), *words]
     return subprocess.run(command, capture_output=True, text=True, cwd="/", check=False)
 
 
 def test_command_line():
-    """The command lists names, or reports a mistake in one line."""
+    """The command prints names, or reports a mistake in one line."""
     assert asked("names").stdout.split() == list(PARTS)
     assert asked("names", "--tops").stdout.split() == [row.name for row in tops()]
     assert asked("names", "--folders").stdout.split() == [row.name for row in folders()]
@@ -135,7 +135,7 @@ def test_command_line():
 
 
 def test_an_old_python_reads_it():
-    """Python 3.7 can parse the file, which needs only the standard library."""
+    """The file can be parsed by Python 3.7 and imports only the standard library."""
     tree = ast.parse((ROOT / "openppmc/parts.py").read_text(encoding="utf-8"), feature_version=(3, 7))
     found = {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     found |= {name.name for node in ast.walk(tree) if isinstance(node, ast.Import) for name in node.names}
@@ -177,14 +177,16 @@ GROUP = "tiny:\n  about: Tiny 1, nothing\n  needs: [common]\n  files:\n    - tin
 
 
 def append(path: Path, before: str, text: str) -> None:
-    """Insert text before the first such line of a file; at its end if `before` is empty."""
+    """Insert text before the first occurrence of `before`; at the end of the file if `before` is empty."""
     lines = path.read_text(encoding="utf-8")
     place = lines.index(before) if before else len(lines)
     path.write_text(lines[:place] + text + lines[place:], encoding="utf-8")
 
 
 def test_a_part_of_three_files_and_a_row(tmp_path):
-    """In a copy of the tree, another device with a row and a group is known to all readers of the table."""
+    """In a copy of the tree, a new device needs only three files, a row and a group; all users of the table
+    know it.
+    """
     left = shutil.ignore_patterns(".git", ".venv", "build", "__pycache__", "*.png", ".*_cache", ".hypothesis")
     root = tmp_path / "copy"
     shutil.copytree(ROOT, root, ignore=left)

@@ -1,4 +1,4 @@
-"""Text files in all encodings that editors write: one reader for scripts, programs, maps and curves."""
+"""One reader for scripts, programs, maps and curves reads text files in all encodings of editors."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TEXT = "# größer als 5 µs\nposition\n"
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_all_encodings(encoding: str, tmp_path: Path) -> None:
-    """The text is the same in each encoding, with either line ending."""
+    """The text is the same for each encoding and for both line endings."""
     path = tmp_path / "a.txt"
     for end in ("\n", "\r\n"):
         path.write_bytes(TEXT.replace("\n", end).encode(encoding))
@@ -31,7 +31,7 @@ def test_all_encodings(encoding: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_curves_and_maps(encoding: str, tmp_path: Path) -> None:
-    """A curve and a map in TOML are read in each encoding."""
+    """A curve and a map can have any of the encodings."""
     path = tmp_path / "curve.csv"
     path.write_bytes("# Rampe für µ\n100,20\n200,30\n".encode(encoding))
     assert [stage.up for stage in read_stages(path)] == [20, 30]
@@ -43,7 +43,7 @@ def test_curves_and_maps(encoding: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_programs(encoding: str, tmp_path: Path) -> None:
-    """A program of a PMC006B4 is read in each encoding."""
+    """A program of a PMC006B4 can have any of the encodings."""
     plain, path = tmp_path / "a.asm", tmp_path / "b.asm"
     plain.write_text("; für\nOUT gpo3, 1\n", encoding="utf-8")
     path.write_bytes(plain.read_text(encoding="utf-8").encode(encoding, errors="replace"))
@@ -52,6 +52,6 @@ def test_programs(encoding: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("data", [b"\xff\xfe", b"a\nb\0c", b"\xff\xfea", b"\x7fELF\x02"])
 def test_no_text(data: bytes) -> None:
-    """Bytes that are not text are rejected with their line."""
+    """If the bytes are not text, the error names the line."""
     with pytest.raises(NotTextError, match=r"^line \d: .*save it as UTF-8$"):
         decode_text(data)

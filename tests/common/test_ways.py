@@ -1,6 +1,6 @@
-"""Limits for the modules, files and calls of a command or an import; each is measured in its own process.
+"""Limits for the modules, files and calls of a command or an import, each measured in a separate process.
 
-If a limit is exceeded, this command loads a module that it does not use, or there is an additional layer.
+If a limit is exceeded, the command loads a module that it does not use, or a layer was added.
 docs/architecture.md describes the path of a byte. Lower a limit when a change allows it.
 """
 
@@ -23,7 +23,7 @@ from openppmc.host import Ppmc104
 HELP = "from openppmc.cli import main; main(['--help'])"
 MOVE = ("--port", "model:speed=max", "move", "3000")
 SIMULATION = "import cocotb_tests.ppmc104.tb_ext_clock"
-"""Import of a simulator for a file of directed tests."""
+"""The import that a simulator makes for a file of directed tests."""
 
 
 @cache
@@ -41,7 +41,7 @@ def below(names: list[str], *folders: str) -> list[str]:
 
 
 def few(names: list[str], bound: int) -> None:
-    """Fail with the list of names if there are more than the limit."""
+    """Fail with the list of names if there are more names than the limit."""
     if not 0 < len(names) <= bound:
         pytest.fail(f"{len(names)}, not {bound}: {', '.join(names)}", pytrace=False)
 
@@ -68,12 +68,14 @@ def test_loads_few_modules(code: str, package: str, bound: int) -> None:
     ids=["cli-and-host", "model"],
 )
 def test_a_move_enters_few_files(folders: tuple[str, ...], bound: int) -> None:
-    """A reader who follows a move from the command to the golden model opens few files."""
+    """A move, from the command to the golden model, enters functions of few files, so it is easy to
+    follow.
+    """
     few(below(measured("files", *MOVE), *folders), bound)
 
 
 def test_a_move_makes_few_calls() -> None:
-    """Few frames are between `main` and the link; few of them check arguments."""
+    """Between `main` and the link there are few frames, of which few check arguments."""
     frames = measured("frames", *MOVE)
     assert [frames[0][1], frames[-1][1]] == ["main", "_run"]
     assert len(frames) <= 15, frames
@@ -103,7 +105,7 @@ def test_a_part_has_few_bases_and_names() -> None:
 
 
 def private_names(path: Path) -> list[str]:
-    """Return the uses of `_` names of other objects in a file, except those of named tuples and `os`."""
+    """Return the uses of names with `_` of other objects in a file, except those of named tuples and `os`."""
     own = ("self", "cls", "super()", "os")
     return [
         f"{path.relative_to(ROOT)}:{node.lineno}: {ast.unparse(node)}"
@@ -116,7 +118,7 @@ def private_names(path: Path) -> list[str]:
 
 
 def test_users_of_the_host_package_need_no_private_name() -> None:
-    """The command line, the ophyd device and the examples use public names of the drivers only."""
+    """The command line, the ophyd device and the examples use only public names of the drivers."""
     files = [ROOT / "openppmc/ophyd.py", *(ROOT / "openppmc/cli").rglob("*.py")]
     files += (ROOT / "examples").rglob("*.py")
     assert len(files) > 30
@@ -128,7 +130,7 @@ def test_users_of_the_host_package_need_no_private_name() -> None:
     [("openppmc/host", 0, 65), ("cocotb_tests/harness", 0, 36), ("openppmc", 0, 275), ("openppmc", 60, 75)],
 )
 def test_few_files(folder: str, longest: int, bound: int) -> None:
-    """A folder has few files, and few of them are short.
+    """A folder has few files, and only few of them are short.
 
     Args:
         longest: only files with at most this number of lines count; 0 counts all files.

@@ -1,10 +1,10 @@
-"""Measures one command or import in a process that has loaded no module yet; prints one JSON object.
+"""Measure one command or import in a process that has not loaded any module yet; print one JSON object.
 
     python -m tests.common.ways modules CODE          modules of the project that CODE loads
     python -m tests.common.ways files WORD...         files whose functions `openppmc WORD...` enters
     python -m tests.common.ways frames WORD...        frames of its deepest call of `Link._run`
 
-It imports only the standard library, so that no module is loaded before the count begins.
+The module imports only the standard library, so that no module is loaded before the count begins.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ def program(*lines: str) -> Program:
 
 
 def code(text: str) -> int:
-    """Return the code of "operation aux operand" with the names of the package."""
+    """Return the code of the text "operation aux operand", by the names of the package."""
     op, aux, operand = text.split()
     enums = ("operand_mode_e", "mul_steps_e", "output_sel_e")
     return (
@@ -66,20 +66,20 @@ def code(text: str) -> int:
 
 
 def test_enumerations() -> None:
-    """Codes of enumerations with and without numbers count as in SystemVerilog."""
+    """The codes of enumerations with and without explicit numbers are those of SystemVerilog."""
     text = "\n".join(f"typedef enum logic [3:0] {{ A, B = 4'h7,  // b\n C }} {name};" for name in NAMES)
     assert all(codes == {"A": 0, "B": 7, "C": 8} for codes in names_of(text).values())
 
 
 def test_package_without_enumeration() -> None:
-    """A package that lacks an enumeration is reported."""
+    """A missing enumeration in the package is reported."""
     with pytest.raises(AsmError, match="the package has no calc_op_e"):
         names_of("package p; endpackage")
 
 
 @pytest.mark.parametrize(("line", "word"), FORMS)
 def test_instructions(line: str, word: str) -> None:
-    """The word of an instruction has the codes of the package; comments and spaces are ignored."""
+    """The word of an instruction consists of the codes of the package; comments and spaces have no effect."""
     words = program(f"   {line}   ; a comment: here", "halt").words
     assert (words[0].code, words[0].text, words[0].line) == (code(word), line, 1)
 
@@ -94,12 +94,12 @@ def test_instructions(line: str, word: str) -> None:
     ],
 )
 def test_shapes(line: str, selected: int, low: int) -> None:
-    """In the word of a set, aux states which fields are set, and the operand states their values."""
+    """In a set instruction, aux selects the fields that are set, and the operand has their values."""
     assert program(line, "halt").words[0].code == NAMES["calc_op_e"]["OpSet"] << 13 | selected << 9 | low
 
 
 def test_labels_and_jumps() -> None:
-    """Labels before and after their jumps become addresses; labels Entry… are entries."""
+    """Jumps to labels before and after them get the right addresses; labels Entry… are entries of the ROM."""
     made = program(
         "EntryA: ; first", " jump End if NotCarry", "Back:", " load RV", " jump Back", "End:", " halt"
     )
@@ -112,7 +112,7 @@ def test_labels_and_jumps() -> None:
 
 @pytest.mark.parametrize(("line", "message"), MISTAKES)
 def test_mistakes(line: str, message: str) -> None:
-    """The error message of a wrong line is one line with its number and the error."""
+    """For a wrong line, the error is one line with the line number and the reason."""
     with pytest.raises(AsmError) as caught:
         program("EntryA:", "jump Here", "Here:", line, "halt")
     where, _, text = str(caught.value).partition(": ")
@@ -131,31 +131,31 @@ def test_mistakes(line: str, message: str) -> None:
     ],
 )
 def test_ends(lines: tuple[str, ...], message: str) -> None:
-    """A program that runs past its last word is rejected."""
+    """A program whose execution could pass its last word is rejected."""
     with pytest.raises(AsmError) as caught:
         program(*lines)
     assert str(caught.value) == message
 
 
 def test_full_rom() -> None:
-    """A program with exactly the words of the ROM is accepted."""
+    """A program that fills all words of the ROM is accepted."""
     assert len(program(*["load RV"] * (WORDS - 1), "halt").words) == WORDS
 
 
 def test_files_are_fresh() -> None:
-    """The files of the tree are those that `make rom` writes."""
+    """The generated files in the tree are those that `make rom` writes."""
     for path, text in calc_rom.expected_files().items():
         assert path.read_text() == text, path
 
 
 def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message of an error in the listing is one line with file, line and error."""
+    """For an error in the program file, the message is one line with file, line and reason."""
     monkeypatch.setattr(calc_rom, "ASM", calc_rom.PACKAGE)
     with pytest.raises(ProjectError, match=r"^rtl/pmc006/motion/\w+\.sv:1: // is not an instruction$"):
         calc_rom.expected_files()
 
 
 def test_package_without_marks() -> None:
-    """A package without the marks is rejected and not changed."""
+    """If the package lacks the marks, it is rejected and not changed."""
     with pytest.raises(ProjectError, match="the marks of `make rom` are missing"):
         calc_rom.package_text("package p; endpackage", program("halt"))

@@ -1,4 +1,4 @@
-"""Demo of the PMC006B4: frames as text, the path of the motor. No simulator is used."""
+"""Demo of the PMC006B4 without a simulator: frames as text, the path of the motor."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from scripts.demo.pmc006 import way
 
 
 def told(*rows: tuple[str, int, int]) -> list[Access]:
-    """Return frames (letter, data) and their reply data in the format of the script host."""
+    """Return frames (letter, data), each with its reply data, in the format of the script host."""
     accesses = []
     for t, (letter, data, got) in enumerate(rows):
         accesses += [
@@ -55,7 +55,9 @@ def test_polls_and_words_are_one_row() -> None:
 
 
 def test_way_in_full_steps() -> None:
-    """Steps of two chapters count by their microsteps, and backwards after a change of direction."""
+    """Steps are counted in the microsteps of their chapter; after a change of direction they count
+    backwards.
+    """
     chapters = {f"move{micro}": {"begin": 1000 * place} for place, (micro, _) in enumerate(MOVES)}
     chapters["program"] = {"begin": 3000}
     fine, finer = MOVES[0][0], MOVES[1][0]

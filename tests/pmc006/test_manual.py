@@ -30,7 +30,7 @@ class Session:
         self.since = 0
 
     def play(self, lines: list[str], where: str) -> None:
-        """Play all lines; an AssertionError names the first that differs from the page."""
+        """Play all lines; raise AssertionError for the first line whose result differs from the page."""
         for number, line in enumerate(lines, 1):
             # Two spaces begin a comment.
             kind, _, words = re.split(r"\s{2,}", line.strip())[0].partition(" ")
@@ -88,14 +88,14 @@ SESSIONS = {
 
 @pytest.mark.parametrize("title", SESSIONS, ids=lambda title: title.split()[0])
 def test_session(title: str) -> None:
-    """The lines of a session of the page, played one after the other, have the printed results."""
+    """If the lines of a session are played in order, each has the result that the page shows."""
     assert SESSIONS[title]
     for block in SESSIONS[title]:
         Session().play(block, title)
 
 
 def test_a_wrong_byte_is_found() -> None:
-    """A wrong reply on the page is reported with its line."""
+    """If a reply on the page is wrong, its line is reported."""
     with pytest.raises(AssertionError, match="line 2: '< 17' gave 16"):
         Session().play(["> k", "< 17"], "x")
     with pytest.raises(AssertionError, match="gave 0"):
@@ -105,7 +105,7 @@ def test_a_wrong_byte_is_found() -> None:
 
 
 def test_frames_of_the_text_have_their_sums() -> None:
-    """Each frame of the first chapter equals the frame that the model makes of its fields."""
+    """Each frame in the text of the page equals the frame that the model makes of its fields."""
     frames = [bytes.fromhex(text) for text in re.findall(r"`(A5(?: [0-9A-F]{2}){7})`", TEXT)]
     assert len(frames) >= 8
     for frame in frames:
@@ -124,7 +124,7 @@ def test_first_frames_get_their_replies() -> None:
 
 
 def test_codes_of_the_page() -> None:
-    """The table of instructions has all codes that have an effect, with their letters."""
+    """The table of instructions has all codes that have an effect, each with its letter."""
     table = TEXT.split("| Code | Letter |")[1].split("\n\n")[0]
     rows = re.findall(r"^\| 0x([0-9A-F]{2}) \| (.) \|", table, re.M)
     assert all(chr(int(code, 16)) == letter for code, letter in rows)
@@ -132,7 +132,7 @@ def test_codes_of_the_page() -> None:
 
 
 def test_program_of_the_page() -> None:
-    """The program of chapter 13 assembles to the words of the session."""
+    """The program of chapter 13 assembles to the words that the page shows."""
     (text,) = re.findall(r"^```asm\n(.*?)^```", TEXT, re.S | re.M)
     words = assemble(text).words
     assert words[:20] == (

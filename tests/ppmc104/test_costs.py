@@ -1,4 +1,4 @@
-"""The values of docs/benchmarks.md that are numbers of cycles, not measured times."""
+"""The figures of docs/benchmarks.md that are numbers of cycles, which do not depend on the machine."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from scripts.measure.bench import costs
 
 
 def test_costs_in_benchmarks_are_those_of_the_rtl() -> None:
-    """The costs in docs/benchmarks.md are the cycle counts of the RTL (`make bench PART=ppmc104`)."""
+    """The cycle counts in docs/benchmarks.md are those of the RTL (`make bench PART=ppmc104`)."""
     page = (DOCS / "benchmarks.md").read_text(encoding="utf-8")
     block = page.split("<!-- bench:costs -->")[1].split("<!-- /bench:costs -->")[0]
     printed = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]

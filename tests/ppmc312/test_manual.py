@@ -1,4 +1,6 @@
-"""Examples of docs/ppmc312/examples.md and chapter 1 of docs/ppmc312/README.md, run on the golden model."""
+"""The examples of docs/ppmc312/examples.md and of chapter 1 of docs/ppmc312/README.md, on the golden
+model.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ from tests.common.pages import DOCS, chapters
 
 PAGE = DOCS / "ppmc312/examples.md"
 MS = 16_000
-LONG = 60_000_000  # cycles; no step of the page lasts longer
+LONG = 60_000_000  # cycles; no step of the page takes longer
 
 
 class Player:
@@ -35,7 +37,7 @@ class Player:
         self.host = on_model(Host.start(OnModel()))
 
     def play(self, lines: list[str], where: str) -> None:
-        """Play all lines; an AssertionError names the first that differs from the page."""
+        """Play all lines; raise AssertionError for the first line whose result differs from the page."""
         for number, line in enumerate(lines, 1):
             kind, _, rest = line.partition(" ")
             # Two spaces begin a comment.
@@ -83,14 +85,14 @@ CHAPTERS = chapters(PAGE)
 
 @pytest.mark.parametrize("title", CHAPTERS, ids=lambda title: title.split()[0])
 def test_session(title):
-    """The lines of a chapter of the page, played one after the other, have the printed results."""
+    """If the lines of a chapter are played in order, each has the result that the page shows."""
     player = Player()
     for block in CHAPTERS[title]:
         player.play(block, title)
 
 
 def test_a_wrong_byte_is_found():
-    """A wrong byte on the page is reported with its line."""
+    """If a byte on the page is wrong, its line is reported."""
     with pytest.raises(AssertionError, match="line 2: '< 03 02 40 13' gave 03 02 40 12"):
         Player().play(["> 03 01 40", "< 03 02 40 13"], "x")
     with pytest.raises(AssertionError, match="gave 0 04"):
@@ -100,7 +102,7 @@ def test_a_wrong_byte_is_found():
 
 
 def test_first_move_of_the_manual_is_that_of_the_examples():
-    """The writes and blocks of the ten-byte chapter of the manual are those of example 1."""
+    """The writes and blocks in chapter 1.1 of the manual are those of example 1."""
     text = (DOCS / "ppmc312/README.md").read_text(encoding="utf-8")
     chapter = text.split("### 1.1 ")[1].split("\n## ")[0]
     writes = [line[2:].split("  ")[0].strip() for line in CHAPTERS["1 The first move, every access"][0]
@@ -115,7 +117,7 @@ def test_first_move_of_the_manual_is_that_of_the_examples():
 
 
 def test_free_curve_of_the_instructions_page():
-    """Each block of the transfer on the instructions page has the answer printed below it."""
+    """On the instructions page, each block of the transfer has the answer that is printed below it."""
     text = (DOCS / "ppmc312/instructions.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
     lines = [line.strip() for line in block.splitlines()]
@@ -139,7 +141,7 @@ def accepted() -> dict[int, list[str]]:
 
 
 def test_table_of_states_is_that_of_the_model():
-    """The manual's table of states agrees with the model for each instruction in each state."""
+    """The manual's table of states agrees with the model, for each instruction in each state."""
     table = accepted()
     assert set(table) == set(LENGTHS)
     for code, cells in table.items():
@@ -156,7 +158,7 @@ def test_table_of_states_is_that_of_the_model():
 
 
 def test_lengths_of_the_instructions_page():
-    """The list of instructions has the lengths that the model accepts, and each instruction has a chapter."""
+    """The list of instructions has the lengths that the model accepts; each instruction has a chapter."""
     text = (DOCS / "ppmc312/instructions.md").read_text(encoding="utf-8")
     head = text.split("\n## ")[0]
     rows = re.findall(r"\| \[([0-9A-F, ]+)\]\(#[^)]+\) \| [^|]+ \| ([^|]+) \|", head)

@@ -18,7 +18,7 @@ from tests.ppmc312.test_manual import Player
 PAGE = DOCS / "ppmc312/serial.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 REPLY = 400_000
-"""Cycles for which the page waits for a reply: 20 ms and the frame."""
+"""Maximum wait for a reply in cycles: 20 ms and the length of the frame."""
 
 
 class Line(Player):
@@ -55,16 +55,17 @@ SESSIONS = {title: blocks for title, blocks in chapters(PAGE).items() if title.s
 
 @pytest.mark.parametrize("title", SESSIONS, ids=lambda title: title.split()[0])
 def test_session(title):
-    """The lines of a session of the page, played one after the other, have the printed results."""
+    """If the lines of a session are played in order, each has the result that the page shows."""
     assert SESSIONS[title]
     for block in SESSIONS[title]:
         Line().play(block, title)
 
 
 def test_reply_times():
-    """The page has the times of a reply for each speed.
+    """For each speed, the page states the times of a reply.
 
-    They are half a bit to snd and 1.5 bits to the start bit, rounded down to 0.1 µs, and one bit in between.
+    They are half a bit to snd and 1.5 bits to the start bit, both rounded down to 0.1 µs, and one bit between
+    them.
     """
     rows = re.findall(r"^\| ([\d ]+) \| ([\d.]+) µs \| ([\d.]+) µs \| ([\d.]+) µs \|$", TEXT, re.M)
     assert [row[0].replace(" ", "") for row in rows] == [str(int(speed)) for speed in SPEEDS.values()]
@@ -75,7 +76,7 @@ def test_reply_times():
 
 
 def test_a_wrong_byte_is_found():
-    """A wrong reply on the page is reported with its line."""
+    """If a reply on the page is wrong, its line is reported."""
     with pytest.raises(AssertionError, match="line 1: '[?] 80' gave 90"):
         Line().play(["? 80"], "x")
     with pytest.raises(AssertionError, match="gave 91 6E"):
@@ -83,7 +84,7 @@ def test_a_wrong_byte_is_found():
 
 
 def test_frames_of_the_text_have_their_checksums():
-    """Each worked frame of chapter 2 ends with its checksum."""
+    """Each worked frame of chapter 2 ends with the right checksum."""
     frames = re.findall(r"`([89AB][0-9A-F](?: [0-9A-F]{2}){3,})`", TEXT)
     assert len(frames) == 2
     for text in frames:
@@ -92,7 +93,7 @@ def test_frames_of_the_text_have_their_checksums():
 
 
 def test_speeds_of_the_page():
-    """The table of speeds has the speeds of the part."""
+    """The table of speeds contains all speeds of the part."""
     rows = re.findall(r"\| (\d{3}) \| ([\d ]+\.?\d*) \| (\d+) / (\d+) \|", TEXT)
     assert {int(mod, 2) for mod, *_ in rows} == set(SPEEDS)
     for mod, baud, over, under in rows:
@@ -101,7 +102,7 @@ def test_speeds_of_the_page():
 
 
 def codes(cell: str) -> set[int]:
-    """Return the codes of the first column: lists, and ranges with dots."""
+    """Return the codes in a cell of the first column: lists, or ranges with dots."""
     found = {int(code, 16) for code in re.findall(r"[0-9A-F]{2}", cell)}
     if "…" in cell:
         found |= set(range(min(found), max(found) + 1))
@@ -109,7 +110,7 @@ def codes(cell: str) -> set[int]:
 
 
 def test_codes_and_lengths_of_the_page():
-    """The table of instructions has all codes, each with its number of data bytes."""
+    """The table of instructions contains all codes, each with its number of data bytes."""
     table = TEXT.split("| Code | Parallel |")[1].split("\n\n")[0]
     found = {}
     for row in table.splitlines()[2:]:
@@ -122,6 +123,6 @@ def test_codes_and_lengths_of_the_page():
 
 
 def test_end_codes_of_the_page():
-    """The table of END codes has the codes of the model."""
+    """The table of END codes contains exactly the codes of the model."""
     row = re.findall(r"\| END code \| (.*) \|", TEXT)[0]
     assert {int(code, 16) for code in row.split(" | ")} == set(END_CODES.values())

@@ -1,4 +1,6 @@
-"""The output of docs/stmc/examples.md and docs/stmc/replace.md on the golden model of the board."""
+"""The examples of docs/stmc/examples.md and docs/stmc/replace.md have the printed results on the board's
+model.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ EXAMPLES = Sessions("stmc", brief=())
 REPLACE = ROOT / "docs/stmc/replace.md"
 DATA, COMMAND = 0x3B0, 0x3B1
 OBF, IBF, BUSY = 1, 2, 4
-MOST = 40_000  # bus accesses after which a host is stuck
+MOST = 40_000  # number of bus accesses after which the host counts as stuck
 TICK = 16_000_000 / 48_675
 CONIO = "int inp(unsigned short port); int outp(unsigned short port, int byte);\n"
 STUBS = """
@@ -30,7 +32,9 @@ int outp(unsigned short port, int byte) { return on_outp(port, byte); }
 
 
 class Board:
-    """The board accessed by INP and OUT; `switches` are (steps made from now on, levels)."""
+    """The board with access by INP and OUT; `switches` are (number of steps after which it changes,
+    levels).
+    """
 
     def __init__(self, **parameters: object) -> None:
         self.model = J105Stmc(**parameters)  # type: ignore[arg-type]
@@ -43,8 +47,8 @@ class Board:
 
     @property
     def steps(self) -> list[int]:
-        """Edges of the steps since `mark`, and of the initialisation if it is later (never chopped
-        here).
+        """Edges of the steps since `mark`, also that of an initialisation after `mark`; no phases are chopped
+        here.
         """
         fresh = self.model.edges[self._looked :]
         self._looked += len(fresh)
@@ -53,14 +57,16 @@ class Board:
 
     @property
     def lost(self) -> bool:
-        """Whether the host polls indefinitely."""
+        """True if the host polls indefinitely."""
         return self.cycles > MOST
 
     def cycle(self, strobe: str, port: int, **data: int) -> int:
-        """Make one bus access of 560 ns; return sd_o at its end, FF if the board does not drive."""
+        """Make one bus access of 560 ns; return sd_o at its end, or FF if the board does not drive
+        the bus.
+        """
         self.cycles += 1
         if self.lost:
-            return 0xFF * (self.cycles & 1)  # ends each loop of a program that would not terminate
+            return 0xFF * (self.cycles & 1)  # ends any loop of the host program
         self.model.pins(self.t, sa=port, **data)
         self.model.pins(self.t + 1, **{strobe: 0})
         self.model.run_until(self.t + 9)
@@ -73,7 +79,7 @@ class Board:
         return driven
 
     def inp(self, port: int) -> int:
-        """Read; a host that polls a running motor reads again after 0.5 ms."""
+        """Read a byte; after a status with BUSY = 1, half a millisecond passes."""
         value = self.cycle("ior_n", port)
         self.t += 8000 if port == COMMAND and value & BUSY else 0
         return value
@@ -104,7 +110,7 @@ class Board:
                 assert f"{self.poll(IBF, 0):02X}" == f"{step.status:02X}", at
 
     def until(self, count: int) -> None:
-        """Wait until this number of steps was made."""
+        """Wait until this number of steps has been made."""
         while len(self.steps) < count:
             self.t += 100
             self.model.run_until(self.t)
@@ -121,7 +127,7 @@ def board() -> Board:
 
 
 def test_example_1_and_2(board):
-    """At the speeds of the data sheet, 800 steps take the time that the page states."""
+    """With the speeds of the data sheet, 800 steps take the time that the page states."""
     board.play(EXAMPLES.blocks(2)[0], "example 2")
     steps = board.steps
     gaps = [round((b - a) / TICK) for a, b in pairwise(steps)]
@@ -132,7 +138,7 @@ def test_example_1_and_2(board):
 
 
 def test_example_3(board):
-    """After a stop at 40 steps, the remaining bytes lead to the other 60."""
+    """After a stop at step 40, the printed bytes make the other 60 steps."""
     first, second = EXAMPLES.blocks(3)
     board.play(first, "example 3")
     board.until(40)
@@ -141,7 +147,7 @@ def test_example_3(board):
 
 
 def test_example_4():
-    """A decelerating stop in gap 10 leads to 20 steps."""
+    """A decelerating stop in gap 10 ends the move after 20 steps."""
     board = Board()
     first, second = EXAMPLES.blocks(4)
     board.play(first, "example 4")
@@ -151,14 +157,14 @@ def test_example_4():
 
 
 def test_example_5(board):
-    """With L2 and CNP activated during the motion, the motor finds its reference point."""
+    """If L2 and CNP become active during the motion, the motor stops at its reference point."""
     board.switches = [(30, {"l2_n": 0}), (35, {"l2_n": 1}), (55, {"cnp_n": 0})]
     board.play(EXAMPLES.blocks(5)[0], "example 5")
     assert len(board.steps) == 55 and not board.switches
 
 
 def test_example_6(board):
-    """With L1 active, only ccw steps are made."""
+    """With L1 active, only the CCW step is made."""
     board.model.pins(board.t, l1_n=0)
     board.t += 4
     board.play(EXAMPLES.blocks(6)[0], "example 6")
@@ -166,20 +172,20 @@ def test_example_6(board):
 
 
 def test_examples_without_motion(board):
-    """In examples 7, 8 and 9, every byte is the printed one."""
+    """In examples 7, 8 and 9, the model returns exactly the printed bytes."""
     board.play(EXAMPLES.blocks(7)[0], "example 7")
     Board().play(EXAMPLES.blocks(8)[0], "example 8")
     Board(read_map="SHEET").play(EXAMPLES.blocks(9)[0], "example 9")
 
 
 def code(kind: str) -> str:
-    """Return the program of that language in docs/stmc/replace.md."""
+    """Return the program in this language from docs/stmc/replace.md."""
     (found,) = re.findall(rf"^```{kind}\n(.*?)^```$", REPLACE.read_text(encoding="utf-8"), re.S | re.M)
     return found
 
 
 def test_c_program(tmp_path, capfd):
-    """The C program finds L2 and the reference point on the board and reports it."""
+    """On the board, the C program finds L2 and the reference point, and prints the inputs."""
     (tmp_path / "conio.h").write_text(CONIO)
     (tmp_path / "stubs.c").write_text(STUBS)
     (tmp_path / "program.c").write_text(code("c"))
@@ -201,7 +207,7 @@ def test_c_program(tmp_path, capfd):
 
 
 def test_basic_program():
-    """The OUT and DATA of the QBasic program lead to 200 steps and finish status 83."""
+    """The bytes of the QBasic program make 200 steps and lead to finish status 83."""
     text = code("basic")
     codes = [int(byte, 16) for byte in re.findall(r"OUT CMD, &H(\w+)", text)]
     first, second = ([int(n) for n in re.findall(r"\d+", line)]

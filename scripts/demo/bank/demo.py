@@ -1,6 +1,7 @@
-"""`make demo PART=bank`: 32 axes with 32 ramps, started by one GO, RTL against golden model and prediction.
+"""`make demo PART=bank`: start 32 axes with 32 different ramps by one GO, and check every edge.
 
-The host's bytes are played on the golden model first; the same pin changes go into the Verilated RTL.
+The host runs on the golden model first. The Verilated RTL then receives the same pin changes. Its edges are
+compared with those of the golden model, and its pulses with a prediction.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ from scripts.fpga.flow import plain_sim
 
 NAME = "bank"
 FOLDER = BUILD / "demo"
-REST = 2000  # cycles after the last access
+REST = 2000  # cycles that the demo records after the last access
 PINS = SimpleNamespace(INPUTS=group.inputs(AXES), OUTPUTS=group.outputs(AXES, 1), WIDTHS=group.widths(AXES))
 TABLE = Part.of_model(NAME, PINS, parameters=("AXES", "CLK_HZ"), clock="")
 
@@ -59,13 +60,13 @@ class Played:
 
     @property
     def first(self) -> int:
-        """The edge of all first pulses (BANK-GRP-02)."""
+        """Edge on which all axes output their first pulse (BANK-GRP-02)."""
         model = self.session.model
         return self.go + 4 + model.round + model.timebase.w
 
 
 def play() -> Played:
-    """Run the host: initialise every axis, load every axis, send GO, read the results of all axes."""
+    """Run the host: initialise all axes, load all axes, send GO, read the results of all axes."""
     host = Session(AXES, CLK_HZ)
     for one in ORDERS:
         host.send(one.axis, INIT, *one.ramp)
@@ -92,7 +93,7 @@ def build() -> Path:
 
 
 def simulate(program: Path, played: Played) -> Comparison:
-    """Apply the same pin changes to the RTL and compare all output edges with those of the golden model."""
+    """Apply the host's pin changes to the RTL; compare all output edges with those of the golden model."""
     model = played.session.model
     recording = Recording(NAME, {"AXES": AXES, "CLK_HZ": CLK_HZ}, end=model.now, stimulus=model.stimulus)
     recording.edges = plain_sim.play(program, recording, TABLE)
@@ -102,7 +103,7 @@ def simulate(program: Path, played: Played) -> Comparison:
 
 
 def trains(comparison: Comparison) -> list[list[int]]:
-    """Return the edges of the pulses of each axis at the RTL."""
+    """Return the pulse edges of each axis of the RTL."""
     changes = comparison.actual["pout_n"]
     return [
         [t for t, level in bit_changes(changes, axis, comparison.initial["pout_n"]) if not level]
@@ -111,7 +112,7 @@ def trains(comparison: Comparison) -> list[list[int]]:
 
 
 def wrong(one: Order, pulses: list[int], played: Played) -> str:
-    """Return the first deviation of an axis from the prediction; "" if there is no deviation."""
+    """Return the first deviation of an axis from the prediction, or ""."""
     status, position = played.ends[one.axis]
     if len(pulses) != one.pulses:
         return f"{len(pulses)} pulses, not {one.pulses}"
@@ -150,7 +151,7 @@ def show(pulses: list[list[int]], played: Played, faults: dict[int, str]) -> Non
 
 
 def main() -> int:
-    """Run the demo; return 0 if every edge equals the golden model's and every profile its prediction."""
+    """Run the demo; return 0 if all edges equal the golden model's and all profiles equal the prediction."""
     steps, begin = Steps(), time.monotonic()
     picture, vcd = FOLDER / "profile.png", FOLDER / f"{NAME}.vcd"
     try:

@@ -1,4 +1,4 @@
-"""The moves of the bank's demo: 32 axes, no two with the same ramp."""
+"""The moves of the bank's demo: 32 axes, each with a different ramp."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from openppmc.model.clock import Timebase
 from openppmc.model.single.predict import Move, predict_move
 
 AXES, CLK_HZ = 32, 32_000_000
-"""The lowest clk frequency for 32 axes at a crystal of 16 MHz (BANK-GEN-02)."""
+"""Lowest clock frequency for 32 axes with a 16 MHz crystal (BANK-GEN-02)."""
 BASE = 500_000  # Hz, base clock with csel = 1
 INIT = 0x0A  # 4-phase motor, full step, a high level switches a coil on
 RAMPED, CCW = 0x43, 0x08
@@ -41,7 +41,7 @@ class Order:
 
     @property
     def signed(self) -> int:
-        """The end position of a move from 0."""
+        """The position after the move, if it begins at 0."""
         return -self.pulses if self.axis & 1 else self.pulses
 
     def predicted(self) -> Move:
@@ -50,7 +50,7 @@ class Order:
 
 
 def order(axis: int) -> Order:
-    """Return the order of an axis: top speed 25 to 9.8 kpps, ramps of 3 to 11 ms, plateaus of 0 to 18 ms."""
+    """Return the move of an axis: top speed 25 to 9.8 kpps, ramps of 3 to 11 ms, plateaus of 0 to 18 ms."""
     rh = 19 + axis
     rl = 2 * rh + 40
     low, high = BASE / (rl + 1), BASE / (rh + 1)

@@ -38,7 +38,7 @@ def profile(times: Sequence[float]) -> tuple[list[float], list[float]]:
 
 
 def panel(axes: Axes, one: Order, pulses: Sequence[int], first: int) -> None:
-    """Draw the speed of an axis at the RTL, and the predicted speed as a line."""
+    """Draw the measured speed of an axis of the RTL as steps, and the predicted speed as a line."""
     axes.set_xlim(-1, 42)
     axes.set_ylim(0, 33)
     bare(axes)
@@ -55,7 +55,7 @@ def panel(axes: Axes, one: Order, pulses: Sequence[int], first: int) -> None:
 
 
 def rows_of(axes: Axes) -> None:
-    """Set up one row for each axis, with axis 0 at the top."""
+    """Set up a row for each axis, with axis 0 at the top."""
     axes.set_ylim(AXES - 0.4, -0.6)
     axes.set_yticks(range(0, AXES, 4))
     bare(axes)
@@ -69,7 +69,7 @@ def heads(axes: Axes, title: str, note: str) -> None:
 
 
 def train(axes: Axes, pulses: Sequence[Sequence[int]], first: int) -> None:
-    """Draw all pulses of the first 3 ms, in which the axes diverge."""
+    """Draw all pulses of the first 3 ms, in which the pulses of the axes drift apart."""
     for axis, found in enumerate(pulses):
         near = [(t - first) / MS for t in found if t - first < 3 * MS]
         axes.eventplot(near, lineoffsets=axis, linelengths=0.8, colors=[colour(axis)], linewidths=0.7)
@@ -80,7 +80,7 @@ def train(axes: Axes, pulses: Sequence[Sequence[int]], first: int) -> None:
 
 
 def edge(axes: Axes, levels: Any, pulses: Sequence[Sequence[int]], first: int) -> None:
-    """Draw the levels of all pulse outputs, cycle by cycle, around the first falling edge."""
+    """Draw the level of every pulse output in each cycle around the first falling edge."""
     span = range(-6, 7)
     for axis in range(AXES):
         found = [t for t, bits in levels if first + span[0] <= t <= first + span[-1]]
@@ -108,7 +108,7 @@ def edge(axes: Axes, levels: Any, pulses: Sequence[Sequence[int]], first: int) -
 
 
 def offsets(axes: Axes, pulses: Sequence[Sequence[int]], first: int) -> None:
-    """Draw the distribution of the deviations of all pulses from their prediction."""
+    """Draw the distribution of the differences between all pulses and their prediction."""
     found = Counter(
         edge - first - expected
         for one, train in zip(ORDERS, pulses, strict=True)
@@ -144,7 +144,7 @@ def draw(comparison: Any, pulses: Sequence[Sequence[int]], first: int, path: Pat
     Raises IndexError if an axis has no pulses.
 
     Args:
-        first: edge of all first pulses.
+        first: edge on which all axes output their first pulse.
     """
     plt.rcParams["font.family"] = "DejaVu Sans"
     figure = plt.figure(figsize=(16, 15), dpi=110, facecolor="white")

@@ -1,4 +1,4 @@
-"""A host at the window of a bank, run on the golden model; every pin change is recorded for the RTL."""
+"""Host of a bank's register window; it runs on the golden model and records all pin changes for the RTL."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from openppmc.model.bank.window import DATA, MASK, POSITION, STATUS
 from openppmc.model.single.codes import BUSY, IBF
 
 WRITE, READ, GAP = 2, 6, 3
-"""Length of the strobes and of the gaps between them, in cycles (BANK-WIN-04)."""
+"""Length of a strobe, and of the gap after it, in cycles (BANK-WIN-04)."""
 READ_FINISH = 0x80
 
 
@@ -29,12 +29,12 @@ class Access(NamedTuple):
 
 
 class Recorder(PpmcBank):
-    """The golden model with a record of its input pin changes."""
+    """Golden model that records the changes of its input pins."""
 
     stimulus: list[Change]
 
     def pins(self, t: int, **levels: int) -> None:
-        """Record the levels, then set them as in the base class."""
+        """Record the levels, then set them like the base class."""
         super().pins(t, **levels)
         self.__dict__.setdefault("stimulus", []).extend(
             Change(t, pin, level) for pin, level in levels.items()
@@ -82,7 +82,7 @@ class Session:
         return byte
 
     def poll(self, axis: int, bits: int = IBF) -> int:
-        """Read the status until these bits are 0; return the status."""
+        """Read the status until the bits of `mask` are 0; return the status."""
         while (status := self.read(axis, STATUS)) & bits:
             pass
         return status
@@ -106,7 +106,7 @@ class Session:
             self.write(k, MASK, members >> 8 * k & 0xFF)
 
     def position(self, axis: int) -> int:
-        """Return the position: four reads, byte 0 first (BANK-WIN-07)."""
+        """Return the position from four reads that begin with byte 0 (BANK-WIN-07)."""
         raw = bytes(self.read(axis, POSITION + place) for place in range(4))
         return int.from_bytes(raw, "little", signed=True)
 
@@ -116,6 +116,6 @@ class Session:
             self.t += 1000
 
     def run(self, edge: int) -> None:
-        """Run to an edge without an access."""
+        """Run up to an edge without making an access."""
         self.model.run_until(edge)
         self.t = max(self.t, edge + 1)

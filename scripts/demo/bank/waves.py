@@ -1,4 +1,4 @@
-"""The VCD of the bank's demo: host bus, and pulse, direction and speed of each axis."""
+"""The VCD of the bank's demo: the host's bus, and each axis's pulse output, direction and speed."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def write(comparison: Any, pulses: Sequence[Sequence[int]], path: Path) -> None:
 
 
 def views(vcd: Path, axes: int) -> None:
-    """Write the saved views of GTKWave and Surfer next to the VCD: the host, then the speeds of all axes."""
+    """Write the saved views of GTKWave and Surfer next to the VCD; they show the host, then all speeds."""
     names = [f"host.{name}{f'[{size - 1}:0]' if size > 1 else ''}" for name, size in (BUS | ANSWERS).items()]
     speeds = [f"axis{axis}.speed_pps" for axis in range(axes)]
     lines = [f'[dumpfile] "{vcd.name}"', "[timestart] 0", "[size] 1500 900"]

@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc312`: test, display of the bus, waveforms and picture."""
+"""`make demo PART=ppmc312`: the demo's test, the text of bus accesses, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -24,24 +24,24 @@ Chapters = Mapping[str, Mapping[str, Any]]
 
 
 def within(edges: Sequence[int], chapter: Mapping[str, Any]) -> list[int]:
-    """Return the edges of one chapter."""
+    """Return the edges that are within a chapter."""
     return [t for t in edges if chapter["begin"] <= t < chapter["end"]]
 
 
 def kpps(axes: Axes) -> None:
-    """Set up the vertical axis of a speed."""
+    """Label the vertical axis of a speed."""
     axes.set_ylabel("kpps", fontsize=9, color=GREY)
 
 
 def marks(axes: Axes, at: Sequence[tuple[float, str]], top: float) -> None:
-    """Draw vertical lines and the name of each event."""
+    """Draw a vertical line and the name of each event."""
     for x, text in at:
         axes.plot([x, x], [0, top], color=GREY, linewidth=0.8, linestyle=(0, (3, 2)), zorder=0)
         axes.text(x, top, text, fontsize=8, color=INK, ha="center", va="bottom", linespacing=1.1)
 
 
 def ramps(axes: Axes, pulses: Sequence[int], by_key: Chapters, clk_hz: int) -> None:
-    """Draw the same move with three tables, each from its pulse 1 on."""
+    """Draw the same move with three tables, each over the time after its pulse 1."""
     count = end = 0
     for key, colour in RAMPS:
         edges = within(pulses, by_key[key])
@@ -63,7 +63,7 @@ def ramps(axes: Axes, pulses: Sequence[int], by_key: Chapters, clk_hz: int) -> N
 def override(
     axes: Axes, pulses: Sequence[int], chapter: Mapping[str, Any], pressed: int, clk_hz: int
 ) -> None:
-    """Draw the continuous motion that two positions and an event pin change."""
+    """Draw the continuous motion whose speed changes at two positions and with an event pin."""
     edges = within(pulses, chapter)
     moved = Speed("", FORCED, [t - edges[0] for t in edges])
     end = moved.pulses[-1]
@@ -83,7 +83,7 @@ def override(
 def zero_return(
     axes: Axes, pulses: Sequence[int], chapter: Mapping[str, Any], changes: Levels, begin: int, clk_hz: int
 ) -> None:
-    """Draw the signed speed over the position, and the range in which the switch is closed."""
+    """Draw the signed speed over the position, and the range of positions in which the switch is closed."""
     turned = next(t for t, level in changes["dir"] if level == 0 and t > chapter["begin"])
     position, where, speed = begin, [], []
     for first, second in pairwise(within(pulses, chapter)):
@@ -114,7 +114,7 @@ def zero_return(
 def traces(
     outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any], names: Sequence[str]
 ) -> list[Trace]:
-    """Return the pins of a close-up."""
+    """Return the rows of a close-up, one for each pin."""
     shown = {"pout": "POUT", "dir": "DIR", "irq_n": "IRQ*", "evt0_n": "EVT0*", "org_n": "ORG*", "we_n": "WE*"}
     return [
         Trace(
@@ -128,7 +128,7 @@ def traces(
 
 
 def start(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk_hz: int) -> Section:
-    """Return the close-up from the instruction to the first pulses of the move to the left."""
+    """Return the close-up of the move to the left, from the instruction to the first pulses."""
     us = clk_hz // 1_000_000
     first = within(pulses, chapter)[:3]
     turned = next(t for t in rises(list(outputs["dir"])) if chapter["begin"] < t)
@@ -172,7 +172,7 @@ def turn(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk
 
 
 def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
-    """Draw the picture of a comparison's recording into a PNG."""
+    """Draw the picture of the compared recording into a PNG."""
     recording, outputs, initial = comparison.recording, comparison.actual, comparison.initial
     clk_hz = int(recording.params["CLK_HZ"])
     by_key = {chapter["key"]: chapter for chapter in chapters}

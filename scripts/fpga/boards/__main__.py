@@ -1,4 +1,4 @@
-"""`make boards`: write tops, constraint files and tables from the descriptions, or compare them (--check)."""
+"""`make boards`: write tops, constraint files and tables from board descriptions; --check compares."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from scripts.fpga.boards.verilog import laid_out
 
 
 def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
-    """Return each part on each board."""
+    """Return every combination of a board and a part that it supports."""
     return [
         fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
         for board in boards
@@ -31,7 +31,7 @@ def own_files(one: Fitted, layout: Callable[[str], str]) -> dict[Path, str]:
 
 
 def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
-    """Return all files that are written from the descriptions, with tops formatted by `layout`."""
+    """Return all files that the descriptions determine, with tops formatted by `layout`."""
     boards = load_all()
     every = fitted_parts(boards)
     found = {path: text for one in every for path, text in own_files(one, layout).items()}
@@ -46,7 +46,7 @@ def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
 
 
 def left_over(expected: dict[Path, str]) -> list[Path]:
-    """Return tops and constraint files that belong to no description."""
+    """Return the tops and constraint files that no description determines."""
     there = [*(project.RTL / "boards").glob("*/board_*.sv"), *FOLDER.glob("*/*/*")]
     return sorted(path for path in there if path.is_file() and path not in expected)
 

@@ -1,4 +1,4 @@
-"""Ports and parameters of <part>_carrier, read from its module header, the only place that defines them."""
+"""Ports and parameters of <part>_carrier, read from its module header, which is their only definition."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PORT = re.compile(
 
 
 BY_PARAMETER = re.compile(r"(?:(?P<times>\d+)\*)?(?P<name>[A-Z]\w*)-1")
-"""The highest bit of a vector whose width depends on a parameter."""
+"""Form of the highest bit of a vector whose width depends on a parameter."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Port:
         return len(self.bits) if self.bits else 1
 
     def bit_names(self) -> list[str]:
-        """Return the bits (`s[1]`, …) from the lowest; the port name if it is not a vector."""
+        """Return the names of the bits (`s[1]`, …), lowest first; the port name if it is not a vector."""
         return [f"{self.name}[{bit}]" for bit in self.bits] if self.bits else [self.name]
 
 
@@ -57,7 +57,7 @@ class Carrier:
     ports: dict[str, Port]
 
     def two_way(self) -> dict[str, str]:
-        """Return pins that are not always driven: name -> driving port, "" if the pin is only pulled low."""
+        """Return each pin that is not always driven, with its driving port ("" if it is only pulled low)."""
         names = [name.removesuffix("_oe") for name in self.ports if name.endswith("_oe")]
         return {
             name: f"{name}_o" if f"{name}_o" in self.ports else ""
@@ -66,7 +66,7 @@ class Carrier:
         }
 
     def side(self, name: str) -> Port:
-        """Return the port that represents such a pin: its input, or its output if it has no input."""
+        """Return the port of a pin that is not always driven: its input, or its output if it has no input."""
         return self.ports.get(f"{name}_i") or self.ports[f"{name}_o"]
 
 

@@ -7,7 +7,7 @@ from scripts.fpga.boards.texts import head, title, wrapped
 
 
 def pcf(fitted: Fitted, pad: Pad) -> list[str]:
-    """Return the lines of a pad for the iCE40, which has pull-ups but no pull-downs."""
+    """Return the lines of a pad for the iCE40, whose pads have pull-ups but no pull-downs."""
     pull = "-pullup yes " if pad.pull == "up" else ""
     return [f"{f'set_io {pull}{pad.bit}':<30}{pad.pin:<3} # {pad.where}"]
 
@@ -48,11 +48,11 @@ def qsf(fitted: Fitted, pad: Pad) -> list[str]:
 PADS = {"pcf": pcf, "lpf": lpf, "cst": cst, "xdc": xdc, "qsf": qsf}
 COMMENT = {"pcf": "#", "lpf": "#", "cst": "//", "xdc": "#", "qsf": "#"}
 APART = ("cst", "qsf")
-"""Formats without clock constraints; these are in clocks.sdc."""
+"""Formats without clock constraints: the clocks are in clocks.sdc."""
 
 
 def preamble(fitted: Fitted) -> list[str]:
-    """Return the lines before the pins: statements of the board, and the device for Quartus."""
+    """Return the lines before the pins: the board's own statements, and the device for Quartus."""
     board, lines = fitted.board, list[str]()
     mark = COMMENT[board.language]
     if board.statements:

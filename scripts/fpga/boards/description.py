@@ -1,7 +1,7 @@
 """The descriptions of the boards, constraints/<board>/board.yml: permitted keys and their values.
 
-The keys are explained in docs/boards.md, 11 Another board or part. An unknown or missing key is reported as
-an error of one line.
+docs/boards.md explains the keys in chapter 11, Another board or part. An unknown or missing key raises an
+error of one line.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ KEYS = {
 
 @dataclass(frozen=True)
 class Device:
-    """An FPGA with which the board is sold, for the tools of `make setup`.
+    """One of the FPGAs with which the board is sold, for the tools of `make setup`.
 
     Attributes:
         name: value of BOARD.
@@ -99,12 +99,12 @@ class Carried:
 
 @dataclass(frozen=True)
 class Description:
-    """A whole board.yml; sections that only one writer reads are kept in their original form."""
+    """A whole board.yml; sections that only one generator reads are kept in their original form."""
 
     name: str
     path: Path
     title: str
-    revisions: str  # revisions of the board for which the pins were checked
+    revisions: str  # board revisions for which the pins were checked
     code: str
     place: int
     chip: str
@@ -159,7 +159,10 @@ def checked(where: str, section: str, found: Any) -> dict[str, Any]:
 
 
 def headers(where: str, found: Any) -> dict[str, str]:
-    """Return header pin -> package pin. In a list, the printed numbers are those of the package pins."""
+    """Return header pin -> package pin.
+
+    If a header is a list, the numbers printed on it are those of the package pins.
+    """
     pins: dict[str, str] = {}
     for header, named in found.items():
         for name, pin in named.items() if isinstance(named, dict) else ((f"pin {n}", n) for n in named):
@@ -243,6 +246,6 @@ def load(path: Path) -> Description:
 
 @cache
 def load_all(folder: Path = FOLDER) -> tuple[Description, ...]:
-    """Return every board, in the order of `place`."""
+    """Return every board, sorted by `place`."""
     found = (load(path) for path in sorted(folder.glob("*/board.yml")))
     return tuple(sorted(found, key=lambda board: (board.place, board.name)))

@@ -1,4 +1,4 @@
-"""The pads of a board with a part: each pin with its signal, direction, place and electrical properties."""
+"""All pads that a part uses on a board: signal, direction, package pin and electrical properties."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scripts.fpga.boards.carrier import Carrier, Port
 from scripts.fpga.boards.description import Carried, Description
 
 HOST_RESET = "host_rst_n"
-"""The reset line of a bus host, 0 = reset; it is not a port of a carrier."""
+"""Reset input from the host of a bus, active low; it is not a port of a carrier."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Pad:
 
 @dataclass(frozen=True)
 class Group:
-    """Pads with a common title."""
+    """A group of pads with a title."""
 
     title: str
     pads: tuple[Pad, ...]
@@ -45,7 +45,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Fitted:
-    """A part on a board with the ports of its carrier and all pads."""
+    """A part on a board, with the ports of its carrier and all pads."""
 
     board: Description
     on: Carried
@@ -94,14 +94,14 @@ def own_pads(board: Description, on: Carried) -> list[Group]:
 
 
 def _pad(board: Description, bit: str, pin: object, where: str, way: str, pull: str) -> Pad:
-    """Return a pad with the I/O standard of its pin."""
+    """Return a pad, with the I/O standard of its package pin."""
     exceptions = board.pads.get("exceptions", {})
     standards = [name for name, pins in exceptions.items() if str(pin) in map(str, pins)]
     return Pad(bit, str(pin), where, way, pull, standards[0] if standards else board.pads["standard"])
 
 
 def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], str]:
-    """Return the bits of a signal of board.yml, from the lowest, and its direction; or raise ProjectError."""
+    """Return the bits of a signal of board.yml, lowest first, and its direction; or raise ProjectError."""
     name = signal.split("[")[0]
     if name == HOST_RESET:
         return [signal], "in"
@@ -120,7 +120,7 @@ def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], s
 
 
 def fit(board: Description, on: Carried, carrier: Carrier) -> Fitted:
-    """Return the part on the board; raise ProjectError if a signal, header pin or package pin is wrong."""
+    """Return a part fitted to a board; raise ProjectError for a wrong signal, header pin or package pin."""
     where = f"{board.source}: parts: {on.name}"
     groups = own_pads(board, on)
     for title, signals in on.pins.items():

@@ -1,4 +1,4 @@
-"""Generated tables between markers: pins and boards in pages, tops in rtl/files.yml."""
+"""Tables that are generated between markers: pins and boards on pages, tops in rtl/files.yml."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def board_table(boards: tuple[Description, ...]) -> str:
 
 
 def flash_table(boards: tuple[Description, ...]) -> str:
-    """Return the table of boards that `make flash` loads, with the first part of each."""
+    """Return the table of the boards that `make flash` can load, each with its first part."""
     rows = ["| board | FPGA | bitstream and load | port |", "| --- | --- | --- | --- |"]
     for board in boards:
         first = board.parts[0]
@@ -50,7 +50,7 @@ def flash_table(boards: tuple[Description, ...]) -> str:
 
 
 def jumper_table(fitted: list[Fitted]) -> str:
-    """Return the table of self-test wires of boards with the UART host; signals without a pin are marked."""
+    """Return the table of self-test wires for boards with the UART host; signals without a pin are marked."""
     rows = ["| board | part | from | to | for |", "|---|---|---|---|---|"]
     for one in fitted:
         if "uart" not in one.on.hosts or not one.on.row.selftest or not one.board.devices:
@@ -67,7 +67,10 @@ def jumper_table(fitted: list[Fitted]) -> str:
 
 
 def recorder_table() -> str:
-    """Return the table of pins in a record of each part, from the lowest bit on; the bank has 8 axes."""
+    """Return the table of the pins in a recorder's record, from the lowest bit on, for each part.
+
+    A bank has 8 axes here.
+    """
     rows = ["| part | levels | pins, from the lowest bit on |", "| --- | --- | --- |"]
     for row in parts.having("selftest"):
         plan: Plan = row.load("selftest")
@@ -79,7 +82,10 @@ def recorder_table() -> str:
 
 
 def record_width(row: parts.Row) -> int:
-    """Return the number of levels that the carrier of a part records, from its text; a bank has 8 axes."""
+    """Return the number of levels that the carrier of a part records, read from its source.
+
+    A bank has 8 axes here.
+    """
     path = project.RTL / row.folder / f"{row.rtl}_carrier.sv"
     found = re.search(r"localparam int unsigned Watch = ([^;]*);", path.read_text(encoding="utf-8"))
     words = re.fullmatch(r"(\d+)(?: \+ (\d+) \* AXES)?", found[1]) if found else None

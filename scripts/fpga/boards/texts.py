@@ -1,4 +1,4 @@
-"""Texts that all files generated from a description have in common."""
+"""Texts that are in all files generated from a description."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from scripts.fpga.boards.pads import Fitted
 
 
 def head(fitted: Fitted, mark: str) -> list[str]:
-    """Return the lines with the licence and the sources of the file; `mark` begins a comment."""
+    """Return the lines with the licence and the sources of a file; `mark` is the comment mark."""
     carrier = f"{fitted.carrier.name}.sv"
     return [
         f"{mark} SPDX-License-Identifier: Apache-2.0",
@@ -17,7 +17,7 @@ def head(fitted: Fitted, mark: str) -> list[str]:
 
 
 def title(fitted: Fitted) -> str:
-    """Return the part and the board; the host is named unless the part has its own serial line."""
+    """Return the names of part, board and host; without the host if the part has its own serial line."""
     names = {"uart": "UART", "bus": "bus", "spi": "SPI"}
     host = f" with {' or '.join(names[host] for host in fitted.on.hosts)} host"
     own_line = "HOST" in (fitted.on.set or {}) or "HOST" not in fitted.carrier.parameters
@@ -25,7 +25,7 @@ def title(fitted: Fitted) -> str:
 
 
 def wrapped(mark: str, *texts: str) -> list[str]:
-    """Return texts as comment lines of a header; each text begins on a new line."""
+    """Return texts as comment lines of a header; each text begins a new line."""
     lines = [
         line
         for text in texts
@@ -35,7 +35,7 @@ def wrapped(mark: str, *texts: str) -> list[str]:
 
 
 def clk(fitted: Fitted) -> str:
-    """Return the part's clock and its source."""
+    """Return a text about the part's clock and its source."""
     osc = fitted.board.clock
     from_it = f" from the {osc['mhz']:g} MHz oscillator" if "module" in osc else ", its oscillator"
     return f"clk {fitted.on.mhz:g} MHz{from_it}"

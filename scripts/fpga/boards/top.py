@@ -11,11 +11,11 @@ from scripts.fpga.boards.texts import clk, head, title, wrapped
 from scripts.fpga.boards.verilog import declaration, instance, literal, part_select, without_comma
 
 OWN_LEDS = ("lock", "req_n", "lamps")
-"""Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_leds."""
+"""Ports of a carrier that contains reset and LED logic; for other carriers, the top adds ppmc_board_leds."""
 
 
 class Top:
-    """The text of one top; its methods are in the order of the sections of the file."""
+    """Writer of one top; its methods are in the order of the file's sections."""
 
     def __init__(self, fitted: Fitted) -> None:
         self.fitted = fitted
@@ -57,7 +57,7 @@ class Top:
         return [*start, *ports, ");", ""]
 
     def ports(self) -> list[str]:
-        """Return the ports: those of the board, then the carrier's in its order, then LEDs and constants."""
+        """Return the ports: the board's, then the carrier's in its order, then LEDs and constants."""
         reset = self.board.reset
         lines = [
             declaration("in", [self.board.clock["port"]], f"{self.board.clock['mhz']:g} MHz"),
@@ -101,7 +101,7 @@ class Top:
         return instance(self.pll, params, "u_clock", {f"{port}_i": port, "clk_o": "clk", "lock_o": "lock"})
 
     def reset_request(self) -> str:
-        """Return the expression that is 0 while the button or the host requests a reset."""
+        """Return an expression that is 0 while the button or the host requests a reset."""
         button = f"{'!' if self.board.reset['active'] else ''}{self.board.reset['port']}"
         return f"{button} && {HOST_RESET}" if self.fitted.bits(HOST_RESET) else button
 
@@ -116,7 +116,7 @@ class Top:
         return instance("ppmc_board_leds", {"ClkHz": "ClkHz"}, "u_leds", {**start, **leds})
 
     def own_connection(self, port: Port) -> tuple[bool, str | None]:
-        """Return whether a port of the carrier is for clock, reset or LEDs, and its connection."""
+        """Return whether a port of the carrier is for clock, reset or LEDs, and what it is connected to."""
         if port.name == "clk":
             return True, None if self.clk == "clk" else self.clk
         if self.own_leds and port.name in OWN_LEDS:
@@ -125,7 +125,7 @@ class Top:
         return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
 
     def connection(self, port: Port) -> str | None:
-        """Return the connection of a port of the carrier; None: the signal with the same name."""
+        """Return what a port of the carrier is connected to; None means the signal with the same name."""
         own, known = self.own_connection(port)
         if own:
             return known
@@ -162,7 +162,7 @@ class Top:
         return name
 
     def idle(self, port: Port, width: int) -> str:
-        """Return the constant that an input without a pin reads."""
+        """Return the constant for an input without a pin."""
         level = "0" if port.name in (self.on.low or {}) else "1"
         return f"'{level}" if width == port.width > 1 else f"{width}'b{level * width}"
 
@@ -174,7 +174,7 @@ class Top:
         return instance(self.carrier.name, params, "u_carrier", ports)
 
     def pads(self) -> list[str]:
-        """Return the assignments of bidirectional pins, and of ports of which the carrier has more bits."""
+        """Return the assignments of bidirectional pins, and of ports whose high bits have no pin."""
         lines = []
         for name, drives in self.two_way.items():
             if self.fitted.bits(name):
@@ -200,7 +200,7 @@ class Top:
         return lines
 
     def ties(self) -> list[str]:
-        """Return the constant outputs, each with its reason."""
+        """Return the assignments of the constant outputs, each with its reason."""
         lines = []
         for name, tie in self.board.ties.items():
             lines += ["", f"  // {tie['reason']}", f"  assign {name} = 1'b{tie['level']};"]
@@ -220,7 +220,7 @@ class Top:
         return "\n".join(lines)
 
     def signals(self) -> list[str]:
-        """Return the declarations of the signals between the blocks, with all single bits on one line."""
+        """Return the declarations of the signals between the blocks; all single bits are on one line."""
         single = [wire for wire in self.wires if "[" not in wire]
         wide = ["[3:0] leds", *(wire for wire in self.wires if "[" in wire)]
         lines = [f"  logic {', '.join(single)};"] if single else []

@@ -1,4 +1,4 @@
-"""Pieces of SystemVerilog, and their formatting."""
+"""Functions that return pieces of SystemVerilog, and format them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def declaration(way: str, bits: list[str], text: str) -> str:
 
 
 def instance(module: str, params: dict[str, str], name: str, ports: dict[str, str | None]) -> list[str]:
-    """Return an instance; a port with None is connected to the signal of the same name."""
+    """Return an instance; a port with None is connected to the signal with the same name."""
     chosen = [f"      .{key}({value})," for key, value in params.items()]
     lines = [f"      .{key}," if value is None else f"      .{key}({value})," for key, value in ports.items()]
     start = (

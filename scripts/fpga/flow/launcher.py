@@ -25,11 +25,11 @@ BESIDE = {
     "gowin_pack": "gowin_pack",
 }
 """Program that edalize starts -> program in the folder of this Python."""
-OURS = {"procs": "proc", "renames": "rename"}  # names by `yosys -import` for commands that Tcl has, too
+OURS = {"procs": "proc", "renames": "rename"}  # names in place of commands that Tcl also has
 
 
 def run_tcl(script: str) -> None:
-    """Run a file of Tcl commands; a command that Tcl does not know is a yosys command."""
+    """Run a file of Tcl commands; commands that Tcl does not know are yosys commands."""
     import tkinter
 
     import pyosys.libyosys as ys
@@ -58,7 +58,7 @@ def yosys(words: list[str]) -> int:
     verb, _, script = args.command.partition(" ")
     if verb != "tcl":
         return fail(f"yosys -p {args.command}: expected 'tcl SCRIPT'")
-    # In a separate process, because yosys calls exit() on an error.
+    # This is a separate process, because yosys calls exit() on an error.
     again = [sys.executable, __file__, "tcl", script]
     with open(args.log, "w+", encoding="utf-8") as log:
         code = subprocess.run(again, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
@@ -71,7 +71,7 @@ def yosys(words: list[str]) -> int:
 
 
 def fail(text: str) -> int:
-    """Print the reason as one line and return exit code 1."""
+    """Print an error as one line and return exit code 1."""
     print(f"error: {text}", file=sys.stderr)
     return 1
 
@@ -94,7 +94,7 @@ def main() -> int:
     program = Path(sys.executable).parent / BESIDE[name]
     if not program.is_file():
         return fail(f"{BESIDE[name]} is not installed: run `make setup`")
-    # Through its Python: the line #! of a program in a folder with a space does not work.
+    # The program is started through its Python, because its #! line fails in a folder with a space.
     return subprocess.run([sys.executable, str(program), *words], check=False).returncode
 
 

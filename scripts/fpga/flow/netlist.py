@@ -8,7 +8,7 @@ from collections import Counter, defaultdict
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-# For iCE40, ECP5 and Gowin; on Gowin, an adder bit (ALU) occupies a LUT.
+# LUTs of iCE40, ECP5 and Gowin; on Gowin, an adder bit (ALU) occupies a LUT.
 LUT_CELLS = {
     **{"SB_LUT4": 1, "LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6},
     **{"LUT1": 1, "LUT2": 1, "LUT3": 1, "ALU": 1, "RAM16SDP4": 4},
@@ -28,7 +28,7 @@ class Count:
     carry: int = 0
 
     def add(self, kind: str) -> None:
-        """Count one cell of type `kind`."""
+        """Count one more cell of type `kind`."""
         self.lut += LUT_CELLS.get(kind, 0)
         self.ff += kind.startswith(FF_CELLS)
         self.ram += kind in RAM_CELLS
@@ -37,13 +37,12 @@ class Count:
 
 @dataclass
 class Breakdown:
-    """Figures of one family: in total, and for each instance path ('' is the top)."""
+    """Figures of one family: total, and figures for each instance path ('' is the top)."""
 
     total: Count = field(default_factory=Count)
-    flat: dict[str, Count] = field(
-        default_factory=dict
-    )  # flattened netlist; a LUT counts for the instance that it feeds
-    kept: dict[str, Count] = field(default_factory=dict)  # each module mapped separately
+    # From the flattened netlist; a LUT counts for the instance that it feeds.
+    flat: dict[str, Count] = field(default_factory=dict)
+    kept: dict[str, Count] = field(default_factory=dict)  # each module is mapped separately
     module: dict[str, str] = field(default_factory=dict)  # instance path -> module name
 
     def as_dict(self) -> dict:
@@ -52,7 +51,7 @@ class Breakdown:
 
 
 def kept_counts(path: Path, top: str) -> tuple[dict[str, Count], dict[str, str]]:
-    """Return counts and module names for each instance path of a netlist with its hierarchy."""
+    """Return the counts and the module name for each instance path of a netlist with hierarchy."""
     modules = json.loads(path.read_text())["modules"]
     counts: dict[str, Count] = {}
     names: dict[str, str] = {}
@@ -71,7 +70,7 @@ def kept_counts(path: Path, top: str) -> tuple[dict[str, Count], dict[str, str]]
 
 
 def owner(name: str, instances: set[str]) -> str | None:
-    """Return the deepest instance whose path is a prefix of a cell or net name; None for generated names."""
+    """Return the deepest instance whose path begins a cell or net name; None for generated names."""
     if name.startswith("$") or re.search(r"_(LUT4|SB_LUT4|CCU2C|SB_CARRY|PFUMX|L6MUX21)_", name):
         return None
     path = re.sub(r"(\[\d+\])+$", "", name.split("\\")[0])

@@ -20,8 +20,8 @@ from scripts.fpga.flow.plain_text import readable
 
 FAMILY = "plain"
 """Family name of plain Verilog in yosys jobs."""
-# Waived as in the sources: a reset that is also read by data logic; packed structs as one vector whose parts
-# feed one another; signals that a build leaves unused; selections by one-hot words.
+# Waived as in the sources: a reset that data logic also reads; packed structs that are one vector whose
+# fields depend on each other; signals that a build does not use; selections by one-hot words.
 RULES = ("SYNCASYNCNET", "UNOPTFLAT", "UNUSEDSIGNAL", "UNDRIVEN", "PINCONNECTEMPTY", "CASEOVERLAP")
 WAIVED = tuple((rule, "*") for rule in RULES)
 
@@ -62,7 +62,7 @@ def check_params(top: str, sources: Sequence[Path], params: Mapping[str, Value])
 
 
 def header(top: str, about: str, sources: Sequence[Path], params: Mapping[str, Value]) -> str:
-    """Return the first comment of a file: version, licence, description, values of its parameters."""
+    """Return the header comment of a file: version, licence, description, values of the parameters."""
     rows = [
         "SPDX-License-Identifier: Apache-2.0",
         f"{top}: {about}." if about else f"{top}.",
@@ -88,8 +88,8 @@ def vendor_attributes(modules: Mapping[str, Any]) -> dict[str, dict[str, str]]:
     found: dict[str, dict[str, str]] = {}
     cells = [cell for module in modules.values() for cell in module["cells"].values()]
     for cell in cells:
-        # The vendors' names are in capitals, those of yosys are not. yosys adds a space to a text that looks
-        # like bits.
+        # Attributes of vendors have names in capitals, those of yosys do not. yosys adds a space to a text
+        # that could be read as bits.
         own = {
             name: re.sub(r"^([01xz]*) ", r"\1", value)
             for name, value in cell["attributes"].items()
@@ -109,7 +109,7 @@ def with_attributes(text: str, attributes: Mapping[str, Mapping[str, str]]) -> s
 
 
 def finish(path: Path, netlist: Path, top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> None:
-    """Rewrite yosys' Verilog of a top as a readable file with a header.
+    """Rewrite the Verilog that yosys has written for a top as a readable file with a header.
 
     Args:
         netlist: netlist of the same design in JSON.

@@ -14,7 +14,7 @@ from cocotb_tests.harness.project import ROOT, ProjectError, relative
 from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain import RULES
 
-# Unused outputs are omitted; a counter has an initial value from the configuration.
+# Waived: instances that omit unused outputs; a counter whose initial value the FPGA's configuration sets.
 BOARD_RULES = ("PINMISSING", "PROCASSINIT")
 
 

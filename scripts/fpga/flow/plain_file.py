@@ -1,4 +1,4 @@
-"""Files of plain Verilog of parts, bridges and board tops, checked with other tools."""
+"""Write files of plain Verilog for parts, bridges and board tops, and check them with other tools."""
 
 from __future__ import annotations
 

@@ -17,8 +17,8 @@ from openppmc.check.records import Edge, Recording
 
 RESET_CLK = 8
 WORD = 32  # bits
-# Options of the test harness (assertions enabled), except those that make pins accessible from outside.
-# There is one C++ file, because the precompiled header of split files does not work with every Verilator.
+# Options of the test harness (with assertions), except those that make pins accessible from outside. One C++
+# file, because the precompiled header of split files does not work with every version of Verilator.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
 VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
@@ -78,12 +78,12 @@ int main(int argc, char **argv) {
 
 
 def words(part: Part, pins: Iterable[str]) -> list[tuple[str, int]]:
-    """Return (pin, index of the word) for each word of these ports, in the order of their numbers."""
+    """Return (pin, index of its word) for each word of these ports, in the order of the word numbers."""
     return [(pin, place) for pin in pins for place in range((part.width(pin) + WORD - 1) // WORD)]
 
 
 def word_cpp(part: Part, pin: str, place: int) -> str:
-    """Return C++ that reads a word of a port: up to 64 bits, the port is one integer, else an array."""
+    """Return C++ that reads a word of a port; Verilator has one integer for up to 64 bits, else an array."""
     width = part.width(pin)
     if width <= WORD:
         return f"top->{pin}"
@@ -104,7 +104,7 @@ def parted(value: int, count: int) -> list[int]:
 
 
 def main_cpp(part: Part) -> str:
-    """Return the program for the pins of a part; words of ports are numbered in the order of their tables."""
+    """Return the C++ program for the pins of a part; words are numbered in the order of its port tables."""
     inputs, outputs = words(part, part.inputs), words(part, part.watched)
     cases = [
         f"    case {number}: {assigned_cpp(part, *word, 'value')} break;"
@@ -161,7 +161,7 @@ def build(design: Design, folder: Path, part: Part | None = None) -> Path:
 
 
 def play(program: Path, recording: Recording, part: Part | None = None) -> list[Edge]:
-    """Run a recording; return the output edges. `part` as for `build`."""
+    """Run a recording; return the output edges. `part` has the same meaning as for `build`."""
     part = part or PARTS[recording.part]
     inputs, outputs = words(part, part.inputs), words(part, part.watched)
     numbers = {word: number for number, word in enumerate(inputs)}

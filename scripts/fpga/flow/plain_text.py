@@ -1,7 +1,7 @@
 """Make the output of yosys' `write_verilog` readable; the logic does not change.
 
-Plain names, comments of the sources, ports in the module header, expressions in place of numbered wires,
-equal modules only once. Input and output are texts.
+The result has plain names, the comments of the sources, ports in the module header, and expressions in place
+of numbered wires. Equal modules occur only once. Input and output are texts.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-WIDTH = 110  # of a line, and of an expression in which wires are replaced
+WIDTH = 110  # maximum length of a line, and of an expression in which wires are replaced
 _MODULE = re.compile(r"^module (\\\S+|\w+) ?\((.*?)\);\n(.*?)^endmodule$", re.S | re.M)
 _DECLARED = re.compile(
     r"^  (?P<kind>input|output|inout|wire|reg)(?P<range> \[\d+:\d+\])? (?P<name>\w+)(?P<rest>.*);$"
@@ -21,11 +21,11 @@ _NUMBERED = re.compile(r"\b_\d+_\b")
 _ASSIGN = re.compile(r"^  assign (_\d+_) = (.*);$")
 _BIT = re.compile(r"^  assign (_\d+_)\[(\d+)\] = (.*);$")
 _CLEAR = re.compile(r"^    (\w+)\[\d+\] = ([^;]*);$")
-_INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # never negative
+_INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # an index that is never negative
 _ATOM = r"(?:\w+(?:\[[^\]]*\])?|\d+'h[0-9a-f]+)"
 _OPERAND = rf"(?:{_ATOM}|\{{[^{{}}]*\}}|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))"
-# The value of these expressions does not depend on the width of their context: one-bit results of operands
-# with a fixed width, and a conditional whose two sides have its own width.
+# The value of these expressions does not depend on the width of their context: operators with a one-bit
+# result whose operands have a fixed width, and a conditional whose two branches have the width of its result.
 _ANYWHERE = re.compile(
     rf"(?:! |~\| |[|&^] ){_OPERAND}|{_OPERAND} (?:&&|\|\||==|!=|<|<=|>|>=) {_OPERAND}"
     rf"|{_OPERAND} \? {_OPERAND} : {_OPERAND}"
@@ -34,7 +34,7 @@ _ANYWHERE = re.compile(
 
 @dataclass
 class Module:
-    """One module: its name in yosys, ports in order, declarations (line without `;`), other lines."""
+    """One module: its name in yosys, ports in order, declarations (lines without `;`), other lines."""
 
     name: str
     ports: list[str]
@@ -150,7 +150,7 @@ def _inline(module: Module) -> None:
             if re.match(r"^ *(?:assign )?[^=]*\b" + name + r"\b[^=]*<?= ", target) and not re.match(
                 r"^ *(?:if|else|else if) ", target
             ):
-                continue  # the name is on the left
+                continue  # the wire is on the left side
             whole = re.search(rf"(?: = |<= |\(){name}[;)]", target) or re.fullmatch(_ATOM, value)
             module.lines[user] = re.sub(rf"\b{name}\b", lambda _: value if whole else f"({value})", target)  # noqa: B023
             module.lines[number] = ""
@@ -162,7 +162,7 @@ def _inline(module: Module) -> None:
 
 
 def _wide_not(module: Module) -> None:
-    """Replace `!` by `~|` before more than one bit."""
+    """Replace `!` by `~|` before an operand of more than one bit."""
 
     def nor(match: re.Match[str]) -> str:
         found = module.declared.get(match[1])
@@ -190,7 +190,7 @@ def _pickers(module: Module) -> None:
 
 
 def _one_clear(module: Module) -> None:
-    """Replace equal lines that set every word of a memory by a loop."""
+    """Replace lines that set every word of a memory to the same value by a loop."""
     lines, at = [], 0
     while at < len(module.lines):
         match = _CLEAR.match(module.lines[at])
@@ -247,12 +247,12 @@ def _children(text: str, names: Mapping[str, str]) -> str:
 
 
 def readable(text: str, top: str, sources: Mapping[str, str]) -> str:
-    """Return the modules of yosys' file, the top first.
+    """Return the modules of yosys' file, with the top first.
 
-    Other modules get the name of the top as a prefix, so that the files of two parts have no names in common.
+    The names of other modules get the top's name as a prefix, so that the files of two parts share no name.
 
     Args:
-        sources: module -> its SystemVerilog, from which the comments are copied.
+        sources: name of a module -> its SystemVerilog, from which the comments are copied.
     """
     raw = {match[1]: match for match in _MODULE.finditer(text)}
     used = {

@@ -30,7 +30,7 @@ class Device:
     ask_mhz: float
     goal_mhz: float
     pins: int
-    wrapped: bool = False  # too few pins for any part: signals pass through shift registers
+    wrapped: bool = False  # True: too few pins for a part, so its signals pass through shift registers
 
 
 DEVICES = (
@@ -57,7 +57,7 @@ DEVICES = (
 
 @dataclass(frozen=True)
 class Run:
-    """One place and route: seed, Fmax of `clk` in MHz, cells of each type, slowest path as text."""
+    """Result of one run: seed, Fmax of `clk` in MHz, cells of each type, slowest path as text."""
 
     seed: int
     fmax: float
@@ -66,7 +66,7 @@ class Run:
 
 
 def slowest_path(report: dict) -> str:
-    """Return the slowest register-to-register path of `clk`: its ends and its delays."""
+    """Return the slowest register-to-register path of `clk`, with its ends and its delays."""
     paths = [p["path"] for p in report["critical_paths"] if "posedge" in p["from"] and "posedge" in p["to"]]
     if not paths:
         return ""
@@ -105,7 +105,7 @@ def run(device: Device, folder: Path, log: Path, options: tuple[str, ...]) -> No
 
 
 def packed(device: Device, netlist: Path, folder: Path) -> dict[str, int]:
-    """Return the cells of each type after packing, also for a netlist with more pins than the device."""
+    """Return the cells of each type after packing, even if the netlist has more pins than the device."""
     local = folder / "pack-netlist.json"
     shutil.copyfile(netlist, local)
     log = folder / "pack.log"

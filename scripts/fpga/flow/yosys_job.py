@@ -1,8 +1,8 @@
-"""One yosys run in a separate process: from SystemVerilog to a mapped JSON netlist and optionally Verilog.
+"""One yosys run in a separate process: from SystemVerilog to a mapped netlist in JSON, optionally to Verilog.
 
 Started as ``python -m scripts.fpga.flow.yosys_job JOB.json``; the job names sources, top, parameters, family,
-recipe and output. A separate process keeps yosys' log in one file and permits two families to run in
-parallel.
+recipe and output. Because of the separate process, the log of a run is in one file, and two families can run
+in parallel.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ RECIPES: dict[str, dict[str, tuple[str, str]]] = {
     },
     "plain": {"default": ("", "")},  # not a family: readable Verilog (`plain`)
 }
-# Converts processes to readable expressions and registers; nothing is mapped.
+# These commands convert processes to readable expressions and registers; they map nothing.
 PLAIN = "chformal -remove; proc; opt_expr; opt_muxtree; opt_reduce; opt_clean; opt_dff; bwmuxmap"
 PLAIN += "; opt_clean; memory_collect"
-# Registers get the name of the signal that they drive, before abc9 drops the signals of the hierarchy.
+# This command names registers after the signals that they drive, before abc9 drops signals.
 RENAME = "rename -wire"
-# Other names only change the order in which abc9 and nextpnr visit the cells; this shows the random part of a
-# clock rate. The first entry is the unchanged recipe.
+# These commands rename cells, which only changes the order in which abc9 and nextpnr process them. The
+# differences show the random part of a clock rate. The first entry is the unchanged recipe.
 PERTURB = ((), ("rename -scramble-name -seed 1",), ("rename -enumerate",))
-# Recipe with the smallest netlist that does not lose clock rate.
+# The recipe with the smallest netlist among those that do not reduce the clock rate.
 BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
 
 

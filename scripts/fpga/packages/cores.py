@@ -16,8 +16,8 @@ WAIVERS = ROOT / "rtl" / "common" / "waivers.vlt"
 HEAD = """CAPI=2:
 # Written by `make packages` from rtl/files.yml; change that, not this.
 """
-SMOKE_PART = "ppmc104"  # the part with a sim target
-# Vendor's tool -> options of a FuseSoC target; suffix of a constraint file -> its type in FuseSoC.
+SMOKE_PART = "ppmc104"  # the part whose core has a sim target
+# Vendor's tool -> options of its FuseSoC target; suffix of a constraint file -> file type in FuseSoC.
 FLOWS = {
     "vivado": "    flow: vivado\n    flow_options:\n      part: {device}\n",
     "quartus": "    default_tool: quartus\n    tools:\n      quartus:\n        family: {family}\n"
@@ -28,7 +28,7 @@ TYPES = {".xdc": "xdc", ".qsf": "tclSource", ".sdc": "SDC"}
 
 @dataclass(frozen=True)
 class Vendor:
-    """A board with a part for a vendor's tool: top, constraint files with their types, options."""
+    """A part on a board for a vendor's tool: top, constraint files with their types, options."""
 
     top: str
     constraints: dict[str, str]
@@ -36,12 +36,12 @@ class Vendor:
 
 
 def vendor_boards() -> dict[str, Vendor]:
-    """Return FuseSoC target -> board; the first part of a board has the target's name without a suffix."""
+    """Return FuseSoC target -> board; for the first part of a board, the target's name has no suffix."""
     found = {}
     for board in load_all():
         for on in board.parts if board.vendor else ():
             name = board.vendor["target"] + ("" if on is board.parts[0] else f"-{on.name}")
-            files = sorted((FOLDER / board.name / on.name).iterdir(), reverse=True)  # pins, clocks
+            files = sorted((FOLDER / board.name / on.name).iterdir(), reverse=True)  # pins, then clocks
             found[name] = Vendor(
                 board.top(on),
                 {relative(path): TYPES[path.suffix] for path in files},
@@ -175,7 +175,7 @@ targets:
 
 
 def waivers() -> str:
-    """Return the waivers that a part needs: lint/verilator.vlt without the paragraphs on files of boards."""
+    """Return the waivers for a part: lint/verilator.vlt without the paragraphs about files of boards."""
     paragraphs = (ROOT / "lint" / "verilator.vlt").read_text().split("\n\n")
     return "\n\n".join(text for text in paragraphs if "boards/" not in text)
 

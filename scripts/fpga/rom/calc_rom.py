@@ -54,7 +54,7 @@ endmodule
 
 
 def rom_text(program: Program) -> str:
-    """Return the module with the program; each word with its source line."""
+    """Return the ROM module with the program; each word has its source line as a comment."""
     at_label: dict[int, list[str]] = {}
     for name, at in program.labels.items():
         at_label.setdefault(at, []).append(name)
@@ -71,7 +71,7 @@ def constant(label: str) -> str:
 
 
 def package_text(package: str, program: Program) -> str:
-    """Return the package with the entries and the length of this program between its marks."""
+    """Return the package with the entries and the length of this program between its two marks."""
     before, begin, rest = package.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:
@@ -82,7 +82,7 @@ def package_text(package: str, program: Program) -> str:
 
 
 def expected_files() -> dict[Path, str]:
-    """Return the required content of the files."""
+    """Return the required content of both files."""
     package = PACKAGE.read_text(encoding="utf-8")
     try:
         program = assemble(ASM.read_text(encoding="utf-8"), names_of(package))

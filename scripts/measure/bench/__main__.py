@@ -1,7 +1,8 @@
-"""`make bench`: simulation speed of a demo on each side; for the PPMC-104 also virtual board and commands.
+"""`make bench`: measure the speed of a demo on RTL and golden model.
 
-The figures are written between their markers in docs/benchmarks.md: seconds, which depend on the machine and
-its load, and ratios of one run, which are repeatable.
+For the PPMC-104 it also measures the virtual board and the commands. The figures are written between their
+markers in docs/benchmarks.md: seconds, which depend on the machine and its load, and ratios of one run, which
+are repeatable.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Veril
 
 
 def write_section(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
-    """Print a table and write it, with `text` above it, to docs/benchmarks.md."""
+    """Print a table; write it, with `text` above it, into docs/benchmarks.md."""
     table = Table(title=title, title_justify="left")
     for index, head in enumerate(heads):
         table.add_column(head, justify="right" if index else "left")
@@ -39,7 +40,7 @@ def write_section(marker: str, title: str, text: str, heads: list[str], rows: Se
 
 
 def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
-    """Measure the turns of a demo's run; return the times and the rows of the table."""
+    """Run a demo in turns on RTL and golden model; return the times and the rows of the table."""
     times = None
     console.print("building …")
     for run, times in enumerate(turns(demo, RUNS), 1):

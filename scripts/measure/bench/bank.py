@@ -1,4 +1,4 @@
-"""`make bench PART=bank`: the run of the demo in Verilator alone and on the golden model."""
+"""`make bench PART=bank`: speed of the demo's run in Verilator alone and on the golden model."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
 
 
 def measure() -> tuple[int, int, list[list[float]]]:
-    """Return cycles, output edges, seconds of each run of both sides.
+    """Return cycles, output edges, and the seconds of each run on Verilator and on the golden model.
 
     The call raises ProjectError if the edges differ.
     """

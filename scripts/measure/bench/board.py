@@ -37,7 +37,7 @@ class Figures:
     clk: float
 
     def rows(self) -> list[list[str]]:
-        """Return one row for each figure, for HEADS."""
+        """Return a table row for each figure; HEADS has the headings."""
         return [
             [f"register accesses/s, blocks of {BLOCK}", f"{self.accesses:,.0f}"],
             ["commands with their response/s", f"{self.commands:,.0f}"],
@@ -48,7 +48,7 @@ class Figures:
 
 
 def rate(work: Callable[[], object], count: int) -> float:
-    """Return how often `work` can be done in a second; each call counts `count` times."""
+    """Return how often per second `work` can be done; each call counts `count` times."""
     begin, done = time.perf_counter(), 0
     while (passed := time.perf_counter() - begin) < SECONDS:
         work()
@@ -57,7 +57,7 @@ def rate(work: Callable[[], object], count: int) -> float:
 
 
 def full_speed() -> float:
-    """Return the cycles in a second of processor time, with the motor in motion."""
+    """Return the cycles per second of processor time, with the motor in motion."""
     with sim.start("speed=max,cw=2000000000,slow_cw=2000000000") as board, Ppmc104.open(board.port) as axis:
         axis.initialise()
         axis.jog(0, high=True)
@@ -75,7 +75,7 @@ def full_speed() -> float:
 
 
 def measure() -> Figures:
-    """Start a board and measure; raise SimError or PpmcError if this fails."""
+    """Start a virtual board and measure all figures; raise SimError or PpmcError if this fails."""
     with sim.start("cw=2000000000,slow_cw=2000000000") as board, Ppmc104.open(board.port, BAUD) as axis:
         initialise = 1e3 / rate(axis.initialise, 1)
         block = Script().read_many(1, BLOCK)

@@ -30,7 +30,7 @@ HEADS = [
     "bytes per edge at the peak",
 ]
 CLK_HZ = 20_000_000
-"""Clock rate of the chip in a capture that is compared."""
+"""Clock rate of the chip in a capture that is compared with the golden model."""
 NS = 10**9 // CLK_HZ
 COMPARED = "compared.vcd"
 FILES = {
@@ -43,7 +43,7 @@ _DECLARED = "$var wire 1 {} {} $end"
 
 
 class _Writer:
-    """Writer of changes as VCD, or as CSV of Saleae Logic with a row for each time.
+    """Writer of changes in the format VCD, or CSV of Saleae Logic with a row for each time.
 
     Attributes:
         edges: number of edges written so far.
@@ -64,7 +64,7 @@ class _Writer:
             self.file.writelines(f"{level}{self._codes[name]}\n" for name, level in self._levels.items())
 
     def put(self, t: int, **changes: int) -> None:
-        """Change wires at a time in ns."""
+        """Set the levels of wires at this time, in ns."""
         if not self.csv:
             self._lines.append(f"#{t}")
         for name, level in changes.items():
@@ -79,14 +79,14 @@ class _Writer:
             self.flush()
 
     def access(self, t: int, strobe: str, register: int, byte: int) -> int:
-        """Access a register; return when the next access may begin."""
+        """Make a register access at a time; return when the next access may begin."""
         self.put(t, a0=register, **{f"d[{bit}]": byte >> bit & 1 for bit in range(8)})
         self.put(t + 100, cs_n=0, **{strobe: 0})
         self.put(t + 600, cs_n=1, **{strobe: 1})
         return t + 3000
 
     def flush(self) -> None:
-        """Write all data that is not yet in the file."""
+        """Write all data that is still in the buffer."""
         self.file.write("\n".join(self._lines) + "\n" * bool(self._lines))
         self._lines.clear()
 
@@ -175,8 +175,8 @@ def write_compared(path: Path, edges: int) -> int:
 def decode_alone(path: Path) -> None:
     """Decode a file in this process and print the result as JSON.
 
-    The result has its seconds, those of a plain numpy pass, and the additional memory in bytes. A file for
-    the golden model is also compared.
+    The result contains the seconds of the decoding and of a plain numpy pass, and the additional memory in
+    bytes. A file for the golden model is also compared with it.
     """
     from openppmc.capture.common.compare import compare
     from openppmc.capture.common.decoding import decode, part_decoder
@@ -201,7 +201,7 @@ def decode_alone(path: Path) -> None:
 
 
 def _plain(path: Path) -> float:
-    """Return the seconds in which numpy finds the bounds of all words of a file, piece by piece."""
+    """Return the seconds that numpy needs to find the bounds of all words of a file, block by block."""
     np: Any = importlib.import_module("numpy")
     begin = time.process_time()
     with path.open("rb") as file:
@@ -235,7 +235,7 @@ class Figures(NamedTuple):
 
 
 def measure(folder: Path, name: str, edges: int = EDGES, runs: int = 3) -> Figures:
-    """Decode one of FILES `runs` times; return the fastest run and the largest size."""
+    """Decode one of FILES `runs` times; return the seconds of the fastest run and the largest size."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / name
     if name == COMPARED:
@@ -260,7 +260,7 @@ def bench() -> None:
     """Measure, print and write docs/benchmarks.md."""
     rows = []
     for name, text in FILES.items():
-        # The golden model takes most of the time of a comparison.
+        # Most of the time of a comparison is used by the golden model.
         found = measure(project.BUILD / "bench", name, runs=1 if name == COMPARED else 3)
         figures = (f"{found.rate / 1e6:.2f}", f"{found.plain:.1f}", f"{found.size:.1f}")
         rows.append([text, f"{found.edges:,}", *figures])

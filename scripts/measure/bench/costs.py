@@ -1,4 +1,7 @@
-"""Cycles of a table build and of a command with its response, at the pins of the RTL, without the host."""
+"""Cycles of a table build, and of a command with its response, at the pins of the RTL.
+
+The time of the host is not included.
+"""
 
 from __future__ import annotations
 
@@ -25,5 +28,5 @@ def measure() -> dict[str, int]:
 
 
 def rows(found: dict[str, int]) -> list[list[str]]:
-    """Return one row for each operation, for HEADS."""
+    """Return a table row for each operation; HEADS has the headings."""
     return [[what, f"{clk:,}", *(f"{clk / mhz:,.1f}" for mhz in CLOCKS)] for what, clk in found.items()]

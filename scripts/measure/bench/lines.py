@@ -1,4 +1,4 @@
-"""Speed of virtual lines: the RTL of the stations of `sim:`, by the number of moving stations.
+"""Speed of virtual lines (`sim:`), in which all stations are RTL, by the number of moving stations.
 
 Part of `make bench PART=ppmc312-serial`; alone: `python -m scripts.measure.bench.lines`.
 """
@@ -33,7 +33,7 @@ HEADS = [
 
 @dataclass(frozen=True)
 class Case:
-    """A virtual line.
+    """A virtual line that is measured.
 
     Attributes:
         stations: number of stations, which all move.
@@ -61,7 +61,7 @@ def _begin_006(bus: Any, address: int) -> None:
 
 
 def cases() -> list[Case]:
-    """Return the cases of both parts, from one station to a full line."""
+    """Return the lines of both parts that are measured, from one station to a full line."""
     found = []
     for count in (1, 4, 16):
         found.append(
@@ -89,7 +89,7 @@ def cases() -> list[Case]:
 
 
 def _now(line: SimLine) -> tuple[float, float, float]:
-    """Return line time, wall time and processor time of the line in s."""
+    """Return the time on the line, the wall time and the processor time, in s."""
     words = Path(f"/proc/{line.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
     return line.status().seconds, time.perf_counter(), (int(words[11]) + int(words[12])) / 100
 

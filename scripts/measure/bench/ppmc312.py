@@ -1,8 +1,8 @@
 """`make bench PART=ppmc312-serial`: speed of sixteen stations on a line, relative to the time of the line.
 
-Three sides run the program of the demo: RTL in Verilator with its cocotb master, a line of golden models bit
-by bit, and the models with the pin changes of the RTL. The medians of several runs are written to
-docs/benchmarks.md.
+The program of the demo runs in three ways: RTL in Verilator with a cocotb master, a line of golden models
+that exchange bits, and golden models that receive the pin changes of the RTL. The medians of several runs are
+written to docs/benchmarks.md.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def on_models() -> int:
 
 
 def measure() -> list[tuple[str, int, float, float]]:
-    """Return (side, cycles of the line, seconds of wall time, of processor time) of each side, as medians."""
+    """Return (way to run, cycles of the line, seconds of wall time, of processor time), as medians."""
     console.print("building …")
     made = design(F8L, FAST_ARGS)
     build(made)
@@ -82,7 +82,7 @@ def measure() -> list[tuple[str, int, float, float]]:
 
 
 def rows_of(measured: list[tuple[str, int, float, float]], clk_hz: int) -> list[list[str]]:
-    """Return the rows of the table; the line time relative to the processor time is shown as 1/n."""
+    """Return the rows of the table; the ratio of line time to processor time is printed as 1/n."""
     rows = []
     for text, clk, wall, used in measured:
         ratio = used * clk_hz / clk

@@ -1,4 +1,4 @@
-"""Sides that run a demo, and their times: RTL under cocotb, RTL alone, golden model.
+"""Run times of a demo on three sides: RTL under cocotb, RTL alone in Verilator, golden model.
 
 The sides run in turns, so that a ratio of one turn is meaningful on a machine with other load.
 """
@@ -32,23 +32,26 @@ LABELS = {
 
 @dataclass(frozen=True)
 class Times:
-    """Recording of the run, and seconds of each side, one value for each turn."""
+    """Recording of the demo's run, and the seconds of each side, with one value per turn."""
 
     recording: Recording
     seconds: dict[str, list[float]]
 
     def middle(self, side: str) -> float:
-        """Return the median of a side's seconds."""
+        """Return the median of the times that a side took, in s."""
         return median(self.seconds[side])
 
     def ratio(self, side: str) -> float:
-        """Return the median ratio of a side's time to that of Verilator alone in the same turn."""
+        """Return the median of the ratio of a side's time to that of Verilator alone in the same turn."""
         pairs = zip(self.seconds[side], self.seconds[PLAIN], strict=True)
         return median(taken / plain for taken, plain in pairs)
 
 
 def turns(demo: Demo, count: int) -> Iterator[Times]:
-    """Run `count` turns; yield all times so far after each. SimError, ProjectError if a run fails."""
+    """Run `count` turns and yield all times so far after each turn.
+
+    Raises SimError or ProjectError if a run fails.
+    """
     designs = {main: replace(part_design(demo.part, demo.config), main=main) for main in MAINS}
     for design in designs.values():
         build(design)

@@ -1,7 +1,8 @@
-"""`make scheduler` and `make worker SCHEDULER=tcp://host:port`: the workers of a campaign on many machines.
+"""`make scheduler` and `make worker SCHEDULER=tcp://host:port`: workers of a campaign on many machines.
 
-Each worker runs in a checkout of the same commit (or in a shared folder) with its own environment, made by
-`make worker`. The campaign then uses the same SCHEDULER=…; a worker with other sources causes an error.
+`make worker` makes an environment in a checkout (or a shared folder) of the same commit and starts a worker
+in it. With the same SCHEDULER=…, a campaign uses all these workers; if a worker has other sources, an error
+is raised.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ PORT = 8786
 
 
 def command(what: str, scheduler: str, count: int) -> list[str]:
-    """Return the command of Dask that replaces this process."""
+    """Return the command of Dask with which this process is replaced."""
     if what == "scheduler":
         return ["dask_scheduler", "--port", str(PORT), "--no-dashboard"]
     words = ["dask_worker", scheduler, "--nworkers", str(count), "--nthreads", "1", "--memory-limit", "0"]

@@ -16,11 +16,11 @@ from typing import Any
 from cocotb_tests.harness.project import ProjectError
 
 SETTINGS = {
-    # A worker that responds slowly is not lost, because simulators use all processors.
+    # A worker that responds slowly is not lost: simulators use all processors, so it may have to wait.
     "distributed.scheduler.worker-ttl": "15 minutes",
     "distributed.comm.timeouts.connect": "60s",
-    # Number of times that a job may lose its worker before it counts as failed. Dask counts a lost worker for
-    # all jobs at this worker, so no further jobs may wait there.
+    # A job counts as failed when it has lost its worker more often than this. Dask counts a lost worker for
+    # all jobs at this worker, so no job may wait at a worker.
     "distributed.scheduler.allowed-failures": 3,
     "distributed.scheduler.worker-saturation": 1.0,
     "distributed.admin.system-monitor.gil.enabled": False,
@@ -29,7 +29,7 @@ SETTINGS = {
 
 @dataclass(frozen=True)
 class Workers:
-    """`count` processes of this machine, or all workers of `scheduler` (tcp://host:port)."""
+    """Where the jobs run: `count` processes of this machine, or all workers of `scheduler` (tcp://host:port)."""
 
     count: int = 2
     scheduler: str = ""
@@ -42,7 +42,7 @@ class Workers:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of each campaign."""
+    """Add the command-line arguments that all campaigns share."""
     parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="worker processes (2)")
     parser.add_argument("--scheduler", default="", metavar="TCP", help="use the workers of tcp://host:port")
     parser.add_argument("--fresh", action="store_true", help="ignore the results of earlier runs")
@@ -81,7 +81,7 @@ def client(workers: Workers) -> Iterator[Any]:
                 threads_per_worker=1,
                 processes=True,
                 memory_limit=None,
-                # A free port of this machine, because the default port causes a warning if it is in use.
+                # Use any free port of this machine, because Dask warns if the default port is in use.
                 dashboard_address="127.0.0.1:0",
                 host="127.0.0.1",
                 silence_logs=logging.CRITICAL,

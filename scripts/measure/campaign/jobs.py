@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Job:
-    """One piece of work. `key` is unique in its campaign; `what` is sent to the worker and can be pickled.
+    """One piece of work; its `key` is unique in a campaign, and its `what` is sent to the worker by pickle.
 
     Attributes:
         stamp: digest of all that the result depends on, except the key; "" means the digest of the tree.
@@ -22,7 +22,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a job. A later run reuses only good results; `data` can be written as JSON."""
+    """Result of a job; a later run reuses it only if it is `good`. `data` can be written as JSON."""
 
     good: bool
     data: Mapping[str, Any] = field(default_factory=dict)
@@ -30,7 +30,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Done:
-    """A completed job: on a worker in `seconds`, or in an earlier run (`old`)."""
+    """A completed job: it ran on a worker in `seconds`, or in an earlier run (`old`)."""
 
     key: str
     good: bool
@@ -41,7 +41,7 @@ class Done:
 
 @dataclass(frozen=True)
 class Campaign:
-    """`work(job.what)` for each of `count` jobs; name and key identify a stored result."""
+    """A campaign calls `work(job.what)` for each of `count` jobs; name and key identify a stored result."""
 
     name: str
     work: Callable[[Any], Result]

@@ -17,17 +17,17 @@ from scripts.measure.campaign.tree import tree
 
 @cache
 def _own_tree() -> str:
-    """Return the tree at the start of this process; imported modules do not follow later changes."""
+    """Return the digest of the sources when this process started; it does not import later changes."""
     return tree()
 
 
 class OwnSession(WorkerPlugin):  # type: ignore[misc]
-    """Separate session: Ctrl-C on the terminal reaches the campaign, not its workers and their simulators."""
+    """Processes with a separate session: Ctrl-C reaches only the campaign, not its workers and simulators."""
 
     name = "openppmc-own-session"
 
     def setup(self, worker: Any) -> None:
-        """Run at the start of a worker, also of one that replaces a lost worker."""
+        """Set up a worker process, also one that replaces a lost worker."""
         _own_tree()
         if os.getsid(0) != os.getpid() and os.getpgid(0) != os.getpid():
             os.setsid()
@@ -45,7 +45,7 @@ def stop_children() -> int:
 
 
 def carry_out(work: Any, what: Any, expected: str) -> tuple[Result, float]:
-    """Run a job; return its result and its seconds. Raises ProjectError if this worker has other sources."""
+    """Run a job; return its result and its seconds. Raise ProjectError if this worker has other sources."""
     if expected != _own_tree():
         raise ProjectError(
             f"a worker has other sources than the campaign ({_own_tree()}, not {expected}); "

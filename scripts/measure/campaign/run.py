@@ -1,6 +1,6 @@
-"""Run a campaign on Dask: stored results are reused, workers run the other jobs, each result is stored.
+"""Run a campaign on Dask: stored results are reused, workers run the other jobs, and each result is stored.
 
-Another worker repeats the job of a lost worker. Ctrl-C ends the workers and their child processes; the next
+If a worker is lost, another one repeats its job. Ctrl-C ends the workers and their child processes; the next
 run of the same campaign continues after the stored results.
 """
 
@@ -18,7 +18,7 @@ from scripts.measure.campaign.store import RESULTS, Store
 from scripts.measure.campaign.tree import tree
 
 AHEAD = 3
-"""Submitted jobs for each worker: enough that it never waits, and few that Ctrl-C drops."""
+"""Submitted jobs for each worker: enough to keep it busy, and few, because Ctrl-C drops them."""
 LOST = "its workers were lost"
 
 
@@ -29,7 +29,7 @@ def run(
 
     Args:
         fresh: True if stored results are ignored.
-        store: file of results, if it is not that of the project.
+        store: file of results; default: the file of the project.
     """
     with store or Store(RESULTS) as file, Show(campaign.title or campaign.name, campaign.count) as show:
         now = tree()
@@ -39,7 +39,7 @@ def run(
         left: list[Job] = []
 
         def todo() -> Iterator[Job]:
-            """Yield the jobs without a stored result; append stored results to `olds`."""
+            """Yield the jobs that have no stored result; append the stored results to `olds`."""
             for job in campaign.jobs:
                 stamps[job.key] = job.stamp or now
                 if (old := file.good(campaign.name, job.key, stamps[job.key])) is None:
@@ -60,7 +60,7 @@ def run(
 
 
 def _mixed(fresh: Iterator[Done], olds: list[Done]) -> Iterator[Done]:
-    """Yield completed jobs, and stored results that were found until then."""
+    """Yield the completed jobs, and the stored results that have been found so far."""
     while olds:
         yield olds.pop(0)
     for done in fresh:

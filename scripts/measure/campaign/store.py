@@ -1,4 +1,4 @@
-"""Results of all campaigns in one SQLite file. If a process ends at any time, its stored results remain."""
+"""Results of all campaigns in one SQLite file; stored results remain even if a process is killed."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ TABLE = """create table if not exists results (
 
 
 class Store:
-    """The open file. Raises ProjectError if it cannot be written or is not a file of results."""
+    """The open file of results; raises ProjectError if it cannot be written or has another format."""
 
     def __init__(self, path: Path = RESULTS) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            # Other campaigns may write at the same time: each waits up to a minute for its turn.
+            # Several campaigns may write at the same time; each waits for the lock for up to a minute.
             self._base = sqlite3.connect(path, timeout=60, isolation_level=None)
             self._base.execute("pragma journal_mode = wal")
             self._base.execute("pragma synchronous = normal")
@@ -49,13 +49,13 @@ class Store:
         self._base.execute("insert or replace into results values (?, ?, ?, ?, ?, ?, ?)", row)
 
     def good(self, campaign: str, key: str, stamp: str) -> Done | None:
-        """Return the good result of a job, if there is one."""
+        """Return the stored result of a job if there is one and it is good."""
         query = "select data, seconds from results where campaign = ? and key = ? and stamp = ? and good"
         row = self._base.execute(query, (campaign, key, stamp)).fetchone()
         return Done(key, True, json.loads(row[0]), row[1], old=True) if row else None
 
     def all(self, campaign: str) -> Iterator[tuple[str, Done]]:
-        """Yield (stamp, result) of every stored job of a campaign, by key."""
+        """Yield (stamp, result) of every stored job of a campaign, sorted by key."""
         query = "select stamp, key, good, data, seconds from results where campaign = ? order by key, ended"
         with closing(self._base.execute(query, (campaign,))) as rows:
             for stamp, key, good, data, seconds in rows:

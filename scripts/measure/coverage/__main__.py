@@ -1,7 +1,8 @@
 """`make coverage`: run the simulations of `make test` with counting builds and write docs/coverage.md.
 
-For a sample (T=…) it writes build/coverage.md. The exit code is 1 if a test fails, or, without T, if less
-than 98 % of the lines or branches of a folder are covered, or if it has a hole without an explanation.
+A sample (T=…) is written to build/coverage.md instead. The exit code is 1 if a test fails. Without T it is
+also 1 if less than 98 % of the lines or branches of a folder are covered, or a folder has a hole without an
+explanation.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ NAME = "coverage"
 
 
 def on_file(jobs: Iterable[Job]) -> list[Done]:
-    """Return the last good result of each job, for any state of the sources."""
+    """Return the last good result of each job, even if it is from other sources."""
     keys = {job.key for job in jobs}
     with Store() as store:
         return list(
@@ -47,7 +48,7 @@ def main() -> int:
     every = groups(words)
     whole = sum(map(len, every if not words and not args.so_far else groups()))
     stamp = tree(SIMULATED)
-    # Large groups first: they cover most, also if the run is interrupted.
+    # Large groups run first: they cover most of the RTL, which helps if the run is interrupted.
     every.sort(key=len, reverse=True)
     jobs = [Job(f"{tests[0]} {len(tests)}", tests, stamp) for tests in every]
     points, crosses, failed, tests = Points(), Counter[str](), 0, 0

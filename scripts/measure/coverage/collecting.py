@@ -1,6 +1,6 @@
 """A pytest plugin (`-p … --collect-only`) that writes the groups of tests to OUT, as JSON.
 
-A group is the tests that `make test` runs in one simulator process, or a test with its own process.
+A group contains the tests that `make test` runs in one simulator process, or one test with its own process.
 """
 
 from __future__ import annotations

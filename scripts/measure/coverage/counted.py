@@ -21,7 +21,7 @@ KEPT = " int unsigned openppmc_counted /*verilator public_flat_rw*/;"
 
 
 class Copy:
-    """A text with changes, each of which replaces [start, end)."""
+    """A text with changes: each one replaces the range [start, end)."""
 
     def __init__(self, text: str) -> None:
         self._changes: list[tuple[int, int, str]] = []
@@ -40,7 +40,7 @@ class Copy:
         self._changes.append((at, at, new))
 
     def _list(self, statements: Sequence[Any], name: str) -> None:
-        """Change the statements that end a function, or a branch that ends it."""
+        """Change the statements that end a function, and those that end a branch at its end."""
         for number, node in enumerate(statements):
             if node is statements[-1]:
                 self._last(node, name)
@@ -67,7 +67,7 @@ class Copy:
 
 
 def _returns(node: Any) -> bool:
-    """Return whether no code after this statement runs."""
+    """Return True if no code runs after this statement."""
     if kind(node) == "SequentialBlockStatement":
         inside = list(children(node))
         return bool(inside) and _returns(inside[-1])
@@ -75,7 +75,7 @@ def _returns(node: Any) -> bool:
 
 
 def copies() -> Path:
-    """Return the folder with a copy of rtl/, made if needed; paths of files are those of the project."""
+    """Return the folder with a copy of rtl/, made if needed; its files keep their paths in the project."""
     files = sorted(RTL.rglob("*.sv"))
     sha = hashlib.sha256(Path(__file__).read_bytes())
     for file in files:

@@ -1,8 +1,12 @@
 """Functions that only elaboration calls: no simulation runs them, so their lines and branches do not count.
 
-This holds if every call of that name in rtl/ is in a parameter, a dimension, the head of a generate block or
-the parameter values of an instance, or has only parameters, genvars and numbers as arguments, or is inside
-such a function. Names are compared as text: one other call includes all functions of this name in the count.
+A function is one of these if each call of its name in rtl/ satisfies one of these conditions:
+
+- it is in a parameter, a dimension, the head of a generate block or the parameter values of an instance;
+- its arguments contain only parameters, genvars and numbers;
+- it is inside another function of this kind.
+
+Names are compared as text. If one call of a name satisfies no condition, all functions of this name count.
 """
 
 from __future__ import annotations
@@ -19,7 +23,7 @@ CONSTANT = (
     *("ParameterDeclaration", "ParameterDeclarationStatement", "ParameterValueAssignment"),
     *("VariableDimension", "LoopGenerate"),
 )
-"""Kinds of nodes that contain only constants; for a LoopGenerate, its head."""
+"""Kinds of nodes that contain only constants; of a LoopGenerate, only the head does."""
 NAMES = ("IdentifierName", "IdentifierSelectName", "ScopedName")
 
 

@@ -28,12 +28,12 @@ Functions that only elaboration calls are listed below; they are not points.
 
 
 def percent(value: float) -> str:
-    """Return a percentage with one decimal; 100 only if all points are covered."""
+    """Return a percentage with one decimal; it is 100 only if all points are covered."""
     return "100" if value == 100 else f"{min(value, 99.9):.1f}"
 
 
 def cell(sums: Sums, place: str, kind: str) -> str:
-    """Return the percentage, and the numbers of explained and open points."""
+    """Return the text of a cell: the percentage, and the numbers of explained and open points."""
     figure = sums.figure(place, kind)
     if not figure.all:
         return "–"
@@ -81,7 +81,7 @@ def holes(sums: Sums) -> Iterator[str]:
 
 
 def elaborated() -> Iterator[str]:
-    """Yield the table of functions without points."""
+    """Yield the table of functions that have no points, because only elaboration calls them."""
     yield "| file | functions |"
     yield "|---|---|"
     names: dict[str, list[str]] = {}
@@ -93,7 +93,7 @@ def elaborated() -> Iterator[str]:
 
 
 def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
-    """Yield one table; **0**: not seen, –: impossible."""
+    """Yield the table of a cross; **0** means not seen, – impossible."""
     yield f"| {table.name} | " + " | ".join(table.columns) + " |"
     yield "|---" * (1 + len(table.columns)) + "|"
     reasons: dict[str, None] = {}
@@ -129,7 +129,7 @@ def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
 
 
 def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool = False) -> str:
-    """Return the whole page, from `tests` of all tests.
+    """Return the whole page; its figures are from `tests` of all tests.
 
     Args:
         old: True if some results may be from earlier states of the sources.

@@ -1,8 +1,8 @@
 """Points of the RTL that Verilator counts, from its coverage.dat (lines `C '<fields>' <count>`).
 
-A point has the name "<file> <line> <column> <kind> <what>", with the file relative to the project's root. The
-same place in several instances, parameter sets and simulations is one point. It is covered if any of them
-covers it.
+A point has the name "<file> <line> <column> <kind> <what>", with the file relative to the project's root. If
+a place occurs in several instances, parameter sets and simulations, it is one point. The point is covered if
+at least one of them covers it.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Points:
         self.spans.update(other.spans)
 
     def pack(self) -> str:
-        """Return the points as text for a file of results."""
+        """Return the points as text for the file of results."""
         text = json.dumps([self.reached, self.spans], sort_keys=True)
         return base64.b85encode(zlib.compress(text.encode(), 9)).decode()
 

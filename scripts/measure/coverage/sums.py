@@ -15,12 +15,12 @@ from scripts.measure.coverage.points import BRANCH, LINE, TOGGLE, Points, lines_
 
 HOLES = Path(__file__).with_name("holes.yml")
 LEFT_OUT = {"boards": "tops of FPGA boards, which `make test-board` simulates, are not counted here"}
-"""Folders of rtl/ without figures, with the reason."""
+"""Folders of rtl/ that have no figures, with the reason."""
 
 
 @dataclass(frozen=True)
 class Figure:
-    """Numbers of points: covered, explained holes (`known`), all."""
+    """Numbers of points: covered, explained holes (`known`), and all."""
 
     reached: int
     known: int
@@ -33,7 +33,7 @@ class Figure:
 
     @property
     def left(self) -> float:
-        """Percentage without the explained points; 100 if there are no others."""
+        """Percentage if explained points do not count; 100 if there are no other points."""
         others = self.all - self.known
         return 100 * self.reached / others if others else 100.0
 
@@ -45,7 +45,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Hole:
-    """A point in a file that no test covers.
+    """A point that no test covers.
 
     Attributes:
         why: explanation, "" if there is no explanation.
@@ -59,7 +59,7 @@ class Hole:
 
     @property
     def text(self) -> str:
-        """The source line."""
+        """The source line of the point."""
         return source(self.file)[self.line - 1].strip()
 
 
@@ -105,7 +105,7 @@ def folder_of(file: str) -> str:
 
 
 class Sums:
-    """Points covered by all groups together, and the explained holes."""
+    """Points that all groups together cover, and the holes that are explained."""
 
     def __init__(self, points: Points) -> None:
         self._why = {(e["file"], e["line"], e.get("what", "")): e["why"] for e in explained()}
@@ -123,7 +123,7 @@ class Sums:
 
     @staticmethod
     def _named(name: str, kind: str, what: str) -> str:
-        """Return the name of a point; the column distinguishes the branches of a line."""
+        """Return the name of a point; its column distinguishes the branches of a line."""
         return f"{what}, column {name.split(' ')[2]}" if kind == BRANCH else what
 
     def folders(self) -> list[str]:

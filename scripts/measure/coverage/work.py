@@ -1,4 +1,4 @@
-"""One job of the coverage campaign: a group of tests with counting builds, in a separate pytest."""
+"""One job of the coverage campaign: it runs a group of tests with counting builds in a separate pytest."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from scripts.measure.coverage.collecting import OUT
 from scripts.measure.coverage.counted import copies
 
 WALL_S = {"OPENPPMC_WALL_S": "1200"}
-"""Longer limit, because a counting simulation takes several times as long."""
+"""Wall-clock limit of a test in s; it is high, because a counting simulation takes several times as long."""
 
 
 def groups(words: Sequence[str] = ()) -> list[list[str]]:
-    """Return the simulating tests of `make test` whose names contain a word, one list for each process."""
+    """Return the tests of `make test` that simulate and whose names contain a word, one list per process."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
         out = Path(folder) / "groups.json"
         command = [
@@ -50,7 +50,7 @@ def groups(words: Sequence[str] = ()) -> list[list[str]]:
 
 
 def run_group(tests: Sequence[str]) -> Result:
-    """Run these tests; return the covered points, packed, and their crosses."""
+    """Run these tests; return the packed covered points and the crosses."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
         environment = {**os.environ, **WALL_S, COVERAGE: folder, COVERAGE_COPIES: str(copies())}
         command = [

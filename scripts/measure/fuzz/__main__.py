@@ -1,6 +1,6 @@
-"""`make fuzz COUNT=n SEED=n`: send characters, valid and invalid frames to deframers of RTL and models.
+"""`make fuzz COUNT=n SEED=n`: send valid and invalid frames to the deframers of RTL and golden models.
 
-Every request, instruction and fault that they report must be equal, and at the same character.
+RTL and golden model must report the same requests, instructions and faults at the same characters.
 
 A seed is a block of characters for each line, with silences and characters without a stop bit. A later run on
 the same sources reuses passed blocks. The exit code is 1 if there is a difference.
@@ -25,7 +25,7 @@ from scripts.measure.fuzz.lines import LINES
 from scripts.measure.fuzz.words import stream
 
 BLOCK = 250_000
-"""Characters of a seed."""
+"""Number of characters in the block of a seed."""
 
 
 def play(what: tuple[str, int, int]) -> Result:

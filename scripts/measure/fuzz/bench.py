@@ -1,4 +1,4 @@
-"""Build a line's program from tb/fuzz, send words to it, compare the result with the golden model."""
+"""Build the program of a line from tb/fuzz, send words to it, compare the result with the golden model."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def rtl_events(name: str, words: array[int]) -> Iterator[tuple[int, int]]:
 
 
 def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | None:
-    """Return the first word with different events of RTL and golden model, and the events; None if equal."""
+    """Return the first word whose events in RTL and golden model differ, with these events; else None."""
     for real, ideal in zip_longest(rtl_events(name, words), line.expected(words)):
         if real != ideal:
             place = min(event[0] for event in (real, ideal) if event)
@@ -82,7 +82,7 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
 
 
 def shrink_report(name: str, line: Line, words: array[int]) -> str:
-    """Return a difference as text, for the shortest tail of the words that still differs."""
+    """Return a difference as text, with the shortest sequence of last words that still causes it."""
     found = difference(name, line, words)
     assert found is not None
     words = words[: found[0] + 1]

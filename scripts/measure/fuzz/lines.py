@@ -1,6 +1,6 @@
-"""The serial lines: generators of valid frames, and the events of the golden model for received words.
+"""The serial lines: generators of valid frames, and the events of the golden models for received words.
 
-Valid frames are made without the functions of the models, so that a mistake in one of them is detected.
+The functions of the models are not used to make frames, so that mistakes in them are detected.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Line:
 
 
 def bridge_frame(rng: random.Random) -> bytes:
-    """Return a frame of UB-FRM-01 … 04, sometimes about as long as permitted."""
+    """Return a frame of UB-FRM-01 … 04; the length of some is near the limit."""
     size = rng.choice((0, 1, 2, 5, 12, 30)) if rng.random() < 0.98 else rng.randint(250, 256)
     content = bytes([rng.randrange(256)]) + bytes(rng.choices((0x7D, 0x7E, 0x5E, 0, 0x80, 0x20), k=size))
     content += crc_hqx(content, 0xFFFF).to_bytes(2, "big")

@@ -1,4 +1,4 @@
-"""Content of a line in the format of tb/fuzz/main.cpp: words of 16 bits."""
+"""Characters of a line in the format of tb/fuzz/main.cpp, words of 16 bits."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from array import array
 from collections.abc import Callable, Sequence
 
 BROKEN, SILENCE = 0x100, 0x200
-"""Flags of a word: a character without a stop bit; no character, but a long silence."""
+"""Flags of a word: a character without a stop bit; a long silence instead of a character."""
 Frame = Callable[[random.Random], bytes]
 
 
@@ -52,7 +52,7 @@ def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
 
 
 def _spoilt(rng: random.Random, frame: bytes, special: Sequence[int]) -> bytes:
-    """Return a frame with one fault: a bit or byte changed, a byte missing, repeated or added, no end."""
+    """Return a frame with one fault: a changed bit or byte; a missing, repeated or added byte; no end."""
     place = rng.randrange(len(frame))
     before, byte, after = frame[:place], frame[place], frame[place + 1 :]
     kind = rng.randrange(6)

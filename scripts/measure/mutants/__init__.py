@@ -1,1 +1,1 @@
-"""Mutants by hand: small faults of the RTL, and the directed tests that find them."""
+"""Hand-made mutants: small faults of the RTL, and the directed tests that find them."""

@@ -1,7 +1,8 @@
 """Show which directed test kills each hand-made mutant: `python -m scripts.measure.mutants [WORD...]`.
 
-The changed file is written to build/mutants/, never to rtl/. The output has one line for each mutant: the
-test that fails, and the cause (`table`). The exit code is 1 if the result of a mutant differs from its entry.
+The changed file is written to build/mutants/, never to rtl/. The output has a line for each mutant: the test
+that fails, and the kind of the failure (`table`). The exit code is 1 if the result of a mutant differs from
+its entry.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ from scripts.measure.mutants.table import Mutant, mutants
 
 CHECK, COMPARISON, ASSERTION, HANGS = "check", "comparison", "assertion", "no end"
 BATCH = 8
-"""Tests in one process; no process is started after the first one with a failing test."""
+"""Number of tests in one process; after the first process with a failing test, no further one is started."""
 
 
 def cause(outcome: Outcome) -> str:
-    """Return the cause of a failure: a check of the test, an assertion of the RTL, or the comparison."""
+    """Return the kind of a failure: a check of the test, an assertion of the RTL, or the comparison."""
     compared = ": first difference at edge" in outcome.headline
     if outcome.kind != "failed":
         return HANGS
@@ -36,7 +37,7 @@ def cause(outcome: Outcome) -> str:
 
 
 def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
-    """Return the failing tests of the first process with a failure."""
+    """Return the failing tests of the first process in which a test fails."""
     for at in range(0, len(items), BATCH):
         job = Simulation(
             mutant.design(items[0]), tuple(items[at : at + BATCH]), 1, env={"OPENPPMC_WALL_S": "120"}
@@ -48,7 +49,7 @@ def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
 
 
 def find_tests(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
-    """Return the tests that find the mutant: the listed test, else the first that its words select."""
+    """Return the tests that must find the mutant: the listed one, or else the first that its words select."""
     items, every = mutant.items(), mutant.items(wide=True)
     listed = [item for item in every if item.test == mutant.caught]
     return failing(mutant, listed) or failing(mutant, items) or (failing(mutant, every) if wide else {})

@@ -1,10 +1,16 @@
-"""The mutants of <part>.yml in this folder: each has one small change of one RTL file, and its test.
+"""The mutants in <part>.yml of this folder. A mutant is a small change of one RTL file.
 
-An entry has `file`, `old` (occurs exactly once in the file), `new`, `tests` (words separated by commas; a
-test runs if its module or its name contains one), `caught` (the test that must fail) and `by`: *check* (an
-assertion of the test itself), *comparison* (only the edges differ from the golden model's) or *assertion* (of
-the RTL). Optional: `suite`, the module of pytest items (test_part), and `build`, a configuration's name.
-Without `caught`, no directed test of that build finds the mutant, and `why` states the consequence.
+An entry has these keys:
+    file    the RTL file
+    old     the text to replace, which occurs exactly once in the file
+    new     the text in its place
+    tests   words separated by commas; a test runs if its module or its name contains one of them
+    caught  the test that must fail
+    by      what detects the mutant: *check* (an assertion of the test itself), *comparison* (only the edges
+            differ from the golden model's) or *assertion* (of the RTL)
+    suite   optional: the module of pytest items (test_part)
+    build   optional: the name of a configuration
+If no directed test of this build finds the mutant, `caught` is missing and `why` states the consequence.
 """
 
 from __future__ import annotations
@@ -54,7 +60,7 @@ class Mutant:
         return text.replace(self.old, self.new)
 
     def items(self, wide: bool = False) -> list[Item]:
-        """Return the tests of one build that the words select, or with `wide` all tests of the suite."""
+        """Return the tests of the mutant's build that its words select, or with `wide` the whole suite."""
         build = self.build or MAIN_BUILD.get(self.part, "f16")
         words = [""] if wide else self.tests.split(",")
         every = [param.values[0] for param in self._module().ITEMS]

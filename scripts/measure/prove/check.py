@@ -16,7 +16,7 @@ from scripts.measure.prove import engine
 from scripts.measure.prove.table import FORMAL, Change, Proof
 
 LIMIT = 600
-"""Seconds for one run of the solver."""
+"""Time limit of one run of the solver in s."""
 TRACE = "read_rtlil prove.il; sim -q -zinit -multiclock -r prove.aiw -map prove.aim -vcd trace.vcd"
 
 
@@ -64,7 +64,7 @@ def yosys(folder: Path, *command: str) -> str:
 
 
 def model(proof: Proof, folder: Path, changed: Mapping[Path, Path]) -> str:
-    """Make the graphs of a proof; return the reason if this fails."""
+    """Make the graphs of a proof; return the reason if this fails, else ""."""
     job = {
         "top": proof.file.stem,
         "only": proof.only,
@@ -87,12 +87,12 @@ def trace(folder: Path) -> str:
 
 
 def place(proof: Proof, change: Change | None = None) -> Path:
-    """Return the folder of a run, which is kept after the run."""
+    """Return the folder of a run; it is not removed after the run."""
     return BUILD / "prove" / (f"{proof.name}.{change.name}" if change else proof.name)
 
 
 def check(proof: Proof, limit: int = LIMIT, change: Change | None = None) -> Outcome:
-    """Run one proof of the unchanged RTL, or with a change that should make it fail."""
+    """Run one proof of the unchanged RTL, or of RTL with a change that must make the proof fail."""
     begin = time.monotonic()
     folder = place(proof, change)
     shutil.rmtree(folder, ignore_errors=True)

@@ -1,6 +1,6 @@
-"""Run ABC on a model: unbounded property directed reachability, or bounded search; both begin in reset.
+"""Run ABC on a model: an unbounded proof by property directed reachability, or a bounded search.
 
-ABC is part of the wheel of pyosys.
+Both begin in reset. ABC is part of the wheel of pyosys.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from cocotb_tests.harness.project import ProjectError
 _HIT = re.compile(r"Output\s+(\d+)(?: of miter \S+)? was asserted in frame\s+(\d+)")
 PROVED, FAILED, OPEN = "proved", "failed", "open"
 REACH = 20
-"""An induction begins with a bounded search of this number of cycles more than its length."""
+"""Number of cycles by which the bounded search before an induction exceeds the length of the induction."""
 
 
 def abc() -> Path:
@@ -45,14 +45,14 @@ def ask(folder: Path, what: str, script: str) -> str:
 
 
 def hits(said: str) -> dict[int, int]:
-    """Return number of an output that can be true -> cycles after reset, from ABC's output."""
+    """Parse ABC's output; return number of an output that can be true -> cycles after reset."""
     return {int(output): int(frame) for output, frame in _HIT.findall(said)}
 
 
 def induction(folder: Path, length: int, limit: int) -> tuple[str, dict[int, int]]:
     """Prove by induction over at most `length` cycles, after a longer bounded search from reset.
 
-    It is used for blocks with large memories; their wrappers state how the memory is related to the outputs.
+    This method is for blocks with large memories; their wrappers state how memory and outputs are related.
     """
     base = length + REACH
     first = ask(folder, "prove", f"bmc3 -F {base} -T {limit}; write_cex -a prove.aiw")
@@ -66,7 +66,7 @@ def induction(folder: Path, length: int, limit: int) -> tuple[str, dict[int, int
 def prove(folder: Path, bound: int, limit: int, induct: int = 0) -> tuple[str, dict[int, int]]:
     """Prove that no output of prove.aig can be true (within `bound` cycles); else return which, and when.
 
-    It takes at most `limit` seconds. A counterexample is written to prove.aiw.
+    The proof takes at most `limit` seconds. A counterexample is written to prove.aiw.
 
     Args:
         induct: length of the induction; 0 means no induction.
@@ -82,7 +82,7 @@ def prove(folder: Path, bound: int, limit: int, induct: int = 0) -> tuple[str, d
         if "Property UNDECIDED" not in said:
             break
     if found := hits(said):
-        if not bound:  # find the output, and a trace with all inputs
+        if not bound:  # another run finds the output, and a trace with all inputs
             again = f"bmc3 -F {min(found.values()) + 1} -T {limit}; write_cex -a prove.aiw"
             found = hits(ask(folder, "prove", again)) or found
         return FAILED, found
@@ -99,5 +99,5 @@ def fill(folder: Path) -> None:
 
 
 def covered(folder: Path, bound: int, limit: int) -> dict[int, int]:
-    """Return the covers of cover.aig that are reached within `bound` cycles, and when."""
+    """Return the covers of cover.aig that are reached within `bound` cycles, with their cycles."""
     return hits(ask(folder, "cover", f"bmc3 -a -F {bound} -T {limit}"))

@@ -1,10 +1,11 @@
-"""Convert wrapper and RTL to and-inverter graphs: one with the assertions as bad states, one with the covers.
+"""Convert wrapper and RTL to two and-inverter graphs: assertions as bad states, and covers.
 
-Started as ``python -m scripts.measure.prove.model JOB.json``, in a separate process, because yosys calls
-exit() on an error and writes its log to stdout. The job names sources, includes, top, folder and the labels
-that count (empty: all). The outputs in the folder are prove.aig and cover.aig with the names of inputs and
-registers (.aim), the design for a trace (.il), and labels.json: the labels of the outputs of each graph, in
-order.
+The module is started as ``python -m scripts.measure.prove.model JOB.json`` in a separate process, because
+yosys calls exit() on an error and writes its log to stdout. The job names the sources, the include folders,
+the top, the folder of the results, and the labels that count (empty: all). The results are:
+    prove.aig, cover.aig  the graphs, each with the names of inputs and registers (.aim)
+    *.il                  the design, for a trace
+    labels.json           the labels of the outputs of each graph, in order
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ GATES = ("setundef -undriven -anyseq", "opt -full", "techmap", "opt -full", "dff
 
 
 def read(job: dict[str, Any], kind: str) -> str:
-    """Return the elaboration command; for covers, SYNTHESIS hides the assertions of the RTL."""
+    """Return the command that reads the sources. For covers, SYNTHESIS hides the assertions of the RTL."""
     words = ["read_slang", "--threads", "1", "--top", job["top"], *(f"-I{path}" for path in job["includes"])]
     words += ["--no-synthesis-define"] if kind == "prove" else ["-D", "FV_COVERS=1"]
     return " ".join([*words, *job["sources"]])

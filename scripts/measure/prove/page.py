@@ -16,11 +16,11 @@ MARK = "<!-- proofs -->"
 ROOMS = ("common", "host", "motion", "single", "bank")
 """Folders of rtl/ in which each block should have a proof."""
 SHOWN = 6
-"""Maximum number of listed proofs of a package; others are only counted."""
+"""Maximum number of proofs listed for a package; further ones are only counted."""
 
 
 def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
-    """Return files of the shared folders without a separate proof -> proofs whose blocks use them."""
+    """Return each shared file that has no separate proof, with the proofs whose blocks use it."""
     proved = {one.block for one in every}
     paths = [path for room in ROOMS for path in sorted((RTL / room).glob("*.sv")) if path.stem not in proved]
     sources = {path: path.read_text(encoding="utf-8") for one in every for path in one.sources()}
@@ -40,7 +40,7 @@ def without(every: Sequence[Proof]) -> list[str]:
 
 
 def method(proof: Proof) -> str:
-    """Return the method of a proof."""
+    """Return text about the method of a proof."""
     if proof.induct:
         return f"unbounded, by induction over {proof.induct} cycles"
     return f"the first {proof.bound} cycles" if proof.bound else "unbounded"
@@ -78,7 +78,7 @@ def table(every: Sequence[Proof]) -> str:
 
 
 def text() -> str:
-    """Return the required page; text outside the marks is unchanged."""
+    """Return the page with generated tables; text outside the marks is not changed."""
     parts = PAGE.read_text(encoding="utf-8").split(MARK)
     if len(parts) != 3:
         raise ProjectError(f"{relative(PAGE)} must have {MARK} twice")

@@ -43,7 +43,7 @@ def changed(every: Sequence[Proof]) -> list[Proof]:
 
 
 def kept() -> dict[str, bool]:
-    """Return name of a proof that has run -> whether it holds."""
+    """Return, for the name of each proof that has run, whether the proof holds."""
     return _read(RESULTS)
 
 

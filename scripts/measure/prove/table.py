@@ -32,7 +32,7 @@ FORMAL = ROOT / "tb" / "formal"
 
 @dataclass(frozen=True)
 class Change:
-    """An RTL file with another text.
+    """An RTL file whose text is replaced for a run.
 
     Attributes:
         name: part of the name of the run's folder; it distinguishes this run from others of the proof.

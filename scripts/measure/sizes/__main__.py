@@ -30,7 +30,7 @@ Work = tuple[str, Callable[[], T]]
 
 
 def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
-    """Run each work, two at a time, with progress; call `keep` with index and result of each work."""
+    """Run all works, two at a time, with a progress display; call `keep` with index and result of each."""
     columns = (TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with (
         Progress(*columns, console=console, disable=not console.is_terminal) as progress,
@@ -66,7 +66,7 @@ def sizes(selected: list[Design]) -> figures.Figures:
 
 
 def measure(selected: list[Design], rates: bool) -> None:
-    """Measure the changed designs; clock rates of a design with changed RTL are deleted first."""
+    """Measure the changed designs; before that, the clock rates of designs with changed RTL are deleted."""
     held = figures.read() if figures.FILE.is_file() else {}
     known = {design.key for design in designs.all_designs()}
     held = {key: entry for key, entry in held.items() if key in known or key.startswith(figures.PEER)}
@@ -97,7 +97,8 @@ def measure(selected: list[Design], rates: bool) -> None:
 def check(selected: Iterable[Design], fresh: bool) -> int:
     """Compare with the committed sizes; return the exit code.
 
-    A design with the digest of its figures has their size; it is synthesized again only if `fresh`.
+    A design whose digest is the stored one has the stored size; it is synthesised again only if `fresh` is
+    true.
     """
     held = figures.read()
     counted = [design for design in selected if design.recipe == "tuned" and not design.board]

@@ -50,7 +50,7 @@ BRIDGES: tuple[tuple[str, str, dict[str, int], tuple[str, ...]], ...] = (
         ("ecp5",),
     ),
 )
-"""Module, description, parameters, families."""
+"""Module, description, parameters and FPGA families of a design."""
 HOST = "uart"
 """Host of the bitstreams that are measured."""
 FOLDER = project.BUILD / "sizes"
@@ -60,7 +60,7 @@ _LOCKS: dict[tuple[str, int], threading.Lock] = defaultdict(threading.Lock)
 
 @dataclass(frozen=True)
 class Design:
-    """A design with a family and a recipe.
+    """A design that is measured with one family and one recipe.
 
     Attributes:
         name: name in docs/sizes.json.
@@ -113,7 +113,7 @@ class Design:
         return seen.hexdigest()[:16]
 
     def netlist(self, turn: int = 0) -> Path:
-        """Synthesise with a perturbation; 0 is the unchanged recipe."""
+        """Synthesise with a perturbation; number 0 is the unchanged recipe."""
         return run_yosys(self.folder / f"turn-{turn}", self._job(turn))
 
     def size(self) -> dict[str, int]:
@@ -132,7 +132,7 @@ class Design:
         return pnr.place_and_route(ECP5, self._kept(turn, self._wrapped()), folder, seed).fmax
 
     def _wrapped(self) -> dict[str, Any]:
-        """Return the job with all pins connected to shift registers."""
+        """Return the job of the design with all pins connected to shift registers."""
         wrapper = self.folder / f"{scan_wrapper.NAME}.sv"
         with _LOCKS[self.key, -1]:
             text = scan_wrapper.source(self._ports(), self.job["top"], self.job["params"], **self.wiring)
@@ -141,12 +141,12 @@ class Design:
         return {**self.job, "top": scan_wrapper.NAME, "sources": sources, "params": {}}
 
     def _ports(self) -> Path:
-        """Return a netlist with the ports of the design."""
+        """Return a netlist that has the ports of the design."""
         made = self.folder / "turn-0" / f"{self.family}-{self._job(0)['recipe']}.json"
         return made if made.is_file() else self.netlist()
 
     def _kept(self, turn: int, job: Mapping[str, Any]) -> Path:
-        """Return the netlist that the seeds of a perturbation share."""
+        """Return the netlist of a perturbation, which all its seeds use."""
         folder = self.folder / f"turn-{turn}" / "routed"
         work = self._job(turn) | dict(job)
         file = folder / f"{work['family']}-{work['recipe']}.json"
@@ -189,7 +189,7 @@ def of_parts() -> list[Design]:
     bank = parts.part("bank")
     for axes in BANKS:
         job = _job(bank.top, project.sources(bank), {"AXES": axes, "CLK_HZ": BANK_CLK_HZ})
-        # A measurement of the clock rate of one bank takes an hour.
+        # Measuring the clock rate of one bank takes an hour.
         found += [
             Design(f"bank {axes}", "ecp5", r, "bank", job, rated=axes == 32, axes=axes) for r in RECIPES
         ]
@@ -209,7 +209,7 @@ def of_carriers() -> list[Design]:
 
 
 def of_bridges() -> list[Design]:
-    """Return host bridges with one address line, and recorders."""
+    """Return host bridges with one address line, and recorders of several sizes."""
     found = []
     for top, title, params, families in BRIDGES:
         job = _job(top, list(project.files("host")), params)
@@ -230,7 +230,7 @@ def of_boards() -> list[Design]:
 
 
 def of_peers(folder: Path, peers: list[Peer]) -> list[Design]:
-    """Return the designs of a folder with peers.json."""
+    """Return the designs in a folder that contains peers.json."""
     found = []
     for peer in peers:
         job = {"top": peer.top, "include": [], "sources": peer.files(folder), "params": peer.params}

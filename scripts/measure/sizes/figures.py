@@ -29,7 +29,7 @@ PEER = "peer "
 
 @dataclass
 class Comparison:
-    """Result of a comparison. Each line of `wrong` fails the check; a line of `smaller` does not."""
+    """Result of a comparison; a line of `wrong` makes the check fail, a line of `smaller` does not."""
 
     wrong: list[str] = field(default_factory=list)
     smaller: list[str] = field(default_factory=list)
@@ -68,7 +68,7 @@ def write(figures: Figures, path: Path = FILE) -> None:
 
 
 def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
-    """Compare counts: growth by more than `limit` per cent is wrong, as is a design without figures."""
+    """Compare counts; growth by more than `limit` per cent is wrong, and so is a design without figures."""
     found = Comparison()
     for key, new in sorted(now.items()):
         old = committed.get(key)
@@ -79,7 +79,7 @@ def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
             change = f"{key}: {title} {old[name]} -> {new[name]}"
             if old[name]:
                 change += f" ({100 * (new[name] - old[name]) / old[name]:+.1f} %)"
-            # In whole numbers: growth of exactly the limit passes.
+            # Integer arithmetic, so that a growth of exactly the limit passes.
             if 100 * new[name] > (100 + limit) * old[name]:
                 found.wrong.append(f"{change}, more than {limit} % larger")
             elif 100 * new[name] < (100 - limit) * old[name]:

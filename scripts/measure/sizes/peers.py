@@ -52,7 +52,7 @@ class Peer:
     pins: str = ""
 
     def files(self, folder: Path) -> list[str]:
-        """Return the source files; raise ProjectError with the address of the design if one is missing."""
+        """Return the source files; if one is missing, raise ProjectError with the address of the design."""
         files = [folder / source for source in self.sources]
         for file in files:
             if not file.is_file():

@@ -1,4 +1,4 @@
-"""Tables of sizes: cells of each instance for the terminal, and Markdown."""
+"""Tables of sizes: the cells of each instance for the terminal, and a function for Markdown tables."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scripts.fpga.flow.netlist import Breakdown, Count
 
 
 def breakdown_table(results: dict[str, Breakdown]) -> Table:
-    """Return the table of cells for each instance, with all families side by side."""
+    """Return the table of the cells of each instance, with columns for all families."""
     table = Table(
         title="where the cells are", title_justify="left", caption_justify="left", box=box.SIMPLE_HEAD
     )
@@ -29,7 +29,7 @@ def breakdown_table(results: dict[str, Breakdown]) -> Table:
 
 
 def breakdown_rows(results: dict[str, Breakdown], indent: str) -> list[list[str]]:
-    """Return rows of instance, module, flat LUTs, own LUTs, FF, RAM of each family; the last is the total."""
+    """Return rows: instance, module, flat LUTs, own LUTs, FF, RAM of each family; the last is the total."""
     first = next(iter(results.values()))
     rows = []
     for path in sorted(first.kept):

@@ -29,8 +29,8 @@ def source(
 ) -> str:
     """Return the wrapper of `top` with these parameters as SystemVerilog; its clock is `clk`.
 
-    `reset` is the name of its active-low reset, "" if it has no reset. Inputs whose name does not begin with
-    the regular expression `pins_like` are tied to 0; such outputs are open.
+    `reset` is the name of its active-low reset, "" if it has no reset. `pins_like` is a regular expression.
+    Inputs whose name does not begin with a match are tied to 0; outputs with such a name are open.
     """
     given = ", ".join(
         f'.{name}("{value}")' if isinstance(value, str) else f".{name}({value})"

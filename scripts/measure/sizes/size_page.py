@@ -27,7 +27,7 @@ def _pair(found: Figures, name: str) -> list[dict[str, Any] | None]:
 
 
 def _cells(found: Figures, name: str, axes: int = 0) -> list[str]:
-    """Return FF and RAM, then for each recipe COMB, COMB of an axis if there are `axes`, and MHz."""
+    """Return FF and RAM, then for each recipe COMB, COMB per axis (only with `axes`), and MHz."""
     both = _pair(found, name)
     cells = [str(both[0][key]) if both[0] else "–" for key in ("ff", "ram")]
     for entry in both:
@@ -117,7 +117,7 @@ def peers(found: Figures) -> str:
 
 
 def bank(found: Figures) -> str:
-    """Return the table of the bank over its number of axes, for its manual."""
+    """Return the table of the bank's size by its number of axes, for its manual."""
     rows = [[str(axes), *_cells(found, f"bank {axes}", axes)] for axes in designs.BANKS]
     text = (
         f"`ppmc_bank` on an ECP5-25F of speed grade 6, CLK_HZ {designs.BANK_CLK_HZ // 1_000_000} MHz, "
@@ -129,7 +129,7 @@ def bank(found: Figures) -> str:
 
 
 def axis_costs(found: Figures) -> tuple[dict[str, tuple[int, float]], dict[str, int]]:
-    """Return COMB of an axis with the plain recipe: PPMC-104 and relatives (axes, COMB), other designs."""
+    """Return COMB per axis with the plain recipe: PPMC-104 and relatives as (axes, COMB), other designs."""
     kinds = {d.name: d for d in designs.of_parts() if d.name in ("ppmc104", "ppmc2104", "isa_4axis")}
     measured = {name: found.get(f"{name} ecp5 plain") for name in kinds}
     family = {

@@ -32,14 +32,14 @@ IGNORED = {"__pycache__", "img", "wavedrom", "include"}
 
 
 def modules(folder: str) -> list[str]:
-    """Return the modules next to the folders of the package: of parts, and shared ones."""
+    """Return the modules that are next to the folders of the package: those of parts, and shared ones."""
     if not folder.startswith("openppmc/"):
         return []
     return [path.stem for path in sorted((ROOT / folder).glob("*.py")) if not path.stem.startswith("__")]
 
 
 def rooms(folder: str) -> list[str]:
-    """Return the names of the folders in a folder, without empty ones."""
+    """Return the names of the folders in a folder, except empty ones."""
     found = (path for path in sorted((ROOT / folder).glob("*")) if path.is_dir() and path.name not in IGNORED)
     return [
         path.name
@@ -49,12 +49,12 @@ def rooms(folder: str) -> list[str]:
 
 
 def _lines(names: Sequence[str], width: int) -> str:
-    """Return the names on lines of at most `width` characters."""
+    """Return the names as text in lines of at most `width` characters."""
     return textwrap.fill(", ".join(names), width)
 
 
 def folders() -> Figure:
-    """Draw layers downwards and parts to the right; cells have folders, for the package also modules."""
+    """Draw layers as rows and parts as columns; a cell has folders, and in the package also modules."""
     columns = [row.name for row in parts.folders()]
     widths = [1.95, 2.7, *(1.15 if name in ("ppmc104", "ppmc2104", "stmc") else 1.75 for name in columns)]
     lefts = [sum(widths[:n]) for n in range(len(widths))]

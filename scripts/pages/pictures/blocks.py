@@ -32,7 +32,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Arrow:
-    """An arrow between two boxes, given by name.
+    """An arrow between two boxes, which are named.
 
     Attributes:
         via: corners of the arrow between the boxes.
@@ -47,7 +47,7 @@ class Arrow:
 
 
 def _border(box: Box, towards: tuple[float, float]) -> tuple[float, float]:
-    """Return the point on the border of a box at which a line to a place leaves at a right angle."""
+    """Return the point on the border of a box from which a line leaves at a right angle towards a place."""
     dx, dy = towards[0] - box.x, towards[1] - box.y
     if abs(dx) <= box.width / 2:
         return towards[0], box.y + (box.height / 2 if dy > 0 else -box.height / 2)
@@ -117,7 +117,7 @@ def _arrow(axes: Axes, arrow: Arrow, boxes: Mapping[str, Box]) -> None:
 
 
 def draw(boxes: Mapping[str, Box], arrows: Sequence[Arrow], inches: tuple[float, float]) -> plt.Figure:
-    """Return the drawing with this width and height; the grid fills it.
+    """Return the drawing with this width and height, which the grid fills.
 
     The call raises KeyError for an unknown box.
     """

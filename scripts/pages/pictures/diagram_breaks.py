@@ -1,4 +1,4 @@
-"""Placement of texts in a timing diagram next to its break marks; a mark is removed if a text cannot move."""
+"""Move the texts of a timing diagram away from its break marks; if a text cannot move, remove the mark."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 LANE, TOP = 30, 5
 """Distance of two lines, and height above the first line, in px."""
 MARK = (7, -2, 22)
-"""Size of a break mark in px: to each side, above and below the top of its line."""
+"""Size of a break mark in px: to each side, and above and below the top of its line."""
 ROOM = 5
 SMALL = 11 / 13
 """Size of the text of an arrow, relative to that in a box."""
@@ -23,7 +23,7 @@ SMALL = 11 / 13
 
 @dataclass(frozen=True)
 class Area:
-    """An occupied rectangle in px from the first column; `node` and `parent`: element that may be removed."""
+    """An occupied rectangle in px, from the first column on; `node` in `parent` is the element to remove."""
 
     left: float
     right: float
@@ -135,7 +135,7 @@ def _on_arrows(root: ET.Element, marked: list[Area], texts: list[Area]) -> None:
 
 
 def step_aside(root: ET.Element, signal: list[Any], step: int) -> None:
-    """Separate texts and break marks of a drawn diagram with columns of `step` px."""
+    """Separate texts and break marks of a drawn diagram whose columns have `step` px."""
     marked = list(marks(root))
     texts = list(_in_boxes(root, signal, step, marked))
     _on_arrows(root, [mark for mark in marked if mark.parent is not None and mark.node in mark.parent], texts)

@@ -1,4 +1,4 @@
-"""Timing diagrams that fit the page width: with narrower columns, or in rows that are cut at breaks."""
+"""Fit timing diagrams into the width of a page: with narrower columns, or in rows that are cut at breaks."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ import matplotlib
 from fontTools.ttLib import TTFont
 
 COLUMN = 688
-"""Text width in px of a page of the site in a window of 1220 px; wider in larger windows and on GitHub."""
+"""Width of the text on a page of the site in px; larger in windows above 1220 px and on GitHub."""
 MOST = COLUMN * 11 // 10
-"""Maximum width of a drawing in px: its smallest text of 11 px has 10 px in that column."""
+"""Maximum width of a drawing in px; on the page, its smallest text of 11 px then has 10 px."""
 STEPS = ({"hscale": 2}, {"hscale": 3, "skin": "narrow"}, {"hscale": 1}, {"hscale": 1, "skin": "narrow"})
-"""WaveDrom's settings for columns of 80, 60, 40 and 20 px."""
+"""WaveDrom's `hscale` and skin for columns of 80, 60, 40 and 20 px."""
 WIDTHS = (80, 60, 40, 20)
 NAMES, GROUP, EDGE = 16, 33, 8
-"""Space in px around the names of lines, for the name of a group, right of the lines and of a title."""
+"""Space in px around names of lines, for the name of a group, and right of the lines and of a title."""
 TEXT = 13
 """Text size in a box in px."""
 FRAME = 9
@@ -29,7 +29,7 @@ TRIES = sorted(
     ((rows, *step) for rows in range(1, 5) for step in zip(WIDTHS, STEPS, strict=True)),
     key=lambda found: (found[0] + 1.5 * (found[1] < 40), -found[1]),
 )
-"""Rows and columns in order of preference: few rows, wide columns; columns below 40 px before three rows."""
+"""Rows and columns in order of preference: few rows, wide columns; columns below 40 px count as 1.5 rows."""
 
 Lane = dict[str, Any]
 
@@ -49,7 +49,7 @@ def _advances() -> tuple[dict[str, float], dict[int, str]]:
 
 
 def lanes(signal: Sequence[Any]) -> Iterator[Lane]:
-    """Yield the lines of a drawing, including those in groups."""
+    """Yield the lines of a drawing, also those in groups."""
     for entry in signal:
         if isinstance(entry, list):
             yield from lanes(entry[1:])
@@ -58,7 +58,7 @@ def lanes(signal: Sequence[Any]) -> Iterator[Lane]:
 
 
 def boxes(wave: str) -> list[tuple[int, int]]:
-    """Return the first column of each box with a text, and the first column after it."""
+    """Return the first column of each box with a text, and the first column after the box."""
     starts = [n for n, brick in enumerate(wave) if brick in "=23456789"]
     return [(n, next((m for m in range(n + 1, len(wave)) if wave[m] not in ".|"), len(wave))) for n in starts]
 
@@ -70,7 +70,7 @@ def step_of(drawing: dict[str, Any]) -> int:
 
 
 def _columns(lane: Lane) -> int:
-    """Return the columns of a line; a line that is half a cycle early has one more brick."""
+    """Return the columns of a line; a line that is half a cycle early has one more column."""
     return len(lane.get("wave", "")) - bool(lane.get("phase"))
 
 
@@ -104,7 +104,7 @@ def readable(drawing: dict[str, Any], step: int) -> bool:
 
 
 def _cut(lane: Lane, first: int, end: int) -> Lane:
-    """Return columns of a line, beginning with the level at the first column."""
+    """Return the columns of a line from `first` on; the first one has the level that the line has there."""
     if "wave" not in lane:
         return {**lane, "node": lane["node"][first:end]} if "node" in lane else lane
     wave, tail = lane["wave"], "." if lane.get("phase") else ""
@@ -140,7 +140,7 @@ def wrapped(drawing: dict[str, Any], cuts: Sequence[int]) -> dict[str, Any] | No
 
 
 def _breaks(drawing: dict[str, Any]) -> list[int]:
-    """Return the columns after a break of all lines."""
+    """Return the columns that follow a break of all lines."""
     waves = [lane["wave"] for lane in lanes(drawing["signal"]) if "wave" in lane]
     shortest = min(map(len, waves))
     return [n + 1 for n in range(shortest - 1) if all(wave[n] == "|" for wave in waves)]

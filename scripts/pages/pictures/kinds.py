@@ -7,6 +7,6 @@ from typing import Any
 
 
 def made(entry: dict[str, Any]) -> Any:
-    """Return the result of the function that an entry names as its `kind`, called with the other values."""
+    """Call the function named as `kind` of an entry with the entry's other values; return its result."""
     arguments = {name: value for name, value in entry.items() if name != "kind"}
     return pkgutil.resolve_name(f"scripts.pages.{entry['kind']}")(**arguments)

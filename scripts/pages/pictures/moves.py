@@ -50,7 +50,7 @@ def ramped(
 
 
 def speeds(axes: Axes, train: Train, entry: Entry, over: str, unit: int, line: bool) -> None:
-    """Draw the speed of each interval over ms or over pulse numbers, as stairs or as a line."""
+    """Draw the speed of each interval over ms or over the pulse number, as stairs or as a line."""
     colour = COLOURS[entry["colour"]]
     times = [ticks / (train.hz / 1000) for ticks in accumulate(train.intervals, initial=0)]
     edges = times if over == "time" else [train.first + n for n in range(len(times))]
@@ -71,14 +71,14 @@ def speeds(axes: Axes, train: Train, entry: Entry, over: str, unit: int, line: b
 def moves(
     panels: Sequence[Entry], height: float = 3.3, sharey: bool = False, unit: int = 1000, line: bool = False
 ) -> Figure:
-    """Draw panels side by side, each with the speeds of moves.
+    """Draw panels side by side, each with the speeds of several moves.
 
     Args:
-        panels: each with `axes` and `legend` (arguments of matplotlib), `over` (time or pulses), and `moves`:
-            each with `colour`, `label`, and a `kind` that returns its Train, with the arguments of the kind;
-            `mark` in place of `label` for a move of one pulse, of which only the triangle is drawn.
+        panels: each with `axes` and `legend` (arguments of matplotlib), `over` (time or pulses), and `moves`.
+            A move has `colour`, `label`, a `kind` that returns its Train, and the arguments of the kind.
+            A move of one pulse has `mark` instead of `label`, and only its triangle is drawn.
         unit: pulses per second of the vertical axis.
-        line: True to draw a line through the middles of the intervals in place of stairs.
+        line: True to draw a line through the middles of the intervals instead of stairs.
     """
     figure, (row,) = plt.subplots(
         1, len(panels), figsize=(9.2, height), layout="constrained", sharey=sharey, squeeze=False
@@ -94,7 +94,7 @@ def moves(
 
 
 def ramps(small: Entry, large: Entry, offset: int = 1, unit: int = 1000) -> Figure:
-    """Draw the intervals of a short ramp with the exact curve, and the speed of a long ramp.
+    """Draw the intervals of a short ramp together with the exact curve, and the speed of a long ramp.
 
     Args:
         small: `ramp` (RL, RH, PA), `labels` of the two curves, `axes`, `legend` (arguments of matplotlib).

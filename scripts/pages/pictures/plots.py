@@ -34,7 +34,7 @@ COLOURS = {"blue": BLUE, "red": RED, "green": GREEN, "grey": GREY}
 
 
 def exact_period(of: Ramp, k: float) -> float:
-    """Return x(k) of the ramp formula in base clocks, not rounded."""
+    """Return x(k) of the ramp formula in base clocks, without rounding."""
     a, b = (of.rl + 1) ** 2, (of.rh + 1) ** 2
     return 1 / sqrt(1 / a + (1 / b - 1 / a) * k / of.pa)
 

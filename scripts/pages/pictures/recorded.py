@@ -10,20 +10,20 @@ from typing import Any
 from scripts.pages.pictures.kinds import made
 
 Levels = Mapping[str, int]
-Schedule = Sequence[tuple[int, Levels]]  # (clk edge that samples them first, pin levels), in time order
-Samples = Sequence[Levels | None]  # one for each column; None: cycles that are not shown
+Schedule = Sequence[tuple[int, Levels]]  # (first edge that samples them, pin levels), in time order
+Samples = Sequence[Levels | None]  # one for each column; None for cycles that are not shown
 
 LEVEL = re.compile(r"(\w+)(?: while (\w+) = (\w+))?")
 LONG = 10_000
 LETTERS = "nmk"
-COLOURS = "345"  # codes of WaveDrom's filled boxes, used in turn
+COLOURS = "345"  # codes of WaveDrom's filled boxes, which are used in turn
 
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a diagram: its name, and a pin or flag or a function of all of them (None: don't care).
+    """One line of a diagram: its name, and a pin or flag, or a function of all levels (None: don't care).
 
-    `text` returns the text in the box of a vector's value; without it, the line is a single bit.
+    `text` returns the text in the box of a vector's value; without `text`, the line is a single bit.
 
     Attributes:
         host: True if the host drives the line, which then changes half a cycle before the edge that samples
@@ -107,7 +107,7 @@ def wave(row: Row, samples: Samples) -> dict[str, Any]:
 
 
 def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]) -> list[int | None]:
-    """Return the columns, with a gap in place of columns between two others in which no line changes."""
+    """Return the columns; columns in which no line changes are replaced by a gap."""
     levels = [None if found is None else tuple(row.of(found) for row in rows) for found in samples]
     last = len(columns) - 1
     while last > 1 and levels[last] == levels[last - 1] == levels[last - 2]:
@@ -124,7 +124,7 @@ def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]
 
 
 def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
-    """Return the texts of edges, with a letter for a long number, and a line that explains the letters."""
+    """Return the texts of edges and a line below them; long numbers have a letter that the line explains."""
     words: list[str | None] = []
     told: dict[int, str] = {}
     for edge in edges:
@@ -139,13 +139,13 @@ def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
 
 
 def _zeros(number: int) -> int:
-    """Return the number of zeros at the end."""
+    """Return the number of zeros at the end of a number."""
     text = str(number)
     return len(text) - len(text.rstrip("0"))
 
 
 def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
-    """Return a line with a word in each column, a gap for None; a word may use the empty columns after it."""
+    """Return a line with a word in each column, a gap for None; a word covers the empty columns after it."""
     drawn, data = "", list[str]()
     for word, before in zip(words, (None, *words), strict=False):
         begins = word is not None and (word or not before)
@@ -175,7 +175,7 @@ class Start:
     flags: Callable[[Any], Levels] = mailbox_flags
 
     def action(self, edge: int, what: str, *values: Any) -> Schedule:
-        """Return the pin changes of an action of `do`, see `diagram`."""
+        """Return the pin changes of an action, as described for `do` of `diagram`."""
         at = self.base + edge
         if what == "pins":
             return [(at, values[0])]
@@ -188,7 +188,7 @@ class Start:
 
 
 def level(text: str) -> Callable[[Levels], int | None]:
-    """Return the function for "pin", or for "pin while other = value" (None at other values)."""
+    """Return the function for "pin", or for "pin while other = value" (it returns None at other values)."""
     found = LEVEL.fullmatch(text)
     if found is None:
         raise ValueError(f"{text}: write `pin` or `pin while other = value`")
@@ -197,7 +197,7 @@ def level(text: str) -> Callable[[Levels], int | None]:
 
 
 def lettered(row: Row, samples: Samples, letters: str) -> Row:
-    """Return the row with letters for arrows at its changes. A full stop means no letter."""
+    """Return the row with one letter at each of its changes, for arrows; a full stop means no letter."""
     levels = [None if found is None else row.of(found) for found in samples]
     changes, last = [], next(found for found in levels if found is not None)
     for column, found in enumerate(samples):
@@ -209,7 +209,7 @@ def lettered(row: Row, samples: Samples, letters: str) -> Row:
 
 
 def lane(entry: Mapping[str, Any], samples: Samples, host: bool = False) -> dict[str, Any]:
-    """Return WaveDrom's line of an entry of `rows`; one with a `wave` is complete."""
+    """Return WaveDrom's line for an entry of `rows`; an entry with a `wave` is already complete."""
     if "wave" in entry:
         return dict(entry)
     text = entry["text"].format if "text" in entry else None
@@ -219,7 +219,7 @@ def lane(entry: Mapping[str, Any], samples: Samples, host: bool = False) -> dict
 
 
 def columns_of(text: str) -> list[int | None]:
-    """Return the columns of a text with edges, ranges of edges (first..last), and | for a gap."""
+    """Return the columns of a text that contains edges, ranges of edges (first..last), and | for a gap."""
     found: list[int | None] = []
     for word in text.split():
         first, _, last = word.partition("..")
@@ -260,7 +260,7 @@ def diagram(
     shown = columns_of(columns)
     schedule = [change for action in do for change in start.action(*action)]
     groups = rows if isinstance(rows, dict) else {"": rows}
-    # In place of a gap, the edge before the column after it, to find changes that the gap would hide.
+    # A gap is replaced by the edge before the next column, to find changes that the gap would hide.
     at = [start.base + (shown[n + 1] - 1 if edge is None else edge) for n, edge in enumerate(shown)]
     found = record(start.model, start.inputs, schedule, at, start.flags)
     gaps = [] if hides else [n for n, edge in enumerate(shown) if edge is None]

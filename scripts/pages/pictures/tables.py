@@ -16,13 +16,13 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
 
 
 def spaced(value: float, digits: int = 0) -> str:
-    """Return a number with spaces between thousands and without zeros at the end of its decimals."""
+    """Return a number as text, with spaces between thousands and without zeros at the end of its decimals."""
     text = f"{value:,.{digits}f}".replace(",", " ")
     return text.rstrip("0").rstrip(".") if digits else text
 
 
 def _cell(rate: int, us: Fraction, column: Entry) -> list[str]:
-    """Return the cells of a rate: its speed with marks for short intervals, and the moves it is legal for."""
+    """Return the cells of a rate: its speed, marked if the interval is short; the moves that permit it."""
     speed = 1_000_000 / us
     text = spaced(float(speed), column.get("digits", 0 if speed >= 10_000 else 1))
     text = next((mark.format(text) for limit, mark in column.get("marks", {}).items() if us < limit), text)
@@ -38,8 +38,8 @@ def speeds(heads: Sequence[str], rates: Sequence[int], columns: Sequence[Entry],
     An interval is rate + `offset` periods of `us` µs, and `extra` µs.
 
     Args:
-        columns: each with `us`, `extra`, `marks` (an interval in µs -> format of the speed at a shorter one),
-            `limits` (name of a kind of move -> smallest rate), `digits`.
+        columns: each with `us`, `extra`, `digits`, `marks` (interval in µs -> format of the speed of shorter
+            intervals) and `limits` (name of a kind of move -> smallest rate).
     """
     rows = []
     for rate in rates:

@@ -1,4 +1,4 @@
-"""Conversion of timing diagrams and bit fields from WaveDrom JSON to a small, reproducible SVG."""
+"""Convert timing diagrams and bit fields from WaveDrom JSON to a small, reproducible SVG."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from scripts.pages.pictures.diagram_width import width as lines
 
 XLINK = "http://www.w3.org/1999/xlink"
 FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
-# The styles use pixels, not points (some viewers do not know the dpi), larger labels and darker numbers.
+# The styles have sizes in px, not points (some viewers do not know the dpi), larger labels, darker numbers.
 STYLES = (
     ("font-family:Helvetica", f"font-family:{FONTS}"),
     ('font-family="sans-serif"', f'font-family="{FONTS}"'),
@@ -27,11 +27,11 @@ STYLES = (
     (".muted{fill:#aaa}", ".muted{fill:#444;font-size:12px}"),
 )
 REF = re.compile(r"url\(#([^)]+)\)")
-LABEL_GROWTH = 1.5  # the white area below an arrow's label has its size before STYLES
+LABEL_GROWTH = 1.5  # WaveDrom's white area below a label fits its size before STYLES
 
 
 def _referenced(root: ET.Element) -> set[str]:
-    """Return every id to which `root` refers, in use elements and in url(#id) markers of styles."""
+    """Return all ids that `root` uses, in use elements and in url(#id) markers of styles."""
     found: set[str] = set()
     for node in root.iter():
         for name, value in node.attrib.items():
@@ -48,7 +48,7 @@ def _style(root: ET.Element) -> None:
 
 
 def _texts_whole(root: ET.Element, drawing: dict[str, Any]) -> None:
-    """Show names, head and foot completely: enlarge the picture if they are wider than WaveDrom assumes."""
+    """Enlarge the picture if names, head or foot are wider than WaveDrom assumes."""
     (lanes,) = (node for node in root.iter() if node.get("id") == "lanes_0")
     (marks,) = (node for node in root.iter() if node.get("id") == "gmarks_0")
     _, _, y = lanes.get("transform", "").rstrip(")").partition(",")

@@ -14,18 +14,18 @@ from scripts.fpga.boards.pads import Fitted, Pad
 
 WEAK, STRONG = "2.2 kΩ", "1 kΩ"
 STRONG_FPGA = ("artix7", "cyclone5")
-"""Families whose internal pull-ups need the stronger resistor."""
+"""Families with stronger internal pull-ups, which need the resistor STRONG."""
 Choice = str | Mapping[str, str]
-"""Text for all ports, or patterns of ports -> text."""
+"""One text for all ports, or patterns of ports -> text."""
 
 
 @dataclass(frozen=True)
 class Circuit:
-    """The circuit of a group of pins, from circuits.yml, which explains the values.
+    """The circuit of a group of pins, from circuits.yml; comments there explain the values.
 
     Attributes:
         chip: name of the chip in the drawing; it has `channels` channels.
-        level: signal level on the other side.
+        level: signal level on the far side.
         note: text below the drawing.
     """
 
@@ -43,12 +43,12 @@ class Circuit:
 
 
 def _idle(pad: Pad) -> str:
-    """Return "3.3 V" for the resistor of an output that is inactive when high, else "GND"."""
+    """Return the level to which the resistor pulls an output: "3.3 V" if it is active low, else "GND"."""
     return "3.3 V" if pad.port.endswith("_n") else "GND"
 
 
 FROM_ONE = ("gpi", "gpo")
-"""Ports whose bit 0 has the number 1 on the old chip."""
+"""Ports whose bit 0 has the number 1 in the data sheet of the old chip."""
 
 
 def _old(pad: Pad) -> str:
@@ -78,7 +78,7 @@ def text(choice: Choice, pad: Pad) -> str:
 
 @dataclass(frozen=True)
 class Use:
-    """A circuit with its pins."""
+    """A circuit with the pins that use it."""
 
     circuit: Circuit
     pads: tuple[Pad, ...]
@@ -90,7 +90,7 @@ class Use:
         return STRONG if self.strong else WEAK
 
     def number(self, of: int | str) -> int:
-        """Return a quantity of circuits.yml: a number, or one for each pin, chip, or pin of a port."""
+        """Return a quantity of circuits.yml: a number, or the count of pins, chips, or pins of a port."""
         pins = sum(pad.port != "d_oe" for pad in self.pads)
         counts = {"pin": pins, "chip": -(-pins // self.circuit.channels)}
         return of if isinstance(of, int) else counts.get(of, sum(pad.port == of for pad in self.pads))
@@ -115,7 +115,7 @@ def _circuit_of(fitted: Fitted, pad: Pad) -> str:
 
 
 def uses(fitted: Fitted) -> list[Use]:
-    """Return the circuits of a part on a board, in order; raise ValueError for a pin without a circuit."""
+    """Return the circuits of a part on a board in order; raise ValueError for a pin without a circuit."""
     own = {pad.bit for group in fitted.groups if group.title == "Board" for pad in group.pads}
     own |= {"uart_rxd", "uart_txd"}
     pads: dict[str, list[Pad]] = {}
@@ -123,7 +123,7 @@ def uses(fitted: Fitted) -> list[Use]:
         if pad.bit not in own:
             pads.setdefault(_circuit_of(fitted, pad), []).append(pad)
     if "steps" in pads:
-        # Sorted by motor, because a driver carrier counts as a chip.
+        # Step pins are sorted by motor, because the driver carrier of a motor counts as one chip.
         pads["steps"].sort(
             key=lambda pad: int(pad.bit.rstrip("]").rpartition("[")[2]) if "[" in pad.bit else 0
         )
@@ -132,7 +132,7 @@ def uses(fitted: Fitted) -> list[Use]:
 
 
 def order(found: list[Use]) -> list[tuple[int, str, str]]:
-    """Return quantity, description and order number; equal items of several circuits are one line."""
+    """Return quantity, description and order number; equal items of several circuits are added."""
     lines = Counter[tuple[str, str]]()
     for use in found:
         value = "2K2" if not use.strong else "1K"

@@ -1,4 +1,4 @@
-"""Schematics of the wiring of a board with a part (schemdraw): headers left, machine or old host right."""
+"""Draw the wiring of a board with a part (schemdraw): headers left, machine or old host right."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ ROW = 0.62
 GAP = 1.0
 HEAD = 0.9
 BOARD, WIRE, CHIP, OUT, FAR, END = 0.0, 5.6, 8.4, 13.4, 15.2, 23.6
-"""Left edges of the columns, in units of schemdraw."""
+"""Left edges of the columns in units of schemdraw."""
 INK, PALE, FIVE, LOW = "#1b2733", "#eef2f6", "#c0392b", "#0b6fb8"
 TINY, SMALL, TEXT, TITLE = 8, 9.5, 10, 11.5
 DRAWN = 2
-"""Maximum number of motors whose carriers are drawn one by one."""
+"""Maximum number of motors for which each driver carrier is drawn separately."""
 BEHIND = {
     "MAX3485": ("A and B: the line's pair, grounds joined", FIVE),
     "24LC32A": ("", LOW),
@@ -58,7 +58,7 @@ def _use(sheet: Any, use: Use, y: float) -> float:
 
 
 def _chips(use: Use) -> list[tuple[Pad, ...]]:
-    """Return the pins of each chip; more than DRAWN motors are in one box."""
+    """Return the pins of each chip; more than DRAWN motors share one box."""
     size = use.circuit.channels if use.circuit.channels > 1 else len(use.pads)
     if use.circuit.key == "steps":
         motors = sum(pad.port == "pout_n" for pad in use.pads)
@@ -134,7 +134,7 @@ def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
 
 
 def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
-    """Write the resistor at the FPGA's side as text on its wire, because there are many resistors."""
+    """Write the resistor on the FPGA's side as text on its wire, because there are many."""
     to = text(use.circuit.pull, pad)
     if to:
         x = (WIRE + CHIP) / 2
@@ -143,7 +143,7 @@ def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
 
 
 def _opto(sheet: Any, use: Use, y: float) -> float:
-    """Draw one complete optocoupler channel, with all pins that have one."""
+    """Draw one optocoupler channel completely; it represents all pins with such a channel."""
     failsafe = use.circuit.chip == "opto"
     height = max(4.5, ROW * len(use.pads) + 0.35)
     _box(sheet, BOARD, y, WIRE - BOARD, height, LOW)
@@ -210,7 +210,7 @@ def _far_colour(use: Use) -> str:
 
 
 def _pin(sheet: Any, pad: Pad, at: float) -> None:
-    """Write header pin and signal."""
+    """Write the header pin and the signal."""
     where = pad.where.split(",")[0]
     _text(sheet, BOARD + 0.25, at, where, SMALL)
     _text(sheet, WIRE - 0.2, at, pad.bit, SMALL, "right")

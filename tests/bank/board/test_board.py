@@ -14,13 +14,13 @@ from ...common.board.fixtures import SETUP, CommandLine, StartBoard
 
 @pytest.fixture
 def board(start_board: StartBoard, tmp_path: Path) -> SimBoard:
-    """Return a board with four axes at maximum speed, axis 4 near its limit, that writes pulses.log."""
+    """Return a board at maximum speed with four axes that writes pulses.log; axis 4 is near its limit."""
     return start_board(f"part=bank,axes=4,speed=max,start4=37900,log={tmp_path / 'pulses.log'}")
 
 
 def test_axes_move_apart_and_together(board: SimBoard, tmp_path: Path) -> None:
-    """After moves of one and of three axes, motors and positions agree, and the three axes begin
-    together.
+    """After a move of one axis and a joint move of three, motors and positions agree; the three axes start in
+    the same cycle.
     """
     with PpmcBank.open(board.port) as bank:
         assert bank.info() == (1, 4)
@@ -37,7 +37,7 @@ def test_axes_move_apart_and_together(board: SimBoard, tmp_path: Path) -> None:
 
 
 def test_limits_and_stops(board: SimBoard) -> None:
-    """A slow-down limit and STOP end motions, and the switches read as they are on the board."""
+    """A slow-down limit and STOP end motions; a read of the switches returns their levels on the board."""
     with PpmcBank.open(board.port) as bank:
         for axis in bank.axes:
             axis.initialise(**SETUP)  # type: ignore[arg-type]
@@ -51,7 +51,7 @@ def test_limits_and_stops(board: SimBoard) -> None:
 
 
 def test_command_line(board: SimBoard, openppmc: CommandLine) -> None:
-    """After a move by the command line, a second call prints the positions of all axes."""
+    """After a move by one call of the command line, another call prints the positions of all axes."""
     code, out, _ = openppmc.run(board.port, "move", "100", "-50", "--axes", "3,1")
     assert code == 0 and out.splitlines() == [
         "axis 1: position -50, 50 pulses CCW: complete",

@@ -1,4 +1,4 @@
-"""Common code of the tests of the bank's driver: a bank on the modelled board, in virtual time."""
+"""Common functions of the tests of the bank driver: a bank on the modelled board, in virtual time."""
 
 from __future__ import annotations
 
@@ -37,9 +37,7 @@ def frames(bank: PpmcBank) -> int:
 
 
 def pulses(bank: PpmcBank) -> dict[int, list[int]]:
-    """Return a list per axis to which the cycle of each pulse is appended, observed inside the modelled
-    board.
-    """
+    """Return lists, one per axis, to which the modelled board appends the cycle of each pulse."""
     board = model(bank)
     seen: dict[int, list[int]] = {number: [] for number in bank.axis}
     real = board._step
@@ -59,7 +57,7 @@ def pulses(bank: PpmcBank) -> dict[int, list[int]]:
 
 
 def at(link: Link, number: int, script: Script) -> Script:
-    """Access an axis as another program does: it selects the axis unknown to the driver."""
+    """Access an axis as another program does; the driver does not learn of the changed axis selection."""
     whole = Script().write(3, number - 1).extend(script)
     link.execute(whole)
     return whole

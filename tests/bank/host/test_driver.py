@@ -60,7 +60,7 @@ def test_info_that_is_none_of_ours(info: tuple[int, ...], text: str) -> None:
 
 
 def test_opening_takes_what_others_left() -> None:
-    """Unread ends and a MASK that is not empty do not disturb a new driver."""
+    """A new driver works although another program left unread ends and bits in MASK."""
     with opened() as first:
         first.axis[2].start_move(10)
         first.axis[4].start_move(10)
@@ -195,7 +195,7 @@ def test_chopper_times_are_those_of_this_axis() -> None:
 
 
 def test_looks_at_64_axes_take_few_frames() -> None:
-    """With 64 axes, `positions` takes two frames (252 bytes of 42 axes), `look` three, `status` and
+    """With 64 axes, `positions` uses two frames (252 bytes of 42 axes), `snapshot` three, `status` and
     `pending` one.
     """
     with PpmcBank.open(SPEC.replace("axes=4", "axes=64,clk=64000000")) as bank:
@@ -235,7 +235,9 @@ def test_stop_all_of_another_program() -> None:
 
 
 def test_ends_of_several_axes_hide_no_other() -> None:
-    """If axes end one by one, the wait for the last needs no safety poll after its end."""
+    """If axes end one by one, the wait for the last one returns without another poll of BUSY after
+    its end.
+    """
     with opened() as bank:
         motions = [bank.axis[number].start_constant(200 * number, 2000) for number in (1, 2, 3)]
         begin = bank.link.clock()

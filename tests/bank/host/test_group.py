@@ -59,8 +59,8 @@ def test_start_together_and_together() -> None:
 
 
 def test_16_axes_are_loaded_in_two_frames() -> None:
-    """For 16 moves, one frame reads BUSY, one writes MASK, two load the moves, one writes GO, one reads
-    the result.
+    """The start of 16 moves uses six frames: one reads BUSY, one writes MASK, two load the moves, one writes
+    GO, one reads the result.
     """
     with opened(axes=16) as bank:
         before = frames(bank)
@@ -93,7 +93,7 @@ def test_an_exception_inside_moves_nothing() -> None:
 
 
 def test_go_refused_by_an_axis() -> None:
-    """An axis that another program removed from MASK runs immediately and rejects GO."""
+    """An axis whose MASK bit another program cleared runs immediately and then rejects GO."""
     with opened() as bank:
         with pytest.raises(GroupRefused, match="^axis 2: the part is busy with a motion") as told:  # noqa: PT012
             with bank.group((1, 2)):
@@ -106,7 +106,9 @@ def test_go_refused_by_an_axis() -> None:
 
 
 def test_go_finds_nothing_held() -> None:
-    """If a motion outside MASK is complete before GO, GO is rejected with this reason."""
+    """If the motion of an axis outside MASK is complete before GO, GO is rejected and the error
+    states this.
+    """
     with opened() as bank:
         with pytest.raises(GroupRefused, match="axis 2: GO found no motion that it holds"):  # noqa: PT012
             with bank.group((2,)):
@@ -198,7 +200,7 @@ def test_groups_of_moving_axes_and_in_groups() -> None:
 
 
 def test_a_group_survives_a_new_driver() -> None:
-    """If a program ended inside a group, the next one empties MASK and can stop the held motions."""
+    """If a program ended inside a group, the next program clears MASK and can stop the held motions."""
     with PpmcBank.open(SPEC) as first:
         first.axis[1].initialise(**SETUP)  # type: ignore[arg-type]
         first.group((1,)).__enter__()

@@ -12,7 +12,10 @@ INIT_B = "c 0A d 13 d 09 d 0A d 00"
 
 
 class Host:
-    """Host whose next free edge is `t`. Default: eight axes at 100 MHz, so R = 8, W = 500, a quantum 25."""
+    """Host whose next free edge is `t`.
+
+    Defaults: 8 axes, 100 MHz; then R = 8, W = 500, and a quantum has 25 cycles.
+    """
 
     def __init__(self, axes: int = 8, **parameters: int) -> None:
         self.model = PpmcBank(axes, **parameters)
@@ -29,7 +32,7 @@ class Host:
         return event
 
     def write_at(self, event: int, axis: int, register: int, byte: int) -> None:
-        """Make a write access with its write event on this edge."""
+        """Make a write access whose write event is on this edge."""
         assert event - 4 >= self.t, (event, self.t)
         self.t = event - 4
         assert self.write(axis, register, byte) == event
@@ -41,8 +44,8 @@ class Host:
         return value
 
     def send(self, axis: int, script: str) -> int:
-        """Send bytes "c XX d XX …", each when the previous one is accepted; return the visit that
-        accepted the last.
+        """Send bytes "c XX d XX …", each after the previous one was accepted; return the visit that accepted
+        the last byte.
         """
         words = script.split()
         for kind, byte in zip(words[::2], words[1::2], strict=True):
@@ -81,7 +84,7 @@ class Host:
     # ------------------------------------------------------------------ time
 
     def sync(self) -> None:
-        """Run up to the present edge."""
+        """Run up to the current edge."""
         self.model.run_until(max(self.model.now, self.t - 1))
 
     def step(self) -> None:
@@ -103,7 +106,7 @@ class Host:
         self.t = max(self.t, edge + 1)
 
     def idle(self, axis: int) -> int:
-        """Run to the fall of BUSY; return its edge."""
+        """Run until BUSY falls; return this edge."""
         self.sync()
         while self.model.busy(axis):
             self.step()
@@ -120,12 +123,12 @@ class Host:
         return self.model.status(axis)
 
     def out(self, signal: str, axis: int) -> int:
-        """Return the present level of the bits of one axis in an output."""
+        """Return the current level of the bits of one axis in an output."""
         width = 5 if signal == "s" else 1
         return self.model.outputs[signal] >> width * axis & ((1 << width) - 1)
 
     def changes(self, signal: str, axis: int, since: int) -> list[tuple[int, int]]:
-        """Return the changes of a motor pin from an edge on."""
+        """Return the changes of a motor pin that happen on or after an edge."""
         return self.model.bits(signal, axis, since)
 
 

@@ -1,6 +1,4 @@
-"""Bytes of the bank's model: the visit that accepts them, the codes that are rejected (BANK-HSK,
-BANK-GEN).
-"""
+"""Bytes of the bank's model: the visit that accepts a byte, and the rejected codes (BANK-HSK, BANK-GEN)."""
 
 from __future__ import annotations
 
@@ -12,7 +10,7 @@ from tests.bank.model.host import CONFIG, DATA, GO, INIT_A, STATUS, Host
 
 @pytest.mark.parametrize("early, taken", [(8, 0), (7, 0), (6, 8)])
 def test_first_visit_that_sees_a_byte(early, taken):
-    """The first visit V with V >= w + 7 accepts a byte (BANK-HSK-01)."""
+    """A byte with its write event at w is accepted at the first visit V >= w + 7 (BANK-HSK-01)."""
     host = Host()
     visit = host.visit(3)
     host.write_at(visit - early, 3, STATUS, 0x87)
@@ -26,7 +24,7 @@ def test_first_visit_that_sees_a_byte(early, taken):
 
 @pytest.mark.parametrize("early, status", [(8, 0x20), (7, 0x20), (6, 0x80 | IBF), (0, 0x80 | IBF)])
 def test_byte_replaced(early, status):
-    """A visit accepts the newest byte written at V - 7 or earlier; a newer one stays with IBF = 1
+    """Visit V accepts the newest byte written at V - 7 or earlier; a byte written later waits with IBF = 1
     (BANK-HSK-03).
     """
     host = Host(64)
@@ -40,7 +38,9 @@ def test_byte_replaced(early, status):
 
 
 def test_status_read_with_a_byte_in_the_buffer():
-    """All bits of the status change with the visit that accepts a byte (BANK-HSK-01, BANK-HSK-04)."""
+    """All bits of the status change on the edge of the visit that accepts a byte (BANK-HSK-01,
+    BANK-HSK-04).
+    """
     host = Host(64)
     host.t = host.model.visit(9, 400) - 12
     host.write(9, STATUS, 0x84)
@@ -50,7 +50,7 @@ def test_status_read_with_a_byte_in_the_buffer():
 
 
 def test_end_of_a_motion_takes_the_visit():
-    """A byte waits for the visit after the one that ends a motion (BANK-HSK-02)."""
+    """The visit that ends a motion accepts no byte; the next visit accepts it (BANK-HSK-02)."""
     host = Host()
     host.ready(1)
     start = host.send(1, "c 42")
@@ -63,7 +63,9 @@ def test_end_of_a_motion_takes_the_visit():
 
 
 def test_completion_takes_the_visit():
-    """Bytes wait until the visit after the completion (BANK-HSK-02, BANK-INI-02)."""
+    """The visit that completes an initialisation accepts no byte; the next visit accepts it (BANK-HSK-02,
+    BANK-INI-02).
+    """
     host = Host(64)
     last = host.send(1, "c 0A d 05 d 05 d 04 d 00")
     host.write_at(last + 20, 1, STATUS, 0x42)
@@ -90,8 +92,8 @@ def test_go_and_byte_at_one_visit():
 @pytest.mark.parametrize("round_before, waits", [(0, True), (1, False)])
 @pytest.mark.parametrize("quanta, rest, clk_hz", [(260, 0, 32 * 10**6), (260, 4, 10**8), (695, 7, 10**8)])
 def test_edge_of_the_chopper_takes_the_visit(quanta, rest, clk_hz, round_before, waits):
-    """A visit orders an edge of the chopper on itself and on the R - 1 following cycles, and then
-    accepts no byte (BANK-HSK-02, BANK-CHP-01).
+    """A visit accepts no byte if it schedules an edge of the chopper, for its own edge or one of the next R -
+    1 edges (BANK-HSK-02, BANK-CHP-01).
     """
     host = Host(4, clk_hz=clk_hz)
     last = host.send(3, "c 2A d 05 d 05 d 04 d 00")
@@ -108,8 +110,8 @@ def test_edge_of_the_chopper_takes_the_visit(quanta, rest, clk_hz, round_before,
 
 
 def test_answers():
-    """The next byte is loaded with OBF still 1; the last read clears OBF on edge 2 after its end
-    (BANK-HSK-04).
+    """After a data read, the next byte is loaded with OBF still 1; the last read clears OBF on edge 2 after
+    its end (BANK-HSK-04).
     """
     host = Host()
     host.send(2, "c 83")
@@ -125,7 +127,9 @@ def test_answers():
 
 @pytest.mark.parametrize("late, left", [(1, 0), (2, 0), (3, OBF), (8, OBF), (9, OBF)])
 def test_new_answer_while_the_old_one_is_read(late, left):
-    """An answer `late` cycles after edge 0 of a read that did not return it stays (BANK-HSK-04)."""
+    """If a new answer is stored during a read that returns the old one, the end of the read does not clear
+    OBF (BANK-HSK-04).
+    """
     host = Host(64)
     host.send(2, "c 80")
     visit = host.visit(2)
@@ -140,8 +144,8 @@ def test_new_answer_while_the_old_one_is_read(late, left):
 @pytest.mark.parametrize("rl", range(9, 13))
 @pytest.mark.parametrize("axis", [5, 6])
 def test_one_builder(axis, rl):
-    """The last byte waits for the table of another axis; it is accepted from D + 2 on (BANK-HSK-05,
-    BANK-INI-01).
+    """While a table of another axis is built, the last byte waits; visits from 2 cycles after the end of the
+    build accept it (BANK-HSK-05, BANK-INI-01).
     """
     host = Host()
     host.send(1, f"c 0A d {rl:02X} d 04 d 04")
@@ -156,7 +160,9 @@ def test_one_builder(axis, rl):
 
 
 def test_command_need_not_wait_for_the_builder():
-    """A command does not wait for the builder and replaces a waiting last byte (BANK-HSK-05)."""
+    """A command does not wait for the table of another axis, and replaces a last byte that waits
+    (BANK-HSK-05).
+    """
     host = Host()
     host.send(6, "c 0A d 09 d 04 d 04")
     built = host.send(1, INIT_A)
@@ -168,7 +174,7 @@ def test_command_need_not_wait_for_the_builder():
 
 
 def _defined(code: int) -> bool:
-    """Return whether a code of the PPMC-104 exists in a bank."""
+    """Return whether a code of the PPMC-104 is defined for a bank."""
     if code < 0x40:
         return bool(code & 3) and not code & 0x10
     if code < 0x80:
@@ -177,9 +183,7 @@ def _defined(code: int) -> bool:
 
 
 def test_codes():
-    """Of all 256 codes, each on an axis without initialisation, exactly the defined ones are accepted
-    (BANK-GEN-03).
-    """
+    """An axis without initialisation accepts exactly the defined ones of all 256 codes (BANK-GEN-03)."""
     host = Host()
     for code in range(256):
         host.send(code % 8, f"c {code:02X}")
@@ -188,7 +192,9 @@ def test_codes():
 
 
 def test_codes_while_busy():
-    """While BUSY = 1, excitation off is error 1; the two stops are accepted (BANK-GEN-03)."""
+    """While BUSY = 1, code C0 (excitation off) returns error 1; the two stop codes are accepted
+    (BANK-GEN-03).
+    """
     host = Host()
     host.ready(0)
     host.send(0, "c 46")
@@ -203,8 +209,8 @@ def test_codes_while_busy():
 
 @pytest.mark.parametrize("early, slow", [(8, True), (7, True), (6, False)])
 def test_config_of_an_operation(early, slow):
-    """An operation uses CONFIG if written at least 7 cycles before the visit that starts it
-    (BANK-GEN-04).
+    """An operation uses a CONFIG value if it was written at least 7 cycles before the visit that starts the
+    operation (BANK-GEN-04).
     """
     host = Host(64)
     host.ready(4)

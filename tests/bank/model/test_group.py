@@ -19,14 +19,14 @@ def held(axes: int, script: str = "c 45 d 63", count: int = 3) -> Host:
 
 
 def first_pulse(go: int, host: Host) -> int:
-    """Return the edge of pulse 1 after a GO with its write event at `go`."""
+    """Return the edge of pulse 1 after a GO whose write event is at `go`."""
     return go + 4 + host.model.round + host.w
 
 
 @pytest.mark.parametrize("early, holds", [(6, True), (5, True), (4, False)])
 @pytest.mark.parametrize("setting", [True, False])
 def test_mask_of_a_start(early, holds, setting):
-    """A start uses its MASK bit as written at V - 5 or earlier (BANK-GRP-01)."""
+    """A start at visit V uses the MASK bit as written at V - 5 or earlier (BANK-GRP-01)."""
     host = Host(64)
     host.ready(4)
     if not setting:
@@ -42,8 +42,8 @@ def test_mask_of_a_start(early, holds, setting):
 
 @pytest.mark.parametrize("early, found", [(6, 0), (5, 0), (4, 64)])
 def test_first_visit_that_finds_go(early, found):
-    """The first visit V with V >= g + 5 detects GO: tried with an axis without a held operation, which
-    rejects it (BANK-GRP-02).
+    """A GO with its write event at g is detected at the first visit V >= g + 5, here by an axis without a
+    held operation, which rejects it (BANK-GRP-02).
     """
     host = Host(64)
     host.mask(1 << 4)
@@ -57,7 +57,9 @@ def test_first_visit_that_finds_go(early, found):
 
 @pytest.mark.parametrize("axes", [4, 8, 32, 64])
 def test_go_starts_all_on_one_edge(axes):
-    """Pulse 1 of all axes is on edge g + 4 + R + W; after it each axis runs separately (BANK-GRP-02)."""
+    """After a GO at g, pulse 1 of all held axes is on edge g + 4 + R + W; then each axis runs independently
+    (BANK-GRP-02).
+    """
     host = held(axes)
     assert host.model.outputs["pout_n"] == (1 << axes) - 1
     go = host.write(2, GO, 0xFF)
@@ -69,7 +71,9 @@ def test_go_starts_all_on_one_edge(axes):
 
 
 def test_go_refused():
-    """A rejected GO sets error 1, 2 or 0; expected parameters are dropped (BANK-GRP-02)."""
+    """A GO that an axis rejects sets error 1, 2 or 0 and drops the parameters that the axis waits for
+    (BANK-GRP-02).
+    """
     host = held(8, count=2)
     host.ready(2)
     host.send(2, "c 44 d 01")
@@ -87,8 +91,8 @@ def test_go_refused():
 
 
 def test_held_operation_is_watched_and_stopped():
-    """Limits, alarm and stops act on a held operation; with a deceleration flag it outputs only pulse 1
-    (BANK-GRP-01).
+    """Limits, alarm and stops act on a held operation; if its deceleration flag is set, it outputs only pulse
+    1 after GO (BANK-GRP-01).
     """
     host = held(8, "c 43 d E7 d 03 d 00", 5)
     host.pin(host.t, 0, l1_n=0)
@@ -103,8 +107,8 @@ def test_held_operation_is_watched_and_stopped():
 
 
 def test_go_and_the_end_of_a_held_operation():
-    """Before a visit detects the end, a held operation continues with GO; the visit that ends it
-    rejects GO (BANK-GRP-02, BANK-MOT-03).
+    """A held operation whose end no visit has detected yet continues with GO; the visit that ends it rejects
+    GO (BANK-GRP-02, BANK-MOT-03).
     """
     for known, status in ((4, 0x00), (5, 0x80)):
         host = held(64)
@@ -118,7 +122,9 @@ def test_go_and_the_end_of_a_held_operation():
 
 
 def test_mask_taken_away_from_a_held_operation():
-    """While GO acts, each visit uses the MASK of 5 cycles before it (BANK-GRP-02, -03)."""
+    """While a GO acts, each visit uses the value that MASK had 5 cycles earlier (BANK-GRP-02,
+    BANK-GRP-03).
+    """
     host = held(64)
     last = host.visit(2)
     host.write_at(last - 20, 0, GO, 0)
@@ -133,9 +139,10 @@ def test_mask_taken_away_from_a_held_operation():
 
 
 def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
-    """Return a host whose axis 0 holds an operation that a GO does not detect, and the edge of this GO.
+    """Return a host whose axis 0 holds an operation and misses a GO, and the edge of this GO.
 
-    Further ones, `gaps` cycles later, detect it.
+    The MASK bit of the axis is 0 at this GO and is set 10 cycles later. Further GOs, `gaps` cycles after the
+    first one, start the operation.
     """
     host = held(64, count=1)
     host.mask(0)
@@ -148,7 +155,9 @@ def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
 
 @pytest.mark.parametrize("gap, acts_at", [(5, 64), (63, 64), (64, 64), (65, 65)])
 def test_second_go_waits(gap, acts_at):
-    """A second GO waits R cycles, for the end of the first one (BANK-GRP-03)."""
+    """A second GO that is written while the first one acts has the same effect as one R cycles after the
+    first (BANK-GRP-03).
+    """
     host, go = not_found_by_the_first((gap,))
     host.go(go + 2000)
     assert host.model.pulses(0) == [first_pulse(go + acts_at, host)] and host.status(0) == 0x04
@@ -156,7 +165,9 @@ def test_second_go_waits(gap, acts_at):
 
 @pytest.mark.parametrize("third, status", [(20, 0x04), (63, 0x04), (64, 0x94), (70, 0x94)])
 def test_third_go(third, status):
-    """A third GO has no effect while a second one waits; a later one waits for the second (BANK-GRP-03)."""
+    """A third GO has no effect while the second one waits; written later, it acts after the second one
+    (BANK-GRP-03).
+    """
     host, go = not_found_by_the_first((5, third))
     host.go(go + 6 + 64)
     assert host.status(0) == 0x04
@@ -168,7 +179,7 @@ def test_third_go(third, status):
 
 @pytest.mark.parametrize("offset, pulses", [(-1, 4), (0, 4), (1, 5)])
 def test_stop_acts_on_the_next_edge(offset, pulses):
-    """STOP ends running operations of all axes with finish bit 6 (BANK-GRP-04)."""
+    """STOP at g ends running operations of all axes on edge g + 1, with finish bit 6 (BANK-GRP-04)."""
     host = Host()
     for axis in (1, 6):
         host.ready(axis)
@@ -193,8 +204,8 @@ def test_stop_and_limit_on_one_edge():
 
 @pytest.mark.parametrize("after, stopped", [(0, True), (1, True), (30, True), (64, True), (65, False)])
 def test_operation_that_starts_after_stop(after, stopped):
-    """STOP ends operations that start at visits g + 1 .. g + R; an operation started at g is already
-    running (BANK-GRP-04).
+    """STOP at g also ends operations that start at visits g (as running ones) and g + 1 .. g + R, but no
+    later ones (BANK-GRP-04).
     """
     host = Host(64)
     host.ready(4)

@@ -1,4 +1,4 @@
-"""Motion of the bank's model, exact to the cycle: events on their edge, and events that wait for a
+"""Motion of the bank's model, exact to the cycle: which events are on their own edge, and which wait for a
 visit (BANK-MOT).
 """
 
@@ -10,19 +10,19 @@ from openppmc.model.single.codes import IBF
 from tests.bank.model.host import DATA, GO, INIT_B, STATUS, Host
 
 SEEN = 2
-"""Edges from the first edge that samples a switch to the edge that detects it."""
+"""Number of edges from the first one that samples a switch to the one that detects its level."""
 
 
 def start(host: Host, axis: int, script: str, init: str = INIT_B) -> int:
-    """Initialise and start; return the visit of the start."""
+    """Initialise and start a motion; return the visit on which it starts."""
     host.ready(axis, init)
     return host.send(axis, script)
 
 
 @pytest.mark.parametrize("axes, clk_hz", [(8, 100_000_000), (32, 32_000_000), (64, 200_000_000)])
 def test_pins_change_on_the_edge_of_their_event(axes, clk_hz):
-    """Start, pulse 1 after W, and the end of the low time are on the edge of their event (BANK-MOT-01);
-    hold falls at the start (BANK-HLD-01).
+    """Pins change on the edge of their event: at the start, at pulse 1 after W, and at the end of the low
+    time (BANK-MOT-01); hold falls at the start (BANK-HLD-01).
     """
     host = Host(axes, clk_hz=clk_hz)
     visit = start(host, 3, "c 4C d 09 d 01 d 00 d 00")
@@ -39,7 +39,7 @@ def test_pins_change_on_the_edge_of_their_event(axes, clk_hz):
 @pytest.mark.parametrize("pin, status", [("l1_n", 0x97), ("alm_n", 0xA7), ("cnp_n", 0x87)])
 @pytest.mark.parametrize("offset, pulses", [(-1, 4), (0, 4), (1, 5)])
 def test_switches_act_to_the_clk(pin, status, offset, pulses):
-    """A pulse on the edge that detects the level is not output (BANK-MOT-02)."""
+    """A pulse is not output if a cause is detected on the edge of the pulse (BANK-MOT-02)."""
     host = Host()
     visit = start(host, 5, "c 47 d 13")
     due = visit + host.w + 4 * 160 * 25
@@ -51,7 +51,9 @@ def test_switches_act_to_the_clk(pin, status, offset, pulses):
 
 
 def test_bits_belong_to_the_deciding_clk():
-    """A cause detected one cycle later sets no bit (BANK-MOT-02)."""
+    """The finish status has only the causes that are detected on the deciding edge; one that is detected a
+    cycle later sets no bit (BANK-MOT-02).
+    """
     for late, status in ((0, 0xB5), (1, 0x95)):
         host = Host()
         visit = start(host, 5, "c 45 d 13")
@@ -62,7 +64,9 @@ def test_bits_belong_to_the_deciding_clk():
 
 @pytest.mark.parametrize("early, busy_until", [(6, 0), (5, 0), (4, 8)])
 def test_end_without_low_time(early, busy_until):
-    """If pout_n is high, the first visit V >= e + 5 ends the motion (BANK-MOT-04, BANK-MOT-03)."""
+    """If pout_n is high when the end is decided on edge e, the first visit V >= e + 5 ends the motion
+    (BANK-MOT-04, BANK-MOT-03).
+    """
     host = Host()
     start(host, 5, "c 45 d 63")
     visit = host.visit(5, 5000)
@@ -74,7 +78,9 @@ def test_end_without_low_time(early, busy_until):
 
 @pytest.mark.parametrize("clk_hz, wait", [(100_000_000, 8), (32_000_000, 8)])
 def test_end_after_low_time(clk_hz, wait):
-    """The first visit V >= f + 1 ends the motion; here the low time ends on a visit (BANK-MOT-04)."""
+    """If the low time ends on edge f, the first visit V >= f + 1 ends the motion; here f is the edge of a
+    visit (BANK-MOT-04).
+    """
     host = Host(clk_hz=clk_hz)
     visit = start(host, 5, "c 42")
     assert host.idle(5) == visit + 2 * host.w + wait
@@ -85,7 +91,9 @@ def test_end_after_low_time(clk_hz, wait):
 
 @pytest.mark.parametrize("late", range(8))
 def test_end_after_low_time_on_any_edge(late):
-    """The first visit V >= f + 1 ends the motion; GO shifts the low time by single cycles (BANK-MOT-04)."""
+    """If the low time ends on edge f, the first visit V >= f + 1 ends the motion; here GO shifts f by single
+    cycles (BANK-MOT-04).
+    """
     host = Host()
     host.ready(5)
     host.mask(1 << 5)
@@ -99,7 +107,7 @@ def test_end_after_low_time_on_any_edge(late):
 
 
 def test_low_time_ends_first_in_an_immediate_end():
-    """An immediate end during the low time waits for its end (BANK-MOT-04, P104-END-02)."""
+    """An immediate end during a low time takes effect only after this low time (BANK-MOT-04, P104-END-02)."""
     host = Host()
     visit = start(host, 5, "c 45 d 63")
     host.pin(visit + 510, 5, l1_n=0)
@@ -111,8 +119,8 @@ def test_low_time_ends_first_in_an_immediate_end():
     "known, status, finish", [(4, 0x04, 0xD3), (5, 0x80 | IBF, 0x93), (6, 0x80 | IBF, 0x93)]
 )
 def test_decelerating_stop_after_an_end(known, status, finish):
-    """A visit V < e + 5 accepts a decelerating stop as if the motion continued: with flag and bit 6,
-    without error 7 (BANK-MOT-03).
+    """If an end was decided on edge e, a visit before e + 5 accepts a decelerating stop as if the motion
+    continued: it sets flag and bit 6 without error 7 (BANK-MOT-03).
     """
     host = Host(64)
     start(host, 5, "c 43 d E7 d 03 d 00")
@@ -123,7 +131,7 @@ def test_decelerating_stop_after_an_end(known, status, finish):
     if known < 5:
         assert host.status(5) == status
     else:
-        # The visit ends the motion and leaves the byte.
+        # The visit ends the motion and does not accept the byte.
         assert host.status(5) == IBF
         host.go(visit + 64)
         assert host.status(5) == 0x80
@@ -132,7 +140,9 @@ def test_decelerating_stop_after_an_end(known, status, finish):
 
 @pytest.mark.parametrize("known, status, finish", [(4, 0x04, 0xD3), (5, 0xF4, 0x93), (6, 0xF4, 0x93)])
 def test_decelerating_stop_in_the_last_low_time(known, status, finish):
-    """A decelerating stop returns error 7 from V = e + 5 on, while pout_n is still low (BANK-MOT-03)."""
+    """If an end was decided on edge e, a visit from e + 5 on rejects a decelerating stop with error 7, even
+    while pout_n is still low (BANK-MOT-03).
+    """
     host = Host(64)
     first = start(host, 5, "c 43 d E7 d 03 d 00") + host.w
     visit = host.model.visit(5, first + 100)
@@ -145,8 +155,8 @@ def test_decelerating_stop_in_the_last_low_time(known, status, finish):
 
 @pytest.mark.parametrize("code", [0x40, 0x41])
 def test_immediate_stop_after_an_end(code):
-    """An immediate stop at the visit on the edge that decides the end still sets bit 6; later visits do
-    not set it (BANK-MOT-03).
+    """If an end was decided on edge e, an immediate stop sets bit 6 at visit e, but not at later visits
+    (BANK-MOT-03).
     """
     for known, finish in ((0, 0xD5), (1, 0x95), (4, 0x95), (5, 0x95)):
         host = Host(64)
@@ -161,7 +171,7 @@ def test_immediate_stop_after_an_end(code):
 
 @pytest.mark.parametrize("seen, status, finish", [(0, 0xF4, 0x93), (1, 0xF4, 0x83)])
 def test_a_pulse_that_did_not_come_counts_until_the_end_is_known(seen, status, finish):
-    """A visit between a suppressed pulse and the detection of the end treats this pulse as the last one
+    """After a suppressed pulse, a visit that has not detected the end yet treats this pulse as the last one
     of the motion (BANK-MOT-03, BANK-WIN-07).
     """
     host = Host()
@@ -185,7 +195,7 @@ def test_a_pulse_that_did_not_come_counts_until_the_end_is_known(seen, status, f
 
 
 def test_interval_after_a_pulse_that_did_not_come():
-    """The engine withdraws a suppressed pulse and the interval that it had planned after it
+    """If a pulse is suppressed, the engine withdraws the pulse and the interval that was planned after it
     (BANK-MOT-03).
     """
     host = Host()
@@ -197,7 +207,9 @@ def test_interval_after_a_pulse_that_did_not_come():
 
 
 def test_interval_of_a_stopped_move_dies_with_it():
-    """No pulse of a stopped move is output or counted in the next move (BANK-MOT-02, BANK-WIN-07)."""
+    """A pulse that was planned in a stopped move is neither output nor counted in the next move (BANK-MOT-02,
+    BANK-WIN-07).
+    """
     host = Host()
     first = start(host, 5, "c 45 d FF") + host.w
     host.pin(first + 2000, 5, l1_n=0)
@@ -212,8 +224,8 @@ def test_interval_of_a_stopped_move_dies_with_it():
 
 @pytest.mark.parametrize("stop_at, pulses", [(-8, 1), (0, 1), (8, 2)])
 def test_immediate_stop_and_the_pulse_of_its_own_edge(stop_at, pulses):
-    """A stop accepted at V suppresses a pulse scheduled for V, which is not counted (BANK-MOT-03,
-    P104-LIM-09).
+    """A stop that visit V accepts suppresses a pulse scheduled for edge V, and this pulse is not counted
+    (BANK-MOT-03, P104-LIM-09).
     """
     host = Host(clk_hz=32_000_000)
     visit = start(host, 5, "c 45 d 63")
@@ -239,7 +251,7 @@ def test_stop_and_limit_on_one_edge():
 
 @pytest.mark.parametrize("early, inputs", [(5, 0xC7), (4, 0xC7), (3, 0xCF)])
 def test_read_of_the_switches(early, inputs):
-    """0x81 returns the levels detected on edge V - 4 (BANK-MOT-05)."""
+    """0x81 at visit V returns the levels of the switches detected on edge V - 4 (BANK-MOT-05)."""
     host = Host()
     visit = host.visit(5)
     host.write_at(visit - 8, 5, STATUS, 0x81)
@@ -250,8 +262,8 @@ def test_read_of_the_switches(early, inputs):
 
 @pytest.mark.parametrize("early, pulses", [(5, 6), (4, 6), (3, 8)])
 def test_slow_limit(early, pulses):
-    """A slow-down limit detected on V - 4 sets the flag at visit V, which acts on a pulse at V
-    (BANK-MOT-05).
+    """A slow-down limit that is detected on edge V - 4 sets the flag at visit V, in time for a pulse on edge
+    V (BANK-MOT-05).
     """
     host = Host(clk_hz=32_000_000)
     visit = start(host, 5, "c 43 d E7 d 03 d 00")
@@ -264,8 +276,8 @@ def test_slow_limit(early, pulses):
 
 @pytest.mark.parametrize("first, length, status", [(11, 7, 0x04), (12, 7, 0xF4), (11, 8, 0xF4)])
 def test_slow_limit_between_visits_is_not_seen(first, length, status):
-    """The slow-down limit is checked only in each visit, here V - 8 and V, with the levels of 4 cycles
-    before (BANK-MOT-05).
+    """A slow-down limit has an effect only if it is active 4 cycles before a visit; here it is active between
+    two visits (BANK-MOT-05).
     """
     host = Host()
     start(host, 5, "c 43 d E7 d 03 d 00")
@@ -279,8 +291,8 @@ def test_slow_limit_between_visits_is_not_seen(first, length, status):
 
 
 def test_slow_limit_before_the_start_and_in_pulse_mode():
-    """A slow-down limit before the start leads to one pulse; in POUT mode it acts from the
-    plateau on (BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05).
+    """With a slow-down limit that is active before the start, a move has one pulse; in POUT mode the limit
+    acts from the plateau on (BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05).
     """
     for script, pulses in (("c 43 d E7 d 03 d 00", 1), ("c C3 d E7 d 03 d 00", 22)):
         host = Host()
@@ -291,7 +303,9 @@ def test_slow_limit_before_the_start_and_in_pulse_mode():
 
 
 def test_slow_limit_of_the_high_part():
-    """A slow-down limit that becomes active in HIGH acts in POUT mode, too (P104-LIM-04, BANK-MOT-05)."""
+    """A slow-down limit that becomes active in the state HIGH acts in POUT mode, too (P104-LIM-04,
+    BANK-MOT-05).
+    """
     host = Host()
     visit = start(host, 5, "c C6")
     host.go(visit + 60_000)
@@ -302,7 +316,9 @@ def test_slow_limit_of_the_high_part():
 
 
 def test_both_requests_in_one_visit():
-    """Both requests in one visit set bits 3 and 6, without an error (P104-LIM-09 (3))."""
+    """A slow-down limit and a decelerating stop at one visit set bits 3 and 6, without an error (P104-LIM-09
+    (3)).
+    """
     host = Host(64)
     start(host, 5, "c 43 d E7 d 03 d 00")
     visit = host.visit(5, 2000)
@@ -313,7 +329,7 @@ def test_both_requests_in_one_visit():
 
 
 def test_axes_do_not_disturb_each_other():
-    """The same move has the same edges alone and together with 31 others (BANK-MOT-01)."""
+    """The edges of a move are the same whether it runs alone or together with 31 others (BANK-MOT-01)."""
     alone, crowd = Host(32), Host(32)
     for axis in range(32):
         crowd.ready(axis, "c 0A d 05 d 05 d 04 d 00")

@@ -13,8 +13,8 @@ FLAT = "c 2A d 05 d 05 d 04 d 00"
 
 @pytest.mark.parametrize("rl, rh", [(9, 4), (200, 20), (255, 0), (30, 29)])
 def test_completion(rl, rh):
-    """s changes at the visit of the last byte, and the chopper starts at the completion (BANK-INI-01,
-    -02).
+    """The phases change at the visit of the last byte; the times of the chopper count from the completion
+    (BANK-INI-01, BANK-INI-02).
     """
     for axis in range(8):
         host = Host()
@@ -27,15 +27,17 @@ def test_completion(rl, rh):
 
 @pytest.mark.parametrize("wait", [4, 3, 10])
 def test_completion_to_the_clk(wait, monkeypatch):
-    """The first visit from D + 3 on completes: tried with builds that end 2, 3 and 4 cycles before a visit
+    """The initialisation completes at the first visit 3 or more cycles after the end of the build
     (BANK-INI-02).
+
+    Here the build ends 4, 3 and 2 cycles before a visit.
     """
     build = 4000 - wait
     monkeypatch.setattr(part, "Latency", lambda **rest: Latency(build_clk=lambda rl, rh, pa: build, **rest))
     host = Host()
     last = host.send(2, "c 0A d 14 d 0A d 04 d 00")
     host.write_at(last + 20, 2, STATUS, 0x42)
-    # The visit that completes accepts no byte; the next one accepts it.
+    # The visit that completes the initialisation accepts no byte; the next visit accepts it.
     started = last + build + wait + 8
     host.go(started - 1)
     assert not host.model.busy(2)
@@ -44,7 +46,7 @@ def test_completion_to_the_clk(wait, monkeypatch):
 
 
 def test_chopper_after_completion_and_after_a_motion():
-    """The chopper is exact to the cycle (BANK-CHP-01, P104-SW-02..04)."""
+    """The edges of the chopper are exact to the cycle (BANK-CHP-01, P104-SW-02..04)."""
     host = Host()
     complete = host.send(3, FLAT) + 8
     host.go(complete + 1000 * 25)
@@ -63,7 +65,9 @@ def test_chopper_after_completion_and_after_a_motion():
 
 @pytest.mark.parametrize("early, off", [(8, 115), (7, 115), (6, 132)])
 def test_config_of_a_phase(early, off):
-    """A phase uses vsel as written 7 cycles before the visit that orders its first edge (BANK-GEN-04)."""
+    """A phase of the chopper uses vsel as written 7 cycles before the visit that schedules its first edge
+    (BANK-GEN-04).
+    """
     host = Host()
     host.send(3, "c 84 d 00 d 00")
     complete = host.send(3, FLAT) + 8
@@ -76,7 +80,9 @@ def test_config_of_a_phase(early, off):
 
 
 def test_reinitialisation_keeps_chopping_until_it_completes():
-    """A re-initialisation keeps the chopping until it completes (P104-INI-08, BANK-INI-02, BANK-CHP-01)."""
+    """During a re-initialisation the chopping continues unchanged until the re-initialisation completes
+    (P104-INI-08, BANK-INI-02, BANK-CHP-01).
+    """
     host = Host()
     complete = host.send(3, FLAT) + 8
     host.go(complete + 5000)
@@ -92,7 +98,7 @@ def test_reinitialisation_keeps_chopping_until_it_completes():
 
 @pytest.mark.parametrize("init", ["c 0A d 05 d 05 d 04 d 00", FLAT])
 def test_hold(init):
-    """hold rises at the visit CYC(544000) cycles after the end, with and without chopping (BANK-HLD-01,
+    """hold rises CYC(544000) cycles after the end, here at a visit, with and without chopping (BANK-HLD-01,
     P104-END-08).
     """
     host = Host(4, clk_hz=32_000_000)
@@ -108,13 +114,13 @@ def test_hold(init):
 
 
 def _on_time(on: int, off: int) -> bool:
-    """Return whether an edge of the chopper is 136 000 quanta after its start."""
+    """Return whether the chopper has an edge 136 000 quanta after its start."""
     return 136_000 % (on + off) in (0, on)
 
 
 @pytest.mark.parametrize("hit", [True, False])
 def test_hold_on_an_edge_of_the_chopper(hit):
-    """hold does not rise at a visit that orders an edge of the chopper, but at the next one
+    """If a visit schedules an edge of the chopper, hold does not rise at this visit but at the next one
     (BANK-HLD-01).
     """
     p_on, p_off = next((a, b) for a in range(256) for b in range(256) if _on_time(12 * a + 100, 12 * b + 115))
@@ -145,7 +151,7 @@ def test_excitation_off_and_second_initialisation():
 
 
 def test_output_register_shows_pins_of_its_axis():
-    """0x82 of an axis of a bank returns its own phases, hold and dir (P104-RD-06)."""
+    """On an axis of a bank, read command 82 returns the phases, hold and dir of this axis (P104-RD-06)."""
     host = Host()
     for axis, code in ((0, 0x42), (2, 0x4A)):
         host.ready(axis)

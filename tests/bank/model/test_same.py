@@ -1,6 +1,4 @@
-"""An axis of the bank compared with a PPMC-104: the same moves have the same edges, with a constant
-offset.
-"""
+"""An axis of the bank compared with a PPMC-104: the edges of a move are the same, shifted by a constant."""
 
 from __future__ import annotations
 
@@ -25,7 +23,7 @@ class Move:
 
     Attributes:
         config: levels of csel and vsel.
-        cut: a stop code or a switch, and its time in rounds after the start.
+        cut: the stop code or the switch that cuts the move short, and its time in rounds after the start.
     """
 
     config: int
@@ -35,7 +33,7 @@ class Move:
 
 
 def script(code: tuple[int, ...]) -> str:
-    """Return a command with its data bytes as a script."""
+    """Return a command and its data bytes as a script."""
     return " ".join(f"{'d' if place else 'c'} {byte:02X}" for place, byte in enumerate(code))
 
 
@@ -66,7 +64,7 @@ def moves(draw: st.DrawFn) -> Move:
 
 
 def seen(changes: list[list[tuple[int, int]]], start: int, end: tuple[int, int]) -> Seen:
-    """Return the results of one side; `s` from the first pulse on."""
+    """Return the results of one side; the changes of the outputs begin after the start."""
     pout_n, s = ([(t - start, level) for t, level in found if t > start] for found in changes)
     return pout_n, s, end
 
@@ -119,7 +117,7 @@ def in_bank(move: Move, clk_hz: int, axis: int) -> Seen:
 @settings(max_examples=100)
 @given(move=moves(), axis=st.integers(0, AXES - 1))
 def test_same_edges(clk_hz, move, axis):
-    """Every edge of pout_n and s and the end of the motion are equal (BANK-MOT-01, BANK-MOT-02,
+    """Every edge of pout_n and s and the end of a motion are those of a PPMC-104 (BANK-MOT-01, BANK-MOT-02,
     BANK-GEN-02).
     """
     assert in_bank(move, clk_hz, axis) == alone(move, clk_hz)
@@ -127,7 +125,9 @@ def test_same_edges(clk_hz, move, axis):
 
 @pytest.mark.parametrize("config", range(4))
 def test_same_ramp(config):
-    """For each csel and vsel, a bank has the worked ramp of a PPMC-104 (BANK-GEN-04, BANK-MOT-01)."""
+    """For each csel and vsel, the worked ramp on a bank equals that on a PPMC-104 (BANK-GEN-04,
+    BANK-MOT-01).
+    """
     move = Move(config, (0x0A, 0x13, 0x09, 0x0A, 0), (0x43, 0x40, 0, 0), None)
     pout_n, _, end = in_bank(move, 100_000_000, 7)
     assert (pout_n, end) == alone(move, 100_000_000)[::2] and len(pout_n) == 2 * 65
@@ -135,7 +135,7 @@ def test_same_ramp(config):
 
 @pytest.mark.parametrize("code", [0x01, 0x05, 0x0A, 0x0E, 0x23, 0x0F])
 def test_same_patterns(code):
-    """For each motor, the patterns of one turn and back are those of a PPMC-104 (BANK-MOT-01)."""
+    """For each motor, the phase patterns of one turn and back are those of a PPMC-104 (BANK-MOT-01)."""
     for way in (0, 8):
         move = Move(3, (code, 5, 5, 4, 0), (0x44 | way, 3, 11, 0, 0), None)
         assert in_bank(move, 32_000_000, 31)[0:3:2] == alone(move, 32_000_000)[0:3:2]

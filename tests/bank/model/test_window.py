@@ -30,7 +30,7 @@ def test_parameters_that_are_refused(parameters):
 
 @pytest.mark.parametrize("axes, clk_hz", [(4, 8_000_000), (32, 32_000_000), (64, 64_000_000)])
 def test_slowest_clocks(axes, clk_hz):
-    """At the lowest clock frequency, CYC(16) is a round (BANK-GEN-01, BANK-GEN-02)."""
+    """At the lowest clock frequency, CYC(16) is exactly one round (BANK-GEN-01, BANK-GEN-02)."""
     bank = PpmcBank(axes, clk_hz)
     assert bank.round == max(axes, 8) == bank.timebase.cyc(16)
     assert bank.visit(3, 0) == 3 + 8 + bank.round and bank.visit(3, 12 + bank.round) == 11 + 2 * bank.round
@@ -57,7 +57,9 @@ def test_reset_levels():
 
 @pytest.mark.parametrize("after, status, config", [(14, 2, 0), (15, 0, 3)])
 def test_not_ready(after, status, config):
-    """The bank is ready from edge R + 7 on; a read returns the state after its edge 2 (BANK-GEN-05)."""
+    """Reads whose edge 2 is edge R + 7 or later return the registers; earlier ones return the values of a
+    bank that is not ready (BANK-GEN-05).
+    """
     for register, value in ((STATUS, status), (CONFIG, config), (DATA, 0), (0x3, 0xFF)):
         host = Host()
         host.t = after - 2
@@ -66,7 +68,7 @@ def test_not_ready(after, status, config):
 
 @pytest.mark.parametrize("event, mask", [(15, 0), (16, 5)])
 def test_writes_before_ready_do_nothing(event, mask):
-    """Writes before the bank is ready have no effect (BANK-GEN-05)."""
+    """A write event on edge R + 7 or earlier has no effect; on edge R + 8 it has (BANK-GEN-05)."""
     host = Host()
     host.t = 4
     host.write_at(event, 0, MASK, 5)
@@ -96,7 +98,9 @@ def test_addresses():
 
 
 def test_mask_has_a_byte_for_eight_axes():
-    """MASK has the index k = a[6:4]; bits of absent axes stay 0 (BANK-WIN-03)."""
+    """Bit i of MASK byte k belongs to axis 8 k + i, with k = a[6:4]; bits of absent axes stay 0
+    (BANK-WIN-03).
+    """
     host = Host(16)
     host.write(8, MASK, 0x81)
     host.write(1, MASK, 0x42)
@@ -110,8 +114,8 @@ def test_mask_has_a_byte_for_eight_axes():
 @pytest.mark.parametrize("strobe", [1, 2, 3, 6])
 @pytest.mark.parametrize("event", [0, 1, 2])
 def test_snapshot_of_a_read(strobe, event):
-    """d_oe = 1 on edge 2, and d_o on edge 4 has the state after edge 2; a strobe that is too short
-    returns nothing (BANK-WIN-04, BANK-WIN-05).
+    """d_oe = 1 on edge 2, and from edge 4 on d_o has the state after edge 2; a read strobe of less than 3
+    cycles does not change d_o (BANK-WIN-04, BANK-WIN-05).
     """
     model, edge, address = Host().model, 60, 0x20 | CONFIG
     model.pins(edge + event - 4, cs_n=0, wr_n=0, a=address, d_i=2)
@@ -125,7 +129,7 @@ def test_snapshot_of_a_read(strobe, event):
 
 
 def test_write_event():
-    """The write event is on edge 2; the last sample with the strobe is used (BANK-WIN-06)."""
+    """The write event is on edge 2; a and d_i of the last sample with the strobe are used (BANK-WIN-06)."""
     host = Host()
     t = host.t
     host.model.pins(t, cs_n=0, wr_n=0, a=0x20, d_i=1)
@@ -141,7 +145,7 @@ def test_write_event():
 
 
 def test_position_counts_at_the_visit_that_orders():
-    """A pulse is counted at most R - 1 cycles before its edge (BANK-WIN-07)."""
+    """A pulse is counted at a visit before its edge, at most R - 1 cycles earlier (BANK-WIN-07)."""
     host = Host()
     host.ready(2)
     start = host.send(2, "c 4A")
@@ -155,7 +159,7 @@ def test_position_counts_at_the_visit_that_orders():
 
 
 def test_position_of_pulse_mode_and_both_directions():
-    """The position counts POUT mode too, and initialisation and excitation off do not change it
+    """The position also counts pulses in POUT mode; initialisation and excitation off do not change it
     (BANK-WIN-07).
     """
     host = Host()
@@ -173,7 +177,9 @@ def test_position_of_pulse_mode_and_both_directions():
 
 
 def test_position_byte_0_keeps_the_others():
-    """A read of byte 0 latches the other bytes for the following reads, at any axis (BANK-WIN-07)."""
+    """A read of byte 0 latches the other bytes of the position; reads at any axis then return them
+    (BANK-WIN-07).
+    """
     host = Host()
     host.ready(0)
     host.send(0, "c 4A")
@@ -184,7 +190,7 @@ def test_position_byte_0_keeps_the_others():
 
 
 def test_interrupt_map():
-    """The map has a bit per axis with a pending interrupt (BANK-WIN-08, P104-END-07)."""
+    """The interrupt map has a 1 for each axis with a pending interrupt (BANK-WIN-08, P104-END-07)."""
     host = Host(16)
     for axis in (3, 9, 12):
         host.ready(axis)

@@ -1,4 +1,4 @@
-"""The C driver of the bank, as a library whose access functions make bus accesses to the golden model."""
+"""The C driver of the bank, compiled as a library whose bus accesses are made to the golden model."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CCW = 0x08
 
 
 class Config(ctypes.Structure):
-    """ppmc104_config_t."""
+    """The structure ppmc104_config_t."""
 
     _fields_ = [
         ("motor", ctypes.c_uint8),
@@ -32,7 +32,7 @@ class Config(ctypes.Structure):
 
 
 class Finish(ctypes.Structure):
-    """ppmc104_finish_t."""
+    """The structure ppmc104_finish_t."""
 
     _fields_ = [
         *((name, ctypes.c_bool) for name in ("ended", "stopped", "alarm", "limit", "slow_limit")),
@@ -59,7 +59,7 @@ def library() -> ctypes.CDLL:
 
 
 class Bench:
-    """A model, the driver on it, and its axes. Methods have the names of the C functions."""
+    """A model, its driver, and the axes of the driver. Methods have the names of the C functions."""
 
     def __init__(self, lib: ctypes.CDLL, axes: int = AXES) -> None:
         self.lib, self.model, self.t = lib, PpmcBank(axes, CLK_HZ), 200
@@ -98,7 +98,7 @@ class Bench:
         return result
 
     def init(self, *numbers: int) -> None:
-        """Call ppmc104_init for these axes."""
+        """Call ppmc104_init for each of these axes."""
         for number in numbers:
             assert self.lib.ppmc104_init(self.parts[number], ctypes.byref(Config(**INIT))) == OK
 
@@ -140,7 +140,7 @@ def test_opening(library: ctypes.CDLL, axes: int) -> None:
 
 @pytest.mark.parametrize("info", [(0xFF,) * 3, (0x42, 2, 8), (0x42, 1, 5), (0x42, 1, 0), (0, 1, 8)])
 def test_what_is_no_bank(library: ctypes.CDLL, info: tuple[int, ...]) -> None:
-    """With an INFO of another device, the driver finds no part and no axis."""
+    """If INFO is that of another device, the driver finds neither part nor axes."""
     bench = Bench(library)
     real: Callable[[int], int] = bench.read
     bench.read = lambda address: info[address >> 4] if address & 15 == 12 else real(address)  # type: ignore[method-assign]
@@ -149,8 +149,8 @@ def test_what_is_no_bank(library: ctypes.CDLL, info: tuple[int, ...]) -> None:
 
 
 def test_axes_are_parts(bench: Bench) -> None:
-    """Moves with the functions of ppmc104.h set pulses, positions, ends and pending bits of their own
-    axis.
+    """Moves by the functions of ppmc104.h change pulses, position, end and pending bit of their own axis
+    only.
     """
     lib = bench.lib
     assert lib.ppmc104_move(bench.parts[9], 0, 25) == OK
@@ -172,14 +172,14 @@ def test_axes_are_parts(bench: Bench) -> None:
 
 
 def test_what_a_bank_does_not_have(bench: Bench) -> None:
-    """The part rejects an external clock and AUX as unknown."""
+    """An axis of a bank rejects an external clock and AUX as undefined commands."""
     config = Config(**INIT, external_clock=True)
     assert bench.lib.ppmc104_init(bench.parts[1], ctypes.byref(config)) == Error.UNDEFINED + 1
     assert bench.lib.ppmc104_aux(bench.parts[0], True) == Error.UNDEFINED + 1
 
 
 def test_config(bench: Bench) -> None:
-    """With the slow base clock for an axis, its pulses are four times as far apart."""
+    """With the slow base clock for one axis, the intervals of its pulses are four times as long."""
     lib = bench.lib
     for number in (0, 3):
         assert lib.ppmc_bank_config(bench.bank, 3, number == 3, True) == OK
@@ -213,7 +213,7 @@ def test_a_group_begins_on_one_clk(bench: Bench) -> None:
 
 
 def test_who_was_not_ready(bench: Bench) -> None:
-    """GO reports axes without a motion, one of them not initialised; the other axis moves."""
+    """GO reports the axes that had no motion, one of them not initialised; the axis with a motion moves."""
     lib = bench.lib
     assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 1 | 1 << 3) == OK
     assert lib.ppmc104_move(bench.parts[3], 0, 5) == OK
@@ -226,7 +226,7 @@ def test_who_was_not_ready(bench: Bench) -> None:
 
 
 def test_groups_that_are_none(bench: Bench) -> None:
-    """A group without axes, with an absent axis or with a moving axis is rejected, and so is its GO."""
+    """A group without axes, with an absent axis or with a moving axis is rejected, and so is the next GO."""
     lib = bench.lib
     hold = lib.ppmc_bank_hold
     assert hold(bench.bank, 0) == hold(bench.bank, 1 << AXES) == BAD_ARGUMENT
@@ -237,7 +237,7 @@ def test_groups_that_are_none(bench: Bench) -> None:
 
 
 def test_a_group_called_off(bench: Bench) -> None:
-    """Cancelling a loaded group ends its motions without a pulse; other motions continue."""
+    """If a loaded group is cancelled, its motions end without a pulse; other motions continue."""
     lib = bench.lib
     assert lib.ppmc104_jog(bench.parts[15], 0, 30) == OK
     assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 3) == OK

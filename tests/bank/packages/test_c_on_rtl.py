@@ -1,4 +1,4 @@
-"""The C driver of the bank on the Verilated bank, through accesses to its window."""
+"""The C driver of the bank on the Verilated bank, with accesses to the bank's register window."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def lines() -> Lines:
 
 
 def test_opening(lines: Lines) -> None:
-    """During reset the driver finds no bank; after it, it finds all axes and empties MASK."""
+    """During the reset the driver finds no bank. After the reset it finds all axes and empties MASK."""
     assert result(lines, "absent")[0] == NO_PART
     assert result(lines, "open") == (0, "ok")
     assert (lines["found"][0]["axes"], lines["found"][0]["mask"]) == ("8", "0")
@@ -48,16 +48,16 @@ def test_opening(lines: Lines) -> None:
 def test_motion(
     lines: Lines, name: str, cw: int, ccw: int, rate: int | None, raw: int, position: int
 ) -> None:
-    """Count, direction, every interval and the position of a motion by the driver are those of the
-    predictor.
-    """
+    """For a motion by the driver, count, direction, position and every interval are the predicted ones."""
     assert pulses(lines, name) == (cw, ccw, predict_move(INIT, cw + ccw, rate).intervals)
     end = ending(lines, name)
     assert (end["raw"], end["left"], end["where"], end["position"]) == (raw, 0, 0, position)
 
 
 def test_interrupts(lines: Lines) -> None:
-    """Busy and pending axes of two motions are reported, and the pin follows the pending ones."""
+    """The driver reports busy and pending axes of two motions, and the interrupt pin is active while one is
+    pending.
+    """
     both = 1 << 7 | 1 << 3
     assert (lines["both"][0]["busy"], lines["both"][0]["irq"]) == (str(both), "0")
     assert (lines["ended"][0]["pending"], lines["ended"][0]["irq"]) == (str(both), "1")
@@ -65,7 +65,7 @@ def test_interrupts(lines: Lines) -> None:
 
 
 def test_base_clock_of_an_axis(lines: Lines) -> None:
-    """With the slow base clock, intervals of this axis are four times as long; other axes keep theirs."""
+    """With the slow base clock, intervals of this axis are four times as long; other axes do not change."""
     assert [line["result"] for line in lines["config"]] == ["0", "0"]
     assert pulses(lines, "slow") == (4, 0, [1280] * 3)
 
@@ -85,7 +85,7 @@ def test_group(lines: Lines) -> None:
 
 
 def test_who_was_not_ready(lines: Lines) -> None:
-    """GO names a member that cannot move; a cancelled group outputs no pulse."""
+    """GO returns the axes that could not start; a cancelled group outputs no pulse."""
     assert result(lines, "go alone")[0] == Error.NOT_INITIALISED + 1
     assert lines["alone"][0]["refused"] == str(1 << 1)
     end = ending(lines, "dropped")
@@ -95,8 +95,8 @@ def test_who_was_not_ready(lines: Lines) -> None:
 
 @pytest.mark.parametrize(("name", "total", "raw"), [("limit", 100, 0x93), ("stopped", 1000, 0xC3)])
 def test_ends(lines: Lines, name: str, total: int, raw: int) -> None:
-    """After a limit, or a stop of all axes, pulses, remaining count, position and intervals are
-    consistent.
+    """After a limit, or a stop of all axes, pulses, remaining count, position and intervals agree with each
+    other.
     """
     cw, ccw, got = pulses(lines, name)
     end = ending(lines, name)
@@ -105,7 +105,7 @@ def test_ends(lines: Lines, name: str, total: int, raw: int) -> None:
 
 
 def test_jog_is_stopped_with_the_others(lines: Lines) -> None:
-    """When all axes are stopped, a jog ends after the pulse that was counted."""
+    """If all axes are stopped during a jog, it ends after the pulse that was already counted."""
     cw, ccw, got = pulses(lines, "jog")
     assert (ending(lines, "jog")["raw"], ccw, cw) == (0xC5, 0, ending(lines, "jog")["position"])
     assert cw in (9, 10) and got == predict_move(INIT, cw, 30).intervals
@@ -113,5 +113,5 @@ def test_jog_is_stopped_with_the_others(lines: Lines) -> None:
 
 @pytest.mark.parametrize("name", ["reset", "reset left"])
 def test_reset_in_a_motion(lines: Lines, name: str) -> None:
-    """A reset of the bank during a motion is an unconfirmed end, not "complete" (P104-END-04)."""
+    """After a reset of the bank in a motion, its end is unconfirmed, not "complete" (P104-END-04)."""
     assert result(lines, name) == (19, "the part does not confirm the end of the motion")

@@ -1,1 +1,3 @@
-"""Virtual boards, as `make board` builds them: fixtures for all devices, ports, the pseudo-terminal."""
+"""Tests of the virtual boards that `make board` builds: fixtures for all devices, ports, the
+pseudo-terminal.
+"""

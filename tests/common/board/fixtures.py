@@ -64,14 +64,14 @@ class CommandLine:
         self._env = {**os.environ, "OPENPPMC_STATE": str(state), "PYTHONPATH": str(ROOT), "COLUMNS": "200"}
 
     def begin(self, port: str, *words: str) -> subprocess.Popen[str]:
-        """Start it and return."""
+        """Start the program with this port; do not wait for its end."""
         command = [sys.executable, "-m", "openppmc.cli", "--port", port, *words]
         return subprocess.Popen(
             command, env=self._env, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
         )
 
     def run(self, port: str, *words: str) -> tuple[int, str, str]:
-        """Run it and return exit status, standard output and standard error."""
+        """Run the program to its end; return exit status, standard output and standard error."""
         process = self.begin(port, *words)
         out, err = process.communicate(timeout=2 * PATIENCE)
         return process.returncode, out, err

@@ -9,7 +9,10 @@ from typing import Any
 
 
 def foreground(command: Sequence[str], **options: Any) -> subprocess.Popen[str]:
-    """Start it with its output in a pipe and SIGINT enabled, which background jobs of a shell ignore."""
+    """Start a command with its output in a pipe and SIGINT enabled.
+
+    If the tests are a background job of a shell, SIGINT is ignored, and child processes inherit this.
+    """
 
     def listen() -> None:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

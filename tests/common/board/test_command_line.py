@@ -36,7 +36,7 @@ def test_init_move_home(board: SimBoard, openppmc: CommandLine) -> None:
 
 
 def test_limit_is_one_line(start_board: StartBoard, openppmc: CommandLine) -> None:
-    """A move into the limit switch ends with status 1 and one line."""
+    """A move into the limit switch ends with status 1 and prints one line."""
     board = start_board(start=39_500)
     code, _, err = openppmc.run(board.port, "move", "2000", *SLOW)
     assert code == 1 and one_line(err), err
@@ -46,7 +46,9 @@ def test_limit_is_one_line(start_board: StartBoard, openppmc: CommandLine) -> No
 def test_ctrl_c_decelerates(
     board: SimBoard, openppmc: CommandLine, until: Wait, words: tuple[str, ...]
 ) -> None:
-    """Ctrl-C stops the motor with its deceleration ramp; a second connection finds it stopped."""
+    """Ctrl-C stops the motor with its deceleration ramp; after that, another connection finds the motor
+    stopped.
+    """
     process = openppmc.begin(board.port, *words, *SLOW)
     try:
         until(lambda: board.status().pulses > 1000, "motor at high speed")
@@ -66,7 +68,7 @@ def test_ctrl_c_decelerates(
 
 
 def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
-    """`--port sim:…` starts a separate board for one command; its log contains every pulse."""
+    """`--port sim:…` starts a separate board for one command; the log of this board contains every pulse."""
     log = tmp_path / "pulses.txt"
     code, _, err = openppmc.run(f"sim:start=300,log={log}", "home", *SLOW)
     assert code == 0, err
@@ -74,7 +76,7 @@ def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
 
 
 def test_ctrl_c_on_sim_port(openppmc: CommandLine, tmp_path: Path, until: Wait) -> None:
-    """Ctrl-C is sent to the whole process group; the board lives long enough for the deceleration ramp."""
+    """If Ctrl-C reaches the whole process group, the board runs until the deceleration ramp is complete."""
     log = tmp_path / "pulses.txt"
     process = openppmc.begin(f"sim:log={log}", "move", "30000", *SLOW)
     children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
@@ -101,6 +103,6 @@ def test_ctrl_c_on_sim_port(openppmc: CommandLine, tmp_path: Path, until: Wait) 
     ],
 )
 def test_bad_text(openppmc: CommandLine, port: str, expected: str) -> None:
-    """A mistake after `sim:` produces one line with the expected value."""
+    """A mistake in the text after `sim:` produces one line that states the expected value."""
     code, _, err = openppmc.run(port, "info")
     assert code == 1 and one_line(err) and expected in err, err

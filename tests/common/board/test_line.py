@@ -1,4 +1,4 @@
-"""The line itself: raw bytes through pyserial, noise, baud rates, block transfers."""
+"""The serial line of the virtual board: raw bytes through pyserial, noise, baud rates, block transfers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ IDENT = encode(bytes([0]) + bytes(Script().ident()))
 
 
 class Line:
-    """A serial port with its frames; frames after the requested one are kept for the next call."""
+    """A serial port that returns whole frames; frames after the requested one are kept for the next call."""
 
     def __init__(self, port: serial.Serial) -> None:
         self.port = port
@@ -50,7 +50,7 @@ def line(board: SimBoard) -> Iterator[Line]:
 
 
 def test_ident(line: Line) -> None:
-    """One request frame produces one response: SEQ, RESULT and the 16 bytes of docs/uart_bridge.md."""
+    """A request frame gets one response frame: SEQ, RESULT and the 16 bytes of docs/uart_bridge.md."""
     line.port.write(IDENT)
     part, clocks = (104).to_bytes(2, "little"), (16_000_000, 8_000_000)
     flags = 1 << 1 | 4 << 4
@@ -59,7 +59,7 @@ def test_ident(line: Line) -> None:
 
 
 def test_garbage_before_a_good_frame(line: Line) -> None:
-    """Noise without a flag causes only NAKs; the valid frame after it is always answered."""
+    """Noise without a flag causes only NAKs, and the valid frame after the noise is always answered."""
     seed = 104
     noise = random.Random(seed)
     for turn in range(20):
@@ -79,7 +79,7 @@ def test_broken_checksum_is_told_and_nothing_done(line: Line) -> None:
 
 
 def test_half_a_frame(line: Line) -> None:
-    """Silence inside a frame causes NAK 5 after 100 ms of board time, and the next frame is answered."""
+    """Silence inside a frame causes NAK 5 after 100 ms of board time; the frame that follows is answered."""
     line.port.write(IDENT[:-2])
     assert line.frame() == bytes([MESSAGE_NAK, Nak.SILENCE])
     line.port.write(IDENT)
@@ -87,7 +87,7 @@ def test_half_a_frame(line: Line) -> None:
 
 
 def test_does_not_sleep_while_a_script_waits(board: SimBoard, line: Line) -> None:
-    """The board does not sleep during a wait of 4 s in a script; the wait ends after 4 s of board time."""
+    """While a script waits for 4 s of board time, the board does not sleep, so the wait ends in time."""
     begin = board.status().seconds
     line.port.write(encode(bytes([0]) + bytes(Script().timeout(4000).wait(1, 0xFF, 0x55))))
     answer = line.frame(4 * PATIENCE)
@@ -115,14 +115,16 @@ def test_wrong_rate_hears_no_answer(board: SimBoard, baud: int) -> None:
 
 @pytest.mark.parametrize("baud", [113_000, 117_500])
 def test_small_rate_error_does_no_harm(board: SimBoard, baud: int) -> None:
-    """A baud rate error of two percent, as real oscillators and dividers have, causes no errors."""
+    """A baud rate error of two percent, which real oscillators and dividers can have, causes no errors."""
     with serial.Serial(board.port, baud, timeout=0.1) as port:
         port.write(IDENT)
         assert Line(port).frame()[2:6] == b"PPMC"
 
 
 def test_all_rates(board: SimBoard) -> None:
-    """The host package works at every baud rate of the board; a higher one falls back to the base rate."""
+    """The host package works at every baud rate of the board; for a higher rate it falls back to 115 200
+    baud.
+    """
     for baud in (115_200, 230_400, 460_800, 921_600, 1_000_000, 3_000_000):
         with Link(board.port, baud) as link:
             assert link.baud == (baud if baud <= 1_000_000 else 115_200)
@@ -131,7 +133,7 @@ def test_all_rates(board: SimBoard) -> None:
 
 
 def test_block_transfer(board: SimBoard) -> None:
-    """Frames of 240 accesses work at 1 Mbaud, with over 1000 accesses per second (a loose limit)."""
+    """Frames of 240 accesses work at 1 Mbaud, with more than 1000 accesses per second (a loose limit)."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         begin, count = time.monotonic(), 0

@@ -1,4 +1,4 @@
-"""Motions on the virtual board, through `openppmc.host`."""
+"""Motions on the virtual board, made with `openppmc.host`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .fixtures import SETUP, StartBoard, Wait
 
 
 def test_info(board: SimBoard, until: Wait) -> None:
-    """The bridge reports device, clocks and the possible baud rates; the link works at 1 Mbaud."""
+    """The bridge reports device, clocks and the highest baud rate; the link works at 1 Mbaud."""
     with Ppmc104.open(board.port) as axis:
         identity = axis.link.identity
         assert (identity.part, identity.clk_hz, identity.xtal_hz) == (104, 8_000_000, 16_000_000)
@@ -44,7 +44,7 @@ def test_not_initialised(board: SimBoard) -> None:
 
 
 def test_move_with_event(board: SimBoard) -> None:
-    """A move ends with an interrupt message, and the motor is at the correct position."""
+    """The end of a move is reported by an interrupt message, and the motor is at the commanded position."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         axis.start_move(1500)
@@ -59,7 +59,7 @@ def test_move_with_event(board: SimBoard) -> None:
 
 @pytest.mark.parametrize("start", [3000, -150, 0], ids=["above", "below_on_switch", "on_the_edge"])
 def test_home(start_board: StartBoard, start: int) -> None:
-    """Homing finds the same edge from any start position."""
+    """Homing ends on the same edge of the switch from any start position."""
     board = start_board(start=start)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -72,7 +72,9 @@ def test_home(start_board: StartBoard, start: int) -> None:
 
 
 def test_home_without_switch(start_board: StartBoard) -> None:
-    """If the origin switch is out of reach, the limit ends the search and the error reports it."""
+    """If the origin switch is out of reach, the limit ends the search and the driver raises
+    OriginNotFound.
+    """
     board = start_board(start=500, origin=-10_000)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -82,7 +84,9 @@ def test_home_without_switch(start_board: StartBoard) -> None:
 
 
 def test_hard_limit_stops(start_board: StartBoard) -> None:
-    """At constant speed the hard limit ends the motion on its first pulse, and the motor can move back."""
+    """At constant speed the hard limit ends the motion on the first pulse at the limit; a step back is
+    possible.
+    """
     board = start_board(start=37_000, cw=38_500)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -99,7 +103,7 @@ def test_hard_limit_stops(start_board: StartBoard) -> None:
 
 
 def test_slow_down_limit_stops(start_board: StartBoard) -> None:
-    """A ramped move into L3 stops with its ramp of at most 400 pulses, before the hard limit."""
+    """A ramped move that reaches L3 stops with its ramp of at most 400 pulses, before the hard limit."""
     board = start_board(start=37_000)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -141,7 +145,7 @@ def test_jog_and_stop(board: SimBoard, until: Wait) -> None:
 
 
 def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
-    """Commands rejected during a move do not change its number of pulses."""
+    """Commands that are rejected during a move do not change the number of its pulses."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         motion = axis.start_move(4000)

@@ -1,4 +1,4 @@
-"""Ports that are not a board, are in use, or disappear: each causes a clear error."""
+"""Ports that are not a board, are in use, or disappear: each raises a clear error."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ MakeForeignDevice = Callable[[Reply], str]
 
 
 def refusal(port: str, kind: type[Exception]) -> str:
-    """Open `port` and expect `kind`; its message must be one line that names the port. Return the message."""
+    """Open `port`, check that it raises `kind` with a message of one line that names the port; return the
+    message.
+    """
     with pytest.raises(kind) as caught:
         Ppmc104.open(port).close()
     text = str(caught.value)
@@ -42,7 +44,7 @@ def test_not_a_port(tmp_path: Path) -> None:
 
 
 def test_busy_port(board: SimBoard) -> None:
-    """The second open of a port is rejected with an error; the first connection continues to work."""
+    """A second open of a port is rejected with an error; the first connection continues to work."""
     with Ppmc104.open(board.port) as axis:
         assert "close it first" in refusal(board.port, PortError)
         assert axis.status().busy is False
@@ -79,7 +81,7 @@ class NonBridgeDevice:
 
 @pytest.fixture
 def foreign_device() -> Iterator[MakeForeignDevice]:
-    """Create such devices and remove them after the test."""
+    """Create pseudo-terminals with such a device and remove them after the test."""
     made: list[NonBridgeDevice] = []
 
     def make(reply: Reply) -> str:
@@ -113,7 +115,7 @@ def test_garbage(foreign_device: MakeForeignDevice) -> None:
 
 
 def test_board_dies_in_a_move(board: SimBoard) -> None:
-    """If the board disappears during a motion, Disconnected is raised within 10 s, in one line."""
+    """If the board ends during a motion, Disconnected is raised within 10 s, with a text of one line."""
     axis = Ppmc104.open(board.port)
     axis.initialise(**SETUP)
     motion = axis.start_move(30_000)

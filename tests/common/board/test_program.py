@@ -48,7 +48,7 @@ def alive(pid: int) -> bool:
     ],
 )
 def test_bad_text(text: str, expected: str) -> None:
-    """Each mistake is a ValueError of one line; unknown words are answered with the list of words."""
+    """Each mistake raises ValueError with one line; for an unknown word, the line lists the known words."""
     with pytest.raises(sim.SpecError) as caught:
         sim.start(text)
     message = str(caught.value)
@@ -58,7 +58,7 @@ def test_bad_text(text: str, expected: str) -> None:
 
 
 def test_needs_a_checkout(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """A folder without the project is reported as such."""
+    """If the folder does not contain the project, the error states this."""
     monkeypatch.setenv("OPENPPMC_ROOT", str(tmp_path))
     with pytest.raises(sim.SimError, match="no checkout of OpenPPMC"):
         find_root()
@@ -67,7 +67,7 @@ def test_needs_a_checkout(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> No
 
 
 def test_close_ends_the_program(start_board: StartBoard) -> None:
-    """close() leaves no process, and may be called twice."""
+    """close() leaves no process behind and may be called twice."""
     board = start_board()
     pid = board.process.pid
     board.close()
@@ -118,7 +118,7 @@ def test_foreground(tmp_path: Path, until: Wait) -> None:
 
 
 def test_foreground_bad_text() -> None:
-    """A mistake produces one line and status 1."""
+    """A mistake on the command line prints one line and exits with status 1."""
     done = subprocess.run([*PYTHON, "cw=x"], cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
     assert done.returncode == 1 and done.stderr.startswith("error: cw=x") and done.stderr.count("\n") == 1
 
@@ -130,7 +130,7 @@ def cpu_seconds(pid: int) -> float:
 
 
 def test_sleeps_at_rest(start_board: StartBoard, until: Wait) -> None:
-    """An idle board uses no CPU time while board time continues; the first byte wakes it up."""
+    """An idle board uses no CPU time, although board time continues; the first byte wakes it up."""
     board = start_board()
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -162,7 +162,9 @@ def test_slow_motion(start_board: StartBoard) -> None:
 
 
 def test_vcd_window(start_board: StartBoard, tmp_path: Path, until: Wait) -> None:
-    """The waveform file covers the requested milliseconds, both clock edges and the names of the RTL."""
+    """The waveform file covers exactly the requested milliseconds, with both clock edges and the
+    RTL's names.
+    """
     file = tmp_path / "board.vcd"
     board = start_board(vcd=file, vcd_from=5, vcd_for=2)
     until(lambda: board.status().seconds > 0.02, "end of the window")

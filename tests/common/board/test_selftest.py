@@ -1,4 +1,4 @@
-"""`openppmc selftest` on the virtual board: no differences for every device, faults in the RTL, errors."""
+"""`openppmc selftest` on the virtual board: no differences for any device, faults in the RTL, errors."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from openppmc.host.selftest.run import TRIES, SelfTest
 from .fixtures import PATIENCE, CommandLine, StartBoard, Wait, one_line
 
 LONG = 20 * PATIENCE
-"""Maximum time of a whole self-test with its build on a busy computer, in seconds."""
+"""Maximum duration in seconds of a whole self-test with its build on a busy computer."""
 OTHERS = [row.name for row in parts.having("selftest") if row.name != "ppmc104"]
 FAULTS = {
     "pulse one clk longer": (
@@ -61,7 +61,9 @@ def selftest(port: str, out: Path, *words: str, root: Path = ROOT) -> tuple[int,
 
 
 def changed_tree(root: Path, file: str, old: str, new: str) -> Path:
-    """Copy the RTL and the files that the virtual board needs, with one text changed; return the copy."""
+    """Copy the RTL and the files that the virtual board needs, replace one text in the copy; return
+    the copy.
+    """
     for folder in ("rtl", "tb"):
         shutil.copytree(ROOT / folder, root / folder)
     text = (root / file).read_text()
@@ -71,7 +73,9 @@ def changed_tree(root: Path, file: str, old: str, new: str) -> Path:
 
 
 def test_whole_and_clean(tmp_path: Path) -> None:
-    """On the unchanged RTL thousands of edges agree, and the page reports it."""
+    """On the unchanged RTL, thousands of edges are compared without a difference, and the page
+    reports this.
+    """
     code, out, err = selftest("sim:speed=max", tmp_path)
     assert code == 0, out + err
     page = json.loads((tmp_path / "selftest.json").read_text())
@@ -87,7 +91,7 @@ def test_whole_and_clean(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", OTHERS)
 def test_other_parts(part: str, tmp_path: Path) -> None:
-    """Registers and moves of each kind agree for every other device, and all of them move."""
+    """For every other device, registers and moves of each kind agree with the golden model."""
     words = ("--only", "registers", "--only", "moves")
     size = ",axes=4" if part == "bank" else ""
     code, out, err = selftest(f"sim:part={part},speed=max{size}", tmp_path, *words)
@@ -98,7 +102,9 @@ def test_other_parts(part: str, tmp_path: Path) -> None:
 
 
 def test_datasheet_timing(tmp_path: Path) -> None:
-    """With DATASHEET timing, moves of each kind agree, also by the clock of the board."""
+    """With DATASHEET timing, moves of each kind agree with the golden model, also with the clock of the
+    board.
+    """
     code, out, err = selftest("sim:part=stmc,speed=max,timing=DATASHEET", tmp_path, "--only", "moves")
     assert code == 0 and out.splitlines()[-1].endswith("0 differences"), out + err
     assert "steps by the clock of the board" in out
@@ -106,7 +112,9 @@ def test_datasheet_timing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_fault_is_found(fault: str, tmp_path: Path) -> None:
-    """A fault in one line of RTL is found, reported, drawn and listed on the page."""
+    """If one line of RTL is wrong, the self-test finds the fault, reports and draws it, and lists it on the
+    page.
+    """
     file, good, bad, signal = FAULTS[fault]
     root = changed_tree(tmp_path / "tree", file, good, bad)
     words = ("--only", "registers", "--only", "moves")
@@ -122,7 +130,9 @@ def test_fault_is_found(fault: str, tmp_path: Path) -> None:
 
 
 def test_jumpers(tmp_path: Path) -> None:
-    """With the two wires in a copy of the carrier, limit and origin act as in the model."""
+    """With the two jumper wires, limit and origin act as in the model; without them, the self-test reports
+    this.
+    """
     wires = (
         "cnp_n, l4_n, l3_n, l2_n, l1_n, clock",
         "cnp_n && auxo[0], l4_n, l3_n, l2_n, l1_n && aux_n, clock",
@@ -137,7 +147,7 @@ def test_jumpers(tmp_path: Path) -> None:
 
 
 def test_recorder_too_small(tmp_path: Path) -> None:
-    """With a recorder of 32 records, each section reports that it was full, and what to do."""
+    """With a recorder of only 32 records, each section reports that the recorder was full, and what to do."""
     code, out, _ = selftest("sim:speed=max,record=5", tmp_path, "--only", "registers")
     assert code == 1
     assert "the recorder was full after 32 records: build the bitstream with a larger RECORD" in out
@@ -163,7 +173,7 @@ def test_recorder_filled_by_a_busy_pc(start_board: StartBoard, tmp_path: Path, l
 
 
 def test_what_cannot_be(openppmc: CommandLine, start_board: StartBoard, tmp_path: Path) -> None:
-    """A missing recorder, another device or a missing --yes causes one line, and no motor moves."""
+    """For a missing recorder, another device or a missing --yes, one line is printed and no motor moves."""
     board = start_board()
     words = ("selftest", "--out", str(tmp_path))
     for given, hint in (
@@ -180,7 +190,7 @@ def test_what_cannot_be(openppmc: CommandLine, start_board: StartBoard, tmp_path
 
 
 def test_unplugged(openppmc: CommandLine, start_board: StartBoard, until: Wait, tmp_path: Path) -> None:
-    """If the board disappears during the self-test, one line reports it soon, and the program ends."""
+    """If the board disappears during the self-test, the program soon prints one line and ends."""
     board = start_board("record=13")
     process = openppmc.begin(board.port, "selftest", "--yes", "--out", str(tmp_path), "--only", "moves")
     until(lambda: board.status().pulses > 3, "the first move")

@@ -22,7 +22,7 @@ def yank(axis: Ppmc104) -> None:
 
 @pytest.mark.parametrize("baud", [115_200, 460_800, 1_000_000])
 def test_move_ends_by_itself(board: SimBoard, until: Wait, baud: int) -> None:
-    """The motor completes its pulses without a host; a new host can connect at any baud rate."""
+    """Without a host, the motor makes all its pulses; after that a new host can connect at any baud rate."""
     axis = Ppmc104.open(board.port, baud)
     axis.initialise(**SETUP)
     axis.start_move(8000)
@@ -40,7 +40,9 @@ def test_move_ends_by_itself(board: SimBoard, until: Wait, baud: int) -> None:
 
 
 def test_stays_away_until_the_move_is_over(board: SimBoard, until: Wait) -> None:
-    """An interrupt message that occurs while the port is closed causes no error later."""
+    """An interrupt message that is sent while the port is closed causes no error when a host opens it
+    later.
+    """
     axis = Ppmc104.open(board.port)
     axis.initialise(**SETUP)
     axis.start_move(3000)
@@ -54,7 +56,7 @@ def test_stays_away_until_the_move_is_over(board: SimBoard, until: Wait) -> None
 
 
 def test_stop_what_a_dead_host_left_running(board: SimBoard, until: Wait) -> None:
-    """A continuous motion continues without its host, and another host can stop it."""
+    """A continuous motion continues without its host; another host can stop it."""
     axis = Ppmc104.open(board.port)
     axis.initialise(start_pps=1000, high_pps=5000, ramp_pulses=100)
     axis.jog(CW, high=True)
@@ -72,7 +74,7 @@ def test_stop_what_a_dead_host_left_running(board: SimBoard, until: Wait) -> Non
 
 @pytest.mark.parametrize("baud", RATES[1:5])
 def test_host_lost_at_a_higher_rate(board: SimBoard, baud: int) -> None:
-    """If the host dies within a frame at a high baud rate, the next one connects at 115 200 baud."""
+    """If the host ends within a frame at a high baud rate, the next host connects at 115 200 baud."""
     axis = Ppmc104.open(board.port, baud)
     axis.link.port._serial.write(b"\x7e\x01\x3a\x40")
     yank(axis)
@@ -82,7 +84,7 @@ def test_host_lost_at_a_higher_rate(board: SimBoard, baud: int) -> None:
 
 
 def test_many_times(board: SimBoard, until: Wait) -> None:
-    """Opening and closing at random moments of the dialogue never confuses board or host."""
+    """After the port was opened and closed at random points of the dialogue, board and host still work."""
     for turn in range(12):
         with serial.Serial(board.port, 115_200) as port:
             port.write(b"\x7e" + os.urandom(turn * 5))
@@ -96,7 +98,7 @@ def test_many_times(board: SimBoard, until: Wait) -> None:
 
 
 def test_move_duration_is_that_of_the_board(board: SimBoard, until: Wait) -> None:
-    """A move takes the same time on the board's clock without a host."""
+    """A move without a host takes the same time on the board's clock as with a host."""
     axis = Ppmc104.open(board.port)
     setup = axis.initialise(**SETUP)
     begin = board.status()
@@ -104,5 +106,5 @@ def test_move_duration_is_that_of_the_board(board: SimBoard, until: Wait) -> Non
     yank(axis)
     until(lambda: board.status().hold and board.status().pulses, "end of the move")
     seconds = predict_move(bytes(setup.data), 6000).seconds[-1]
-    # From standstill to hold 34 ms pass; the rest is the time of the frames and of polling.
+    # hold rises 34 ms after the last pulse; the rest of the limit is for frames and polling.
     assert seconds + 0.034 <= board.status().seconds - begin.seconds < seconds + 1.0

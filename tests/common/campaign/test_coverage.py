@@ -1,4 +1,6 @@
-"""How `make coverage` evaluates Verilator's counts and crosses. One test builds with Verilator."""
+"""`make coverage`: evaluation of Verilator's counts and of coverage crosses. One test builds with
+Verilator.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +62,7 @@ def test_points_of_the_rtl(tmp_path: Path) -> None:
 
 
 def test_figures_and_holes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder is good only if it has few holes and each has a reason."""
+    """A folder passes only if it has few holes and each hole has a reason."""
     text = sums.source(FILE)[21].strip()
     rows = [row(f"../{FILE}", n, 1, LINE, "block", str(n), int(n != 22)) for n in range(15, 23)]
     rows += [row(f"../{FILE}", 16, 1, TOGGLE, "clk_i:0->1", "", 1)]
@@ -81,7 +83,7 @@ def test_figures_and_holes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_explained_holes_fit_the_tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each text of holes.yml is in its file; one that is not is reported in one line."""
+    """Each text of holes.yml is in its file; for a text that is not, the error is one line."""
     assert all(entry["why"] for entry in sums.explained())
     monkeypatch.setattr(sums, "HOLES", tmp_path / "holes.yml")
     sums.HOLES.write_text(f"- {{file: {FILE}, line: no such line, why: none}}", encoding="utf-8")
@@ -93,7 +95,7 @@ def test_explained_holes_fit_the_tree(tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def test_a_function_explains_all_of_its_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A function in holes.yml explains its lines from head to end, and no line after it."""
+    """If holes.yml names a function, all its lines from head to end are explained, and no other line is."""
     monkeypatch.setattr(sums, "HOLES", tmp_path / "holes.yml")
     sums.HOLES.write_text("- {file: rtl/common/ppmc_lfsr_pkg.sv, function: after, why: so}", encoding="utf-8")
     lines = [entry["line"] for entry in sums.explained()]
@@ -119,7 +121,7 @@ endpackage
 
 
 def test_copies_in_which_verilator_counts() -> None:
-    """In a copy, a return that ends a function is an assignment, and no line moves."""
+    """In the copy, each return that ends a function is an assignment, and all lines keep their numbers."""
     copy = Copy(PACKAGE).text
     assert copy.splitlines()[0] == "package p;" + KEPT
     assert copy.splitlines()[2:8] == [
@@ -136,7 +138,9 @@ def test_copies_in_which_verilator_counts() -> None:
 
 
 def test_verilator_counts_a_copy(tmp_path: Path) -> None:
-    """When the functions above are called with each number, Verilator counts the copy, but not the file."""
+    """If the functions above are called with each number, Verilator counts them in the copy, not in
+    the file.
+    """
     main = """#include "Vtop.h"
 int main() { VerilatedContext c; Vtop t{&c};
   for (int i = 0; i < 8; i++) { t.clk = 0; t.x = i; t.eval(); t.clk = 1; t.eval(); }
@@ -169,8 +173,8 @@ endmodule"""
 
 
 def test_functions_that_only_elaboration_calls() -> None:
-    """A function counts as called only by elaboration if each of its calls is constant or inside such a
-    function.
+    """A function is called only by elaboration if each of its calls has constant arguments or is inside such
+    a function.
     """
     text = """module m #(parameter int W = one(4), localparam int V = W + 1) (input logic [two(W):0] a_i);
   localparam int X = outer(3);
@@ -189,7 +193,7 @@ endmodule"""
 
 @pytest.mark.parametrize("part", parts.having("crosses"), ids=lambda part: part.name)
 def test_crosses_of_the_parts(part: parts.Row) -> None:
-    """The combinations that cannot occur are in the tables of a device's crosses."""
+    """Each combination that a device marks as impossible is in the table of its cross."""
     found: Crosses = part.load("crosses")
     for table in found.tables:
         assert len(set(table.rows)) == len(table.rows) and len(set(table.columns)) == len(table.columns)
@@ -198,14 +202,14 @@ def test_crosses_of_the_parts(part: parts.Row) -> None:
 
 
 def test_a_cross_as_a_table() -> None:
-    """Combinations not seen are bold; combinations that cannot occur are a dash unless they were seen."""
+    """Combinations that were not seen are bold; impossible combinations are a dash unless they were seen."""
     table = Cross("t", ("a", "b"), ("x", "y"), {("b", "*"): "why not"})
     shown = list(page.cross(table, Counter({("a", "x"): 1200, ("b", "y"): 1})))
     assert shown[2:4] == ["| a | 1,200 | **0** |", "| b | – | 1 |"] and "why not" in shown[4]
 
 
 def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """For a PPMC-104 that makes 14 pulses and receives an invalid byte, the end and the error are counted."""
+    """If a PPMC-104 makes 14 pulses and receives an invalid byte, this end and this error are counted."""
     monkeypatch.setenv(COVERAGE, str(tmp_path))
     chip = new_model("ppmc104", {})
     t = 10
@@ -225,7 +229,7 @@ def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_counts_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The counts of simulations are summed and shown as text; without a file, nothing is counted."""
+    """The counts of several simulations are summed and printed; without a counts file, nothing is counted."""
     add_counts(edges=1)
     file = tmp_path / "counts"
     monkeypatch.setenv(COUNTS_FILE, str(file))

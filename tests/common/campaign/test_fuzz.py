@@ -1,4 +1,4 @@
-"""`make fuzz`: its output, agreement of RTL and golden models, and detection of differences."""
+"""`make fuzz`: its streams, agreement of RTL and golden models, and detection of differences."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OUTCOMES = {
     "ppmc312": {(1, None), (2, None), (3, None), (4, None)},
     "ppmc312-chars": {(1, None), (2, None), (3, None), (4, None)},
 }
-"""Kinds of events; those of the bridge with the NAK."""
+"""Kinds of events that each line must produce; NAKs of the bridge count by their number."""
 BROKEN_RTL = {
     "bridge": (
         "rtl/host/ppmc_bridge_rx.sv",
@@ -46,7 +46,7 @@ def words_of(name: str, seed: int = 1) -> array[int]:
 
 @each
 def test_streams_are_rich(name: str) -> None:
-    """A stream contains every kind of event often, and silences and broken characters."""
+    """A stream produces every kind of event often, and contains silences and broken characters."""
     words = words_of(name)
     kinds = Counter(
         (what >> 56, what & 0xFF if name == "bridge" and what >> 56 == 2 else None)
@@ -59,12 +59,14 @@ def test_streams_are_rich(name: str) -> None:
 
 @each
 def test_as_the_golden_model(name: str) -> None:
-    """RTL and golden model produce the same events from a stream, at the same characters."""
+    """For the same stream, RTL and golden model produce the same events at the same characters."""
     assert bench.difference(name, LINES[name], words_of(name)) is None
 
 
 def test_what_differs_is_told_in_few_words() -> None:
-    """A model that omits one instruction is detected, and a few characters are enough to show it."""
+    """If the model omits one instruction, this is detected, and a few characters are enough to
+    reproduce it.
+    """
     line = LINES["pmc006"]
 
     def forgetful(words: array[int]) -> Events:
@@ -80,7 +82,7 @@ def test_what_differs_is_told_in_few_words() -> None:
 
 @pytest.mark.parametrize("name", BROKEN_RTL)
 def test_a_fault_of_the_rtl_is_found(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A deframer with one wrong line differs from the golden model."""
+    """If one line of a deframer is changed, its events differ from those of the golden model."""
     file, good, bad = BROKEN_RTL[name]
     text = (ROOT / file).read_text(encoding="utf-8")
     assert text.count(good) == 1

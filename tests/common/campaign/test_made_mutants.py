@@ -1,4 +1,4 @@
-"""Mutants by rule: the changed and unchanged parts of a module, and a copy that holds all mutants."""
+"""Mutants by rule: which parts of a module are changed, and a copy that holds all mutants."""
 
 from __future__ import annotations
 
@@ -60,7 +60,9 @@ def test_what_is_changed() -> None:
 
 
 def test_a_copy_holds_all_and_keeps_lines() -> None:
-    """The copy of a file holds each mutant by its number, and has the same number of lines."""
+    """The copy of a file contains every mutant with its number, and has the same number of lines as
+    the file.
+    """
     every = faults(TEXT)
     copy = instrumented(TEXT, every)
     assert copy.count("\n") == TEXT.count("\n")
@@ -70,7 +72,7 @@ def test_a_copy_holds_all_and_keeps_lines() -> None:
 
 
 def test_one_alone() -> None:
-    """The file of a single mutant is valid SystemVerilog, and differs from those of the others."""
+    """The file of a single mutant is valid SystemVerilog, and no two mutants have the same file."""
     texts = [alone(TEXT, fault) for fault in faults(TEXT)]
     assert len({*texts, TEXT}) == len(texts) + 1
     assert all(findings(text) == findings(TEXT) for text in texts)
@@ -79,7 +81,7 @@ def test_one_alone() -> None:
 
 
 def test_proofs_of_a_file() -> None:
-    """The proofs of a file's block are separate from those of the blocks that contain it."""
+    """The proofs of a file's own block are listed separately from those of the blocks that contain it."""
     own, others = proofs_of("rtl/motion/ppmc_stop_monitor.sv")
     assert {one.block for one in own} == {"ppmc_stop_monitor"}
     assert {"ppmc_axis", "ppmc_proc_time"} & {one.block for one in others}
@@ -101,7 +103,7 @@ def test_proofs_of_a_file() -> None:
 def test_order_of_what_a_mutant_meets(
     monkeypatch: pytest.MonkeyPatch, proof: str | None, group: str | None, wanted: list[str]
 ) -> None:
-    """After the first failure of a mutant, no further check runs, and the result names that failure."""
+    """After the first check that a mutant fails, no further check runs, and the result names this check."""
     file, tried = "rtl/motion/ppmc_stop_monitor.sv", []
     own = proofs_of(file)[0]
 
@@ -148,7 +150,9 @@ def test_every_file_can_be_changed() -> None:
 
 
 def test_a_sample_keeps_what_it_has() -> None:
-    """A sample with a higher count contains that with a lower one; each folder has `count` mutants."""
+    """A sample with a higher count contains the sample with a lower count; each folder has `count`
+    mutants.
+    """
     files = [*rtl_files("motion"), *rtl_files("common")]
     few, more = ({(file, fault.number) for file, fault in sample(files, n)} for n in (5, 20))
     assert len(few) == 10 and len(more) == 40 and few < more
@@ -157,7 +161,7 @@ def test_a_sample_keeps_what_it_has() -> None:
 
 
 def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Endless and equivalent mutants are counted separately."""
+    """Endless mutants and equivalent mutants are counted separately from survivors."""
     file = "rtl/common/ppmc_sync.sv"
     fault = faults(TEXT)[0]
     tried = [Tried(file, fault, verdict, "") for verdict in (KILLED, KILLED, ENDLESS, ALIVE)]

@@ -30,7 +30,7 @@ def ran(folder: Path, how: object, count: int, workers: Workers = TWO, stamp: st
 
 
 def test_all_results_come_from_both_workers(tmp_path: Path) -> None:
-    """Of forty jobs on two workers, each runs once, and a failed job is reported as failed."""
+    """Each of forty jobs on two workers runs once, and a job that fails is reported as failed."""
     done = ran(tmp_path, work.square, 40)
     assert [done[str(n)].data["square"] for n in range(40)] == [n * n for n in range(40)]
     assert [key for key in done if not done[key].good] == ["13"]
@@ -47,14 +47,14 @@ def test_a_killed_worker_loses_nothing(tmp_path: Path) -> None:
 
 
 def test_a_job_that_kills_each_worker_is_no_good(tmp_path: Path) -> None:
-    """A job that kills every worker is listed as failed, and the other jobs have their results."""
+    """If a job kills every worker, it is listed as failed, and all other jobs have their results."""
     done = ran(tmp_path, work.dies_always, 12)
     assert [key for key in done if not done[key].good] == ["5"]
     assert done["5"].data["message"] == "its workers were lost" and len(done) == 12
 
 
 def test_good_results_are_taken_over(tmp_path: Path) -> None:
-    """When a campaign is extended, only failed and missing jobs run."""
+    """If a campaign gets more jobs, only the failed and the new jobs run."""
     ran(tmp_path, work.square, 15)
     done = ran(tmp_path, work.square, 20)
     assert len(done) == 20 and sum(one.old for one in done.values()) == 14
@@ -65,7 +65,7 @@ def test_good_results_are_taken_over(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_and_going_on(tmp_path: Path) -> None:
-    """Ctrl-C ends a campaign within seconds, and the next run executes the remaining jobs once."""
+    """Ctrl-C ends a campaign within seconds; the next run executes only the remaining jobs, each once."""
     command = [sys.executable, "-m", work.__name__, str(tmp_path)]
     with subprocess.Popen(
         command,
@@ -73,7 +73,8 @@ def test_ctrl_c_and_going_on(tmp_path: Path) -> None:
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored in `&` jobs
+        # Background jobs of a shell ignore SIGINT, and child processes inherit that.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as first:
         assert first.stdout and first.stderr
         seen = [first.stdout.readline() for _ in range(5)]

@@ -1,4 +1,4 @@
-"""Jobs for the campaigns of the tests; a worker imports it. Each job that starts creates a file."""
+"""Jobs for the campaigns of the tests. Each job that starts creates a file. Workers import this module."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def begun(folder: Path, number: int) -> int:
 
 
 def square(what: tuple[Path, int]) -> Result:
-    """Return the square; 13 fails."""
+    """Return the square of the number; 13 fails."""
     folder, number = what
     note(folder, number)
     time.sleep(0.05)
@@ -34,7 +34,7 @@ def square(what: tuple[Path, int]) -> Result:
 
 
 def dies(what: tuple[Path, int]) -> Result:
-    """Do the same as `square`, but 5 kills its worker the first time, like a computer that loses power."""
+    """Do the same as `square`, but 5 kills its worker the first time, as a power failure would."""
     folder, number = what
     if number == 5 and not begun(folder, 5):
         note(folder, number)
@@ -50,7 +50,7 @@ def dies_always(what: tuple[Path, int]) -> Result:
 
 
 def refuses(what: tuple[Path, int]) -> Result:
-    """Raise a mistake of the user that is found on the worker."""
+    """Raise an error of the user that only the worker can detect."""
     raise ProjectError("no such thing")
 
 

@@ -1,4 +1,4 @@
-"""A logic analyser: samples a session at its own rate, with jitter, and writes files."""
+"""A logic analyser that samples a session at its own rate, with jitter, and writes files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PS = 10**12
 
 @dataclass
 class Seen:
-    """Single wires by name: initial level and changes (ps, level).
+    """Recorded wires, one bit each, by name: initial level and changes (ps, level).
 
     Attributes:
         step: sample period in ps.
@@ -48,7 +48,7 @@ def probe(
         jitter: maximum error of each edge in ps.
         begin, until: start and end of the capture in s.
         without: ports that are not connected.
-        ppm: how much too slow the analyser's clock is.
+        ppm: by how much the analyser's clock is too slow.
     """
     step = round(PS / rate)
     stretch = 1 - ppm * 1e-6
@@ -88,7 +88,7 @@ def probe(
 
 
 def _bus(ports: Mapping[str, tuple[int, list[tuple[int, int]]]]) -> tuple[int, list[tuple[int, int]]]:
-    """Return the level and changes of the data bus: the chip drives it while d_oe is 1, else the host."""
+    """Return the level and changes of the data bus, which the chip drives while d_oe is 1, else the host."""
     rows = sorted(
         (t, order, name, level)
         for order, name in enumerate(("d_i", "d_o", "d_oe"))
@@ -108,7 +108,7 @@ def _rows(seen: Seen) -> list[tuple[int, str, int]]:
 
 
 def write_vcd(seen: Seen, path: Path, comment: str = "") -> Path:
-    """Write the file as PulseView exports it. A name with a dot has a scope."""
+    """Write the file as PulseView exports it. A name with a dot is put into a scope."""
     with path.open("w") as file, VCDWriter(file, timescale="1 ps", date="", comment=comment) as writer:
         known = {}
         for full, (level, _) in seen.wires.items():
@@ -160,7 +160,7 @@ def write_sigrok_csv(seen: Seen, path: Path) -> Path:
 
 
 def write_sr(seen: Seen, path: Path) -> Path:
-    """Write a session of PulseView, with its samples in two pieces."""
+    """Write a session file of PulseView that stores the samples in two pieces."""
     size = -(-len(seen.wires) // 8)
     data = b"".join(
         sum(level << place for place, level in enumerate(levels.values())).to_bytes(size, "little")

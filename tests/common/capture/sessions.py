@@ -16,14 +16,14 @@ from openppmc.model.ppmc2104.part import Ppmc2104
 from openppmc.model.stmc.part import Stmc
 
 CLK_HZ = 20_000_000
-"""A clock different from that of the golden model that is compared with the capture."""
+"""Clock frequency of the chip, different from that of the golden model that the capture is compared with."""
 US = CLK_HZ // 1_000_000
 MS = 1000 * US
 
 
 @dataclass
 class PinLog:
-    """A model of a device whose pin changes are kept.
+    """A model of a device that records the changes of its pins.
 
     Attributes:
         inputs, outputs: levels before the first change.
@@ -54,14 +54,14 @@ class PinLog:
         return 45 * US
 
     def finish(self, t: int) -> PinLog:
-        """Run to time t, the end of the recording."""
+        """Run to time t, at which the recording ends."""
         self.model.run_until(t)
         self.end = t
         return self
 
 
 def _bytes(log: PinLog, t: int, *written: tuple[int, int]) -> int:
-    """Write (register, byte) pairs with a status read after each; return the time after the last one."""
+    """Write (register, byte) pairs, each followed by a status read; return the time after the last read."""
     for register, byte in written:
         t = log.model.write(t, register, byte, strobe=11) + 2 * US
         log.model.read(t, 1, strobe=11)
@@ -78,7 +78,7 @@ def _answers(log: PinLog, t: int, code: int, count: int) -> int:
 
 
 def ppmc104() -> PinLog:
-    """Record a ramp and a run into a limit."""
+    """Record a ramped move, and a move that ends at a limit."""
     log = PinLog("ppmc104", Ppmc104(CLK_HZ))
     t = _bytes(log, log.reset(), (1, 0x2A), (0, 99), (0, 9), (0, 60), (0, 0)) + 3 * MS
     t = _bytes(log, t, (1, 0x43), (0, 199), (0, 0), (0, 0)) + 25 * MS
@@ -102,7 +102,7 @@ def ppmc2104() -> PinLog:
 
 
 def stmc() -> PinLog:
-    """Record a ramp of steps, then one backwards."""
+    """Record a ramped move forwards, then one backwards."""
     log = PinLog("stmc", Stmc(CLK_HZ))
     t = _bytes(log, log.reset(), (1, 0x0A), (0, 20), (0, 4), (0, 20), (0, 0)) + 3 * MS
     t = _bytes(log, t, (1, 0x43), (0, 99), (0, 0), (0, 0)) + 90 * MS
@@ -112,7 +112,7 @@ def stmc() -> PinLog:
 
 
 def ppmc312() -> PinLog:
-    """Record blocks through the windows: a table, a move, its report."""
+    """Record blocks through the read and write windows: a table, a move, the report of its end."""
     log = PinLog("ppmc312", Ppmc312(CLK_HZ))
     model, t = log.model, log.reset()
 
@@ -154,7 +154,7 @@ def _say(log: PinLog, t: int, data: bytes, baud: int) -> int:
 
 
 def ppmc312_serial() -> PinLog:
-    """Record frames to two stations, one of which is present."""
+    """Record frames to two stations of which only one is present."""
     log = PinLog("ppmc312-serial", Ppmc312(CLK_HZ, straps={"mode": 0, "mod": 6, "adr": 3}))
     t = log.reset() + 3 * MS
     for station, data in ((3, "00000140004000047e"), (5, "42"), (3, "8300000000012c"), (3, "42")):

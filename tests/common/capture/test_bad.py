@@ -1,4 +1,4 @@
-"""Invalid captures and maps: one line with advice; the command line."""
+"""Invalid captures and maps: one line with advice. Also the command line of `decode`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .sessions import CLK_HZ, SESSIONS
 from .test_compare import session
 
 PORT = ""
-"""The command opens no board."""
+"""Port for the command line, which opens no board here."""
 MAP = """\
 part: ppmc104
 timing: FAST
@@ -51,7 +51,7 @@ def wired(tmp_path: Path) -> Path:
 
 
 def test_the_command(wired: Path, run: Run, tmp_path: Path) -> None:
-    """With a map, bytes, moves and the comparison are printed, and JSON contains the same."""
+    """With a map, bytes, moves and the comparison are printed; the JSON output contains the same data."""
     words = ("decode", str(wired), "--map", str(tmp_path / "map.yml"), "--compare")
     out = run(*words, "--plot", str(tmp_path / "speed.png")).out
     assert "accelerate/decelerate, CW, 200 pulses" in out and "0 differences" in out
@@ -62,7 +62,7 @@ def test_the_command(wired: Path, run: Run, tmp_path: Path) -> None:
 
 
 def test_a_difference_is_an_error(wired: Path, run: Run, tmp_path: Path) -> None:
-    """With another crystal in the map, edges differ, the exit status is 1, and the first edge is named."""
+    """If the map names another crystal, edges differ, the exit status is 1, and the first edge is named."""
     (tmp_path / "map.yml").write_text(MAP + "crystal: 8000000\n")
     outcome = run("decode", str(wired), "--map", str(tmp_path / "map.yml"), "--compare")
     assert "inputs not captured: " in outcome.err
@@ -102,7 +102,7 @@ def test_wrong_maps(old: str, new: str, says: str, wired: Path, run: Run, tmp_pa
 
 
 def test_of_another_part(wired: Path, run: Run, tmp_path: Path) -> None:
-    """If a PPMC-312 is decoded as a PPMC-104, the error suggests that the device is wrong."""
+    """If the capture of a PPMC-312 is decoded as a PPMC-104, the error suggests that the device is wrong."""
     seen = probe(SESSIONS["ppmc312"](), rate=1e12)
     names = {"we_n": "wr_n", "oe_n": "rd_n", "rs[0]": "a0"}
     seen.wires = {names.get(name, name): wire for name, wire in seen.wires.items()}
@@ -122,7 +122,9 @@ def test_a_clock_too_slow(run: Run, tmp_path: Path) -> None:
 
 
 def test_cut_files(tmp_path: Path) -> None:
-    """Half of a file is rejected with advice; so is a VCD that is cut after 300 bytes."""
+    """A file that ends in the middle is rejected with advice, and so is a VCD with only its first 300
+    bytes.
+    """
     seen = probe(session("ppmc104"), rate=4e6, until=0.01)
     for write, name in ((write_saleae, "a.csv"), (write_sigrok_csv, "b.csv"), (write_sr, "c.sr")):
         path = write(seen, tmp_path / name)
@@ -159,7 +161,7 @@ def test_no_captures(name: str, text: str | None, says: str, tmp_path: Path) -> 
 
 
 def test_maps_in_toml(tmp_path: Path) -> None:
-    """A TOML file is read as the same map; Python 3.10 rejects it with the advice to write YAML."""
+    """A map in TOML has the same content as in YAML; Python 3.10 rejects TOML and advises to write YAML."""
     path = tmp_path / "map.toml"
     path.write_text('part = "stmc"\n[pins]\na0 = "A0"\n')
     try:

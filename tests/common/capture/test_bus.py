@@ -1,4 +1,4 @@
-"""Accesses in columns are decoded to the same lines as single accesses in sequence."""
+"""Accesses decoded in columns give the same lines as accesses that are decoded one by one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CODES = (0x2A, 0x43, 0x63, 0x4D, 0x42, 0x80, 0xA0, 0x83, 0xA3, 0xC3, 0x81, 0x40,
 
 
 def session(source: random.Random, count: int) -> Accesses:
-    """Return random commands, data, responses and polls in any order."""
+    """Return random commands, data writes, responses and polls in a random order."""
     np = numpy()
     rows = []
     t = 0
@@ -34,7 +34,7 @@ def session(source: random.Random, count: int) -> Accesses:
 
 
 def judge(row: Exchange) -> DecodedAccess:
-    """Return a result that depends on the bytes and not on a status."""
+    """Return a result that depends on the bytes but not on a status."""
     return DecodedAccess(len(row.sent) > 3, row.sent[:1] == [0x2A], len(row.answer))
 
 
@@ -43,7 +43,7 @@ def judge(row: Exchange) -> DecodedAccess:
 )
 @pytest.mark.parametrize("seed", range(5))
 def test_rows_at_once(words: CommandDecoder, seed: int) -> None:
-    """`decoded_byte_lines` returns the lines of `exchanges` for accesses in any order."""
+    """For accesses in any order, `decoded_byte_lines` returns the lines that `exchanges` returns."""
     accesses = session(random.Random(f"accesses {seed}"), 3000)
     one_by_one = decoded_lines(
         accesses,
@@ -56,7 +56,7 @@ def test_rows_at_once(words: CommandDecoder, seed: int) -> None:
 
 
 def test_polls_are_left_out() -> None:
-    """Only reads of the status that repeat the previous read are omitted."""
+    """A status read is omitted only if it repeats the previous read."""
     np = numpy()
     rows = [
         (True, 1, 4),

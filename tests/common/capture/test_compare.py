@@ -1,4 +1,4 @@
-"""Captures of all devices compared with the golden model: complete, with jitter, partial, late, wrong."""
+"""Captures of all devices compared with the golden model: complete, jittery, partial, late, wrong ones."""
 
 from __future__ import annotations
 
@@ -27,12 +27,13 @@ WRITERS: dict[str, Callable[[Seen, Path], Path]] = {
 }
 CORE = {"CLK_HZ": CLK_HZ}
 SHORT = ("mon_step",)
-"""Outputs of our core whose pulses are shorter than a sample; the original chip does not have them."""
+"""Outputs with pulses shorter than a sample, which only our core has; the original chip does not have them.
+"""
 
 
 @cache
 def session(part: str) -> PinLog:
-    """Return a session, played once for all tests."""
+    """Return the session of a device, which is recorded once for all tests."""
     return SESSIONS[part]()
 
 
@@ -53,7 +54,7 @@ def compared(part: str, seen: Seen, path: Path, tolerance: float = 1.0) -> Resul
 
 @pytest.mark.parametrize("part", PARTS)
 def test_whole_captures(part: str, tmp_path: Path) -> None:
-    """With each edge at its exact ps, no edge differs, and the largest deviation is at most 0.1 µs."""
+    """If each edge is captured at its exact time in ps, no edge differs and no deviation exceeds 0.1 µs."""
     result = compared(part, probe(session(part), rate=1e12), tmp_path)
     assert not result.differences and result.compared > 100
     assert result.worst <= US / 10 and not result.skipped
@@ -61,16 +62,16 @@ def test_whole_captures(part: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_jitter_and_other_clocks(part: str, tmp_path: Path) -> None:
-    """With 24 MS/s, errors of 40 ns per edge and an analyser that is 60 ppm slow, no edge differs."""
+    """At 24 MS/s, with jitter of 40 ns per edge and an analyser that is 60 ppm slow, no edge differs."""
     seen = probe(session(part), rate=24e6, jitter=40_000, ppm=60, without=SHORT)
-    # From frames alone, the frequency of the crystal cannot be determined.
+    # The crystal frequency of a PMC006B4 cannot be determined from frames alone.
     result = compared(part, seen, tmp_path, 10.0 if part == "pmc006" else 2.0)
     assert not result.differences and result.compared > 100
 
 
 @pytest.mark.parametrize("part", PARTS)
 def test_missing_pins(part: str, tmp_path: Path) -> None:
-    """If switches, interrupt and half of the outputs are not connected, the other pins are compared."""
+    """If switches, interrupt and half of the outputs are not connected, the other pins are still compared."""
     gone = ("int_n", "irq_n", "hold", "auxo", "auxo_n", "alm_n", "fl_n", "gpo", "cd_n", "l1_n", "snd", *SHORT)
     seen = probe(session(part), without=gone)
     found = decoded(part, seen, tmp_path)
@@ -95,7 +96,7 @@ def test_captures_that_begin_in_the_middle(part: str, tmp_path: Path) -> None:
 
 
 def test_frames_from_the_middle(tmp_path: Path) -> None:
-    """On a PMC006B4 line that is captured from the middle, the frames are decoded."""
+    """If the capture of a PMC006B4 line begins in the middle, the frames after that are decoded."""
     found = decoded("pmc006", probe(session("pmc006"), begin=0.1, without=SHORT), tmp_path)
     assert "to controller 255: 8 microsteps" in [line.text for line in found.lines]
 
@@ -127,7 +128,7 @@ def test_a_glitch(part: str, tmp_path: Path) -> None:
     ],
 )
 def test_a_chip_that_differs(part: str, pin: str, tmp_path: Path) -> None:
-    """A missing pulse and an edge that is 20 µs late are found, and no other difference."""
+    """A missing pulse and an edge that is 20 µs late are reported, and no other difference is."""
     seen = probe(session(part), without=SHORT)
     level, changes = seen.wires[pin]
     at = len(changes) // 2
@@ -141,7 +142,7 @@ def test_a_chip_that_differs(part: str, pin: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", WRITERS)
 def test_files_of_all_analysers(name: str, tmp_path: Path) -> None:
-    """The same samples in four formats are decoded to the same session."""
+    """If the same samples are stored in four formats, they are decoded to the same session."""
     seen = probe(session("ppmc104"), rate=8e6, jitter=30_000, until=0.045)
     chosen = PinMap(timing="FAST", parameters=CORE)
     found = decode(read_capture(WRITERS[name](seen, tmp_path / name)), chosen, "ppmc104")
@@ -152,6 +153,8 @@ def test_files_of_all_analysers(name: str, tmp_path: Path) -> None:
 
 
 def test_another_crystal(tmp_path: Path) -> None:
-    """If the crystal of the chip is 60 ppm off by the analyser, the result reports it within 5 ppm."""
+    """If the crystal of the chip deviates by 60 ppm from the analyser's clock, the result states this within
+    5 ppm.
+    """
     result = compared("ppmc312", probe(session("ppmc312"), ppm=60), tmp_path, 2.0)
     assert abs(result.ppm - 60) < 5

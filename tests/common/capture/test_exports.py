@@ -1,4 +1,4 @@
-"""Files as programs of analysers and oscilloscopes export them: read, or rejected in one line."""
+"""Files as programs of analysers and oscilloscopes export them are read, or rejected in one line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from openppmc.capture.common.errors import CaptureError
 from openppmc.capture.common.files import read_capture
 
 NS, US, MS = 10**3, 10**6, 10**9
-"""ps"""
+"""Units of time in ps."""
 Changes = dict[str, list[tuple[int, int]]]
 
 READ: dict[str, tuple[str, Changes]] = {
@@ -70,7 +70,7 @@ READ: dict[str, tuple[str, Changes]] = {
 
 @pytest.mark.parametrize("name", READ)
 def test_exports_that_are_read(name: str, tmp_path: Path) -> None:
-    """Names, times and levels are those of the file."""
+    """The decoded names, times and levels are those of the file."""
     text, changes = READ[name]
     (tmp_path / "a.csv").write_text(text, encoding="utf-8")
     found = read_capture(tmp_path / "a.csv")
@@ -120,7 +120,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_exports_that_are_refused(name: str, tmp_path: Path) -> None:
-    """One line names the row and the remedy."""
+    """For an invalid file, one line names the row and the remedy."""
     text, says = REFUSED[name]
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(CaptureError, match=says) as error:
@@ -140,7 +140,7 @@ def test_exports_that_are_refused(name: str, tmp_path: Path) -> None:
     ],
 )
 def test_files_of_other_kinds(suffix: str, says: str, tmp_path: Path) -> None:
-    """The line names the menu of the program that wrote the file."""
+    """A file in the native format of a program is rejected; the error states how to export it."""
     path = tmp_path / f"a{suffix}"
     path.write_bytes(b"<SALEAE>\0\0")
     with pytest.raises(CaptureError, match=rf"a{suffix}: captures end in \.vcd, \.csv, \.sr: .*{says}"):
@@ -148,7 +148,7 @@ def test_files_of_other_kinds(suffix: str, says: str, tmp_path: Path) -> None:
 
 
 def test_vcd_of_pulseview(tmp_path: Path) -> None:
-    """Changes in the same line as their time are read, and $dumpvars is not required."""
+    """Changes may be on the line of their time, and $dumpvars is not required."""
     (tmp_path / "a.vcd").write_text(
         "$date Sat Apr  1 10:00:00 2023 $end\n$version libsigrok 0.5.2 $end\n$comment\n"
         "  Acquisition with 2/8 channels at 24 MHz\n$end\n"

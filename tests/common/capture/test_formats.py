@@ -1,4 +1,6 @@
-"""Captures from real tools: variants of CSV, VCD and .sr are read alike, or rejected in one line."""
+"""Captures from real tools: all variants of CSV, VCD and .sr give the same session, or are rejected in one
+line.
+"""
 
 from __future__ import annotations
 
@@ -24,13 +26,13 @@ from .test_compare import session
 from .variants import RATE, edited, exact, saleae, sigrok_cli, with_bus
 
 PORT = ""
-"""The command opens no board."""
+"""Port for the command line, which opens no board here."""
 CORE = {"CLK_HZ": CLK_HZ}
 
 
 @cache
 def seen() -> Seen:
-    """Return a ramp of a PPMC-104, at 24 MS/s, with times that are whole multiples of the sample period."""
+    """Return a ramp of a PPMC-104 at 24 MS/s, with edges at whole multiples of the sample period."""
     return probe(session("ppmc104"), rate=RATE, until=0.016)
 
 
@@ -40,7 +42,9 @@ def lines_of(path: Path, chosen: PinMap | None = None) -> Decoded:
 
 
 def check(path: Path, notes: int = 0, tolerance: float = 0.5) -> Decoded:
-    """Check that the file contains the session: texts, pulses, no difference from the golden model."""
+    """Check that the file contains the session: its texts, its pulses, no difference from the golden
+    model.
+    """
     found = lines_of(path)
     assert [line.text for line in found.lines][1] == "accelerate/decelerate, CW, 200 pulses → BUSY"
     assert found.moves[0].way == 1 and found.moves[0].pulses > 10
@@ -66,7 +70,7 @@ SIGROK: dict[str, dict[str, object]] = {
 
 @pytest.mark.parametrize("name", SIGROK)
 def test_csv_of_sigrok(name: str, tmp_path: Path) -> None:
-    """The times follow from sample rate and row number, not from the 41 ns that sigrok writes."""
+    """Times are derived from sample rate and row number, not from the period of 41 ns that sigrok writes."""
     path = sigrok_cli(seen(), tmp_path / "a.csv", **SIGROK[name])  # type: ignore[arg-type]
     check(path)
     true = exact(seen()).wires["pout_n"][1]
@@ -75,7 +79,7 @@ def test_csv_of_sigrok(name: str, tmp_path: Path) -> None:
 
 
 def test_sigrok_without_its_head(tmp_path: Path) -> None:
-    """Whole-number times without a unit and without a sample rate are rejected."""
+    """Times that are whole numbers are rejected if the file states neither a unit nor a sample rate."""
     path = sigrok_cli(seen(), tmp_path / "a.csv", label="channel", header=False)
     with pytest.raises(CaptureError, match=r"whole numbers without a unit: write it .* as `Time \[ns\]`"):
         read_capture(path)
@@ -84,7 +88,7 @@ def test_sigrok_without_its_head(tmp_path: Path) -> None:
 
 
 def test_rate_without_a_unit(tmp_path: Path) -> None:
-    """samplerate=24000000 of a .sr is in Hz."""
+    """The sample rate of a .sr file may have a unit, with or without a space; without a unit it is in Hz."""
     path = write_sr(seen(), tmp_path / "a.sr")
     with zipfile.ZipFile(path) as archive:
         files = {one: archive.read(one) for one in archive.namelist()}
@@ -98,7 +102,7 @@ def test_rate_without_a_unit(tmp_path: Path) -> None:
 
 
 def iso(t: Fraction) -> str:
-    """Return a time stamp with ns."""
+    """Return a time stamp with a resolution of 1 ns."""
     ns = round(t * 10**9)
     second = datetime(2026, 3, 3, 23, 59, 59) + timedelta(seconds=ns // 10**9)
     return f"{second:%Y-%m-%dT%H:%M:%S}.{ns % 10**9:09d}+00:00"
@@ -129,7 +133,9 @@ TIMES: dict[str, dict[str, object]] = {
 
 @pytest.mark.parametrize("name", TIMES)
 def test_columns_of_times(name: str, tmp_path: Path) -> None:
-    """Units, signs, time stamps and separators are read; the first row is the start of the capture."""
+    """Times with units, signs, time stamps and separators are read; the first row is the start of the
+    capture.
+    """
     found = check(saleae(exact(seen()), tmp_path / "a.csv", **TIMES[name]))  # type: ignore[arg-type]
     assert abs(found.wires.end - exact(seen()).end) < 1000
 
@@ -151,7 +157,7 @@ def test_columns_of_times(name: str, tmp_path: Path) -> None:
     ],
 )
 def test_bad_tables(rows: str, says: str, tmp_path: Path) -> None:
-    """One line names the row and the remedy."""
+    """For an invalid row, one line names the row and the remedy."""
     (tmp_path / "a.csv").write_text(rows)
     with pytest.raises(CaptureError, match=says) as error:
         read_capture(tmp_path / "a.csv")
@@ -160,7 +166,7 @@ def test_bad_tables(rows: str, says: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "latin-1"])
 def test_encodings(encoding: str, run: Run, tmp_path: Path) -> None:
-    """Captures and maps may have a byte order mark and may be in UTF-16 or Latin-1."""
+    """Captures and maps may begin with a byte order mark and may be in UTF-16 or Latin-1."""
     for path in (
         saleae(seen(), tmp_path / "a.csv"),
         edited(
@@ -181,7 +187,9 @@ def test_encodings(encoding: str, run: Run, tmp_path: Path) -> None:
     [("[7:0]", False), ("[8:1]", False), ("[0:7]", True), ("[1:8]", True), ("", False)],
 )
 def test_declared_ranges(declared: str, turned: bool, tmp_path: Path) -> None:
-    """The lowest index is D0, regardless of the first bit in the file; an ascending range is reported."""
+    """The lowest index of a vector is D0, regardless of the order of its bits in the file; an ascending range
+    is reported.
+    """
     path = with_bus(seen(), tmp_path / "a.vcd", declared, turned)
     check(path, notes=int(turned))
     low = 1 if declared in ("[8:1]", "[1:8]") else 0
@@ -195,7 +203,7 @@ def test_declared_ranges(declared: str, turned: bool, tmp_path: Path) -> None:
 
 
 def test_names_of_variables(tmp_path: Path) -> None:
-    """`name [0:0]`, escaped names, names with spaces and scopes with one bit each are read."""
+    """Names with `[0:0]`, escaped names, names with spaces, and scopes of single bits are read."""
     check(edited(seen(), tmp_path / "a.vcd", (r" wr_n \$end", " wr_n [0:0] $end")))
     check(edited(seen(), tmp_path / "a.vcd", (r" d\[(\d)\] \$end", r" d [\1:\1] $end")))
     check(edited(seen(), tmp_path / "a.vcd", (r" d\[(\d)\] \$end", r" d [\1] $end")))
@@ -208,7 +216,7 @@ def test_names_of_variables(tmp_path: Path) -> None:
 
 
 def test_duplicate_names(tmp_path: Path) -> None:
-    """Two variables with the same name in one scope are rejected when this name is used."""
+    """If one scope has two variables with the same name, the use of this name is rejected."""
     path = edited(seen(), tmp_path / "a.vcd", (r" hold \$end", " dir $end"))
     with pytest.raises(CaptureError, match=r"two channels are dir .*: name the right one with --map"):
         lines_of(path)
@@ -228,7 +236,9 @@ SCALES = {
 
 @pytest.mark.parametrize("name", SCALES)
 def test_timescales(name: str, tmp_path: Path) -> None:
-    """A file without $timescale is read in ns, which is reported; fractions of 1 fs are read."""
+    """The times of a file without $timescale are read as ns, which is reported; fractions of 1 fs are
+    read.
+    """
     text, ps, notes = SCALES[name]
     path = write_vcd(
         probe(session("ppmc104"), rate=1e9 if ps == 1000 else 1e8, until=0.016), tmp_path / "a.vcd"
@@ -265,7 +275,7 @@ def without_values(path: Path, names: tuple[str, ...], level: str | None) -> Pat
 
 @pytest.mark.parametrize("level", ["x", "z", "X", None])
 def test_unknown_inputs(level: str | None, run: Run, tmp_path: Path) -> None:
-    """Switches without a known level are assumed inactive, which is reported once."""
+    """Switches whose level is unknown are assumed inactive, which is reported once."""
     path = without_values(write_vcd(seen(), tmp_path / "a.vcd"), INPUTS, level)
     found = check(path, notes=1)
     assert found.notes[0].startswith("unknown levels (x, z, none), assumed inactive: ")
@@ -275,14 +285,14 @@ def test_unknown_inputs(level: str | None, run: Run, tmp_path: Path) -> None:
 
 
 def test_unknown_strobes(tmp_path: Path) -> None:
-    """A strobe without any known level is rejected like one that was not captured."""
+    """A strobe whose level is never known is rejected like a strobe that was not captured."""
     path = without_values(write_vcd(seen(), tmp_path / "a.vcd"), ("wr_n",), "x")
     with pytest.raises(CaptureError, match="wr_n has no known level .*; capture it"):
         lines_of(path)
 
 
 def test_a_dump_that_is_switched_off(tmp_path: Path) -> None:
-    """Between $dumpoff and $dumpon levels are unknown: inputs are inactive, outputs keep their level."""
+    """Between $dumpoff and $dumpon levels are unknown: inputs count as inactive, outputs keep their level."""
     path = write_vcd(seen(), tmp_path / "a.vcd")
     text = path.read_text()
     codes = [line.split()[3] for line in text.splitlines() if line.startswith("$var")]
@@ -301,7 +311,7 @@ def test_a_dump_that_is_switched_off(tmp_path: Path) -> None:
 
 
 def test_vectors_with_unknown_bits(tmp_path: Path) -> None:
-    """The known bits of a vector are used; a vector of x may be written in the short form of the format."""
+    """The known bits of a vector are used; a vector of x may have the short form that the format permits."""
     path = with_bus(seen(), tmp_path / "a.vcd", "[7:0]")
     text = path.read_text()
     name, code = "l", "LL"
@@ -321,7 +331,7 @@ def test_vectors_with_unknown_bits(tmp_path: Path) -> None:
 
 
 def test_cells_without_a_level(tmp_path: Path) -> None:
-    """X, Z and empty cells of a table are unknown levels."""
+    """X, Z and empty cells of a table are read as unknown levels."""
     path = saleae(seen(), tmp_path / "a.csv")
     for cell in ("X", "z", "", "-"):
         lines = path.read_text().splitlines()
@@ -358,7 +368,7 @@ def test_comments_anywhere(tmp_path: Path) -> None:
     ],
 )
 def test_damaged_dumps(old: str, new: str, says: str, tmp_path: Path) -> None:
-    """One line names the line of the file and the remedy."""
+    """For an invalid line, one line names the line and the remedy."""
     with pytest.raises(CaptureError, match=says) as error:
         lines_of(edited(seen(), tmp_path / "a.vcd", (old, new)))
     assert "\n" not in str(error.value)
@@ -366,7 +376,7 @@ def test_damaged_dumps(old: str, new: str, says: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("level", "begin"), [(0, 0.0), (1, 0.0), (1, 42e-6)])
 def test_a_constant_output(level: int, begin: float, run: Run, tmp_path: Path) -> None:
-    """DIR that is stuck at the wrong level is one difference; at the correct level it is no difference."""
+    """If DIR is stuck, this is one difference at the wrong level, and no difference at the correct level."""
     without = ("rst_n",) if begin else ()
     one = probe(session("ppmc104"), rate=1e9, until=0.016, begin=begin, without=without)
     one.wires["dir"] = (level, [])
@@ -379,7 +389,7 @@ def test_a_constant_output(level: int, begin: float, run: Run, tmp_path: Path) -
 
 
 def test_hint_needs_pins_that_differ(run: Run, tmp_path: Path) -> None:
-    """For a PPMC-104 that was sampled too slowly, the error does not suggest another device."""
+    """If the capture of a PPMC-104 was sampled too slowly, the error does not suggest another device."""
     path = write_vcd(probe(session("ppmc104"), rate=1e6), tmp_path / "slow.vcd")
     outcome = run("decode", str(path), "--part", "ppmc104")
     assert "sampled every 1 µs" in outcome.err and "another part" not in outcome.err

@@ -1,4 +1,4 @@
-"""Damaged capture files: one line or a result, no traceback and no endless loop."""
+"""Damaged capture files: they end in one line or a result, never in a traceback or an endless loop."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def damaged(data: bytes, source: random.Random) -> bytes:
 
 @pytest.mark.parametrize("name", FILES)
 def test_damaged_files(name: str, tmp_path: Path) -> None:
-    """A damaged file is rejected in one line or read; a seeded random sample of damages."""
+    """A randomly damaged file is read, or rejected in one line; the seed of each case is fixed."""
     path = FILES[name](tmp_path)
     data = path.read_bytes()
     source = random.Random(f"captures {name}")
@@ -115,7 +115,7 @@ def test_damaged_files(name: str, tmp_path: Path) -> None:
 
 
 def _levels(path: Path) -> dict[str, tuple[int, list[tuple[int, int]], int]] | None:
-    """Return the content of a file; None if it is rejected."""
+    """Return the decoded content of a file; None if it is rejected."""
     try:
         found = read_capture(path)
     except PpmcError:
@@ -125,7 +125,9 @@ def _levels(path: Path) -> dict[str, tuple[int, list[tuple[int, int]], int]] | N
 
 @pytest.mark.parametrize("name", ["saleae", "sigrok"])
 def test_blocks_of_a_table(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A damaged table has the same levels, or is rejected, regardless of the size of the blocks read."""
+    """A damaged table gives the same levels, or is rejected, with every size of the blocks in which it is
+    read.
+    """
     data = FILES[name](tmp_path).read_bytes()[:20_000]
     path = tmp_path / "damaged.csv"
     source = random.Random(f"blocks {name}")
@@ -141,7 +143,9 @@ def test_blocks_of_a_table(name: str, tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def rewritten(rows: list[str], source: random.Random) -> str:
-    """Return the same table in other forms: cells quoted, spaced, with decimals or letters; lines between."""
+    """Return the same table in another form: quoted or padded cells, decimals or letters, lines in
+    between.
+    """
     found = []
     for row in rows:
         time, *levels = row.split(",")
@@ -163,7 +167,7 @@ def rewritten(rows: list[str], source: random.Random) -> str:
 
 
 def test_rewritten_tables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Lines of another form have the same levels as plain ones, regardless of the ends of blocks."""
+    """A table in another form gives the same levels as the plain table, wherever a block ends."""
     path = FILES["saleae"](tmp_path)
     head, *rows = path.read_text().splitlines()[:800]
     path.write_text("\n".join([head, *rows]) + "\n")

@@ -13,12 +13,14 @@ from scripts.measure.bench.captures import COMPARED, EDGES, measure
 
 BYTES = 24
 PLAIN = {"moves.vcd": 40.0, "bus.vcd": 60.0, "moves.csv": 17.0}
-"""Maximum time of a file, relative to a numpy pass over its bytes: twice the measured value."""
+"""Maximum time for a file, relative to a numpy pass over its bytes: twice the measured ratio."""
 
 
 @pytest.mark.parametrize("name", PLAIN)
 def test_four_million_edges(name: str, tmp_path: Path) -> None:
-    """A capture of 4 million edges needs 24 bytes for each edge, and a bounded multiple of a numpy pass."""
+    """A capture of 4 million edges needs 24 bytes per edge, and a bounded multiple of the time of a numpy
+    pass.
+    """
     found = measure(tmp_path, name, runs=3)
     assert found.edges >= EDGES
     assert found.size <= BYTES
@@ -26,14 +28,14 @@ def test_four_million_edges(name: str, tmp_path: Path) -> None:
 
 
 def test_compare_needs_columns(tmp_path: Path) -> None:
-    """A comparison needs two more columns of times and levels per edge, and no objects."""
+    """A comparison needs only two more columns of times and levels per edge, no object per edge."""
     small, large = (measure(tmp_path, COMPARED, edges, runs=1) for edges in (50_000, 250_000))
     assert (large.size * large.edges - small.size * small.edges) / (large.edges - small.edges) <= 2 * BYTES
 
 
 @pytest.mark.parametrize(("mine", "other"), [(1000, 0), (0, 1000), (1000, 1), (257, 256)])
 def test_a_side_without_edges(mine: int, other: int) -> None:
-    """All edges that only one side has are differences."""
+    """If only one side has edges, each of them is a difference."""
     np = numpy()
     sides = [Channel.of(1, np.arange(n) * 10**6, (np.arange(n) & 1).astype(np.uint8)) for n in (mine, other)]
     result = Result()
@@ -42,7 +44,7 @@ def test_a_side_without_edges(mine: int, other: int) -> None:
 
 
 def test_differences_need_columns() -> None:
-    """Edges without a partner also need only two columns."""
+    """Also for edges that only one side has, a comparison needs only two more columns."""
     np = numpy()
     count = 40_000
     times = np.arange(count) * 1_000_000

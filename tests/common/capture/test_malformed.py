@@ -1,4 +1,4 @@
-"""Malformed captures and maps: one short line, no traceback, no endless loop."""
+"""Malformed captures and maps are rejected in one short line, without a traceback or an endless loop."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .test_compare import session
 
 LONGEST_S = 20
 MANY = "9" * 5000
-"""More digits than Python converts in one call."""
+"""A number with more digits than Python converts in one call."""
 HUGE = "1e999999999"
 VCD = """$timescale 1 ns $end
 $var wire 1 ! a $end
@@ -36,7 +36,7 @@ CSV = "; Samplerate: {} Hz\nA\n0\n1\n"
 
 @pytest.fixture(autouse=True)
 def _limit() -> Iterator[None]:
-    """Fail a test that does not end."""
+    """Fail a test that does not end in time."""
 
     def stop(*_: object) -> None:
         raise TimeoutError
@@ -100,13 +100,13 @@ def test_malformed_files(name: str, text: str, says: str, tmp_path: Path) -> Non
 
 
 def test_a_range_with_many_digits(tmp_path: Path) -> None:
-    """A range that is not a number is a part of the name."""
+    """A range that is not a number is read as part of the name."""
     (tmp_path / "a.vcd").write_text(VCD.replace("a $end", f"a [{MANY}:0] $end"))
     assert list(read_capture(tmp_path / "a.vcd").channels) == [f"a [{MANY}:0]"]
 
 
 def test_empty_text(tmp_path: Path) -> None:
-    """A text variable may be empty; the levels after it are read."""
+    """A text variable may be empty; the levels after it are still read."""
     text = VCD.replace("$enddef", "$var string 1 $ note $end\n$enddef") + "s $\n#9\nshi $\n0!\n#11\ns $ 1!\n"
     (tmp_path / "a.vcd").write_text(text)
     found = read_capture(tmp_path / "a.vcd")
@@ -134,7 +134,7 @@ def test_malformed_maps(text: str, says: str, tmp_path: Path) -> None:
 
 
 def host_of_312(*accesses: tuple[str, int, int]) -> Seen:
-    """Return accesses (strobe, rs, byte) to a PPMC-312, 1 µs apart."""
+    """Return accesses to a PPMC-312 as (strobe, rs, byte), 1 µs apart."""
     seen = Seen(step=10_000)
     names = [f"d[{bit}]" for bit in range(8)] + [f"rs[{bit}]" for bit in range(3)]
     seen.wires = {name: (0, []) for name in names} | {name: (1, []) for name in ("cs_n", "we_n", "oe_n")}
@@ -157,7 +157,7 @@ def host_of_312(*accesses: tuple[str, int, int]) -> Seen:
 
 
 def test_short_blocks_of_a_312(tmp_path: Path) -> None:
-    """A block that is too short for an instruction is a strange line."""
+    """A block that is too short for its instruction is decoded to a line that is marked as invalid."""
     words = [("we_n", 3, 0x1F), ("we_n", 5, 0x42), ("we_n", 3, 0x1E), ("we_n", 5, 9), ("we_n", 5, 7)]
     path = write_vcd(host_of_312(*words), tmp_path / "a.vcd")
     found = decode(read_capture(path), PinMap(), "ppmc312")
@@ -165,7 +165,7 @@ def test_short_blocks_of_a_312(tmp_path: Path) -> None:
 
 
 def test_many_reports_of_a_312(tmp_path: Path) -> None:
-    """The time increases linearly with the number of accesses, not with its square."""
+    """The decoding time increases linearly with the number of accesses, not with its square."""
     words = [("oe_n", 7, 0)] * 20_000 + [("we_n", 3, 0x1D), *[("we_n", 5, 9)] * 3, ("oe_n", 3, 0x3D)] * 2000
     path = write_vcd(host_of_312(*words), tmp_path / "a.vcd")
     assert len(decode(read_capture(path), PinMap(), "ppmc312").lines) == 2000

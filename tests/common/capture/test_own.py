@@ -1,4 +1,4 @@
-"""VCDs of our own cores, which contain device and parameters; hints for files without them."""
+"""VCDs of our own cores, which name device and parameters; advice for files that do not."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from .sessions import CLK_HZ
 from .test_compare import PARTS, session
 
 PORT = ""
-"""The command opens no board."""
+"""Port for the command line, which opens no board here."""
 CORE = {"CLK_HZ": CLK_HZ, "XTAL_HZ": 16_000_000, "TIMING": "FAST"}
 
 
 def test_nothing_has_to_be_named(run: Run, tmp_path: Path) -> None:
-    """For a file that contains device and parameters, the command needs neither."""
+    """For a VCD that names device and parameters, the command line needs neither."""
     path = write_vcd(probe(session("pmc006"), rate=1e12), tmp_path / "own.vcd", core_comment("pmc006", CORE))
     out = run("decode", str(path), "--compare", "--tolerance", "0.2").out
     assert "a PMC006B4" in out and "(FAST), 0 differences" in out
@@ -34,7 +34,9 @@ def test_nothing_has_to_be_named(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_the_file_tells_the_clock(part: str, tmp_path: Path) -> None:
-    """With device and clock in the file, no edge differs; with a wrong clock, those of a PMC006B4 differ."""
+    """If the VCD names device and clock, no edge differs; if it names a wrong clock of a PMC006B4, edges
+    differ.
+    """
     seen = probe(session(part), rate=1e12)
     path = write_vcd(seen, tmp_path / "own.vcd", core_comment(part, CORE))
     result = compare(decode(read_capture(path), PinMap()), US)
@@ -45,7 +47,7 @@ def test_the_file_tells_the_clock(part: str, tmp_path: Path) -> None:
 
 
 def test_options_go_before_the_file(tmp_path: Path) -> None:
-    """Another TIMING in the map, or another device, takes precedence over the values in the file."""
+    """A TIMING in the map and a device on the command line have precedence over those in the file."""
     path = write_vcd(probe(session("stmc")), tmp_path / "own.vcd", core_comment("stmc", CORE))
     assert decode(read_capture(path), PinMap(timing="DATASHEET")).timing == "DATASHEET"
     other = decode(read_capture(path), PinMap(), "ppmc104")
@@ -64,7 +66,7 @@ def test_options_go_before_the_file(tmp_path: Path) -> None:
     ],
 )
 def test_damaged_comments(comment: str, tmp_path: Path) -> None:
-    """A comment that cannot be read is rejected in one line with advice."""
+    """If the comment with device and parameters cannot be read, one line states this with advice."""
     path = write_vcd(probe(session("ppmc104")), tmp_path / "own.vcd", comment)
     with pytest.raises(CaptureError, match="own.vcd: its comment .* is damaged: take it out"):
         read_capture(path)
@@ -79,7 +81,7 @@ def test_damaged_comments(comment: str, tmp_path: Path) -> None:
     ],
 )
 def test_pins_of_another_part(part: str, named: str, says: str, run: Run, tmp_path: Path) -> None:
-    """For a file of another device, the line names the devices whose pins it has."""
+    """If the file is from another device, the error names the devices whose pins it has."""
     path = write_vcd(probe(session(part)), tmp_path / "other.vcd")
     outcome = run("decode", str(path), "--part", named)
     assert outcome.code == 1
@@ -88,7 +90,9 @@ def test_pins_of_another_part(part: str, named: str, says: str, run: Run, tmp_pa
 
 @pytest.mark.parametrize("part", ["ppmc104", "ppmc2104"])
 def test_the_other_timing(part: str, run: Run, tmp_path: Path) -> None:
-    """If a FAST core is compared with the DATASHEET model, a line names the matching TIMING; else not."""
+    """If a FAST core is compared with the DATASHEET model, one line names the TIMING that matches. If no
+    TIMING matches, there is no such line.
+    """
     comment = core_comment(part, CORE | {"TIMING": "DATASHEET"})
     path = write_vcd(probe(session(part)), tmp_path / "own.vcd", comment)
     outcome = run("decode", str(path), "--compare")
@@ -98,9 +102,9 @@ def test_the_other_timing(part: str, run: Run, tmp_path: Path) -> None:
 
 
 def test_stations_in_scopes(run: Run, tmp_path: Path) -> None:
-    """Of two stations in one file, the first is read, or the one of --scope.
+    """If a file has two stations, the first is read, or the station that --scope names.
 
-    A scope that does not exist is rejected with the list of existing scopes.
+    If the scope does not exist, the error lists the existing scopes.
     """
     seen = probe(session("ppmc312-serial"), rate=1e12)
     idle = {f"station0.{name}": (level, []) for name, (level, _) in seen.wires.items() if name != "rxd"}
@@ -117,7 +121,7 @@ def test_stations_in_scopes(run: Run, tmp_path: Path) -> None:
 
 
 def test_what_a_switch_ended_tells_no_crystal() -> None:
-    """A move that ended 50 µs late (by a switch) does not influence the estimate of the crystal.
+    """A move whose end a switch delayed by 50 µs does not influence the estimate of the crystal.
 
     If all other moves are 60 ppm longer, the estimate is 60 ppm.
     """
@@ -130,7 +134,7 @@ def test_what_a_switch_ended_tells_no_crystal() -> None:
 
 @pytest.mark.parametrize("read_map", ["FAMILY", "SHEET"])
 def test_words_of_an_stmc_follow_its_read_map(read_map: str) -> None:
-    """The decoder names the reads of an STMC by its READ_MAP (R-01)."""
+    """The decoder names the reads of an STMC according to its READ_MAP (R-01)."""
     words = StmcDecoder(read_map)
     names = [words.command(code, ()) for code in (0x80, 0x81, 0x82, 0x83, 0x84)]
     reads = ["read finish status", "read inputs", "read outputs", "read remaining steps"]

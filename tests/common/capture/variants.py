@@ -1,4 +1,6 @@
-"""Variants of capture files as programs of analysers write them, all with the same samples of a session."""
+"""Variants of capture files as programs of analysers write them; all contain the same samples of a
+session.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ from .analyser import PS, Seen, samples, write_saleae, write_vcd
 
 RATE = 24_000_000
 PERIOD = 41
-"""In ns: sigrok truncates 41.67 to this."""
+"""Sample period in ns that sigrok prints: 41.67, truncated."""
 
 
 def exact(seen: Seen, rate: int = RATE) -> Seen:
@@ -75,7 +77,7 @@ def saleae(
     separator: str = ",",
     level: Callable[[int], str] = str,
 ) -> Path:
-    """Write one row per change, with each time shifted by `shift` seconds."""
+    """Write one row per change, and shift each time by `shift` seconds."""
     write_saleae(seen, path)
     text = path.read_text().splitlines()
     rows = [f"{head}{separator}" + separator.join(text[0].split(",")[1:])]
@@ -90,7 +92,7 @@ def saleae(
 def edited(
     seen: Seen, path: Path, *edits: tuple[str, str], encoding: str = "utf-8", bom: bytes = b""
 ) -> Path:
-    """Write a VCD in which regular expressions were replaced."""
+    """Write a VCD after replacing the matches of regular expressions."""
     text = write_vcd(seen, path).read_text()
     for old, new in edits:
         text, count = re.subn(old, new, text, flags=re.MULTILINE)

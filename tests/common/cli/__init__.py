@@ -1,1 +1,1 @@
-"""The command line, except commands of single devices."""
+"""Tests of the command line, except the commands of single devices."""

@@ -1,4 +1,4 @@
-"""A command line for every command of every device."""
+"""Command lines for every command of every device."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from tests.common.capture import sessions
 from tests.common.capture.analyser import probe, write_saleae
 
 REJECTED = {"stop": 1, "table": 1, "selftest": 1}
-"""Commands that an idle model rejects, and their exit status: they print nothing to stdout."""
-# Device ("" for those accessed through the bridge) -> command -> arguments. Words in braces are files of
-# `files`.
+"""Commands that an idle model rejects, with their exit status; they print nothing to stdout."""
+# Device ("" for those accessed through the bridge) -> command -> arguments. A word in braces is a key of the
+# result of `files`.
 ARGUMENTS: dict[str, dict[str, str]] = {
     "": {
         "ports": "",
@@ -80,7 +80,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
 
 
 def files(folder: Path) -> dict[str, Path]:
-    """Write the input files of the commands, with characters in their names that few encodings have."""
+    """Write the input files of the commands; their names contain characters that few encodings have."""
     texts = {
         "script": "move 5\nposition\nmove -5\n",
         "stations": "init axis=1\nmove 5 axis=1\nposition axis=1\n",
@@ -107,7 +107,7 @@ def files(folder: Path) -> dict[str, Path]:
 
 
 def lines(paths: dict[str, Path]) -> dict[str, list[str]]:
-    """Return command lines by name: of all commands, and of the tables that devices add."""
+    """Return command lines by name: for all commands, and for the tables that single devices add."""
     port = ["--port", "model:speed=max"]
     found = {}
     for part, commands in ARGUMENTS.items():
@@ -121,7 +121,7 @@ def lines(paths: dict[str, Path]) -> dict[str, list[str]]:
 
 
 def without_line() -> set[str]:
-    """Return the commands that ARGUMENTS lacks."""
+    """Return the commands without a line in ARGUMENTS."""
     return {
         f"{part} {name}".strip()
         for row in Commands.rows

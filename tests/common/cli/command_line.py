@@ -13,7 +13,7 @@ class Outcome(NamedTuple):
 
     @property
     def only_line(self) -> str:
-        """The only line of an error."""
+        """The line on stderr; fails unless there is exactly one."""
         assert self.code and self.err.startswith("error: ") and self.err.count("\n") == 1, self
         return self.err
 

@@ -17,7 +17,7 @@ def run(
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
 ) -> Run:
-    """Call the command line in this process; the port is PORT of the module without --port."""
+    """Call the command line in this process; without --port, the port is PORT of the test module."""
     monkeypatch.setenv("OPENPPMC_STATE", str(tmp_path / "state"))
     monkeypatch.setenv("OPENPPMC_PORT", request.module.PORT)
     monkeypatch.delenv("OPENPPMC_PART", raising=False)

@@ -85,7 +85,7 @@ def test_status_and_monitor(run: Run) -> None:
 
 
 def test_plan_and_plot(run: Run, tmp_path: Path) -> None:
-    """14 pulses of the ramp of P104-EX-01 take 170 µs."""
+    """`plan` states that 14 pulses of the ramp of P104-EX-01 take 170 µs; no board is needed."""
     options = ["--start", "50000", "--high", "100000", "--ramp", "4"]
     values = json.loads(run("plan", "14", *options, "--json").out)
     assert values["move"]["seconds"] == pytest.approx(170e-6)
@@ -329,7 +329,7 @@ def test_the_second_ctrl_c_is_not_patient(
 ) -> None:
     """After the second Ctrl-C the motor stops immediately, without a deceleration ramp.
 
-    Two seconds into a ramp of 11 000 pulses, a deceleration takes about two more seconds.
+    Two seconds after the start of a ramp of 11 000 pulses, a deceleration would take about two more seconds.
     """
     with Ppmc104.open(FAST) as axis:
         axis.initialise(start_pps=1000, high_pps=1200, ramp_pulses=11_000)

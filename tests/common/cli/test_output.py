@@ -1,4 +1,6 @@
-"""Output of all commands: any encoding, a narrow terminal, stdout full, closed or without a reader."""
+"""Output of all commands: in any encoding, on a narrow terminal, to a stdout that is full, closed or
+unread.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,7 @@ def commands(tmp_path: Path) -> dict[str, list[str]]:
 
 @pytest.fixture(autouse=True)
 def no_console() -> Iterator[None]:
-    """Remove the console, which keeps text that a broken stdout did not accept, after each test."""
+    """Remove the console after each test, because it keeps text that a broken stdout did not accept."""
     yield
     vars(output).pop("console", None)
 
@@ -68,12 +70,12 @@ def printed(
 
 
 def test_the_list_of_commands_is_complete() -> None:
-    """The tests below run every command of every device."""
+    """The following tests run every command of every device."""
     assert all_commands.without_line() == set()
 
 
 def test_every_command_in_ascii_on_a_narrow_terminal(commands: dict[str, list[str]]) -> None:
-    """Every command and its help print the same words in ASCII on 40 columns as in UTF-8 on 200."""
+    """In ASCII on 40 columns, every command and its help print the same words as in UTF-8 on 200 columns."""
     for name, words in commands.items():
         for line in (words, [*words, "--help"]):
             code, out, err = printed(line, "utf-8")
@@ -93,7 +95,7 @@ def test_every_command_in_ascii_on_a_narrow_terminal(commands: dict[str, list[st
 def test_text_in_every_encoding(
     encoding: str, commands: dict[str, list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Results, help and errors with characters that few encodings have are printed in each encoding."""
+    """Results, help and errors that contain rare characters are printed in each encoding."""
     monkeypatch.chdir(tmp_path)
     code, out, _ = printed(["--help"], encoding)
     assert code == 0 and ("sim:…" if encoding in ("cp1252",) else "sim:...") in out
@@ -108,7 +110,7 @@ def test_text_in_every_encoding(
 
 
 def test_scripts_of_the_project_print_in_ascii() -> None:
-    """Scripts that use `project.run` (make demo, make bench …) also accept any encoding."""
+    """Scripts that use `project.run` (make demo, make bench …) also print in any encoding."""
 
     def show(words: list[str]) -> int:
         project.console.print(*words, highlight=False)
@@ -120,7 +122,7 @@ def test_scripts_of_the_project_print_in_ascii() -> None:
 
 
 def test_columns_stay_aligned() -> None:
-    """A replacement that is longer than its character shortens the spaces after it."""
+    """If the replacement of a character is longer than the character, the spaces after it are shortened."""
     texts = {
         "→ 05  1": "-> 05 1",
         "→→→ 5    1\n→ 5    1": "->->-> 5 1\n-> 5   1",
@@ -132,7 +134,7 @@ def test_columns_stay_aligned() -> None:
     assert attempted and not failed
 
 
-# Tables, each identified by one of its headings.
+# Tables, each with one of its headings.
 TABLES = {
     "ppmc312-serial scan": "line faults",
     "ppmc312-serial status": "line faults",
@@ -145,7 +147,7 @@ TABLES = {
 
 @pytest.mark.parametrize("name", TABLES)
 def test_tables_on_a_narrow_terminal(name: str, commands: dict[str, list[str]]) -> None:
-    """A cell of a table that does not fit is on a line after its heading; no cell is cut."""
+    """On a narrow terminal, a cell of a table is on a line after its heading, and no cell is cut."""
     wide = printed(commands[name], "utf-8")[1].splitlines()
     narrow = printed(commands[name], "utf-8", NARROW)[1].splitlines()
     table = [line for line in narrow if line not in wide]
@@ -155,7 +157,9 @@ def test_tables_on_a_narrow_terminal(name: str, commands: dict[str, list[str]]) 
 
 
 def broken(mode: str, words: list[str]) -> tuple[int, str]:
-    """Return exit status and stderr of a command whose stdout is full, closed or a pipe without a reader."""
+    """Return exit status and stderr of a command whose stdout is full, closed, or a pipe that no process
+    reads.
+    """
     with ExitStack() as stack, pytest.MonkeyPatch.context() as patch:
         stdout = None
         if mode == "full":
@@ -173,9 +177,10 @@ def broken(mode: str, words: list[str]) -> tuple[int, str]:
 @posix
 @pytest.mark.parametrize("mode", ["pipe", "full", "closed"])
 def test_every_command_with_a_broken_stdout(mode: str, commands: dict[str, list[str]]) -> None:
-    """A broken stdout causes status 141 and no line (no reader), or status 1 and one line (full, closed).
+    """A pipe without a reader causes status 141 and no line; a full or closed stdout causes status 1 and one
+    line.
 
-    An error of the command itself takes precedence: the command then writes nothing to stdout.
+    An error of the command itself has precedence; the command then writes nothing to stdout.
     """
     reason = {"full": "No space left on device", "closed": "closed"}.get(mode, "the reader has ended")
     cause = f"error: stdout: cannot be written ({reason})"
@@ -188,7 +193,7 @@ def test_every_command_with_a_broken_stdout(mode: str, commands: dict[str, list[
             assert "stdout" not in err
             continue
         assert code == (141 if mode == "pipe" else 1), (name, err)
-        if name == "pmc006 speed":  # would leave its motor running
+        if name == "pmc006 speed":  # the only command here that leaves its motor running
             assert re.fullmatch(re.escape(cause) + r": stopped, position \d+", errors[0]), (name, err)
         else:
             assert errors == ([] if mode == "pipe" else [cause + "; send it to a file or another program"])
@@ -211,7 +216,9 @@ SHELL = {
 @posix
 @pytest.mark.parametrize("line", SHELL)
 def test_in_a_shell(line: str) -> None:
-    """With streams as a shell creates them, the exit status is the documented one, with at most one line."""
+    """For each redirection in a shell, the exit status is the documented one, and at most one line is
+    printed.
+    """
     command = f"{sys.executable} -m openppmc.cli"
     done = subprocess.run(
         ["bash", "-c", f"{line.format(command)}; exit ${{PIPESTATUS[0]}}"],
@@ -228,7 +235,7 @@ def test_in_a_shell(line: str) -> None:
 
 @posix
 def test_a_motor_stops_when_stdout_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A motor that moves while stdout breaks is decelerated before the port is closed."""
+    """If stdout breaks while a motor moves, the motor is decelerated before the port is closed."""
     monkeypatch.setattr(session.BOARD, "port", "model:speed=max")
     monkeypatch.setattr(session.BOARD, "part", None)
     motions = []
@@ -253,7 +260,7 @@ def test_a_motor_stops_when_stdout_is_lost(monkeypatch: pytest.MonkeyPatch) -> N
 
 @posix
 def test_a_script_ends_before_its_next_motion(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A script whose output cannot be written starts no further motion."""
+    """After its output could not be written, a script starts no further motion."""
     moves: list[int] = []
     monkeypatch.setattr(Ppmc104, "move", lambda axis, pulses, *_: moves.append(pulses))
     file = tmp_path / "script.txt"

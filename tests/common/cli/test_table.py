@@ -1,4 +1,4 @@
-"""The table of commands: the data that `--help` prints without importing commands matches the commands."""
+"""The table of commands, from which `--help` is printed without an import of the commands, is correct."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ROWS = [pytest.param(row, id=f"{row.name}-{row.parts[0] or 'bridge'}") for row i
 
 @pytest.mark.parametrize("row", ROWS)
 def test_a_row_is_true_of_its_command(row: Command) -> None:
-    """The place of a row loads; the first row of a name has the help of the command, which `--help` lists."""
+    """The place in a row can be imported; the first row of a name has the help text that `--help` prints."""
     found = row.load()
     text = found.info.help if isinstance(found, typer.Typer) else inspect.getdoc(found)
     first = next(one for one in Commands.rows if one.name == row.name)
@@ -34,7 +34,9 @@ def test_a_row_is_true_of_its_command(row: Command) -> None:
 
 
 def test_every_command_of_a_part_has_a_row() -> None:
-    """A device has one command per name; each device on a line has commands, and `--help` lists all names."""
+    """A device has each command name only once; every device on a line has commands; `--help` lists all
+    names.
+    """
     counts = Counter((part, row.name) for row in Commands.rows for part in row.parts)
     assert {*counts.values()} == {1}
     assert {part for part, _ in counts} == {BRIDGE, *(row.name for row in parts.having("line"))}
@@ -44,7 +46,9 @@ def test_every_command_of_a_part_has_a_row() -> None:
 
 
 def test_options_in_front_state_what_the_library_has() -> None:
-    """The default rate in the help of --baud is that of the link; `axes` of a row is that of the device."""
+    """The help of --baud states the default rate of the link; `axes` of a row is the number of axes of the
+    device.
+    """
     shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
     assert f"line rate in bit/s ({DEFAULT_BAUD};" in shown
     rows = parts.having("number", "capabilities")
@@ -52,14 +56,14 @@ def test_options_in_front_state_what_the_library_has() -> None:
 
 
 def test_a_misspelt_command_gets_the_nearest() -> None:
-    """For a misspelt command, the nearest command name of all devices is suggested."""
+    """For a misspelt command, the most similar command of all devices is suggested."""
     for wrong, near in (("mvoe", "move"), ("scna", "scan"), ("reset-flag", "reset-flags")):
         result = CliRunner().invoke(app, [wrong])
         assert result.exit_code == 2 and f"Did you mean '{near}'" in " ".join(result.output.split())
 
 
 def test_help_is_that_of_typer() -> None:
-    """The help is the same if typer's formatter has all modules of rich, which are complete afterwards."""
+    """The help equals that of typer's own formatter, and all modules of rich can be used after it."""
     code = "from openppmc.cli import main; main(['--help'])"
     after = "; import rich.markdown, rich.traceback; rich.markdown.Markdown('x').parsed; rich.traceback.Stack"
     made = [

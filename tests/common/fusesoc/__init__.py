@@ -1,1 +1,1 @@
-"""FuseSoC builds boards: tests that need yosys."""
+"""Tests that need yosys: FuseSoC builds boards."""

@@ -1,4 +1,4 @@
-"""Boards in plain Verilog as yosys writes and reads them; `make test WITH=fusesoc` has yosys."""
+"""Plain Verilog of boards, written and read by yosys: `make test WITH=fusesoc`, because it needs yosys."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MODULE = "module m (input a, output b);\n  assign b = ~a;\nendmodule\n"
 
 
 def test_library():
-    """The folder of a board holds core, Verilog and pins, and no file contains a path of this computer."""
+    """The folder of a board contains core, Verilog and pins, and no file contains a path of this computer."""
     folder = BUILD / "test" / "plain_boards"
     made = plain_boards.write_library(["ulx3s-25f"], folder)
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
@@ -26,7 +26,7 @@ def test_library():
 
 
 def test_yosys_does_what_tcl_says(tmp_path):
-    """yosys executes a script as edalize writes it; its output is only in the log."""
+    """The launcher executes a script of edalize; the output of yosys is only in the log."""
     (tmp_path / "m.v").write_text(MODULE)
     (tmp_path / "procs.tcl").write_text("proc read_files {} {\nread_verilog {m.v}\n}\nset top m\n")
     script = "yosys -import\nsource procs.tcl\nread_files\nsynth -top $top\nprocs\nwrite_json $top.json\n"

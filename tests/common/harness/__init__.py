@@ -1,1 +1,1 @@
-"""The simulator harness, the scripts of make targets, and the pages that these write."""
+"""Tests of the simulator harness, of the scripts of make targets, and of the pages that scripts write."""

@@ -1,6 +1,6 @@
-"""Pins of the boards in constraints/ that another circuit on the board also uses, and the sources.
+"""Pins of the boards in constraints/ that also have another function on the board, with the sources.
 
-Facts only, from public files: constraint files and schematics of the makers and of other open projects.
+The sources are public: constraint files and schematics of the manufacturers and of other open projects.
 """
 
 from __future__ import annotations
@@ -10,18 +10,18 @@ from enum import Enum, auto
 
 
 class Kind(Enum):
-    """The uses that the second function excludes."""
+    """Kinds of other functions, by the uses of the pin that they exclude."""
 
     NEVER = auto()  # configuration, flash, JTAG, control lines of a monitor: not usable
     DRIVEN = auto()  # another chip on the board can drive it: not usable as an output, limit or alarm
-    SOCKET = auto()  # a socket or a section that can be left empty
+    SOCKET = auto()  # in a socket or a section of the header that can be left empty
     LOADED = auto()  # LED, converter, amplifier, other bank voltage, a function during configuration
-    NEAR_5V = auto()  # next to a header pin of 5 V
+    NEAR_5V = auto()  # next to a header pin that carries 5 V
 
 
 @dataclass(frozen=True)
 class Special:
-    """Some pins of a board: their other function, and its source."""
+    """Pins of a board with the same other function, and the source of this information."""
 
     pins: tuple[str, ...]
     kind: Kind
@@ -30,7 +30,7 @@ class Special:
 
 
 def pins(text: str) -> tuple[str, ...]:
-    """Return the names between spaces; 36-39 represents four names."""
+    """Return the names in a text, separated by spaces; 36-39 represents four names."""
     names = []
     for word in text.split():
         first, _, last = word.partition("-")

@@ -1,4 +1,4 @@
-"""Descriptions of FPGA boards: a new one produces top and constraints; a mistake is reported in one line."""
+"""Descriptions of FPGA boards: a new board gets top and constraints; each mistake is reported in one line."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ code: BREA
 
 
 def described(folder: Path, text: str = BOARD) -> Description:
-    """Load a description with this text, of a board called bread."""
+    """Load this text as the description of a board with the name bread."""
     path = folder / "bread" / "board.yml"
     path.parent.mkdir()
     path.write_text(text)
@@ -60,14 +60,14 @@ def described(folder: Path, text: str = BOARD) -> Description:
 
 
 def fitted(folder: Path, text: str = BOARD) -> Fitted:
-    """Return the first device of that board, fitted to its pins."""
+    """Return the first part on that board, with its pads."""
     board = described(folder, text)
     on = board.parts[0]
     return fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
 
 
 def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
-    """A board.yml is enough to produce a top and a pin file that match."""
+    """From board.yml alone, a top and a pin file with the same ports are generated."""
     one = fitted(tmp_path)
     ((name, text),) = top.file(one.board, one).items()
     assert name == "boards/bread/board_bread_ppmc104.sv"
@@ -88,7 +88,9 @@ def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
 
 
 def test_what_has_no_pin(tmp_path: Path) -> None:
-    """Inputs without a pin read as 1, or as 0 if the description sets 0; outputs without a pin are open."""
+    """An input without a pin reads as 1, or as 0 if the description sets 0; an output without a pin
+    is open.
+    """
     ((_, text),) = top.file((one := fitted(tmp_path)).board, one).items()
     joined = re.sub(r" +", "", text)
     for words in (
@@ -141,7 +143,7 @@ def test_bits_in_the_middle_are_not_left_out(tmp_path: Path) -> None:
 
 
 def test_written_files_are_fresh() -> None:
-    """`make boards` would change only spaces, and no file of a removed board is left.
+    """All generated files are fresh except for spaces, and no file of a removed board remains.
 
     `make lint` also compares the spaces, because it has the program that formats the tops.
     """
@@ -170,7 +172,9 @@ endmodule
 
 
 def test_vectors_as_wide_as_a_parameter(tmp_path: Path) -> None:
-    """A width that depends on a parameter follows its default, or the value that the board sets."""
+    """If the width of a port depends on a parameter, it follows the default or the value that the
+    board sets.
+    """
     path = tmp_path / "tiny_carrier.sv"
     path.write_text(VECTORS)
     for given, axes in ((None, 4), ({"AXES": 8}, 8)):
@@ -182,7 +186,7 @@ def test_vectors_as_wide_as_a_parameter(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("wrong", ["HOST-1", "AXIS-1", "AXES"])
 def test_a_width_that_cannot_be_known(tmp_path: Path, wrong: str) -> None:
-    """A width that depends on anything else is rejected in one line."""
+    """If the width depends on anything else than a parameter, this is rejected in one line."""
     path = tmp_path / "tiny_carrier.sv"
     path.write_text(VECTORS.replace("5*AXES-1", wrong))
     with pytest.raises(ProjectError, match=rf"^\[{wrong}:0\]: expected a number or \[n\*\]PARAMETER-1$"):

@@ -1,4 +1,4 @@
-"""Messages of `make bitstream` and `make flash`; no design is synthesised here."""
+"""Messages of `make bitstream` and `make flash`; no test synthesises a design."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from scripts.fpga.flow.boards import BOARDS
 
 
 def python(path: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run Python in the project's root with `path` as the whole PATH."""
+    """Run Python in the project's root; `path` is the only folder on PATH."""
     return subprocess.run(
         [sys.executable, *arguments],
         cwd=project.ROOT,
@@ -29,7 +29,7 @@ def python(path: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def only_line(done: subprocess.CompletedProcess[str]) -> str:
-    """Return the one line on standard error of a script that ended with 1."""
+    """Return the only line on standard error of a script whose exit code was 1."""
     assert done.returncode == 1, done.stdout + done.stderr
     lines = done.stderr.strip().splitlines()
     assert len(lines) == 1, done.stderr
@@ -37,7 +37,7 @@ def only_line(done: subprocess.CompletedProcess[str]) -> str:
 
 
 def flash(root: Path, path: Path) -> subprocess.CompletedProcess[str]:
-    """Run `make flash` for the Tang Nano 9K with `root` as the project's folder and `path` as PATH."""
+    """Run `make flash` for the Tang Nano 9K in the project `root`; `path` is the only folder on PATH."""
     code = (
         "import sys; from pathlib import Path; from cocotb_tests.harness import project; "
         "from scripts.fpga import flash; "
@@ -57,7 +57,7 @@ def built(tmp_path: Path) -> Path:
 
 
 def loader(folder: Path, text: str) -> None:
-    """Write a program called openFPGALoader with this shell text to `folder`."""
+    """Write a program with the name openFPGALoader and this shell text into `folder`."""
     folder.mkdir(exist_ok=True)
     program = folder / "openFPGALoader"
     program.write_text(f"#!/bin/sh\n{text}\n")
@@ -113,14 +113,14 @@ def test_unknown_board_of_a_part(module: str, part: str, tmp_path: Path) -> None
 
 
 def test_a_board_for_another_part_names_it(tmp_path: Path) -> None:
-    """For a board that does not carry a PPMC-104, the message names the device that it carries."""
+    """For a board that does not support the PPMC-104, the message names the part that it supports."""
     for module in ("scripts.fpga.bitstream", "scripts.fpga.flash"):
         line = only_line(python(tmp_path, "-m", module, "tangnano20k"))
         assert "BOARD=tangnano20k: not with ppmc104, give PART=ppmc312" in line
 
 
 def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """A parameter of another device is rejected before synthesis, so an older bitstream is kept."""
+    """A parameter that the part does not have is rejected before synthesis, so an older bitstream is kept."""
     monkeypatch.setattr(project, "BUILD", tmp_path)
     old = boards.board("icebreaker", "ppmc2104").file("uart")
     old.parent.mkdir(parents=True)
@@ -132,7 +132,7 @@ def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch,
 
 
 def test_tools_are_found_without_path(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Outside of make, the environment's folder is not in PATH; its tools are found anyway."""
+    """The tools of the environment are found, although its folder is not on PATH outside of make."""
     monkeypatch.setenv("PATH", str(tmp_path))
     assert project.tool("pip") == str(Path(sys.executable).parent / "pip")
     assert project.tool("no-such-tool") == "no-such-tool"
@@ -157,7 +157,9 @@ def test_unknown_parameter(text: str, said: str, tmp_path: Path) -> None:
 
 
 def test_missed_timing_is_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """All seeds are tried, no bitstream is left, and the message contains the figures."""
+    """If timing is missed, all seeds are tried, no bitstream is left, and the message contains the
+    figures.
+    """
     monkeypatch.setattr(project, "BUILD", tmp_path)
     tried: list[int] = []
 

@@ -1,4 +1,4 @@
-"""Board tops against their constraint files: ports, pins, pull-ups, clocks."""
+"""Board tops agree with their constraint files: ports, pins, pull-ups, clocks."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OSCILLATORS = {
     "arty_a7": ("clk", 100),
     "de10nano": ("clk", 50),
 }
-APART = (".cst", ".qsf")  # their clocks are in clocks.sdc
+APART = (".cst", ".qsf")  # formats whose clock constraints are in clocks.sdc
 
 
 def entries() -> list[tuple[str, str, str, str, float]]:
@@ -43,7 +43,7 @@ ALL = entries()
 EVERY = [on for known in BY_PART.values() for on in known.values()]
 IDS = [entry[1].rpartition("/")[0] for entry in ALL]
 
-# pin and port of each family's statement
+# statement of each format that assigns a port to a pin
 PIN = {
     ".pcf": re.compile(r"^set_io +(?:-pullup +yes +)?(?P<port>\S+) +(?P<pin>\S+)", re.M),
     ".lpf": re.compile(r'^LOCATE COMP "(?P<port>[^"]+)" SITE "(?P<pin>[^"]+)";', re.M),
@@ -67,7 +67,7 @@ NS = re.compile(r"^create_clock -name \S+ -period (?P<ns>[\d.]+) \[get_ports \{(
 
 @dataclass(frozen=True)
 class Port:
-    """A port of a top: its direction and the names of its bits."""
+    """A port of a top, with the names of its bits."""
 
     direction: str
     bits: tuple[str, ...]
@@ -116,7 +116,9 @@ def test_every_top_has_a_constraint_file() -> None:
 
 @pytest.mark.parametrize("on", EVERY, ids=[on.stem("uart") for on in EVERY])
 def test_files_of_a_board_are_checked_here(on: boards.Board) -> None:
-    """The files that `make bitstream` uses are among those of these tests, with the same oscillator."""
+    """The tests of this file cover each constraint file that `make bitstream` uses, with the same
+    oscillator.
+    """
     for host in on.top:
         (entry,) = (entry for entry in ALL if entry[0] == on.top[host])
         assert entry[1] == on.constraints[host]
@@ -142,7 +144,11 @@ def test_ports_and_pins(top: str, file: str, clock_file: str, clock: str, mhz: f
 def test_open_inputs_are_pulled_up(top: str, file: str, clock_file: str, clock: str, mhz: float) -> None:
     path = CONSTRAINTS / file
     text = path.read_text()
-    buttons = {"btn", "btn_f1", "key_n"}  # pulled down; the last has a resistor and a Schmitt trigger
+    buttons = {
+        "btn",
+        "btn_f1",
+        "key_n",
+    }  # key_n: resistor and Schmitt trigger; others: pull-down
     for name, port in ports(top).items():
         if name in buttons | {clock}:
             continue

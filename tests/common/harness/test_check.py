@@ -1,4 +1,4 @@
-"""Recorded inputs replayed into golden models, as users of recordings call it (`openppmc.check`)."""
+"""Replay of recorded inputs on golden models with `openppmc.check`, as users of recordings call it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MODELS = [row.name for row in parts.folders()]
 
 
 def accesses() -> list[Change]:
-    """Return an initialisation and a move of 14 pulses, as pin changes."""
+    """Return the pin changes of an initialisation and a move of 14 pulses."""
     rows, t = [], 100
     for register, byte in [(1, 0x0A), (0, 9), (0, 4), (0, 4), (0, 0), (1, 0x43), (0, 13), (0, 0), (0, 0)]:
         rows += [Change(t, "a0", register), Change(t, "d_i", byte), Change(t, "cs_n", 0)]
@@ -25,7 +25,7 @@ def accesses() -> list[Change]:
 
 @pytest.mark.parametrize("reset", [False, True])
 def test_a_move(reset: bool) -> None:
-    """The pins of a move produce all edges in order, also after a reset in the recording."""
+    """The replay of a move returns all edges in order, also if the recording contains a reset."""
     changes = accesses()
     if reset:
         changes = [Change(0, "rst_n", 0), Change(16, "rst_n", 1), *changes]
@@ -37,7 +37,7 @@ def test_a_move(reset: bool) -> None:
 
 
 def test_a_late_edge_is_found() -> None:
-    """An edge that is one cycle late is the first difference."""
+    """If one edge is one cycle late, it is reported as the first difference."""
     changes = accesses()
     edges = expected_edges("ppmc104", PARAMS, changes, 400_000)
     place = next(n for n, edge in enumerate(edges) if edge.signal == "pout_n")
@@ -50,7 +50,7 @@ def test_a_late_edge_is_found() -> None:
 
 @pytest.mark.parametrize("part", MODELS)
 def test_pins_of_every_part(part: str) -> None:
-    """Each pin of a golden model is known with its width and idle level."""
+    """The table has each pin of a golden model with its width and idle level."""
     pins = pins_of(new_model(part, {}))
     assert "rst_n" not in pins.inputs and pins.bus_pins <= set(pins.inputs) and pins.outputs
     assert all(0 <= level < 1 << pins.width(pin) for pin, level in {**pins.inputs, **pins.outputs}.items())

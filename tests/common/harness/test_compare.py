@@ -1,4 +1,4 @@
-"""The comparator itself: equal runs pass, any wrong edge is reported, and the files show where."""
+"""The comparator: equal runs pass, each wrong edge is reported, and the files show where it is."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ INITIAL = PPMC104.reset_levels()
 
 
 def move(n: int = 14, start: int = 400, interval: int = 320, low: int = 80) -> list[Edge]:
-    """Return the output edges of a move of n pulses in 4-phase full step, with a status read during it."""
+    """Return the output edges of a move of n pulses in 4-phase full step, with a status read during
+    the move.
+    """
     rows = [Edge(start - 81, "hold", 0), Edge(start - 300, "s", 0b00011)]
     for j in range(n):
         t = start + j * interval
@@ -32,7 +34,7 @@ def move(n: int = 14, start: int = 400, interval: int = 320, low: int = 80) -> l
 
 
 class Scripted:
-    """Replacement for a model: records the pins it receives and has a fixed edge list."""
+    """Replacement for a model: it records the changes of its pins and returns a fixed list of edges."""
 
     def __init__(self, edges: list[Edge]) -> None:
         self.edges = edges
@@ -137,7 +139,9 @@ def test_asynchronous_reset_edges_have_one_clk_of_tolerance_and_no_more() -> Non
 
 
 def test_report_without_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without the extra, text and recording are written, and the error names the package to install."""
+    """If the packages of the extra are missing, text and recording are written, and the error names a
+    package.
+    """
     edges = [e._replace(t=e.t + 2) if e.t == 2000 else e for e in move()]
     result = compare_recording(recording(sorted(edges)), Scripted(move()))
     monkeypatch.setattr(errors, "find_spec", lambda module: None)
@@ -185,7 +189,9 @@ def test_differing_spans_cover_exactly_the_wrong_time() -> None:
 
 
 def test_a_long_recording_is_reported_in_seconds(tmp_path: Path) -> None:
-    """60 000 edges take a few seconds of CPU time; a scan for each of them would take minutes."""
+    """A report about 60 000 edges takes a few seconds of CPU time; a linear search for each edge would take
+    minutes.
+    """
     long = move(20_000)
     edges = sorted([*long[:-1], long[-1]._replace(t=long[-1].t + 2)])
     result = compare_recording(recording(edges, edges[-1].t + 10), Scripted(long))

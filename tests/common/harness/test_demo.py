@@ -1,4 +1,4 @@
-"""The demo: bytes as text, single pins in the waves, and the choice of the device. No simulator."""
+"""The demo without a simulator: bytes as text, single pins in the waveforms, the choice of the part."""
 
 from __future__ import annotations
 
@@ -57,19 +57,21 @@ def accesses(script: str) -> list[Access]:
     ],
 )
 def test_bytes_of_the_2104_in_words(script, meaning, reply):
-    """An exchange of a PPMC-2104 host is described as in the manual."""
+    """The bytes of a PPMC-2104 host are described as in the manual."""
     (row,) = exchanges(Ppmc2104Decoder(), accesses(script))
     assert (row.meaning, row.reply) == (meaning, reply)
 
 
 def test_remaining_pulses_know_the_end_of_their_axis():
-    """With axis 1 stopped early and axis 2 complete, 0 remaining means one pulse for axis 1, 0 for axis 2."""
+    """The remaining pulses are described according to the end of their own axis: 0 means one pulse if it was
+    stopped, no pulse if it is complete.
+    """
     rows = exchanges(Ppmc2104Decoder(), accesses("c80 rC3 cA0 r83 c83 r00 r00 r00 cA3 r00 r00 r00"))
     assert [row.reply for row in rows[2:]] == ["1 pulse not made", "no pulse left"]
 
 
 def test_bytes_of_the_104_in_words():
-    """With the same codes for a PPMC-104, no axis is named and the error is in the status."""
+    """For a PPMC-104, the same codes are described without an axis, and the error is that of the status."""
     rows = exchanges(Ppmc104Decoder(), accesses("c43 d18 d00 d00 s04 c42 s94 c80 r83"))
     assert [row.meaning for row in rows] == [
         "accelerate/decelerate, CW, 25 pulses",
@@ -108,14 +110,17 @@ def test_bytes_of_the_104_in_words():
     ],
 )
 def test_bytes_of_the_stmc_in_words(script, meaning, reply):
-    """An exchange with the read codes of the data sheet is described as in the manual."""
+    """The bytes of an STMC host with the read codes of the data sheet are described as in the manual."""
     (row,) = exchanges(StmcDecoder("SHEET"), accesses(script))
     assert row.meaning == meaning
     assert row.reply.startswith(reply)
 
 
 def registers(script: str) -> list[Access]:
-    """Return accesses of a PPMC-312 host: `> block` and `< block` in logical order, `p` a poll of CSR."""
+    """Return accesses of a PPMC-312 host.
+
+    `> block` sends and `< block` reads a block in logical order; `p` polls CSR.
+    """
     found: list[tuple[str, int, int]] = []
     for line in script.split(";"):
         kind, _, text = line.strip().partition(" ")
@@ -161,7 +166,7 @@ def registers(script: str) -> list[Access]:
     ],
 )
 def test_blocks_of_the_312_in_words(sent, got, meaning, reply):
-    """An instruction and its response are described as in the manual."""
+    """An instruction of the PPMC-312 and its response are described as in the manual."""
     (row,) = Ppmc312Decoder().exchanges(registers(f"> {sent}; p 14; p 10; < {got}"))
     assert (row.meaning, row.reply) == (meaning, reply)
     assert (row.sent, row.answer) == (list(bytes.fromhex(sent)), list(bytes.fromhex(got)))
@@ -169,7 +174,7 @@ def test_blocks_of_the_312_in_words(sent, got, meaning, reply):
 
 
 def test_reports_of_the_312_are_rows_of_their_own():
-    """A stop report after a response, and the report of an override, have their own rows."""
+    """A report after a response has its own row: a stop, the end of an override, an alarm."""
     rows = Ppmc312Decoder().exchanges(
         registers("> 03 02 84 00; < 03 01 84; p 14; < 23 06 E0 40 00000001; < 1B 02 82 00; < 23 02 F4 01")
     )
@@ -183,7 +188,7 @@ def test_reports_of_the_312_are_rows_of_their_own():
 
 
 def test_a_report_before_the_answer_has_its_own_row():
-    """If an alarm is read first, the response still belongs to its instruction."""
+    """If a report is read before the response, the response still belongs to its instruction."""
     rows = Ppmc312Decoder().exchanges(registers("> 03 01 40; < 23 02 F4 00; < 03 02 40 12"))
     assert [(row.meaning, row.reply) for row in rows] == [
         ("read version", "version 12"),
@@ -192,13 +197,13 @@ def test_a_report_before_the_answer_has_its_own_row():
 
 
 def test_long_blocks_lose_their_end():
-    """Of a block that would not fit into its column, the first bytes are printed."""
+    """If a block is too long for its column, only its first bytes are printed."""
     assert hexes([3, 1, 64]) == "03 01 40"
     assert hexes(list(range(20))) == "00 01 02 03 04 05 06 07 08 09 0A …"
 
 
 def test_waves_name_the_registers(tmp_path):
-    """The VCD of a version read contains the host's accesses by name, and the pins."""
+    """The VCD of a version read contains the pins, and the accesses of the host with register names."""
     recording = Recording("ppmc312", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
     t = 10
     for reg, byte in ((2, 0x20), (3, 0x1D), (5, 0x40), (5, 0x01), (5, 0x03)):
@@ -220,13 +225,15 @@ def test_waves_name_the_registers(tmp_path):
 
 
 def test_chopping_is_no_step():
-    """If phases are switched off and on at standstill, only a change of the pattern is a step."""
+    """A change of the phases counts as a step only if the pattern changes, not if chopping switches it off
+    and on.
+    """
     changes = [(5, 0b0011), (9, 0), (12, 0b0011), (15, 0), (16, 0b0011), (20, 0b0110), (30, 0), (33, 0b0110)]
     assert steps(changes) == [20]
 
 
 def test_waves_show_the_steps_of_the_board(tmp_path):
-    """The VCD of two single steps on the ISA bus, chopped at standstill, contains steps and driver."""
+    """The VCD of two steps on the ISA bus contains exactly these steps, although the phases are chopped."""
     recording = Recording("j105_stmc", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
     t = 10
     for reg, byte in ((1, 0x3A), (0, 20), (0, 5), (0, 8), (0, 0), (1, 0x42), (1, 0x42)):
@@ -247,7 +254,7 @@ def test_waves_show_the_steps_of_the_board(tmp_path):
 
 
 def test_waves_show_each_axis(tmp_path):
-    """The VCD of a step of axis 2 contains its pins, its pulse and its speed by name."""
+    """The VCD of a step of axis 2 contains pins, pulse and speed of this axis with its number."""
     recording = Recording("ppmc2104", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
     t = 10
     for reg, byte in ((1, 0x22), (0, 99), (0, 19), (0, 10), (0, 0), (1, 0x62)):
@@ -276,7 +283,7 @@ def test_waves_show_each_axis(tmp_path):
 
 
 def test_every_shown_signal_exists():
-    """Each saved view names only pins of its device or the additional signals."""
+    """The saved views name only pins of the part and signals that the demo adds."""
     demos = [row.load("demo") for row in having("demo")]
     for demo in (found for found in demos if isinstance(found, Demo)):
         part = PARTS[demo.part]
@@ -289,7 +296,7 @@ def test_every_shown_signal_exists():
 
 
 def test_unknown_part_is_one_line():
-    """For a device without a demo, the message names the devices with one."""
+    """For a part without a demo, the message lists the parts that have one."""
     assert chosen([]).part == "ppmc104"
     assert chosen(["--part", "ppmc2104"]).part == "ppmc2104"
     assert chosen(["--part", "stmc"]).part == "j105_stmc"

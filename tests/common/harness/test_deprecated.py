@@ -1,4 +1,4 @@
-"""Old names of the harness and of the environments work, with a DeprecationWarning."""
+"""Old names of the harness and of the environments still work and emit a DeprecationWarning."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ OLD = {
 
 @pytest.mark.parametrize("old", OLD)
 def test_old_names_of_the_harness(old: str) -> None:
-    """An old name is the object that has the new name; the warning states the new name."""
+    """An old name returns the object of the new name, and the warning states the new name."""
     with pytest.warns(DeprecationWarning, match=rf"^cocotb_tests\.harness\.{old} is now {OLD[old]};"):
         assert getattr(harness, old) is getattr(harness, OLD[old])
     assert old not in harness.__all__
@@ -27,7 +27,7 @@ def test_old_names_of_the_harness(old: str) -> None:
 
 @pytest.mark.parametrize("part", ["ppmc104", "ppmc2104", "stmc"])
 def test_old_name_of_an_environment(part: str) -> None:
-    """`Lab` of the old module `lab` is `Env`; other names of the module do not exist."""
+    """`Lab` of the old module `lab` is `Env`; the old module has no other names."""
     module = import_module(f"cocotb_tests.{part}.lab")
     with pytest.warns(DeprecationWarning, match="Lab is now Env;"):
         assert module.Lab is import_module(f"cocotb_tests.{part}.env").Env

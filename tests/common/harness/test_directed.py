@@ -1,4 +1,4 @@
-"""`directed`: when a test is compared with the golden model, and the message of a failure."""
+"""`directed`: when a test is compared with the golden model, and the message after a failure."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from cocotb_tests.ppmc104.bench import PPMC104
 
 
 class Simulated(ModelBench):
-    """A golden model that is treated as the RTL."""
+    """A golden model in the role of the RTL."""
 
     simulated = True
 
 
 class Comparer:
-    """Compares nothing; stores the benches, and fails on request."""
+    """Replacement for the comparison: it stores the benches and fails on request."""
 
     def __init__(self) -> None:
         self.benches: list[Any] = []
@@ -34,7 +34,7 @@ class Comparer:
 
 @pytest.fixture
 def comparer(monkeypatch: pytest.MonkeyPatch) -> Comparer:
-    """Replace the comparison; `start_bench` returns benches that must be compared."""
+    """Replace the comparison; `start_bench` returns benches that count as RTL, so they must be compared."""
     found = Comparer()
     monkeypatch.setattr("cocotb_tests.harness.run_context.check_against_model", found)
     monkeypatch.setattr("cocotb_tests.harness.run_context.ModelBench", Simulated)
@@ -167,7 +167,7 @@ def test_parameters_go_with_it(comparer: Comparer) -> None:
 
 
 def test_golden_follows_and_is_never_ahead() -> None:
-    """`golden` has the pins of its bench so far, and has run up to the edge before the next one."""
+    """`golden` has received all pin changes of its bench, and has run up to the edge before the next one."""
     bench, golden = ModelBench(PPMC104, OnModel()), DutBench.golden.fget
     model = golden(bench)
     assert model.now == bench.now - 1

@@ -1,6 +1,6 @@
 """The environment that make installs: stamps, the lock between two makes, a broken .venv, errors of pip.
 
-A script replaces pip, so nothing is downloaded.
+A script replaces pip, so the tests download nothing.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def project(tmp_path: Path) -> Path:
 
 
 def fake(project: Path, install: str = "echo Collecting cocotb", version: str = "") -> None:
-    """Create a .venv whose Python runs `install` as `pip install`; default version of pip: the locked one."""
+    """Create a .venv whose pip runs the shell text `install`; by default, pip has the locked version."""
     lock = (project / "requirements.lock").read_text(encoding="utf-8")
     version = version or lock.split("\npip==")[1].split()[0]
     (project / ".venv" / "bin").mkdir(parents=True)
@@ -54,7 +54,7 @@ def start(project: Path, *groups: str) -> subprocess.Popen[str]:
 
 
 def install(project: Path, *groups: str) -> tuple[int | None, str, str]:
-    """Run it to its end; return exit code and both outputs."""
+    """Run scripts.env to its end; return its exit code and both outputs."""
     process = start(project, *groups)
     out, err = process.communicate(timeout=120)
     return process.returncode, out, err
@@ -67,7 +67,7 @@ def calls(project: Path) -> list[str]:
 
 
 def test_groups_are_installed_once(project: Path) -> None:
-    """Groups are installed only once until groups or lock file change; `dev` includes `sim`."""
+    """A group is installed only once, until groups or lock file change; `dev` includes `sim`."""
     fake(project)
     for groups in (("dev", "campaign"), ("dev",), ("sim",)):
         assert install(project, *groups)[0] == 0
@@ -84,7 +84,7 @@ def test_groups_are_installed_once(project: Path) -> None:
 
 
 def test_an_old_pip_is_replaced_first(project: Path) -> None:
-    """An old pip, which does not support groups, is replaced first."""
+    """A pip that is too old to support groups is replaced before the installation."""
     fake(project, version="23.2")
     install(project, "sim")
     assert [call.split("requirements.lock ")[1] for call in calls(project)] == [
@@ -94,7 +94,7 @@ def test_an_old_pip_is_replaced_first(project: Path) -> None:
 
 
 def test_two_makes_wait_for_each_other(project: Path) -> None:
-    """The second make reports that it waits, does not install again, and succeeds."""
+    """If two makes run, the second reports that it waits, does not install again, and succeeds."""
     fake(project, "sleep 2; echo Collecting cocotb")
     both = [start(project, "sim"), start(project, "sim")]
     outputs = [process.communicate(timeout=120) for process in both]
@@ -106,7 +106,7 @@ def test_two_makes_wait_for_each_other(project: Path) -> None:
 def test_waiting_ends(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """After WAIT_S, one line states what to do."""
+    """If another make holds the lock for WAIT_S, one line states what to do."""
     monkeypatch.setattr(env, "LOCK", project / "requirements.lock")
     monkeypatch.setattr(env, "VENV", project / ".venv")
     monkeypatch.setattr(env, "WAIT_S", 1)
@@ -132,7 +132,7 @@ def test_waiting_ends(
     ],
 )
 def test_pip_fails(project: Path, says: str, line: str) -> None:
-    """One line states the reason and what to do; the next make tries again."""
+    """If pip fails, one line states the reason and what to do; the next make tries again."""
     fake(project, f"echo '{says}'; exit 1")
     for _ in range(2):
         code, _, err = install(project, "sim")
@@ -141,7 +141,7 @@ def test_pip_fails(project: Path, says: str, line: str) -> None:
 
 
 def test_a_broken_environment_is_made_again(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An environment without Python or pip, or of another version, is rebuilt, even if it has stamps."""
+    """An environment without Python or pip, or with another Python, is rebuilt even if it has stamps."""
     for name, path in (
         ("ROOT", "."),
         ("VENV", ".venv"),
@@ -184,7 +184,7 @@ def test_a_broken_environment_that_cannot_be_removed(project: Path) -> None:
 
 
 def test_a_linked_environment_is_left_alone(project: Path) -> None:
-    """A linked environment belongs to another checkout and is not changed."""
+    """An environment that is a link belongs to another checkout and is not changed."""
     (project / "other").mkdir()
     (project / ".venv").symlink_to("other")
     assert install(project, "sim", "dev") == (0, "", "")

@@ -1,7 +1,4 @@
-"""examples/cocotb: its tests pass on cocotb's main program, and fail with a clear message if broken.
-
-`.ci/run` runs the same example through its Makefile.
-"""
+"""examples/cocotb: its tests pass on cocotb's main program; a broken example fails with a clear message."""
 
 from __future__ import annotations
 
@@ -44,7 +41,7 @@ def test_it_imports_nothing_of_this_project() -> None:
 def test_it_fails_when_broken(
     right: str, wrong: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A wrong expectation, or a host that orders another move, fails the test."""
+    """A wrong expected value, or a host that commands another move, makes the test fail."""
     text = (EXAMPLE / "test_ppmc104.py").read_text(encoding="utf-8")
     assert right in text
     (tmp_path / "broken_ppmc104.py").write_text(text.replace(right, wrong), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Folders with names that break tools: builds work there, or are rejected in one line.
+"""Folders whose names break tools: builds work in them, or are rejected in one line.
 
 `.ci/run` tests all steps in such a folder: clone, environment, demo, test, bitstream, virtual board.
 """
@@ -51,7 +51,7 @@ def check(folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_verilator_builds_in_an_odd_folder(tmp_path: Path) -> None:
-    """Sources, an include folder and C++ are found there under their absolute names."""
+    """In a folder with such a name, Verilator finds sources, includes and C++ by their absolute names."""
     project = tmp_path / ODD
     work = project / "build" / "x"
     for path, text in {"odd.sv": DESIGN, "inc/half.svh": "assign b = a;\n", "main.cpp": MAIN}.items():
@@ -80,7 +80,7 @@ def test_verilator_elsewhere_in_an_odd_folder_is_refused(monkeypatch: pytest.Mon
 
 
 def test_the_command_starts_in_an_odd_folder(tmp_path: Path) -> None:
-    """The command starts, also through a link; the Python in the same folder runs it."""
+    """The command starts, also through a link, and uses the Python in its own folder."""
     folder = tmp_path / ODD / "bin"
     folder.mkdir(parents=True)
     (folder / "python").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')

@@ -1,4 +1,4 @@
-"""Which tests run on netlists, and how a netlist is built; `make test-gates` runs them."""
+"""Selection of the tests for netlists, and how a netlist is built; `make test-gates` runs the tests."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_another_parameter_source_or_yosys_is_another_netlist() -> None:
 
 
 def test_tests_of_the_suite_are_those_of_the_part() -> None:
-    """Tests of the suite differ from the items of `make test` only in tag and target."""
+    """Tests of the suite have the same contents as those of `make test`, with another tag and target."""
     own = {param.values[0].id: param.values[0] for part in SUITES for param in part.directed.ITEMS}
     for test in EVERYTHING:
         if test.item.module.startswith(

@@ -1,4 +1,4 @@
-"""The polynomials of ppmc_lfsr_pkg: a counter of n bits repeats after 2**n - 1 steps and not earlier."""
+"""The polynomials of ppmc_lfsr_pkg: the period of a counter of n bits is exactly 2**n - 1 steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Demo, soak and bench of the PPMC-312 line: frames as text, figures, a line of models. No simulator."""
+"""Demo, soak and bench of the PPMC-312 line without a simulator: frames as text, figures, a line of
+models.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,7 @@ from scripts.measure.soak import main as soak
 
 
 def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:
-    """Return one question and its response."""
+    """Return one frame of the master and its reply."""
     return [(0, 100, "master", question.hex()), (200, 300, "station", answer.hex())]
 
 
@@ -40,20 +42,22 @@ def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:
     ],
 )  # fmt: skip
 def test_frames_in_words(sent, got, meaning, reply):
-    """The demo describes an exchange on the line."""
+    """The frames of an exchange on the line are described as text."""
     (one,) = exchanges(talk(sent, got))
     assert (one.meaning, one.reply) == (meaning, reply)
     assert (one.sent[:2], one.got[-2:]) == (f"{sent[0]:02X}", f"{got[-1]:02X}")
 
 
 def test_a_question_without_an_answer():
-    """Of two questions of which only the second is answered, the first has no kind."""
+    """If only the second of two questions is answered, the first one has no kind of answer."""
     rows = exchanges([(0, 10, "master", "817e"), *talk(frame(0x82), frame(0x92))])
     assert [row.kind for row in rows] == ["", "ready"]
 
 
 def test_levels_of_a_line():
-    """A character is low for the zeros of its bits, and two drivers drive the line low together."""
+    """A character is low for its start bit and its 0 bits; if two drivers overlap, the line is low while one
+    of them is.
+    """
     assert wave(b"\x55", 0, 10) == [(10 * number, number & 1) for number in range(10)]
     assert wave(b"\xff", 5, 9.6) == [(5, 0), (15, 1)]
     assert merged([(0, 0), (10, 1)], [(5, 0), (20, 1)]) == [(0, 0), (20, 1)]
@@ -61,7 +65,7 @@ def test_levels_of_a_line():
 
 
 def test_what_a_station_hears():
-    """The pins select which stations receive a low level of station 2."""
+    """Pins of the line select which stations receive a low level that station 2 sends."""
     driven = ALL & ~(1 << 2)
     levels = {**LINE.inputs, "hear_others": 1, "hear_self": 0}
     assert [heard(levels, driven, number) for number in (1, 2)] == [0, 1]
@@ -80,7 +84,9 @@ def test_what_is_no_frame(data):
 
 
 def test_a_line_of_models_answers():
-    """Of sixteen models on a line, the polled one responds within the window, and the master receives it."""
+    """On a line of sixteen models, a polled station responds within the window, and the master receives the
+    response.
+    """
     line = ModelLine()
     at_once(line.until(8))
     master = Master(line)
@@ -90,7 +96,7 @@ def test_a_line_of_models_answers():
 
 
 def test_demo_and_its_waves():
-    """The demo is found by the name of the line, and each pin shown is one of a station."""
+    """PART=ppmc312-serial selects the demo of the line; each pin in its waveforms is a pin of a station."""
     assert part_of(["--part", "ppmc312-serial"]) == "ppmc312-serial"
     with pytest.raises(ProjectError, match="ppmc312, ppmc312-serial"):
         chosen(["--part", "isa_4axis"])
@@ -100,7 +106,7 @@ def test_demo_and_its_waves():
 
 
 def test_soak_counts_its_bytes():
-    """A thousand seeds put more than 100 000 bytes on a line, bit by bit."""
+    """A thousand seeds transmit more than 100 000 bytes bit by bit."""
     assert 1000 * line_soak.SIZE >= 100_000
     played = line_soak.SOAK.some([1, 2])
     assert not played.failures and played.compared == {"seeds": 2, line_soak.MODEL_BYTES: 1040}
@@ -111,7 +117,9 @@ def test_soak_counts_its_bytes():
 
 
 def test_blocks_of_seeds_begin_where_they_always_do():
-    """With other first seeds and counts, the inner blocks are the same, and each seed is in one block."""
+    """Blocks of seeds have fixed limits, regardless of the first seed and the count; each seed is in one
+    block.
+    """
     assert list(blocks(1, 60)) == [(1, 24), (25, 25), (50, 11)]
     assert list(blocks(30, 30)) == [(30, 20), (50, 10)]
     for first, count in ((1, 1), (25, 25), (7, 12_345)):
@@ -120,6 +128,8 @@ def test_blocks_of_seeds_begin_where_they_always_do():
 
 
 def test_figures_against_the_goal():
-    """Of 8 million cycles in 40 s and in 60 s, only the former reaches 1/50 of real time."""
+    """A run of 8 million cycles reaches the goal of 1/50 of real time if it takes 40 s, but not if it takes
+    60 s.
+    """
     rows = line_bench.rows_of([("a", 8_000_000, 70, 40), ("b", 8_000_000, 70, 60)], 8_000_000)
     assert [row[-2:] for row in rows] == [["1/40", "reached"], ["1/60", "missed"]]

@@ -1,4 +1,4 @@
-"""Every link inside the pages has a target: the file exists, and the heading, too."""
+"""Every link within the pages has a target: the file exists, and so does the heading."""
 
 from __future__ import annotations
 
@@ -63,7 +63,9 @@ def test_a_dead_link_is_found() -> None:
 
 
 def test_links_of_a_rule_move_with_it() -> None:
-    """`make trace` copies statements to a page in the folder of the manual; their links are adapted."""
+    """In statements that `make trace` copies to another page, the links are adapted to the folder of this
+    page.
+    """
     text = "[a](#7-states), [b](../boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
     moved = "[a](README.md#7-states), [b](../boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
     assert at_home(text) == moved

@@ -1,4 +1,4 @@
-"""The commands that `make` runs, from a stored list, and the one line for each wrong word."""
+"""The commands that `make` runs, compared with a stored list, and the error line for each wrong word."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ WRONG = {
     "bitstream READ_MAP=old": "READ_MAP=old: expected SHEET or FAMILY",
     "bitstream RECORD=3": "RECORD=3: expected 0, or 4 to 16",
 }
-"""Words of a command line, and the beginning of the line that they produce."""
+"""Words of a command line -> beginning of the error line."""
 
 
 @pytest.fixture(autouse=True)
@@ -96,13 +96,15 @@ def make(*words: str, folder: Path = ROOT, **variables: str) -> subprocess.Compl
 
 @pytest.mark.parametrize(("line", "command"), LIST, ids=[line for line, _ in LIST])
 def test_command(line: str, command: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A target in a complete environment runs the command of the stored list."""
+    """In a complete environment, a target runs the command of the stored list."""
     monkeypatch.setattr(env, "missing", lambda _: [])
     assert run.plan(line.split()).replace(shlex.quote(sys.executable), "{python}") == command
 
 
 def test_every_target_and_variable_is_listed() -> None:
-    """The stored list has all targets and variables, and WRONG has all variables that are checked."""
+    """The stored list contains all targets and variables; WRONG contains all variables with restricted
+    values.
+    """
     given = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line, _ in LIST]
     goals = [run.Goal(line.split()[0], values).name for (line, _), values in zip(LIST, given, strict=True)]
     assert set(goals) == set(TARGETS)
@@ -114,7 +116,9 @@ def test_every_target_and_variable_is_listed() -> None:
 
 @pytest.mark.parametrize(("words", "line"), WRONG.items(), ids=WRONG)
 def test_wrong_word(words: str, line: str) -> None:
-    """A wrong target, variable or value produces its line, also in a goal that is not the first."""
+    """A wrong target, variable or value produces its error line, even if it does not belong to the first
+    goal.
+    """
     with pytest.raises(run.WrongError) as error:
         run.plan(words.split(" "))
     assert str(error.value).startswith(line)
@@ -122,7 +126,7 @@ def test_wrong_word(words: str, line: str) -> None:
 
 
 def test_make_prints_the_line_and_runs_nothing() -> None:
-    """make adds no second line, and no goal runs before all goals are checked."""
+    """make prints only the line of the first fault, and runs no goal before all goals are checked."""
     done = make("demo", "test", "T=a b", "SEED=x")
     assert (done.returncode, done.stdout) == (2, "")
     (line,) = done.stderr.splitlines()
@@ -137,13 +141,13 @@ def test_a_value_reaches_the_command_unchanged() -> None:
 
 
 def test_variables_of_the_environment() -> None:
-    """Environment variables of the target are used; empty ones and those of other targets are ignored."""
+    """Variables of the environment are used if the target has them; empty ones are ignored."""
     assert " -n 7 -k a " in make("test", J="7", T="a", COUNT="x", SEED="").stdout
     assert "J=x: expected" in make("test", J="x").stderr
 
 
 def test_boards_without_yaml() -> None:
-    """The boards and hosts are those of the descriptions."""
+    """The boards and hosts that make knows are those of the board descriptions."""
     found: dict[str, dict[str, list[str]]] = {}
     for board in load_all():
         hosts: dict[str, list[str]] = {}
@@ -154,7 +158,7 @@ def test_boards_without_yaml() -> None:
 
 
 def test_the_old_name_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """`make test-lab` prints a note and runs the same as `make test WITH=ophyd`."""
+    """`make test-lab` prints a note and runs the command of `make test WITH=ophyd`."""
     monkeypatch.setattr(env, "missing", lambda _: [])
     note, _, command = run.plan(["test-lab", "T=a"]).partition(" >&2; ")
     assert "use `make test WITH=ophyd" in note
@@ -162,7 +166,7 @@ def test_the_old_name_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_the_old_variable_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """`make test INSIDE=1` prints a note and runs the same as `make test PROBE=1`."""
+    """`make test INSIDE=1` prints a note and runs the command of `make test PROBE=1`."""
     monkeypatch.setattr(env, "missing", lambda _: [])
     note, _, command = run.plan(["test", "INSIDE=1"]).partition(" >&2; ")
     assert "use PROBE for INSIDE" in note
@@ -170,7 +174,7 @@ def test_the_old_variable_states_the_new_one(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_the_environment_is_made_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Missing groups are installed before the command, which runs only if that succeeds."""
+    """Missing groups are installed first; the command runs only if this succeeds."""
     monkeypatch.setattr(env, "missing", lambda groups: [name for name in groups if name != "sim"])
     assert run.plan(["mutate"]).startswith(
         f"{sys.executable} -m scripts.env dev campaign || exit; .venv/bin/"
@@ -190,7 +194,7 @@ def test_a_tool_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     [("no-such-python", "no-such-python: there is no such program"), ("false", ".venv has Python 3.")],
 )
 def test_another_python_than_that_of_the_environment(python: str, said: str) -> None:
-    """PYTHON= of another version than .venv is an error, not ignored."""
+    """If PYTHON= does not have the version of .venv, this is an error."""
     with pytest.raises(run.WrongError, match=f"PYTHON={python}.*{re.escape(said.split(': ')[-1])}"):
         run.plan(["demo", f"PYTHON={python}"])
 
@@ -205,7 +209,7 @@ def bare(tmp_path: Path) -> Path:
 
 
 def test_no_python(bare: Path) -> None:
-    """Without a Python that is new enough, one line names the requested one."""
+    """If no Python is new enough, one line states the required version and the program that was requested."""
     (line,) = make("demo", "PYTHON=/no/python3", folder=bare).stderr.splitlines()
     assert "Python 3.10 or newer is needed (/no/python3: not found): install one, or name it with" in line
 

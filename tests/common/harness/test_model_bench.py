@@ -1,4 +1,4 @@
-"""The golden model in place of the RTL: time, pins, waits; the tests it runs; a wrong figure fails."""
+"""The golden model in place of the RTL: time, pins, waits, the tests that run on it, a wrong figure."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def new_bench(part: str = "ppmc104", **pins: int) -> ModelBench:
 
 
 def test_time_goes_forward_only() -> None:
-    """From now = 4, later times are reached, and a time in the past is rejected."""
+    """Waits advance the time; a wait for, or a pin change at, a time in the past is rejected."""
     bench = new_bench()
     assert bench.now == 4 and on_model(bench.until(10)) == 10 and on_model(bench.clocks(5)) == 15
     with pytest.raises(ValueError, match="already edge 15"):
@@ -41,7 +41,7 @@ def test_time_goes_forward_only() -> None:
 
 
 def test_pins_change_at_their_stamps() -> None:
-    """Present and scheduled pin changes are in the model's recording at their edges, bit by bit."""
+    """Immediate and scheduled pin changes are recorded at their edges, one bit at a time."""
     bench = new_bench("ppmc2104", busc=1)
     assert bench.set(**{"fl_n[2]": 0}) == 4
     cancelled = bench.at(20, errint_n=0)
@@ -53,7 +53,7 @@ def test_pins_change_at_their_stamps() -> None:
 
 
 def test_an_external_clock_runs_during_the_test() -> None:
-    """An external clock of 20 cycles has its edges at the correct times until it is stopped."""
+    """An external clock with a period of 20 cycles has exact edges until it is stopped."""
     bench = new_bench()
     clock = bench.external_clock(repeat(20), high=5)
     on_model(bench.until(50))
@@ -64,7 +64,7 @@ def test_an_external_clock_runs_during_the_test() -> None:
 
 
 def test_waits_end_at_the_edge_or_after_their_time() -> None:
-    """After a wait for a pulse, now is the next edge; a wait for an edge that does not occur times out."""
+    """A wait for a pulse ends one edge after it; a wait for an edge that does not occur times out."""
     bench = new_bench()
 
     async def step() -> int:
@@ -85,13 +85,13 @@ def test_waits_end_at_the_edge_or_after_their_time() -> None:
 
 
 def test_a_wait_for_the_simulator_is_reported() -> None:
-    """A coroutine that suspends is closed, and the error reports it."""
+    """If a coroutine waits for a trigger of the simulator, an error reports this."""
     with pytest.raises(RuntimeError, match="only a simulator has"):
         on_model(asyncio.sleep(0))
 
 
 def test_the_bench_is_that_of_the_part_in_its_build() -> None:
-    """The model has the parameters of its build, and the outputs have their reset levels."""
+    """The model has the parameters of its build, and its outputs have their reset levels."""
     bench: Any = on_model(start_bench(OnModel(D16), PARTS["ppmc104"], settle=0))
     assert bench.now == 0 and not bench.simulated and bench.model.datasheet
     assert {name: bench.level(name) for name in bench.outputs} == PARTS["ppmc104"].reset_levels()
@@ -99,7 +99,7 @@ def test_the_bench_is_that_of_the_part_in_its_build() -> None:
 
 @pytest.mark.parametrize("part", ACCEPTANCE)
 def test_which_acceptance_checks_run_on_the_model(part: str) -> None:
-    """All acceptance tests except RTL-only ones run on the model, each with its rules and text."""
+    """All acceptance tests except RTL-only ones run on the model, with the same rules and docstrings."""
     names = [f"tb_acceptance_{name}" for name in ACCEPTANCE[part]]
     made = model_tests(__name__, f"cocotb_tests.{part}", *names)
     modules = [importlib.import_module(f"cocotb_tests.{part}.{name}") for name in names]
@@ -113,7 +113,7 @@ def test_which_acceptance_checks_run_on_the_model(part: str) -> None:
 
 
 def test_a_wrong_figure_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With a wrong interval in the table, the check on the model fails and names the difference."""
+    """If an expected interval is wrong, the check fails on the model and reports the difference."""
     module = importlib.import_module("cocotb_tests.ppmc104.tb_acceptance_moves")
     monkeypatch.setattr(module, "A_INTERVALS", [321, *module.A_INTERVALS[1:]])
     made = model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves")

@@ -1,4 +1,4 @@
-"""`make test MODEL=1`: tests of each device run on the golden model; RTL-only tests state the reason."""
+"""`make test MODEL=1` runs the tests of each device on the golden model; RTL-only tests state the reason."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ RTL_ONLY = {
 
 
 def on_the_model(part: str, *words: str) -> str:
-    """Return pytest's output for the tests of a device with these words in their names."""
+    """Return pytest's output for the tests of a device whose names contain these words."""
     chosen = ("-k", " or ".join(words), "-rs", "-p", "no:cacheprovider")
     command = [sys.executable, "-m", "pytest", "-q", "--model", *chosen, f"cocotb_tests/{part}/test_part.py"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
@@ -34,14 +34,16 @@ def on_the_model(part: str, *words: str) -> str:
 
 @pytest.mark.parametrize("part", SAMPLES)
 def test_a_sample_of_each_part_runs_on_the_model(part: str) -> None:
-    """Directed tests of a device pass with --model, and no test is skipped."""
+    """With --model, directed tests of a device pass, and no test is skipped."""
     told = on_the_model(part, *SAMPLES[part])
     assert " passed" in told and "skipped" not in told
 
 
 @pytest.mark.parametrize("part", RTL_ONLY)
 def test_what_the_model_cannot_run_is_skipped_with_its_reason(part: str) -> None:
-    """A test of strobes or glitches between edges of `clk` is skipped with --model, with the reason."""
+    """With --model, a test of strobes or glitches between edges of `clk` is skipped, and the reason is
+    stated.
+    """
     name, why = RTL_ONLY[part]
     told = on_the_model(part, name)
     assert "skipped" in told and "passed" not in told and "RTL only: " in told and why in told

@@ -1,4 +1,4 @@
-"""Rules for inner modules of the RTL: a module that breaks a rule is found."""
+"""Rules for the RTL modules: each violation of a rule is reported."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ HEAD = "// x\nmodule x (\n    input  wire logic clk_i,\n"
 
 
 def module(ports: int, comment: str = "  // level", lines: int = 0) -> str:
-    """Return a module with clk_i, `ports` more ports, and `lines` lines after them."""
+    """Return a module with clk_i, `ports` other ports, and `lines` lines after the ports."""
     text = "".join(f"    output logic p{n}_o,{comment}\n" for n in range(ports))
     return HEAD + text + "\n);\n" + "//\n" * lines + "endmodule\n"
 
@@ -55,7 +55,7 @@ def test_a_port_without_its_meaning() -> None:
     ],
 )
 def test_an_active_low_reset(good: str, bad: str, net: str) -> None:
-    """A net with an active-low reset ends in _n; a PLL lock, which also resets, is not a reset by name."""
+    """A net with an active-low reset must end in _n; the lock of a PLL is exempt, although it also resets."""
     assert name_findings("x.sv", good) == name_findings("x.sv", ".rst_ni(lock_i)") == []
     assert name_findings("x.sv", f"{bad} // {good}") == [
         f"x.sv: {net}: the name of an active-low reset must end in _n"
@@ -63,7 +63,7 @@ def test_an_active_low_reset(good: str, bad: str, net: str) -> None:
 
 
 def test_a_number_of_cycles() -> None:
-    """A parameter or constant that counts cycles ends in Cycles."""
+    """A parameter or constant that counts cycles must end in Cycles."""
     text = "    parameter int unsigned EdgeClk = 2,\n  localparam int WaitCycles = EdgeClk;\n"
     assert name_findings("x.sv", text) == ["x.sv: EdgeClk: use the suffix Cycles, not Clk"]
     assert name_findings("x.sv", "  localparam int unsigned StepClk = ClkHz / 1000;\n") == [
@@ -74,7 +74,7 @@ def test_a_number_of_cycles() -> None:
 
 @pytest.mark.parametrize("comment", ["it", "the same", "This one.", "what", "when", "where", "and its level"])
 def test_a_port_comment_without_a_noun(comment: str) -> None:
-    """The comment of a port has a noun, and does not continue the comment of the line above."""
+    """The comment of a port must contain a noun and must not continue the comment of the line above."""
     assert name_findings("x.sv", f"    input  wire logic [7:0] d_i,  // {comment}\n") == [
         f"x.sv: d_i: comment without a noun: {comment}"
     ]
@@ -83,7 +83,7 @@ def test_a_port_comment_without_a_noun(comment: str) -> None:
 
 
 def test_a_type_of_two_packages() -> None:
-    """A name of a type occurs in one package; the two packages with parallel names are an exception."""
+    """A type name may occur in only one package; the two packages with parallel names are exempt."""
     enum = "  typedef enum logic {\n    A,\n    B\n  } kind_e;\n"
     struct = "  typedef struct packed {logic a, b;} pair_t;\n  typedef logic [3:0] word_t;\n"
     packages = {

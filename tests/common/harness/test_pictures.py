@@ -1,4 +1,4 @@
-"""The pictures of docs/: lines recorded from a model, and labels that arrows do not cross."""
+"""The pictures of docs/: lines recorded from a model, and texts that are not covered."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ SINGLE_STEP = 0x42
 
 
 def test_a_line_has_one_brick_a_column():
-    """A line with a gap and a level that does not matter shows only changes."""
+    """A line has one character per column: a dot for no change, | for a gap, x for a level that does not
+    matter.
+    """
     levels = [{"a": 0}, {"a": 0}, None, {"a": 1}, {"a": 1}, {"a": 2}]
     assert wave(Row("a", "a"), levels[:5])["wave"] == "0.|1."
     assert wave(Row("a", "a", str), levels) == {"name": "a", "wave": "3.|4.5", "data": ["0", "1", "2"]}
@@ -30,7 +32,7 @@ def test_a_line_has_one_brick_a_column():
 
 
 def test_columns_without_a_change_are_left_out():
-    """Columns with an edge and their neighbours stay; two rows that join have one column each."""
+    """Columns without a change are replaced by a gap; the columns next to a change or to a gap remain."""
     samples = [{"a": level} for level in (0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0)]
     assert thinned(range(11), samples, [Row("a", "a")]) == [0, None, 3, 4, 5, 6, 7, 8]
     gap = [*samples[:2], None, *samples[4:6]]
@@ -38,7 +40,7 @@ def test_columns_without_a_change_are_left_out():
 
 
 def test_long_numbers_have_letters():
-    """Edges with many digits are explained once, below the diagram."""
+    """Long edge numbers get a letter, which is explained once below the diagram."""
     words, foot = numbered([-1, 0, None, 1_601_599, 1_601_600, 1_601_601, None, 25_600])
     assert words == ["-1", "0", None, "n-1", "n", "n+1", None, "m"]
     assert foot == "n = 1601600, m = 25600"
@@ -57,7 +59,9 @@ LONG = {
 
 
 def test_a_long_diagram_gets_rows():
-    """A diagram of 25 columns is split into rows no wider than the page, which begin with their levels."""
+    """A diagram of 25 columns is split into rows that fit the page; each row begins with the current
+    levels.
+    """
     found = fitted(LONG)
     edges = [lane for lane in lanes(found["signal"]) if lane.get("name") == "edge"]
     assert "".join(lane["wave"] for lane in edges) == LONG["signal"][0]["wave"]
@@ -69,7 +73,7 @@ def test_a_long_diagram_gets_rows():
 
 
 def test_no_arrow_is_torn():
-    """No row ends between the two ends of an arrow."""
+    """A diagram is never split between the two ends of an arrow."""
     torn = {**LONG, "edge": ["A~>B"]}
     assert wrapped(torn, [5]) is None and wrapped(torn, [10]) is None
     with pytest.raises(ValueError, match="cannot be cut"):
@@ -86,7 +90,7 @@ def _ids(paths: list[Path]) -> list[str]:
 
 @pytest.mark.parametrize("path", DIAGRAMS, ids=_ids(DIAGRAMS))
 def test_no_diagram_is_wider_than_a_page(path):
-    """No picture of the manuals is wider than a page, so its smallest text has 10 px or more on the site."""
+    """No diagram of the manuals is wider than a page, so its smallest text has at least 10 px on the site."""
     root = ET.parse(path).getroot()
     assert float(root.get("width")) <= MOST
 
@@ -102,7 +106,7 @@ def _struck(root: ET.Element) -> list[str]:
 
     def walk(node: ET.Element, x: float, y: float) -> None:
         if "rotate" in node.get("transform", ""):
-            return  # the name of a group, left of all lines
+            return  # the name of a group, which is left of all lines
         dx, dy = _moved(node)
         x, y = x + dx, y + dy
         if node.tag.endswith("use") and any(value == "#gap" for value in node.attrib.values()):
@@ -127,12 +131,12 @@ def _struck(root: ET.Element) -> list[str]:
 
 @pytest.mark.parametrize("path", DIAGRAMS, ids=_ids(DIAGRAMS))
 def test_no_break_mark_strikes_through_a_text(path):
-    """No text of a picture of the manuals is below a break mark."""
+    """No break mark in a diagram of the manuals covers a text."""
     assert not _struck(ET.parse(path).getroot())
 
 
 def test_record_follows_the_model():
-    """After a write that is sampled for 3 cycles, IBF and pins change on the edges of the manual."""
+    """After a write with a strobe of 3 samples, IBF, BUSY and HOLD change on the edges of the manual."""
     start = ready()
     cycle = start.action(0, "write", 1, SINGLE_STEP)
     seen = record(start.model, start.inputs, cycle, range(start.base + 2, start.base + 10))
@@ -143,19 +147,19 @@ def test_record_follows_the_model():
 
 
 def test_diagrams_are_drawn_with_wide_labels():
-    """The background of a labelled arrow is as wide as its text."""
+    """The background of an arrow's label is as wide as its text."""
     svg = figures.drawn(figures.entries("stmc")["pictures"]["end"], "end").decode()
     (width,) = re.findall(r'<rect[^>]*fill:#FFF;[^>]*width="([\d.]+)"[^>]*/><text[^>]*><tspan>34 ms', svg)
     assert float(width) > 5 * 6
 
 
 def test_columns_are_edges_ranges_and_gaps():
-    """A text of columns has edges, ranges that include their ends, and gaps."""
+    """The text of the columns may contain edges, ranges with both ends included, and gaps."""
     assert columns_of("-1..1 4 | 100") == [-1, 0, 1, 4, None, 100]
 
 
 def test_no_gap_hides_a_change():
-    """A diagram is rejected if one of its lines changes in a gap."""
+    """A diagram in which a line changes within a gap is rejected."""
     entry = figures.entries("stmc")["pictures"]["start"]
     assert made(entry)["head"]["text"] == entry["title"]
     with pytest.raises(ValueError, match="s changes in the gap before edge 84"):
@@ -163,7 +167,7 @@ def test_no_gap_hides_a_change():
 
 
 def test_a_mistake_in_an_entry_is_one_line(tmp_path, monkeypatch):
-    """A wrong kind, a wrong argument and bad YAML are reported with file and entry."""
+    """For a wrong kind, a wrong argument or invalid YAML, the error names file and entry."""
     monkeypatch.setattr(figures, "DOCS", tmp_path)
     for text, message in (
         ("pictures: {a: {kind: pictures.blocks.draws}}", "figures.yml: a: .*draws"),
@@ -178,14 +182,14 @@ def test_a_mistake_in_an_entry_is_one_line(tmp_path, monkeypatch):
 
 
 def test_letters_mark_where_a_line_changes():
-    """Letters are assigned to the changes of a line in turn; a dot skips a change."""
+    """Letters are assigned to the changes of a line in order; a dot skips a change."""
     samples = [{"a": 0}, {"a": 1}, {"a": 1}, None, {"a": 0}, {"a": 1}]
     assert lettered(Row("a", "a"), samples, "A.B").nodes == {1: "A", 5: "B"}
     assert lettered(Row("a", "a"), samples, "").nodes == {}
 
 
 def test_a_block_of_the_312_is_drawn_byte_by_byte():
-    """The accesses of the version read are those of the manual, and the flags change with them."""
+    """The diagram of the version read has the accesses of the manual, and its flags change at them."""
     access, mwef, mref, irq = made(figures.entries("ppmc312")["pictures"]["block"])["signal"]
     there = [word.strip() for word in access["data"]]
     assert there[:5] == ["WCR 20", "WAR 1D", "DWR 40", "DWR 01", "DWR 03"]
@@ -195,7 +199,7 @@ def test_a_block_of_the_312_is_drawn_byte_by_byte():
 
 
 def test_worked_moves_of_the_312():
-    """Shapes, pulses and times of the table of moves are those of the worked moves."""
+    """Shapes, pulses and times in the generated table of moves are those of the worked moves."""
     rows = made(figures.entries("ppmc312")["tables"]["moves-table"]).splitlines()
     assert "| TF, 82, N = 30 | 00 | 12, 6, 12 | 400×3 200×4 100×16 200×4 400×3 | 5600 |" in rows
     assert "| TF, 82, N = 24 | 00 | 12, 0, 12 | 400×3 200×4 100×10 200×4 400×3 | 5000 |" in rows

@@ -1,4 +1,4 @@
-"""The pins of the devices as benches see them: those of the golden models are the ports of the RTL."""
+"""The pins of the devices in the benches: those of the golden models agree with the ports of the RTL."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from openppmc import parts
 
 @pytest.mark.parametrize("name", list(PARTS))
 def test_pins_are_the_ports_of_the_rtl(name: str) -> None:
-    """The bench has the ports of the top's header, with direction, width and lowest bit."""
+    """The bench has the ports of the top's header with the same direction, width and lowest bit."""
     part, expected = PARTS[name], {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
     for direction, pins in (("input", part.inputs), ("output", part.outputs)):
         for pin in pins:
@@ -22,7 +22,7 @@ def test_pins_are_the_ports_of_the_rtl(name: str) -> None:
 
 @pytest.mark.parametrize("name", list(PARTS))
 def test_levels_fit_the_ports(name: str) -> None:
-    """Idle and reset levels have no more bits than their ports."""
+    """Idle and reset levels fit into the width of their ports."""
     part = PARTS[name]
     levels = {**part.inputs, **part.reset_levels()}
     assert [pin for pin, level in levels.items() if level >> part.width(pin)] == []

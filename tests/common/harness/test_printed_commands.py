@@ -1,4 +1,4 @@
-"""Every command that a page prints is accepted: by make, the parser of `openppmc` or that of a script."""
+"""Every command on a page is accepted: by make, by the parser of `openppmc`, or by that of a script."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PAGES = [
     path
     for below in (".", "docs", "drivers", "examples", "openppmc")
     for path in sorted((ROOT / below).glob("*.md" if below == "." else "**/*.md"))
-    # The changelog and the decision records name commands of earlier versions.
+    # The changelog and the decision records contain commands of earlier versions.
     if path.name not in ("CHANGELOG.md", "decisions.md") and path.parent.name != "decisions"
 ]
 COMMAND = re.compile(
@@ -49,13 +49,13 @@ PLACEHOLDERS = {
     "openppmc": {},
     "python -m": {"[WORD…]": "word"},
 }
-"""Words of a page that the reader replaces, each with its replacement here."""
+"""Words in a command that the reader must replace -> a valid replacement."""
 SYNTAX = ("openppmc COMMAND --help", "openppmc [--port PORT]")
-"""Beginnings of texts that describe commands."""
+"""Beginnings of texts that describe the syntax of commands."""
 
 
 def _blocks(text: str) -> Iterator[tuple[str, bool]]:
-    """Yield the lines of code blocks (True) and pieces of inline code (False) of a page."""
+    """Yield the lines of code blocks (with True) and the pieces of inline code (with False) of a page."""
     fenced = False
     for line in text.replace("\\\n", " ").splitlines():
         if line.lstrip().startswith("```"):
@@ -67,7 +67,7 @@ def _blocks(text: str) -> Iterator[tuple[str, bool]]:
 
 
 def printed() -> dict[tuple[str, str, bool], str]:
-    """Return (kind of command, its arguments, whether it is a whole line) -> the first page with it."""
+    """Return (kind of command, arguments, whether it is a whole line) -> the first page that contains it."""
     found: dict[tuple[str, str, bool], str] = {}
     for page in PAGES:
         for text, whole in _blocks(page.read_text(encoding="utf-8")):
@@ -83,7 +83,7 @@ PRINTED = printed()
 
 
 def of(what: str) -> list[Any]:
-    """Return the arguments of the commands of a kind, as words, and whether they are whole lines."""
+    """Return the arguments of each command of a kind as words, and whether the command is a whole line."""
     known = PLACEHOLDERS[what]
     rows = {}
     for kind, rest, whole in PRINTED:
@@ -97,7 +97,7 @@ def of(what: str) -> list[Any]:
 
 
 def test_the_pages_have_commands() -> None:
-    """The tests below find the commands of the pages."""
+    """The search for commands on the pages finds enough of them for the tests below."""
     assert [len(of(what)) > least for what, least in (("make", 60), ("openppmc", 60), ("python -m", 5))] == [
         True
     ] * 3
@@ -106,7 +106,9 @@ def test_the_pages_have_commands() -> None:
 
 @pytest.mark.parametrize("words, whole, page", of("make"))
 def test_make(words: list[str], whole: bool, page: str) -> None:
-    """`make -n` accepts targets and variables; variables of cocotb's makefiles are in the example's one."""
+    """`make -n` accepts the command; a command of a cocotb makefile has only variables of the example's
+    Makefile.
+    """
     own = (ROOT / page).parent / "Makefile"
     if own.parent != ROOT and own.exists() and all("=" in word for word in words):
         assert all(word.split("=")[0] in own.read_text(encoding="utf-8") for word in words)
@@ -116,7 +118,7 @@ def test_make(words: list[str], whole: bool, page: str) -> None:
 
 
 def parse(command: Any, words: list[str], parent: Any = None, name: str = "openppmc") -> None:
-    """Create the contexts of a command line, without calling the command. Raises the errors of the parser."""
+    """Parse a command line without calling the command; errors of the parser are raised."""
     context = command.make_context(name, list(words), parent=parent)
     if hasattr(command, "commands"):
         rest = [*getattr(context, "_protected_args", getattr(context, "protected_args", [])), *context.args]
@@ -128,7 +130,7 @@ def parse(command: Any, words: list[str], parent: Any = None, name: str = "openp
 
 @pytest.mark.parametrize("words, whole, page", of("openppmc"))
 def test_openppmc(words: list[str], whole: bool, page: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """The parser accepts the options and arguments; a command in a sentence may lack its arguments."""
+    """The parser accepts options and arguments; a command within a sentence may lack its arguments."""
     usage_error: Any = typer.BadParameter.__bases__[0]
     try:
         parse(typer.main.get_command(app), words)
@@ -139,12 +141,12 @@ def test_openppmc(words: list[str], whole: bool, page: str, capsys: pytest.Captu
 
 
 class AcceptedError(Exception):
-    """The arguments are accepted."""
+    """Raised when the parser has accepted the arguments."""
 
 
 @pytest.mark.parametrize("words, whole, page", of("python -m"))
 def test_python(words: list[str], whole: bool, page: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The module exists, and its parser accepts the arguments."""
+    """The module of each printed command exists, and its parser accepts the arguments."""
     module, *arguments = words
     spec = importlib.util.find_spec(module)
     assert spec is not None, module

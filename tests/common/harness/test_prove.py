@@ -1,6 +1,6 @@
-"""The table of proofs against the tree: wrappers, rules, faults; mistakes of a user in one line.
+"""The table of proofs agrees with the tree (wrappers, rules, faults); each mistake of a user is one line.
 
-`make prove` runs the proofs themselves: they need yosys, which `make test` does not use.
+`make prove` runs the proofs themselves. They need yosys, which `make test` does not use.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ each = pytest.mark.parametrize("proof", EVERY, ids=lambda proof: proof.name)
 
 @each
 def test_a_proof_fits_the_tree(proof: Proof) -> None:
-    """Wrapper and block exist, the labels are in the wrapper, and the text of the fault is in the RTL."""
+    """Wrapper and block exist, the labels are in the wrapper, and the text that `breaks` changes is in the
+    RTL.
+    """
     text = proof.file.read_text(encoding="utf-8")
     assert f"module {proof.file.stem}" in text and re.search(rf"\b{proof.block}\b", text)
     assert list(RTL.rglob(f"{proof.block}.sv"))
@@ -42,7 +44,7 @@ def test_a_proof_fits_the_tree(proof: Proof) -> None:
 
 
 def test_every_wrapper_has_an_entry() -> None:
-    """Each file of tb/formal is used, each name occurs once, and each assumption is documented."""
+    """Each file of tb/formal is used, each proof has a unique name, and each assumption is documented."""
     names = [one.name for one in EVERY]
     assert len(names) == len(set(names))
     stubs = {FORMAL / stub for one in EVERY for stub in one.stubs}
@@ -50,14 +52,14 @@ def test_every_wrapper_has_an_entry() -> None:
 
 
 def test_every_block_has_a_proof() -> None:
-    """Each block of the shared folders is proved; only packages, which hold no state, have no proof."""
+    """Each block of the shared folders has a proof; packages, which have no state, are exempt."""
     assert set(unproved(EVERY)) == {
         path.stem for room in ROOMS for path in (RTL / room).glob("*.sv") if path.stem.endswith("_pkg")
     }
 
 
 def test_packages_are_in_the_proofs_of_who_calls_them() -> None:
-    """Each package of the shared folders is read by a proof, and the page lists it."""
+    """Each package of the shared folders is used by a proof, and the page lists the proof."""
     page = text()
     for package, by in unproved(EVERY).items():
         assert by, package
@@ -65,15 +67,15 @@ def test_packages_are_in_the_proofs_of_who_calls_them() -> None:
 
 
 def test_rules_are_known() -> None:
-    """Each rule that a proof names is a row of a page of docs/."""
+    """Each rule that a proof names exists on a page of docs/."""
     pages = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md"))
     assert [rule for rule in by_rule() if not re.search(rf"^\| *`?{rule}`? *\|", pages, re.M)] == []
 
 
 def test_names_choose() -> None:
-    """A full name selects that proof, a word all proofs that contain it, no word the quick ones.
+    """A full name selects one proof; a part of a name selects all proofs whose names contain it.
 
-    Any other word causes an error of one line.
+    Without a name, all quick proofs are selected. A word that matches no proof raises an error of one line.
     """
     assert [one.name for one in chosen(["ppmc_sync"], night=False)] == ["ppmc_sync"]
     assert {one.name for one in chosen(["ppmc_axis_"], night=False)} > {"ppmc_axis_stop"}
@@ -97,14 +99,16 @@ def test_unknown_proof_in_one_line() -> None:
 
 
 def test_missing_tool_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without pyosys, one line states what to do."""
+    """Without pyosys, the command prints one line that states what to do."""
     monkeypatch.setattr(engine, "find_spec", lambda name: None)
     with pytest.raises(ProjectError, match="yosys-abc: not found.*make setup"):
         engine.abc()
 
 
 def test_messages_of_abc(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The output of abc is read as proved, failed with output and cycle, or open: never proved by mistake."""
+    """ABC's output is classified as proved, failed (with output and cycle) or open; never as proved by
+    mistake.
+    """
     answers: list[str] = []
     monkeypatch.setattr(engine, "ask", lambda folder, what, script: answers.pop(0) if answers else "")
     here = Path(".")

@@ -1,4 +1,4 @@
-"""Random hosts react to the responses: on the golden model alone they do the same as on the RTL."""
+"""Random hosts react to responses, so on the golden model alone they must do the same as on the RTL."""
 
 from __future__ import annotations
 
@@ -29,6 +29,6 @@ from cocotb_tests.stmc import test_random as stmc
     ids=lambda value: value.test if isinstance(value, RandomItems) else str(value),
 )
 def test_a_host_does_the_same_on_both_sides(items: RandomItems, seed: int) -> None:
-    """All pin changes of a seed are the same on the RTL and on the model alone."""
+    """For each seed, all pin changes on the RTL are the same as on the model alone."""
     on_rtl, on_the_model = items.pins(seed)
     assert on_rtl == on_the_model != ""

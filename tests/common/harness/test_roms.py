@@ -1,4 +1,4 @@
-"""Each table of the RTL is among those that `make lint` compares with the contents in the netlist."""
+"""`make lint` compares each table of the RTL with the contents in the netlist; no table is missing there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Evaluation of a simulation from its log and results: only "exactly these tests ran and passed" counts."""
+"""Results of a simulation from its log: only a run in which exactly the requested tests passed counts."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ GOOD, BAD = (
 
 
 def read(tmp_path: Path, text: str, names: str | None = "ab", trouble: str = "") -> dict[str, Outcome]:
-    """Return the outcomes of tests a and b from such a log, and a results.xml with these names."""
+    """Return the outcomes of tests a and b, from this log and a results.xml with these names."""
     log, results = tmp_path / "log.txt", tmp_path / "results.xml"
     log.write_text(text, encoding="utf-8")
     if names is not None:
@@ -34,7 +34,7 @@ def read(tmp_path: Path, text: str, names: str | None = "ab", trouble: str = "")
 
 
 def part(name: str, rest: str) -> str:
-    """Return a test's part of a log."""
+    """Return the section of a test in a log."""
     return f"{HEAD}running m.{name} (1/2)\n    Its first line.\n{rest}"
 
 
@@ -56,7 +56,7 @@ def test_each_part_of_the_log_is_one_test(tmp_path: Path, log: str, kinds: str) 
 
 
 def test_a_process_that_ends_within_a_test(tmp_path: Path) -> None:
-    """If the process ends within a test, that test crashed, and the tests after it did not run."""
+    """If the process ends within a test, this test crashed, and the following tests did not run."""
     found = read(tmp_path, part("a", "x\n"), None, "the simulator ended: -11")
     assert (found["a"].kind, found["b"].kind) == ("crashed", "did not run")
     assert found["a"].text.startswith("the simulator ended: -11\n")
@@ -69,7 +69,9 @@ def test_other_tests_than_those_requested_are_a_failure(tmp_path: Path, names: s
 
 
 def test_a_bad_end_of_good_tests_is_a_failure(tmp_path: Path) -> None:
-    """If the process fails although all tests passed, all tests fail, because the log does not name one."""
+    """If the process fails although each test passed, all tests fail, because the log does not name a
+    test.
+    """
     found = read(tmp_path, part("a", GOOD % "a") + part("b", GOOD % "b"), "ab", "the simulator ended: 1")
     assert {outcome.kind for outcome in found.values()} == {"failed"}
 
@@ -90,7 +92,7 @@ def test_failure_text_shows_the_exception() -> None:
 
 
 def test_groups_keep_the_order_and_are_even() -> None:
-    """Tests of one build are split evenly in their order; tests without a key stay alone."""
+    """Tests with the same key are split evenly in their order; tests without a key form groups of one."""
     made = groups_of(range(100), lambda n: n % 2 or None)
     assert [len(group) for group in made] == [1, 25, 25] + [1] * 49
     assert made[1] == tuple(range(1, 50, 2)) and sorted(n for group in made for n in group) == list(
@@ -116,7 +118,7 @@ def test_config_survives_json_and_knows_its_times() -> None:
     config = Config("x", clk_hz=11_059_200, timing="DATASHEET", extra=(("AXES", 2),))
     assert Config.from_json(config.to_json()) == config
     assert config.datasheet and not F16.datasheet and D16.datasheet
-    # P104-GEN-03 and P104-EX-12: CYC rounds up, a quantum is 2.7648 cycles here.
+    # P104-GEN-03 and P104-EX-12: CYC rounds up; a quantum is 2.7648 cycles here.
     assert (F16.w, F11.w, F11.quanta(8), F16.us(34_000)) == (80, 56, 23, 544_000)
     assert all(c.period_ps % 2 == 0 for c in ALL_CONFIGS)
 

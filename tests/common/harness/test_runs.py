@@ -1,4 +1,4 @@
-"""Every way in which a cocotb test can end, alone and in a group, and the message of the run."""
+"""Every way in which a cocotb test can end, alone and in a group, and the message about it."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ endmodule
 
 
 def counter() -> Design:
-    """Return a counter whose assertion can be made to fire; its inner signals are hidden."""
+    """Return a counter whose assertion the test can make fail; its inner signals are hidden."""
     path = BUILD / "blocks" / "runs_top.sv"
     with locked(path.with_suffix(".lock")):
         if not path.exists() or path.read_text(encoding="ascii") != SOURCE:
@@ -50,29 +50,30 @@ def _design() -> Design:
 
 
 def kinds(design: Design, *names: str, **env: str) -> dict[str, str]:
-    """Return the outcomes of tests in one group."""
+    """Return the outcome of each test of a group."""
     job = Job(design, tuple(ITEMS[name] for name in names), 1, env=env)
     return {item.test: outcome.kind for item, (outcome, _) in run_group(job).items()}
 
 
 def said(design: Design, *names: str, seed: int = 1, **env: str) -> str:
-    """Return the message of the last test of a group.
+    """Return the message about the last test of a group.
 
-    Two failures at the same time need two seeds, because the files of a failure have the seed in their name.
+    If two tests fail at the same time, they need different seeds, because the names of their files contain
+    only the seed.
     """
     items = tuple(ITEMS[name] for name in names)
     return attempt(items[-1], SimOptions(seed=seed, group=items), env, design)
 
 
 def test_each_ends_in_its_own_way(design: Design) -> None:
-    """raises, skip, xfail, parametrize and a fired assertion have their own outcomes in a group."""
+    """raise, skip, xfail, parametrize and a failed assertion in one group each have their own outcome."""
     names = "passes fires raises skips xfails expected cases/step=1 cases/step=-2 follows".split()
     ends = "passed failed passed skipped xfailed xfailed passed failed passed".split()
     assert kinds(design, *names) == dict(zip(names, ends, strict=True))
 
 
 def test_nothing_is_asserted_of_the_first_edge(design: Design) -> None:
-    """No assertion checks the state at power-up on the first edge; on the second edge it does."""
+    """Assertions do not check the state at power-up on the first edge; from the second edge on they do."""
     design = replace(design, main="own")  # cocotb's own main program cannot turn them off
     assert kinds(design, "clocked/edge=1", "passes") == {"clocked/edge=1": "passed", "passes": "passed"}
     assert kinds(design, "clocked/edge=2", "passes") == {"clocked/edge=2": "failed", "passes": "passed"}
@@ -80,7 +81,9 @@ def test_nothing_is_asserted_of_the_first_edge(design: Design) -> None:
 
 @pytest.mark.parametrize("end", ["dies", "crashes", "loops"])
 def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
-    """$fatal, a segmentation fault and an endless loop are reported; the other tests have own results."""
+    """$fatal, a segmentation fault and an endless loop are reported; the other tests of the group have their
+    own results.
+    """
     found = kinds(design, "passes", end, "raises", "shows", OPENPPMC_WALL_S="6")
     assert found.pop(end) in ("failed", "crashed")
     assert found == {"passes": "passed", "raises": "passed", "shows": "failed"}
@@ -88,7 +91,7 @@ def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
 
 @pytest.mark.parametrize("end", ["shows", "dies", "loops"])
 def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A failure of a mutant ends the process without another one: 36 tests of 100 s would take an hour."""
+    """If a test fails on a mutant, the following tests of the group do not run; they could take an hour."""
     monkeypatch.setenv(MUTANT, "rtl/none.sv 1 none.sv")
     found = kinds(design, "passes", end, "leaks", "looks", OPENPPMC_WALL_S="6")
     assert found.pop(end) in ("failed", "crashed")
@@ -107,7 +110,9 @@ def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch
     ],
 )
 def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
-    """The message has the test, values or line, and the repeat command; it does not doubt the result."""
+    """The message has the test, the values or line, and the command that repeats it; it expresses no
+    doubt.
+    """
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text
@@ -115,7 +120,7 @@ def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
 
 
 def test_a_failure_leaves_log_and_waves(design: Design) -> None:
-    """A failure leaves log and waves in build/failures/."""
+    """After a failure, log and waveforms are in build/failures/."""
     text = said(design, "shows", seed=2)
     folder = FAILURES / "shows-f16-own-s2"
     assert f"log {relative(folder / 'log.txt')}" in text
@@ -124,7 +129,9 @@ def test_a_failure_leaves_log_and_waves(design: Design) -> None:
 
 
 def test_what_needs_another_test_names_it(design: Design) -> None:
-    """Of three tests before a failing one, one causes the failure; the command repeats these two tests."""
+    """If a test fails only after one of three other tests, the printed command repeats only these two
+    tests.
+    """
     text = said(design, "passes", "leaks", "raises", "follows")
     assert "(fails only after leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text
     assert "repeat with: make test T=leaks-f16-own,follows-f16-own SEED=1 CLK_HZ=16000000" in text
@@ -134,20 +141,22 @@ def test_what_needs_another_test_names_it(design: Design) -> None:
 def test_only_the_same_run_again_shows_nondeterminism(
     design: Design, tmp_path: Path, others: tuple[str, ...]
 ) -> None:
-    """A test that fails only the first time, alone or in a group, is called not deterministic."""
+    """If a test, alone or in a group, fails only the first time, it is reported as not deterministic."""
     text = said(design, *others, "wavers", OPENPPMC_SEEN=str(tmp_path / "seen"))
     assert "once more" in text and "it is not deterministic)" in text and "the first time" in text
 
 
 def test_waves_may_hide_a_failure(design: Design) -> None:
-    """A failure that disappears with waves is reported as not reproduced, not as not deterministic."""
+    """If a failure does not occur with waves, it is reported as not reproduced, not as not deterministic."""
     text = said(design, "shy")
     assert "no trace" in text and "(not reproduced with waves: there it passed)" in text
     assert "deterministic" not in text
 
 
 def test_a_hidden_signal_is_reported(design: Design) -> None:
-    """A hidden signal is reported as such, alone and in a group; with all signals visible the test passes."""
+    """An access to a hidden signal is reported, alone and in a group; if all signals are visible, the test
+    passes.
+    """
     for names in (("pries",), ("passes", "pries")):
         text = said(design, *names)
         assert "AttributeError: runs_top contains no child object named u_inner" in text and HINT in text
@@ -156,7 +165,7 @@ def test_a_hidden_signal_is_reported(design: Design) -> None:
 
 
 def test_a_test_may_probe_signals(design: Design) -> None:
-    """The signals that a test names are visible; other signals stay hidden."""
+    """Only the signals that a test names are visible in addition to the ports."""
     assert ITEMS["looks"].probes == ("u_inner.count",)
     assert attempt(ITEMS["looks"], design=design) == ""
     assert with_probes(design, ()) == design and not with_probes(design, ("q",), True).ports
@@ -165,7 +174,7 @@ def test_a_test_may_probe_signals(design: Design) -> None:
 
 
 def test_waves_of_a_test_that_passes(design: Design, capsys: pytest.CaptureFixture[str]) -> None:
-    """The folder of the VCD also has views of the ports, and the paths are printed."""
+    """The folder of a VCD also contains saved views of the ports, and the paths are printed."""
     assert outcome_of(ITEMS["passes"], SimOptions(waves=True), {}, design).good
     folder = "build/waves/passes-f16-own/dump"
     assert capsys.readouterr().out == f"waves in {folder}.vcd, {folder}.gtkw, {folder}.sucl\n"
@@ -175,13 +184,13 @@ def test_waves_of_a_test_that_passes(design: Design, capsys: pytest.CaptureFixtu
 
 @pytest.mark.parametrize(("name", "reason"), [("skips", "nothing to do"), ("skipped", "skip=True")])
 def test_a_skip_is_a_skip_of_pytest(design: Design, name: str, reason: str) -> None:
-    """A skipped test is skipped in pytest with its reason."""
+    """A skipped cocotb test is also skipped in pytest, with its reason."""
     with pytest.raises(pytest.skip.Exception, match=reason):
         run_item(ITEMS[name], design=design)
 
 
 @pytest.mark.parametrize(("name", "reason"), [("xfails", "known fault"), ("expected", "failed as expected")])
 def test_an_expected_failure_is_one_of_pytest(design: Design, name: str, reason: str) -> None:
-    """An expected failure is one of pytest, with its reason."""
+    """An expected failure of a cocotb test is also one in pytest, with its reason."""
     with pytest.raises(pytest.xfail.Exception, match=reason):
         run_item(ITEMS[name], design=design)

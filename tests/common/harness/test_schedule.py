@@ -1,4 +1,4 @@
-"""Tests that share a simulator process remain tests of pytest: separate results, separate selection."""
+"""Tests that share a simulator process are still separate tests of pytest: own results, own selection."""
 
 from __future__ import annotations
 
@@ -38,7 +38,9 @@ def test_sample(item, sim_options):
 
 @pytest.fixture(name="sample")
 def _sample() -> Iterator[Path]:
-    """Write the file below the project's folder, where the plugin is loaded; no two workers share it."""
+    """Write the sample below the project's folder, where the plugin is loaded; each worker has its own
+    folder.
+    """
     (BUILD / "sample").mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=BUILD / "sample") as folder:
         file = Path(folder) / "test_sample.py"
@@ -47,7 +49,9 @@ def _sample() -> Iterator[Path]:
 
 
 def ran(sample: Path, seen: Path, *words: str) -> tuple[dict[str, int], list[list[str]]]:
-    """Return the counts of outcomes of a pytest run, and (worker, group size, groups run before) per test."""
+    """Return the counts of outcomes of a pytest run, and (worker, group size, groups run before) for each
+    test.
+    """
     env = {**os.environ, "SEEN": str(seen)}
     env.pop("PYTEST_XDIST_WORKER", None)
     env.pop("PYTEST_CURRENT_TEST", None)
@@ -73,7 +77,7 @@ def test_one_test_alone(sample: Path, tmp_path: Path) -> None:
 
 
 def test_some_by_their_names(sample: Path, tmp_path: Path) -> None:
-    """Tests can be selected by their names, as the command that repeats a group does."""
+    """Tests can be selected by their names, as in the command that repeats a group."""
     counts, rows = ran(sample, tmp_path / "seen", "-k", "raises-f16 or cases.step.1-f16")
     assert counts == {"passed": 2} and [row[1] for row in rows] == ["2", "2"]
 
@@ -90,7 +94,7 @@ def test_with_waves_each_is_alone(sample: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("mark", "workers"), [("", 2), ('pytestmark = pytest.mark.xdist_group("one")\n', 1)])
 def test_what_is_marked_goes_to_one_worker(sample: Path, tmp_path: Path, mark: str, workers: int) -> None:
-    """Tests that are each alone run in one worker if they have the same `xdist_group`."""
+    """Tests with the same `xdist_group` run in one worker, even if each runs in its own process."""
     sample.write_text(f"{SAMPLE}\n\n{mark}", encoding="utf-8")
     _, rows = ran(sample, tmp_path / "seen", "-n", "2", "--waves")
     assert len(rows) == 7 and len({worker for worker, _, _ in rows}) == workers

@@ -1,4 +1,4 @@
-"""Shrinking of failing random runs: a recording is split into transactions; few detect a mutant."""
+"""Shrinking of failing random runs: a recording is split into transactions, of which few are needed."""
 
 from __future__ import annotations
 
@@ -34,7 +34,9 @@ from scripts.measure.replay import main as replay
 
 
 def busy_run(seed: int = 1) -> Recording:
-    """Return a run of over sixty transactions on a PPMC-104 with a change of csel, an alarm and its read."""
+    """Return a run of over sixty transactions on a PPMC-104, which include a change of csel, an alarm and a
+    read of the alarm.
+    """
 
     async def run(bench: ModelBench) -> None:
         host, rng = HostBus(bench), random.Random(seed)
@@ -56,7 +58,7 @@ def busy_run(seed: int = 1) -> Recording:
 
 
 class Mutant:
-    """A PPMC-104 that ignores an alarm if csel differs from its level in the reset."""
+    """A PPMC-104 that ignores an alarm while csel differs from its level at reset."""
 
     def __init__(self, recording: Recording) -> None:
         self.model = new_model("ppmc104", recording.params)
@@ -101,7 +103,9 @@ def shrunk(recording: Recording, **limits: Any) -> Shrinker:
 
 
 def test_a_mutant_is_shrunk_to_a_handful() -> None:
-    """Of sixty transactions, two set up the fault and two read it; all others and the pauses are removed."""
+    """Of sixty transactions, only the two that set up the fault and the two that read it remain, without
+    pauses.
+    """
     recording = busy_run()
     assert len(transactions_of(recording)) >= 60 and difference(recording, transactions_of(recording))
     shrinker = shrunk(recording)
@@ -122,7 +126,7 @@ def test_limits_end_the_search_with_the_best_so_far() -> None:
 
 
 def normal(changes: Sequence[Change]) -> list[Change]:
-    """Return the changes without the order of pins that change together."""
+    """Return the changes in an order that does not depend on the order of simultaneous changes."""
     return sorted(changes)
 
 
@@ -146,7 +150,7 @@ def played(play: Any, seed: int, build: Config) -> Recording:
 
 
 def test_all_acts_together_are_the_run() -> None:
-    """All transactions contain every pin change at its time; all messages contain every transaction.
+    """The transactions of a run contain every pin change; the messages contain every transaction.
 
     Checked for a bus, a line, noise, clocks and resets.
     """
@@ -159,14 +163,14 @@ def test_all_acts_together_are_the_run() -> None:
 
 
 def place(words: Sequence[str], expected: Sequence[str], start: int = 0) -> int | None:
-    """Return the first position where a run of words ends in a list."""
+    """Return the index after the first occurrence of `expected` in `words`, or None."""
     size = len(expected)
     ends = range(start + size, len(words) + 1)
     return next((end for end in ends if words[end - size : end] == list(expected)), None)
 
 
 def test_messages_are_left_out_together() -> None:
-    """Two blocks that only work as a whole, and a response, are found among a thousand transactions."""
+    """Two blocks that have an effect only as a whole, and a response, remain of a thousand transactions."""
     transactions = transactions_of(played(random_host.play, 1, random_host.build(1)))
     blocks = [run for run in messages(transactions) if run[0].what == "WCR := 20" and len(run) > 9]
     responses = [run for run in messages(transactions) if run[-1].kind.startswith("DRR")]
@@ -200,7 +204,9 @@ def access(t: int, kind: str, byte: int, reg: int = 0) -> Transaction:
 
 
 def test_a_message_is_described_in_a_line() -> None:
-    """A block, a response or polls are one line; an access after a pause has its own time."""
+    """A block, a response and polls are each described as one item; an item after a pause is on a new
+    line.
+    """
     block = [access(20, "WCR :=", 0x20, 2), access(28, "WAR :=", 0x1E, 3)]
     block += [access(36, "DWR :=", 0x40, 5), access(44, "DWR :=", 0x03, 5)]
     polls = [access(60, "CSR read", 4), access(68, "CSR read", 0)]
@@ -222,13 +228,13 @@ def rows(part: str, *changes: tuple[int, str, int]) -> list[str]:
 
 
 def line(t: int, byte: int) -> list[tuple[int, str, int]]:
-    """Return a character with bits of 192 cycles."""
+    """Return the level changes of a character whose bits have 192 cycles."""
     bits = [0, *(byte >> place & 1 for place in range(8)), 1]
     return [(t + 192 * k, "rxd", bit) for k, bit in enumerate(bits) if bit != [1, *bits][k]]
 
 
 def test_transactions_are_described_as_text() -> None:
-    """Transactions are text: pin names, bit numbers, resets, bytes of a frame, groups of clock periods."""
+    """Transactions are described as text: pins, bits of pins, resets, frames, periods of a clock."""
     assert rows("ppmc104", (40, "alm_n", 0), (50, "rst_n", 0), (62, "rst_n", 1)) == [
         "alm_n = 0 at 40", "reset for 12 clk at 50",
     ]  # fmt: skip
@@ -236,7 +242,7 @@ def test_transactions_are_described_as_text() -> None:
     assert rows("ppmc104", (9, "auxi", 6)) == ["auxi = 0x6 at 9"]
     frames = [*line(0, 0x73), *line(1920, 0x73)]
     assert rows("pmc006", *frames) == ["frame 73 73 at 0"]
-    # Most levels last two bits, whose lengths are not quite the same.
+    # Most levels last two bits. The characters do not begin at exactly equal distances.
     frames = [change for k in range(4) for change in line(1957 * k + k % 2, 0x33)]
     assert rows("pmc006", *frames) == ["frame 33 33 33 33 at 0"]
     ticks = [(100 * k, "clock", (k + 1) % 2) for k in range(400)]
@@ -245,7 +251,9 @@ def test_transactions_are_described_as_text() -> None:
 
 
 def test_what_is_left_out_takes_nothing_along() -> None:
-    """An access contains its own address and data, also if the one before it is omitted."""
+    """An access contains its own address and data, so it is complete even if the access before it is
+    removed.
+    """
     recording = busy_run()
     one = next(txn for txn in transactions_of(recording) if txn.what == "write C 81")
     expected = {(change.pin, change.value) for change in changes_of(PPMC104, [one])}

@@ -1,4 +1,4 @@
-"""Our main program of simulations and cocotb's own produce the same pins, accesses and output edges.
+"""Our main program of simulations and that of cocotb produce the same pins, accesses and output edges.
 
 `python -m scripts.measure.sim_mains WORD` compares any other test in the same way.
 """
@@ -13,7 +13,7 @@ from cocotb_tests.harness.random_items import batches
 from cocotb_tests.harness.runner import check_mains
 from openppmc import parts
 
-# One directed test per device. The tests include resets between two edges, short strobes and moves.
+# One directed test per device. Together they contain resets between two edges, short strobes and moves.
 DIRECTED = {
     "ppmc104": "p104_ac_57_reset_in_motion-f16",
     "ppmc2104": "p2104_ac_30_what_refuses-f16",
@@ -31,14 +31,16 @@ def suite_of(name: str) -> PartTests:
 
 @pytest.mark.parametrize("name", DIRECTED)
 def test_a_directed_test_records_the_same_on_both_mains(name: str) -> None:
-    """The recordings of a directed test have the same digest on both main programs."""
+    """The recordings of a directed test on both main programs have the same digest."""
     (item,) = [item for item in suite_of(name).items if item.id == DIRECTED[name]]
     assert check_mains(item) >= 1
 
 
 @pytest.mark.parametrize("name", DIRECTED)
 def test_random_hosts_record_the_same_on_both_mains(name: str) -> None:
-    """Several random hosts in one simulation have the same digests on both main programs."""
+    """The recordings of several random hosts in one simulation have the same digests on both main
+    programs.
+    """
     tests = suite_of(name)
     make, seeds = next(iter(tests.sample.items()))
     sets = batches([make(seed) for seed in seeds], 3)
@@ -47,5 +49,5 @@ def test_random_hosts_record_the_same_on_both_mains(name: str) -> None:
 
 
 def test_all_parts_with_random_hosts_are_here() -> None:
-    """Every device with random hosts is in DIRECTED."""
+    """DIRECTED contains every device that has random hosts."""
     assert set(DIRECTED) == {row.name for row in parts.having("gates") if suite_of(row.name).sample}

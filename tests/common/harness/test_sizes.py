@@ -21,7 +21,7 @@ OLD: figures.Figures = {KEY: {"lut": 1000, "ff": 600, "ram": 2, "of": "0"}}
 
 
 def changed(**counts: int) -> figures.Figures:
-    """Return OLD with other counts."""
+    """Return the figures OLD with other counts."""
     return {KEY: {**OLD[KEY], **counts}}
 
 
@@ -104,7 +104,7 @@ def test_the_check_returns_the_exit_code(monkeypatch: pytest.MonkeyPatch, lut: i
 def test_the_check_synthesizes_changed_designs(
     monkeypatch: pytest.MonkeyPatch, of: str, fresh: bool, count: int
 ) -> None:
-    """A design with the digest of its figures is synthesized again only on request."""
+    """A design whose RTL has the stored digest is synthesised again only on request."""
     design = designs.Design("a", "ecp5", "tuned")
     monkeypatch.setattr(designs.Design, "digest", lambda self: "same")
     monkeypatch.setattr(figures, "read", lambda: {design.key: {"of": of}})
@@ -114,7 +114,9 @@ def test_the_check_synthesizes_changed_designs(
 
 
 def test_a_design_of_other_rtl_is_stale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A changed source makes the figures stale, a changed comment does not; missing figures are reported."""
+    """A change of the source makes the figures stale, a change of a comment does not; missing figures are
+    reported.
+    """
     source = tmp_path / "a.sv"
     monkeypatch.setattr(project, "ROOT", tmp_path)
     job = {"top": "a", "include": [], "sources": ["a.sv"], "params": {}}
@@ -189,7 +191,7 @@ def test_bad_description_of_peers_is_one_line(text: str | None, tmp_path: Path) 
 
 
 def test_wrapper_leaves_other_axes_idle(tmp_path: Path) -> None:
-    """Only the pins of one axis are connected to the shift registers; the reset has its own name."""
+    """Only the pins of one axis are connected to shift registers; the reset may have any name."""
     ports = {
         "clk": "input",
         "resetn": "input",

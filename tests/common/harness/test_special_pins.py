@@ -1,4 +1,6 @@
-"""Constraint files against special_pins.py: no unsafe use of a pin, and no use missing in docs/boards.md."""
+"""Constraint files against special_pins.py: they use no pin unsafely, and each other function is
+documented.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ from tests.common.harness.test_boards import ALL, CONSTRAINTS, pins, ports
 USED = [entry[1] for entry in ALL]
 TOPS = {entry[1]: entry[0] for entry in ALL}
 STOPS = re.compile(r"(l[1-4]|fh?l|bh?l|alm)_n(\[\d\])?|mon")
-"""Ports that stop a motor: limits, alarm, MON. The others may wait until a plug is pulled."""
+"""Ports that stop a motor: limits, alarm, MON. All others may be wrong until a plug is removed."""
 
 
 def board(file: str) -> str:
@@ -31,7 +33,7 @@ def uses(file: str) -> list[tuple[str, str, Special]]:
 
 
 def describe(name: str) -> dict[str, set[str]]:
-    """Return the pins per other function in the table of docs/boards.md for a board."""
+    """Return other function -> pins, from the table of a board in docs/boards.md."""
     page = (project.DOCS / "boards.md").read_text()
     found = re.search(rf"<!-- special {name} -->(.*?)<!-- /special {name} -->", page, re.DOTALL)
     rows = re.findall(r"^\| ([^|]+) \| ([^|]+) \| [^|]+ \|$", found[1] if found else "", re.MULTILINE)
@@ -40,7 +42,7 @@ def describe(name: str) -> dict[str, set[str]]:
 
 @pytest.mark.parametrize("name", sorted({board(file) for file in USED}))
 def test_second_functions_are_documented(name: str) -> None:
-    """Every used pin that has another function is in the board's table, in the row of that function."""
+    """Every used pin with another function is in the board's table, in the row of that function."""
     used = {(special.job, pin) for file in USED if board(file) == name for _, pin, special in uses(file)}
     page = {(job, pin) for job, names in describe(name).items() for pin in names}
     assert used <= page, f"not told: {sorted(used - page)}"
@@ -78,7 +80,7 @@ def test_stops_are_known(port: str) -> None:
 
 
 def test_boot_pin_of_the_esp32_follows_the_revision():
-    """`wifi_gpio0` is F1 on the ULX3S v3.1.6 and newer, L2 before; a file uses only one of both pins."""
+    """`wifi_gpio0` is pin F1 on the ULX3S v3.1.6 and newer, pin L2 before; no file uses both pins."""
     for board, pin, other in (("ulx3s", "L2", "F1"), ("ulx3s_v31", "F1", "L2")):
         for path in sorted((ROOT / "constraints" / board).rglob("*.lpf")):
             text = path.read_text(encoding="utf-8")

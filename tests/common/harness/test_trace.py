@@ -1,4 +1,4 @@
-"""The traceability script and `@verifies`: gaps, unknown IDs and failures are all reported."""
+"""The traceability script and `@verifies`: rules without tests, unknown IDs and failures are all reported."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Rese
 def record(
     test: str, *rules: str, outcome: str = "passed", config: str = "f16", runs: int = 1
 ) -> dict[str, object]:
-    """Return a result line as the pytest plugin writes it."""
+    """Return a line of results in the format of the pytest plugin."""
     return {"test": f"t.py::t[{test}-{config}]", "name": test, "part": "ppmc104", "config": config,
             "runs": runs, "rules": list(rules), "outcome": outcome}  # fmt: skip
 
@@ -99,7 +99,7 @@ def test_part_of_rule() -> None:
 
 
 def test_proofs_are_listed_with_the_tests() -> None:
-    """The row of a rule names its proofs, with the number of cycles of a bounded one."""
+    """The row of a rule names its proofs; a bounded proof has its number of cycles."""
     rules = {"P104-OPR-02": "Count", "P104-BUS-01": "Register map"}
     trace = join(rules, [record("a", *rules)], "ppmc104")
     first, second = by_rule()["P104-OPR-02"]

@@ -1,4 +1,4 @@
-"""Advice about wiring that would damage hardware must not return to the pages."""
+"""The pages must not give wiring advice that would damage hardware."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def sentences(text: str) -> list[str]:
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_transceiver(page: object) -> None:
-    """The 74LVC4245 has 5 V at its A side and inverted DIR: the pages name it only in a warning."""
+    """The pages name the 74LVC4245 only in a warning, because its A side has 5 V and its DIR is inverted."""
     text = page.read_text()  # type: ignore[attr-defined]
     wrong = [part for part in sentences(text) if "4245" in part and "Do not use the 74LVC4245" not in part]
     assert not wrong
@@ -31,7 +31,7 @@ def test_transceiver(page: object) -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_resistors_before_configuration(page: object) -> None:
-    """Pull resistors have 2.2 kΩ or 1 kΩ; a pull-up of an FPGA pin is connected to 3.3 V."""
+    """Pull resistors have 2.2 kΩ or 1 kΩ, and a pull-up of an FPGA pin is connected to 3.3 V."""
     text = page.read_text()  # type: ignore[attr-defined]
     assert not re.findall(r"^.*(?:4\.7 kΩ|4\.7 … 10 kΩ) to.*$", text, re.MULTILINE)
     assert not re.findall(r"^.*kΩ to the supply.*$", text, re.MULTILINE)
@@ -43,7 +43,9 @@ def test_resistors_before_configuration(page: object) -> None:
 
 
 def test_drivers_that_do_not_fit() -> None:
-    """The page mentions the bootstrap of an IR2104, and its tables name no ULN2004 (it needs 5 V inputs)."""
+    """The page mentions the bootstrap of an IR2104; its tables do not list the ULN2004, which needs 5 V
+    inputs.
+    """
     page = (project.DOCS / "boards.md").read_text()
     assert not [row for row in page.splitlines() if row.startswith("|") and "ULN2004" in row]
     assert [part for part in page.split("\n\n") if "IR2104" in part and "bootstrap" in part]
@@ -51,7 +53,9 @@ def test_drivers_that_do_not_fit() -> None:
 
 
 def test_optocoupler_of_a_limit_is_fail_safe() -> None:
-    """Dark is low, which is active: collector to 3.3 V, emitter to the pin, resistor to GND."""
+    """A dark photo-interrupter gives low, which is the active level. Its collector is connected to 3.3 V, its
+    emitter to the pin and through a resistor to GND.
+    """
     page = (project.DOCS / "boards.md").read_text()
     row = next(line for line in page.splitlines() if line.startswith("|") and "PC817" in line)
     for words in (
@@ -72,13 +76,13 @@ def test_state_before_configuration_is_documented(family: str) -> None:
 
 @pytest.mark.parametrize("line", ["exon_n", "int_n", "irq_n", "rs485_de", "d_oe", "sd_oe"])
 def test_lines_active_before_configuration(line: str) -> None:
-    """Section 4 of boards.md states how each line is held."""
+    """For each line, section 4 of boards.md states how it is held at its idle level."""
     section = (project.DOCS / "boards.md").read_text().split("\n## 4 ")[1].split("\n## 5 ")[0]
     assert f"`{line}`" in section
 
 
 def test_readme_states_what_was_not_done() -> None:
-    """Below the table with "complete", the page states what was not tested, and what was done instead."""
+    """Below the table that says "complete", the page states what was not tested and what was done instead."""
     parts = (project.ROOT / "README.md").read_text().split("\n## Parts\n")[1].split("\n## ")[0]
     text = " ".join(parts.split("|")[-1].split())
     for words in ("No board has been driven", "no motor has turned", "no living chip", "What was done:"):

@@ -1,1 +1,1 @@
-"""The host package below the device drivers: frames, sessions, ports, units."""
+"""Tests of the host package below the device drivers: frames, sessions, ports, units."""

@@ -1,4 +1,4 @@
-"""Ports for tests of a line: one corrupts frames and replies of a modelled line, one plays a text."""
+"""Ports for tests of a line: one damages frames and replies of a modelled line, one returns given replies."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "
 
 
 class Spoiled(ModelLine):
-    """A modelled line.
+    """A modelled line that damages frames and replies.
 
     Attributes:
-        frames: all frames that were sent.
+        frames: all frames that the host has sent.
         plan: function that returns the fault for a frame, or None.
     """
 
@@ -29,7 +29,7 @@ class Spoiled(ModelLine):
         self.forward(data)
 
     def forward(self, data: bytes) -> None:
-        """Pass a frame to the line, completely or with its fault."""
+        """Pass a frame to the line, complete or with its fault."""
         if self._fate == LOSE_FRAME:
             self.line.run(round(len(data) * 10 * self.line.bit))
         elif self._fate == BREAK_FRAME:
@@ -47,7 +47,7 @@ class Spoiled(ModelLine):
         return self.spoil(data) if data else data
 
     def spoil(self, data: bytes) -> bytes:
-        """Return the bytes of a reply that are received."""
+        """Return the bytes of a reply that the host receives."""
         if self._fate == BREAK_REPLY:
             self._fate = None
             return bytes([data[0] ^ 8]) + data[1:]
@@ -55,7 +55,7 @@ class Spoiled(ModelLine):
 
 
 class Played:
-    """A port that answers each frame with the next text, regardless of the frame.
+    """A port that answers the n-th frame with the n-th reply, regardless of the frame.
 
     Its time advances only in `read`.
     """

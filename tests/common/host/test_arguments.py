@@ -1,4 +1,4 @@
-"""Wrong arguments in Python, the same for all devices: one clear error, and no byte is sent."""
+"""Wrong arguments in Python, for all devices: each raises one clear error, and no byte is sent."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def test_no_part_moves_by_what_is_no_whole_number(axis: Any, value: Any) -> None
 
 
 def _quiet(part: Any) -> list[bytes]:
-    """Return the list of all data written from now on."""
+    """Return a list to which all data written from now on is appended."""
     port, sent = part.link.port, []
     write = port.write
     port.write = lambda data: (sent.append(data), write(data))
@@ -135,7 +135,9 @@ def _quiet(part: Any) -> list[bytes]:
 
 
 def _wrong_calls(part: Any) -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Yield each public method with each parameter wrong in each way; others are omitted or harmless."""
+    """Yield calls of each public method in which one parameter is wrong; the others are omitted or
+    harmless.
+    """
     for name in dir(type(part)):
         entry = getattr(type(part), name)
         if name.startswith("_") or not isinstance(entry, check.CheckedMethod):
@@ -216,11 +218,11 @@ def test_a_mistyped_name_is_refused(axis: Any) -> None:
 
 
 class Lamp(check.Checked):
-    """A class with one name of each kind."""
+    """A class with one name of each kind: attribute, annotation, property, method, class method."""
 
     on = False
     watts: float
-    """Declared by its annotation only."""
+    """A name that is declared only by its annotation."""
     _spare = 0
 
     def __init__(self, watts: float) -> None:
@@ -235,12 +237,12 @@ class Lamp(check.Checked):
         self.watts = 4 if value else 60
 
     def blink(self, times: int = 1, self_test: bool = False) -> list[str]:
-        """Return the functions that called it."""
+        """Return the names of the functions on the call stack, this one first."""
         return [frame.f_code.co_name for frame, _ in traceback.walk_stack(sys._getframe())]
 
     @classmethod
     def large(cls, watts: int) -> Lamp:
-        """Of the class that it was called by."""
+        """A function of the class through which it was called."""
         return cls(watts)
 
 
@@ -251,7 +253,9 @@ class Lantern(Lamp):
 
 
 def test_names_that_a_class_declares_can_be_set() -> None:
-    """Properties, class attributes and annotations, also of bases, can be set in and after construction."""
+    """Properties, class attributes and annotations, also those of bases, can be set in and after
+    construction.
+    """
     lamp = Lantern(3)
     assert lamp.dimmed
     lamp.on, lamp.watts, lamp.dimmed, lamp.handle, lamp._spare, lamp._new = True, 9.5, False, "brass", 1, 2
@@ -261,7 +265,9 @@ def test_names_that_a_class_declares_can_be_set() -> None:
 
 
 def test_names_that_a_class_does_not_declare_are_refused() -> None:
-    """Undeclared names are rejected, also in a constructor; the suggested name may be one without a value."""
+    """Undeclared names are rejected, also in a constructor; the hint may name an attribute without a
+    value.
+    """
     lamp = Lantern(3)
     for wrong, near in (("handel", "handle"), ("wats", "watts"), ("dimed", "dimmed")):
         with pytest.raises(PpmcError, match=f"^Lantern has no attribute '{wrong}': do you mean '{near}'\\?$"):
@@ -278,7 +284,7 @@ def test_names_that_a_class_does_not_declare_are_refused() -> None:
 
 
 def test_a_checked_call_passes_one_frame() -> None:
-    """A call with positional or keyword arguments has only the argument check between caller and method."""
+    """Between the caller and the method there is only one frame, that of the argument check."""
     lamp = Lamp(3)
     here = "test_a_checked_call_passes_one_frame"
     for called in (lamp.blink(), lamp.blink(2.0), lamp.blink(times=2, self_test=True), Lamp.blink(lamp, 3)):  # type: ignore[arg-type]
@@ -286,7 +292,7 @@ def test_a_checked_call_passes_one_frame() -> None:
 
 
 def test_a_class_method_gets_the_class_that_it_was_called_by() -> None:
-    """Class methods also check their arguments and keep their help."""
+    """Class methods also check their arguments and keep their docstring."""
     assert type(Lantern.large(60.0)) is Lantern and Lamp(1).large(60).watts == 60  # type: ignore[arg-type]
     with pytest.raises(OutOfRange, match="^watts 'much' is not a whole number$"):
         Lantern.large("much")  # type: ignore[arg-type]
@@ -310,7 +316,7 @@ USES: list[Callable[[Any], object]] = [
 
 
 def test_a_method_is_true_and_comparable_as_those_of_python(axis: Any) -> None:
-    """A method that is not called is true, hashable and equal only to itself, like a method of Python."""
+    """A bound method without a call is true, hashable and equal only to itself, as in Python."""
     motion = axis.start_move(40)
     for thing in (axis, motion):
         names = [

@@ -1,4 +1,4 @@
-"""The golden model of the bridge, rule by rule; the IDs are those of docs/uart_bridge.md."""
+"""The golden model of the bridge follows the rules of docs/uart_bridge.md."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NAK = {code: frame(bytes([0x81, code])) for code in range(1, 9)}
 
 
 class Bus:
-    """Registers with a list of values to read, and a log of all accesses."""
+    """A device that returns values from a list and logs all accesses."""
 
     def __init__(self, status: int = 0x00) -> None:
         self.status = [status]
@@ -363,7 +363,7 @@ def test_ub_wait_01_limits() -> None:
 
 
 def test_the_golden_part_behind_the_bridge() -> None:
-    """The examples of the contract work with the model of the PPMC-104."""
+    """The examples of docs/uart_bridge.md work with the model of the PPMC-104."""
     board = Carrier(Plant())
     bridge = Bridge(board)
     assert talk(bridge, 0, "55 0A 09 04 04 00") == reply(0, "00 00")

@@ -1,4 +1,4 @@
-"""Messages of an end when it is checked."""
+"""Messages of the errors that the check of a motion's end raises."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from openppmc.host import Cause, LimitReached, MotionResult, StoppedByCommand
 
 
 def test_messages_of_ends() -> None:
-    """A message contains the pulses made if they are known: not for a motion that another program started."""
+    """A message contains the number of pulses only if it is known: not for a motion of another program."""
     assert MotionResult(Cause.COMPLETE, 5, 0, 5, 0).check(5).complete
     with pytest.raises(StoppedByCommand, match="^stop command ended the motion at position 7 after 3 of 5 p"):
         MotionResult(Cause.STOP, 3, 2, 7, 0).check(5)

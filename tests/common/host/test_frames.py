@@ -51,12 +51,12 @@ def test_host_and_golden_model_see_the_same_frames_in_noise(noise: bytes) -> Non
 
 
 def test_known_crc() -> None:
-    """The CRC of the digits 1 to 9 is the check value of this CRC."""
+    """The CRC of the digits 1 to 9 equals the published check value."""
     assert crc16(b"123456789") == 0x29B1
 
 
 def test_escapes() -> None:
-    """UB-FRM-02: any byte may be escaped."""
+    """UB-FRM-02: any byte may be sent as an escape sequence."""
     assert encode(b"\x7e\x7d")[1:5] == b"\x7d\x5e\x7d\x5d"
     plain = b"\x01\x41"
     line = (
@@ -77,7 +77,9 @@ def test_escapes() -> None:
     ],
 )
 def test_broken_frames(line: bytes, fault: Fault) -> None:
-    """UB-FRM-06: the flag that ends an invalid frame begins the next one (except after too long)."""
+    """UB-FRM-06: the flag that ends an invalid frame also begins the next frame, except after too long a
+    frame.
+    """
     deframer = Deframer()
     assert deframer.feed(line) == [Broken(fault)]
     good = encode(b"\x05\x00")
@@ -99,6 +101,8 @@ def test_payload_size_is_checked(size: int) -> None:
 
 
 def test_longest_answer_is_taken() -> None:
-    """A response of UB-ANS-01 with 256 data bytes and an error is accepted; it exceeds any request."""
+    """The longest response, with 256 data bytes and an error, is accepted (UB-ANS-01); no request is
+    as long.
+    """
     payload = bytes(4 + 256)
     assert Deframer().feed(encode(payload)) == [Frame(payload)]

@@ -1,4 +1,4 @@
-"""The examples of docs/host.md produce the output of the page."""
+"""The examples of docs/host.md produce the output that the page shows."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PAGE = Path(__file__).parents[3] / "docs" / "host.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 PORT = "model:speed=max"
 LINE_PORTS = {"ppmc312-serial": "model:speed=max,stations=3", "pmc006": "model:speed=max,address=1..2"}
-"""Ports of the sessions with lines, by device."""
+"""Device -> port of the sessions with lines."""
 
 
 def blocks(kind: str) -> list[str]:
@@ -23,7 +23,7 @@ def blocks(kind: str) -> list[str]:
 
 
 def dialogues() -> list[tuple[str, str]]:
-    """Return command and expected output of every console block."""
+    """Return the command and the expected output of every console block."""
     pairs = []
     for block in blocks("console"):
         for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:

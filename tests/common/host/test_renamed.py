@@ -1,4 +1,4 @@
-"""Public names that were changed: the old ones warn, return the same object, and are not used here."""
+"""Old public names emit a warning and return the object of the new name; this tree uses no old name."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ USED = sorted({*CLASSES, *(name for _, name in OTHERS)} - {"End"})
 
 @pytest.mark.parametrize(("old", "new"), CLASSES.items())
 def test_a_class_of_the_package_warns(old: str, new: str) -> None:
-    """The old name of a class warns once per use and is the class."""
+    """Each use of the old name of a class emits one warning and returns the class."""
     with pytest.warns(DeprecationWarning) as seen:
         found = getattr(host, old)
     assert found is getattr(host, new)
@@ -95,7 +95,7 @@ def test_a_class_of_the_package_warns(old: str, new: str) -> None:
 
 @pytest.mark.parametrize(("place", "new"), MODULES.items(), ids=lambda one: str(one))
 def test_a_class_of_a_module_warns(place: tuple[str, str], new: str) -> None:
-    """The old name of a class in a module warns once per use and is the class."""
+    """Each use of the old name of a class in a module emits one warning and returns the class."""
     module = import_module(f"openppmc.host.{place[0]}")
     with pytest.warns(DeprecationWarning, match=f"{place[1]} is now {new};") as seen:
         assert getattr(module, place[1]) is getattr(module, new)
@@ -106,7 +106,9 @@ def test_a_class_of_a_module_warns(place: tuple[str, str], new: str) -> None:
 
 @pytest.mark.parametrize(("owner", "old", "new"), METHODS)
 def test_an_attribute_of_a_driver_warns(owner: type, old: str, new: str) -> None:
-    """The old name of a method or attribute of a driver returns the new one, which exists."""
+    """The old name of a method or attribute of a driver warns and returns that of the new name, which
+    exists.
+    """
     alias = owner.__dict__[old]
     assert isinstance(alias, Renamed)
     assert hasattr(owner, new) or new in owner.__annotations__
@@ -118,7 +120,7 @@ def test_an_attribute_of_a_driver_warns(owner: type, old: str, new: str) -> None
 
 @pytest.mark.parametrize(("one", "old", "new"), VALUES, ids=lambda one: one if isinstance(one, str) else "")
 def test_an_attribute_of_a_result_warns(one: Any, old: str, new: str) -> None:
-    """The old name of an attribute of a result returns the new one."""
+    """The old name of an attribute of a result warns and returns the value of the new name."""
     with pytest.warns(DeprecationWarning, match=f"^{type(one).__name__}.{old} is now {new};") as seen:
         assert getattr(one, old) is getattr(one, new)
     assert len(seen) == 1 and seen[0].filename == __file__
@@ -128,7 +130,7 @@ def test_an_attribute_of_a_result_warns(one: Any, old: str, new: str) -> None:
 
 
 def test_an_old_name_cannot_be_set() -> None:
-    """Setting an attribute by its old name fails and names the new one; no hint contains an old name."""
+    """An assignment to an old name fails and names the new one; a hint never contains an old name."""
 
     class Driver(Checked):
         together = Renamed("move_together")
@@ -145,7 +147,7 @@ def test_an_old_name_cannot_be_set() -> None:
 
 
 def test_no_file_uses_an_old_name() -> None:
-    """Only the tables of old names, this test, decisions and the changelog contain the old class names."""
+    """The old class names occur only in the tables of old names, this test, decisions and the changelog."""
     words = [part for name in USED for part in ("-e", name)]
     places = ("openppmc", "cocotb_tests", "tests", "scripts", "examples", "docs", "README.md")
     command = [

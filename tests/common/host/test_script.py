@@ -1,4 +1,4 @@
-"""Builder of op scripts and parser of responses: the table of ops, UB-ANS-01..04."""
+"""The builder of op scripts and the parser of responses, by the table of ops and UB-ANS-01..04."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from openppmc.model.carrier.bridge import Bridge
 
 
 class Memory:
-    """Sixteen registers that keep the bytes written; never full, without faults, always with data to read."""
+    """Sixteen registers that store the bytes written; always ready, without faults, always with data
+    to read.
+    """
 
     def __init__(self) -> None:
         self.cells = dict.fromkeys(range(16), 0)
@@ -29,7 +31,7 @@ class Memory:
 
 
 def ask(bridge: Bridge, script: Script, seq: int = 0) -> bytes:
-    """Return the bytes of the response after SEQ."""
+    """Return the bytes of the response that follow SEQ."""
     (item,) = Deframer().feed(bridge.receive(encode(bytes([seq]) + bytes(script))))
     assert isinstance(item, Frame)
     assert item.seq == seq
@@ -53,7 +55,7 @@ def ask(bridge: Bridge, script: Script, seq: int = 0) -> bytes:
     ],
 )
 def test_op_codes(script: Script, code: str) -> None:
-    """The examples of the contract, and one of each op, have the correct code."""
+    """The examples of docs/uart_bridge.md and one example of each op are encoded correctly."""
     assert bytes(script) == bytes.fromhex(code)
 
 
@@ -120,7 +122,7 @@ def test_answers_of_the_golden_model_fit_every_script(build: list[Callable[[Scri
 def test_a_script_that_fails_in_the_middle(
     before: list[Callable[[Script], Script]], after: list[Callable[[Script], Script]]
 ) -> None:
-    """UB-ANS-03, -04: the parser finds the failed op, the last byte and the data before it."""
+    """UB-ANS-03, -04: the parser returns the failed op, the last byte, and the data read before it."""
     script = Script()
     for add in before:
         add(script)

@@ -1,4 +1,4 @@
-"""Records as recordings, the page, versions: the self-test without a board. With one: tests/common/board."""
+"""The self-test without a board: records, page, versions. Tests with a board are in tests/common/board."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from openppmc.host.selftest.recording import Layout, NoReset, Recorded, recordin
 
 PLANS = [row.name for row in parts.having("selftest")]
 WIDTHS = {"ppmc104": 49, "ppmc2104": 63, "stmc": 36, "ppmc312": 63, "bank": 144}
-"""Number of levels in a record of each carrier (the bank with 8 axes)."""
+"""Number of levels in a record of each carrier; for the bank, with 8 axes."""
 BEGIN, RESET = 5, 16
 CLK = 8_000_000
 
@@ -33,7 +33,7 @@ def identity(part: str) -> Identity:
 
 
 def word(layout: Layout, levels: dict[str, int]) -> int:
-    """Return the levels of pins as a record stores them."""
+    """Return the levels of the pins in the format of a record."""
     value, place = 0, 0
     for pin, width in layout:
         value |= levels[pin] << place
@@ -44,7 +44,7 @@ def word(layout: Layout, levels: dict[str, int]) -> int:
 def recorded(part: str, changes: Iterable[Change], end: int) -> list[tuple[int, int]]:
     """Return the records of a board that behaves as the golden model.
 
-    They contain arbitrary output levels before the reset, then these changes.
+    The first record has arbitrary output levels; then come a reset and these changes.
     """
     layout = plan_of(part).layout(WIDTHS[part])
     (params, *_) = plan_of(part).params(identity(part), WIDTHS[part], {"s": 1})
@@ -62,7 +62,9 @@ def recorded(part: str, changes: Iterable[Change], end: int) -> list[tuple[int, 
 
 
 def compared(part: str, samples: list[tuple[int, int]]) -> tuple[int, str]:
-    """Return the number of edges compared, and the output that differs first."""
+    """Return the number of compared edges, and the first output that differs ("" if there is no
+    difference).
+    """
     plan, width = plan_of(part), WIDTHS[part]
     layout = plan.layout(width)
     (params, *_) = plan.params(identity(part), width, reset_levels(samples, layout))
@@ -85,7 +87,7 @@ def initialisation() -> list[Change]:
 
 @pytest.mark.parametrize("part", PLANS)
 def test_layouts(part: str) -> None:
-    """The pins of a device's records are all pins of its golden model, with the same widths."""
+    """All pins of a device's records are pins of its golden model with the same widths."""
     width = WIDTHS[part]
     layout = plan_of(part).layout(width)
     assert sum(bits for _, bits in layout) == width
@@ -101,7 +103,9 @@ def test_layouts(part: str) -> None:
 
 @pytest.mark.parametrize("part", PLANS)
 def test_sections(part: str) -> None:
-    """Each device has sections of every kind with different titles, and more sections for a small memory."""
+    """Each device has sections of every kind with unique titles, and not fewer sections for a smaller
+    memory.
+    """
     plan, width = plan_of(part), WIDTHS[part]
     large, small = (plan.sections(identity(part), width, n) for n in (8192, 512))
     wired = plan.switches(identity(part), width)
@@ -113,7 +117,7 @@ def test_sections(part: str) -> None:
 
 @pytest.mark.parametrize("part", PLANS)
 def test_a_reset_is_no_difference(part: str) -> None:
-    """After a reset from any state, no output differs; a wrong level in reset is found."""
+    """Any levels before the reset cause no difference; a wrong level during the reset is reported."""
     samples = recorded(part, [], 5_000)
     assert compared(part, samples)[1] == ""
     flip = 1 << WIDTHS[part] - 1
@@ -122,10 +126,10 @@ def test_a_reset_is_no_difference(part: str) -> None:
 
 
 def test_a_step_and_one_clk_too_late() -> None:
-    """A recorded step that equals the golden model has no difference; an edge one cycle late is reported."""
+    """A recorded step that equals the golden model has no difference; a pulse one cycle late is reported."""
     samples = recorded("ppmc104", initialisation(), 120_000)
     count, wrong = compared("ppmc104", samples)
-    assert count == 6 and not wrong  # edges of s, hold, pout_n, s, pout_n, int_n
+    assert count == 6 and not wrong  # the edges are those of s, hold, pout_n, s, pout_n and int_n
     pulse = 1 << sum(bits for name, bits in plan_of("ppmc104").layout(49)[:-2])
     place = next(n for n, (t, levels) in enumerate(samples) if t > BEGIN + RESET and not levels & pulse)
     late = samples[place]
@@ -139,7 +143,9 @@ def test_no_reset() -> None:
 
 
 def test_recorded() -> None:
-    """UB-REC-02, -03: state and records (cycle, levels) are read; half a record at the end is omitted."""
+    """UB-REC-02, -03: state and records (cycle, levels) are decoded; an incomplete record at the end is
+    ignored.
+    """
     info = Recorded.parse(bytes([3, 15, 5, 2, 7, 0, 0, 0]) + bytes(8))
     assert (info.width, info.most, info.running, info.full, info.count) == (9, 32, False, True, 7)
     words = [0x155 << 15, 0x0AA << 15 | 4, 0x0AB << 15 | 1]
@@ -151,7 +157,9 @@ def test_recorded() -> None:
 
 
 def test_versions() -> None:
-    """UB-VER-01: the host reads the data that the RTL has; a mismatch is one line that states what to do."""
+    """UB-VER-01: the host decodes the data that the bitstream stores; for a mismatch, one line states what to
+    do.
+    """
     data = sources.build_id("1.2.3", bytes.fromhex("1a2b3c4d"), bytes.fromhex("deadbeef99"), True, "ICEB")
     build = Build.parse(data)
     assert build == Build("1.2.3", True, "1a2b3c4d", "deadbeef", "ICEB")

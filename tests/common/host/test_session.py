@@ -1,4 +1,6 @@
-"""Session of the host: SEQ, repeats, events, late responses (UB-SEQ, UB-MSG), on good and bad lines."""
+"""Session of the host: SEQ, repeats, events, late responses (UB-SEQ, UB-MSG), on lines with and without
+faults.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,7 @@ def sent_seq(line: bytes) -> int:
 
 
 def test_sequence_numbers() -> None:
-    """SEQ is 0 once, then 1 to 127 repeatedly; restart begins with 0 again."""
+    """SEQ is 0 only for the first request, then 1 to 127 repeatedly; after a restart it is 0 again."""
     session, seen = Session(), []
     for _ in range(300):
         seen.append(sent_seq(session.request(b"", 1, 0)))
@@ -101,7 +103,7 @@ def test_stale_and_foreign_frames_are_ignored() -> None:
 
 
 class Counter:
-    """A device that counts its writes."""
+    """A device that records the bytes written to it."""
 
     def __init__(self) -> None:
         self.written: list[int] = []
@@ -117,7 +119,7 @@ faults = st.sampled_from(["good"] * 5 + ["lost", "flipped", "doubled", "noise be
 
 
 def spoil(line: bytes, fault: str, where: int) -> bytes:
-    """Return the bytes of a line that are received."""
+    """Return the bytes of a frame that arrive after a fault of the line."""
     place = where % len(line) if line else 0
     if not line or fault == "good":
         return line
@@ -134,9 +136,10 @@ def spoil(line: bytes, fault: str, where: int) -> bytes:
 
 @given(st.lists(st.tuples(faults, faults, st.integers(0, 5000)), min_size=1, max_size=60))
 def test_every_request_is_carried_out_exactly_once(weather: list[tuple[str, str, int]]) -> None:
-    """On a line that loses, flips, doubles and cuts frames both ways, each command is executed exactly once.
+    """If a line loses, flips, doubles and cuts frames in both directions, each command is executed exactly
+    once.
 
-    This holds as long as the host does not abort a request.
+    This holds as long as the host does not abandon a request.
     """
     part = Counter()
     bridge = Bridge(part)

@@ -1,4 +1,4 @@
-"""Signals sent to real processes while a motor moves: it decelerates, the exit status is 128 + n."""
+"""Signals to real processes while a motor moves: the motor decelerates, and the exit status is 128 + n."""
 
 from __future__ import annotations
 
@@ -157,7 +157,7 @@ def moving(self, now):
 Guard.progress = moving
 sys.exit(main(sys.argv[1:]))
 """
-"""The command line, which also prints a line with the first progress message."""
+"""The command line, changed so that it prints a line at the first progress message."""
 COMMANDS = {
     "ppmc104": ["--part", "ppmc104", "jog", "cw", "--ramped"],
     "ppmc2104": ["--part", "ppmc2104", "move", "400000", "-300000"],
@@ -173,7 +173,7 @@ COMMANDS = {
 FREE = dict.fromkeys(COMMANDS, ",ccw=-900000,slow_ccw=-800000,cw=900000,slow_cw=800000") | {
     "pmc006": ",start=0"
 }
-"""Switches that no motor reaches."""
+"""Switch positions that no motor reaches."""
 for _name, _axes in (("ppmc2104", [2]), ("bank", [2])):
     for _axis in _axes:
         FREE[_name] += f",ccw{_axis}=-900000,slow_ccw{_axis}=-800000,cw{_axis}=900000,slow_cw{_axis}=800000"
@@ -198,7 +198,7 @@ def test_a_signal_in_a_command(name: str, number: signal.Signals, tmp_path: Path
 
 @pytest.mark.parametrize("delay", [0.1, 0.2, 0.4, 0.7])
 def test_an_interrupt_during_the_start_is_one_line(delay: float) -> None:
-    """An interrupt during the start produces one line; earlier, only Python itself could print less."""
+    """An interrupt while the command starts produces exactly one line."""
     code = (
         "import openppmc.cli as c, sys; print('on', flush=True); "
         "sys.exit(c.main(['--port', 'model:speed=1', 'jog', 'cw']))"
@@ -211,7 +211,9 @@ def test_an_interrupt_during_the_start_is_one_line(delay: float) -> None:
 
 
 def test_a_closed_terminal() -> None:
-    """SIGHUP ends the command with its status, although no output is possible any more."""
+    """After the terminal is closed, SIGHUP ends the command with status 129, although it cannot print any
+    more.
+    """
     child, master = pty.fork()
     if child == 0:
         signal.signal(signal.SIGHUP, signal.SIG_DFL)

@@ -1,4 +1,4 @@
-"""Ports: errors when one is opened, and when it disappears."""
+"""Ports: errors when a port is opened, and when it disappears."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_nothing_answers() -> None:
 
 
 class Fake:
-    """A port that answers requests with a function. Each read advances its clock."""
+    """A port whose responses are computed by a function. Each read advances its clock."""
 
     name = "fake"
 
@@ -168,7 +168,7 @@ def test_a_rate_that_the_board_has_not() -> None:
 
 
 def test_a_rate_that_does_not_get_through(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the cable corrupts everything above 115 200 baud, the link works at 115 200."""
+    """If the cable damages everything above 115 200 baud, the link falls back to 115 200 baud."""
     port = open_port("model:speed=max")
     rates = [115_200]
     write, set_baud = port.write, port.set_baud
@@ -204,7 +204,9 @@ def test_an_adapter_that_refuses_the_rate(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_the_first_bytes_wake_the_bridge() -> None:
-    """UB-LIN-06: the host first sends a break at any higher rate, then a flag that ends any open frame."""
+    """UB-LIN-06: the host first sends bytes that are a break at any higher rate, then a flag that ends an
+    open frame.
+    """
     port = Fake(
         lambda request: encode(request[:1] + b"\x00" + (identity() if request[1:] == b"\x01" else b""))
     )

@@ -38,7 +38,9 @@ from openppmc.host.script import Script
 from tests.common.host.line_ports import Spoiled
 
 SLOW = 115_200
-"""The rate of a bridge after a reset: at a higher rate a replaced board would not respond."""
+"""Baud rate of a bridge after a reset. The tests use it because a replaced bridge responds only at
+this rate.
+"""
 ENDLESS = 1 << 24
 KINDS: dict[str, tuple[Any, str, Callable[[Any], Any]]] = {
     "ppmc104": (Ppmc104, "part=ppmc104", lambda part: part),
@@ -80,7 +82,7 @@ def reset_part(axis: Any) -> None:
 
 
 def replace_board(axis: Any) -> None:
-    """Connect a fresh board of the same kind to the port."""
+    """Replace the board at the port by a fresh board of the same kind."""
     port = port_of(axis)
     fresh = ModelPort(port.name.removeprefix("model:"))
     fresh.board.t = port.board.t
@@ -461,7 +463,10 @@ def test_each_finish_status(finish: int, operation: int) -> None:
 
 @pytest.mark.parametrize("finish", [0x00, 0x03, 0x80, 0x81, 0xFF & ~0x80])
 def test_a_status_of_no_motion(finish: int) -> None:
-    """A status without a motion is no end, also for another program's motion and without a pulse counter."""
+    """A status that belongs to no motion does not confirm an end.
+
+    This also holds for another program's motion, and without a pulse counter.
+    """
     with pytest.raises(EndUnknown, match="finish status 0x"):
         decode_end(finish, 0, None, CW, None)
     with pytest.raises(EndUnknown):

@@ -1,4 +1,4 @@
-"""Pulses per second, rates and ramps, against exact fractions (P104-INT-01, -02, P104-SW-04)."""
+"""Pulses per second, rates and ramps, compared with exact fractions (P104-INT-01, -02, P104-SW-04)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ XTAL = 16_000_000
     ],
 )
 def test_speeds_of_rates(csel: int, vsel: int, rate: int, pps: Fraction) -> None:
-    """The speeds of the rates are 1953 … 500 000 and 488 … 125 000 pps.
+    """The rates correspond to 1953 … 500 000 pps with the fast base clock and 488 … 125 000 pps with the slow
+    one.
 
     With vsel low, an interval of 200 µs becomes 207.5 µs (P104-EX-06).
     """
@@ -97,7 +98,7 @@ def test_external_clock() -> None:
 
 
 def test_setup_bytes() -> None:
-    """The bytes are those of example A of the manual."""
+    """The bytes of the set-up are those of example A of the manual."""
     clock = units.BaseClock.internal(XTAL)
     setup = units.plan_setup(clock, 50_000, 100_000, 4, 0x0A)
     assert bytes([setup.code]) + setup.data == bytes.fromhex("0A 09 04 04 00")
@@ -112,7 +113,9 @@ def test_setup_bytes() -> None:
 
 
 def test_setup_bytes_of_the_ppmc2104() -> None:
-    """P2104-INI-01, -INI-02: code 00ASCEMM; RL at least two above RH; rate 0 only with an external clock."""
+    """P2104-INI-01, -INI-02: the code is 00ASCEMM; RL is at least RH + 2; RH = 0 requires an external
+    clock.
+    """
     setup = PPMC2104.plan(XTAL, SetupRequest(5000, 25_000, 10))
     assert bytes([setup.code]) + setup.data == bytes.fromhex("02 63 13 0A 00")
     external = {"external_clock": 100_000, "start_pps": 1000, "high_pps": 100_000}
@@ -138,7 +141,7 @@ def test_setup_bytes_of_the_ppmc2104() -> None:
 
 @given(st.floats(0, 200))
 def test_half_us_bytes(asked: float) -> None:
-    """P2104-AUX-04: the unit is 0.5 µs, the range 40h to FFh."""
+    """P2104-AUX-04: the unit of a time is 0.5 µs, and its byte is 40h to FFh."""
     if not 32 <= asked <= 127.5:
         with pytest.raises(OutOfRange, match="32 to 127.5 us"):
             half_us_byte(XTAL, asked, "on")
@@ -149,7 +152,7 @@ def test_half_us_bytes(asked: float) -> None:
 
 @given(st.floats(0, 40_000))
 def test_hold_bytes(asked: float) -> None:
-    """P2104-AUX-05: the unit is 128 µs, the range 1 to 256 units."""
+    """P2104-AUX-05: the unit of a time is 128 µs, and its range is 1 to 256 units."""
     if not 128 <= asked <= 32_768:
         with pytest.raises(OutOfRange, match="128 to 32768 us"):
             hold_byte(XTAL, asked)
@@ -194,7 +197,7 @@ def test_chopper_times(vsel: int, phase: str, asked: float) -> None:
 
 @given(st.integers(1, 900), st.integers(4, 120), st.integers(0, 255), st.integers(0, 255), st.integers(0, 3))
 def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, straps: int) -> None:
-    """The closed form of `plan` matches the predictor, pulse by pulse."""
+    """The key figures of `plan` equal those of the predictor, which computes each pulse."""
     clock = units.BaseClock.internal(XTAL, straps & 1, straps >> 1)
     low, high = sorted((clock.speed(a), clock.speed(b)))
     setup = units.plan_setup(clock, low, high, pa, 0x0A)
@@ -210,7 +213,7 @@ def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, strap
 
 @given(st.integers(1, 300), st.integers(0, 90), st.integers(5, 255), st.integers(5, 255))
 def test_key_figures_and_course_of_the_stmc(n: int, pa: int, a: int, b: int) -> None:
-    """Key figures and course of the STMC match the predictor; without ramp steps there is only one speed."""
+    """Key figures and trajectory of an STMC equal the predictor's; with PA = 0 the speed is constant."""
     slow, fast = max(a, b), min(a, b)
     setup = STMC.plan(
         XTAL, SetupRequest(12_500 / Fraction(slow), 12_500 / Fraction(fast), pa, base_clock=12_500)

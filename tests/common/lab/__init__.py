@@ -1,1 +1,1 @@
-"""openppmc.ophyd on golden models, `make test WITH=ophyd`."""
+"""Tests of openppmc.ophyd on golden models; `make test WITH=ophyd`."""

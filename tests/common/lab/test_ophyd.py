@@ -1,4 +1,4 @@
-"""The positioner of ophyd, used as in a bluesky plan, on the golden models."""
+"""The ophyd positioner on the golden models, used as in a bluesky plan."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ PATIENCE = 60.0
 
 @contextmanager
 def started(part: str = "ppmc104", words: str = "speed=max") -> Iterator[Device]:
-    """Open a device with all axes initialised: 2000 to 8000 pps, position 4000 of a machine model."""
+    """Open a device with initialised axes: 2000 to 8000 pps, each motor at 4000 in the machine model."""
     with open_part(f"model:part={part},{words}") as device:
         for axis in device.axes:
             axis.initialise(start_pps=2000, high_pps=8000, ramp_pulses=1000 if part == "ppmc312" else 100)
@@ -45,7 +45,7 @@ def ends(motor: PpmcPositioner, position: float) -> BaseException | None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_scan(part):
-    """Each event of a bluesky scan over the last axis of a device has its position in units.
+    """In a bluesky scan over the last axis of a device, each event has the position in units.
 
     A move into the slow-down limit fails with the error of the driver.
     """
@@ -63,7 +63,7 @@ def test_scan(part):
 
 @pytest.mark.parametrize("part", PARTS)
 def test_a_reset_during_a_move(part):
-    """If a device is reset during a move, the Status fails, because the device does not confirm the end."""
+    """If a device is reset during a move, the Status fails, because the end of the move is not confirmed."""
     with started(part) as device:
         motor = PpmcPositioner(device, 1, name="theta", pulses_per_unit=100)
         with motor._lock:
@@ -74,7 +74,9 @@ def test_a_reset_during_a_move(part):
 
 
 def test_station_of_a_line():
-    """On a line of PMC006B4, the axis number is the station, and two stations can move at the same time."""
+    """On a line of PMC006B4, the axis number selects the station, and two stations can move at the
+    same time.
+    """
     with Pmc006Bus.open("model:part=pmc006,speed=max,address=1..2") as bus:
         motors = [PpmcPositioner(bus, station, name=f"m{station}") for station in (1, 2)]
         moves = [motor.set(300 * station) for station, motor in enumerate(motors, 1)]
@@ -84,7 +86,7 @@ def test_station_of_a_line():
 
 
 def test_two_axes_at_once():
-    """Moves of two positioners of one device overlap, and readbacks are reported during the motion."""
+    """Moves of two positioners of one device can overlap; readbacks are reported during the motion."""
     with started("ppmc2104", "speed=1") as device:
         motors = [PpmcPositioner(device, axis, name=f"a{axis}") for axis in (1, 2)]
         told = []
@@ -99,7 +101,9 @@ def test_two_axes_at_once():
 
 @pytest.mark.parametrize("success", (False, True))
 def test_stop_in_motion(success):
-    """A stop during a motion decelerates the motor; the Status fails unless success=True."""
+    """A stop during a motion decelerates the motor. The Status then fails, unless the call has
+    success=True.
+    """
     with started(words="speed=1") as device:
         motor = PpmcPositioner(device, name="x")
         motor.stop()  # no error without a motion
@@ -114,7 +118,7 @@ def test_stop_in_motion(success):
 
 
 def test_bad_positions():
-    """A position outside the soft limits, or one that is not a number, causes no motion."""
+    """A position that is outside the soft limits or not a number is rejected without a motion."""
     with started() as device:
         motor = PpmcPositioner(device, name="x", pulses_per_unit=100, limits=(-1, 2))
         for bad in (2.01, -5):
@@ -137,13 +141,15 @@ def test_bad_positions():
     ),
 )
 def test_bad_axis_and_scale(words, told):
-    """An axis that does not exist, or an invalid scale, is rejected."""
+    """A missing axis or an invalid scale is rejected."""
     with started() as device, pytest.raises(OutOfRange, match=told):
         PpmcPositioner(device, name="x", **words)
 
 
 def test_not_initialised():
-    """For an uninitialised device, the Status fails with that error; after initialisation a move works."""
+    """On a device that is not initialised, the Status of a move fails; after the initialisation a move
+    succeeds.
+    """
     with open_part("model:speed=max") as device:
         motor = PpmcPositioner(device, name="x")
         assert isinstance(ends(motor, 100), NotInitialised) and not motor.moving
@@ -152,7 +158,9 @@ def test_not_initialised():
 
 
 def test_unplugged_port():
-    """If the port disappears during a motion, the Status and the next move fail with Disconnected."""
+    """If the port disappears during a motion, this Status and that of the next move fail with
+    Disconnected.
+    """
     with started(words="speed=max,unplug=2") as device:
         motor = PpmcPositioner(device, name="x")
         assert isinstance(ends(motor, 30_000), Disconnected) and not motor.moving

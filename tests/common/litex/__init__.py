@@ -1,1 +1,1 @@
-"""openppmc.litex in a SoC with a VexRiscv, `make test WITH=litex`."""
+"""Tests of openppmc.litex in a SoC with a VexRiscv; `make test WITH=litex`."""

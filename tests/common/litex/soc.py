@@ -1,8 +1,8 @@
-"""Writes a LiteX SoC with motors: `python -m tests.common.litex.soc FOLDER SOURCES [PROGRAM]`.
+"""Write a LiteX SoC with motors: `python -m tests.common.litex.soc FOLDER SOURCES [PROGRAM]`.
 
-The SoC has a PPMC-104 and, with SystemVerilog below SOURCES, a bank. The Verilog and the headers for the
-program are written to FOLDER; PROGRAM is the content of its ROM. It runs as a separate process, because LiteX
-keeps the last SoC in global variables.
+The SoC has a PPMC-104 and, if SOURCES contains SystemVerilog, a bank. The Verilog and the headers for the
+program are written to FOLDER; PROGRAM is the content of its ROM. The module runs as a separate process,
+because LiteX keeps the last SoC in global variables.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ CLK_HZ = 16_000_000
 AXES = 4
 ROM, RAM = 0x8000, 0x2000
 FILES, INCLUDE = "sources.txt", "+incdir+"
-"""List of the other files to compile, one path per line; include folders begin with that word."""
+"""File that lists the other sources, one path per line; word that begins the line of an include folder."""
 
 
 def pads(*names: tuple[str, int]) -> list[Subsignal]:
-    """Return pads of a simulation, which has no pins."""
+    """Return pads for a simulation, in which nothing is connected to pins."""
     return [Subsignal(name, Pins(width)) for name, width in names]
 
 
@@ -80,7 +80,7 @@ class Soc(SoCCore):
         )
         self.crg = CRG(platform.request("sys_clk"))
         add_part(self, "stepper", sources, pads=platform.request("stepper"), XTAL_HZ=CLK_HZ)
-        # Plain Verilog has the bridge for only one of the two devices.
+        # A folder of plain Verilog contains the bridge for only one of the two devices.
         if (Path(sources) / "packages").is_dir():
             platform.add_extension(BANK_IO)
             add_part(self, "bank", sources, part="bank", pads=platform.request("bank"), AXES=AXES)

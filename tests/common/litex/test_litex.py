@@ -1,4 +1,4 @@
-"""A LiteX SoC with a VexRiscv moves motors with our C driver; errors of openppmc.litex."""
+"""In a LiteX SoC with a VexRiscv, our C driver moves motors; errors of openppmc.litex are clear."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def run(*command: object, folder: Path = ROOT, env: dict[str, str] | None = None
 
 
 def plain_verilog(folder: Path) -> Path:
-    """Return the folder with the output of `make verilog` for this SoC's clock."""
+    """Return the folder with the output of `make verilog`, made for the clock of this SoC."""
     for top, params in (("ppmc104", f"CLK_HZ={CLK_HZ}"), ("ppmc_wishbone", "AddrBits=1")):
         made = run(sys.executable, "-m", "scripts.fpga.verilog", "--top", top, "--params", params)
         assert "ok" in made
@@ -109,7 +109,7 @@ def lines(request) -> dict[str, list[dict[str, int]]]:
 
 @needs_compiler
 def test_moves(lines):
-    """The bench counts the pulses that the C driver on the CPU has requested, by direction."""
+    """The pulses at the pins are those that the C driver on the CPU has requested, in each direction."""
     assert lines["probe"] == [{"probe": 0, "init": 0}]
     asked = {"move": 0, "early": 0, "finish": 0, "ended": 1, "read": 0}
     for name, limit, left in (("cw", 0, 0), ("ccw", 0, 0), ("limited", 1, 150)):
@@ -121,7 +121,9 @@ def test_moves(lines):
 
 @needs_compiler
 def test_interrupt(lines):
-    """With the event `finish`, each end interrupts the CPU once; a read of the finish status clears it."""
+    """With the event `finish`, each end of a motion interrupts the CPU once; a read of the finish status
+    clears it.
+    """
     for name in ("cw", "ccw", "limited"):
         (line,) = lines[name]
         assert (line["interrupts"], line["pending"], line["lifted"]) == (1, 1, 1), name
@@ -129,7 +131,7 @@ def test_interrupt(lines):
 
 @needs_compiler
 def test_bank(lines):
-    """Four axes of a bank that move at the same time make the requested pulses and positions."""
+    """Four axes of a bank that move at the same time reach the requested pulses and positions."""
     if "bank" not in lines:
         assert "axis" not in lines  # plain Verilog has no bank
         return
@@ -141,7 +143,7 @@ def test_bank(lines):
 
 
 def test_other_clock_than_the_plain_verilog(tmp_path):
-    """For plain Verilog with another clock, one line names the clock and the command to type."""
+    """If the plain Verilog was made for another clock, one line names the clock and the command to type."""
     head = "//   CLK_HZ     = 16000000   frequency\n//   PHASE_IDLE = 1'b1\n\n`default_nettype none\n"
     (tmp_path / "ppmc104.v").write_text(head)
     (tmp_path / "ppmc_wishbone.v").write_text("//   AddrBits = 1\n\n`default_nettype none\n")
@@ -157,7 +159,7 @@ def test_other_clock_than_the_plain_verilog(tmp_path):
 
 
 def test_bad_input(tmp_path):
-    """Missing sources, or an unknown device, parameter or pad, cause an error of one line."""
+    """Missing sources, or an unknown device, parameter or pad, raise an error of one line."""
     with pytest.raises(SourcesError, match="neither packages/ppmc104.f nor ppmc104.v"):
         PpmcPart(Bench(), 16e6, tmp_path)
     with pytest.raises(SourcesError, match="part stmc: expected ppmc104 or bank"):
@@ -172,7 +174,7 @@ def test_bad_input(tmp_path):
 
 
 def test_sources_once():
-    """With two devices, no file is passed to the platform twice, and all files exist."""
+    """With two devices in a SoC, each file is passed to the platform once, and all files exist."""
     platform = Bench()
     for _ in range(2):
         PpmcPart(platform, 16e6, ROOT)
@@ -180,12 +182,13 @@ def test_sources_once():
     names = [Path(entry[0]) for entry in platform.sources]
     assert len(names) == len(set(names)) and len(platform.verilog_include_paths) == 1
     assert {ROOT / "rtl/bank/ppmc_bank.sv", ROOT / "rtl/host/ppmc_wishbone.sv"} <= set(names)
-    assert [name for name in names if not name.is_file()] == []  # options of the list are not files
+    # Options in the list of files are not added as files.
+    assert [name for name in names if not name.is_file()] == []
 
 
 @pytest.mark.parametrize("name", PARTS)
 def test_ports_are_those_of_the_sources(name):
-    """Ports and parameters in the table of devices are those of the top, except the bus."""
+    """The ports and parameters in the table of devices are those of the top, without the ports of the bus."""
     part = PARTS[name]
     folder = {"ppmc104": "ppmc104", "ppmc_bank": "bank"}[part.top]
     head = (ROOT / "rtl" / folder / f"{part.top}.sv").read_text(encoding="utf-8").partition("\n);")[0]
@@ -199,7 +202,7 @@ def test_ports_are_those_of_the_sources(name):
 
 
 def test_pads_are_those_of_a_platform():
-    """Pads that a platform provides are connected by name."""
+    """The pads of a platform are connected to ports with the same names."""
     platform = Bench()
     platform.add_extension([("axis", 0, Subsignal("pout_n", Pins("A1")), Subsignal("dir", Pins("A2")))])
     part = PpmcPart(platform, 16e6, ROOT, pads=platform.request("axis"))

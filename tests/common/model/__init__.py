@@ -1,1 +1,1 @@
-"""Components that the golden models of several devices share."""
+"""Tests of components that the golden models of several devices share."""

@@ -9,10 +9,9 @@ from openppmc.model.single.codes import IBF, OBF
 
 
 class ModelHost:
-    """A host on the byte bus of a model. `t` is the edge of the next access; accesses, pin
-    changes and pauses advance it.
+    """A host on the byte bus of a model; `t` is the edge of its next access.
 
-    Keyword arguments are passed to the device's MODEL.
+    Each access, pin change or pause advances `t`. Keyword arguments are passed to the device's MODEL.
     """
 
     MODEL: ClassVar[type]
@@ -39,7 +38,7 @@ class ModelHost:
         return value
 
     def poll(self, mask: int, value: int, limit: int = 20_000_000) -> int:
-        """Read status until the masked bits equal `value`."""
+        """Read the status until its masked bits equal `value`."""
         end, pause = self.t + limit, 0
         while (status := self.read(1)) & mask != value:
             assert self.t < end, f"status {status:#04x} never showed {mask:#04x} = {value:#04x}"
@@ -63,9 +62,10 @@ class ModelHost:
         return self.read(0)
 
     def run(self, script: str) -> list[int]:
-        """Run a script of the acceptance table: c XX, d XX, r, rrr; return the bytes read by r.
+        """Run a script of the acceptance table: c XX, d XX, r, rrr; return the bytes that r has read.
 
-        `self.mark` is set so that pulses and edges of the last operation are distinguished from older ones.
+        Each command sets `self.mark`, so that later calls return only the pulses and edges after the last
+        command.
         """
         words, got = script.split(), []
         while words:
@@ -80,7 +80,7 @@ class ModelHost:
         return got
 
     def statuses(self, script: str) -> list[int]:
-        """Do the same as `run` without r; return the status after each byte."""
+        """Run a script without the statement r; return the status after each byte."""
         words = script.split()
         pairs = zip(words[::2], words[1::2], strict=True)
         return [self.command(int(b, 16)) if kind == "c" else self.data(int(b, 16)) for kind, b in pairs]
@@ -102,13 +102,13 @@ class ModelHost:
         self.t += 1
 
     def idle(self) -> None:
-        """Wait for BUSY = 0 without an access on the bus."""
+        """Wait until BUSY = 0 without accesses to the bus."""
         self.sync()
         while self.model.busy:
             self.step()
 
     def sync(self) -> None:
-        """Run the model up to the present edge."""
+        """Run the model up to the current edge."""
         self.model.run_until(max(self.model.now, self.t - 1))
 
     def step(self) -> None:
@@ -119,7 +119,7 @@ class ModelHost:
         self.t = max(self.t, edge + 1)
 
     def fall(self, n: int, after: int = 0) -> int:
-        """Run to the n-th pulse since `mark`; the next access is `after` cycles later. Return its edge."""
+        """Run to the n-th pulse since `mark` and return its edge; the next access is `after` cycles later."""
         while len(self.pulses()) < n:
             self.step()
         edge = self.pulses()[n - 1]
@@ -134,7 +134,7 @@ class ModelHost:
         return self.model.log.falls("pout_n", self.mark)
 
     def intervals(self) -> list[int]:
-        """Return the distances of these pulses in cycles."""
+        """Return the distances between these pulses in cycles."""
         pulses = self.pulses()
         return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
 
@@ -143,12 +143,12 @@ class ModelHost:
         return low_times(self.model.log.of("pout_n", self.mark))
 
     def out(self, signal: str) -> int:
-        """Return the present level of an output."""
+        """Return the current level of an output."""
         self.sync()
         return self.model.outputs[signal]
 
     def finish(self) -> tuple[int, int]:
-        """Wait for the end; return finish status and remaining value as the host reads them."""
+        """Wait for the end; return finish status and remaining value, read as a host does."""
         self.idle()
         mark = self.mark
         (status,) = self.run("c 80 r")

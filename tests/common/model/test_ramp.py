@@ -1,4 +1,7 @@
-"""Ramp arithmetic against exact fractions, threshold form, index sequences (P104-RMP, P104-PRO, P104-FDC)."""
+"""Ramp arithmetic against exact fractions, threshold form, sequences of ramp indices.
+
+Rules: P104-RMP, P104-PRO, P104-FDC.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +43,7 @@ def legal(draw: st.DrawFn) -> tuple[int, int, int]:
 
 
 def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
-    """Return the table form of P104-RMP-02."""
+    """Return the thresholds of a ramp by the table form of P104-RMP-02."""
     a, b = (rl + 1) ** 2, (rh + 1) ** 2
     return {
         r: pa * b * (4 * a - (2 * r + 1) ** 2) // ((a - b) * (2 * r + 1) ** 2) + 1
@@ -49,7 +52,7 @@ def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
 
 
 def checked_indices(pa: int) -> list[int]:
-    """Return all indices of a short ramp, or a selection of a long one."""
+    """Return all indices of a short ramp, or a selection of the indices of a long one."""
     return (
         list(range(pa + 1)) if pa <= 200 else [*range(40), *range(40, pa - 40, 97), *range(pa - 40, pa + 1)]
     )

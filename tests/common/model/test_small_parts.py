@@ -1,4 +1,4 @@
-"""Excitation tables, time base, edge log, scheduler and predictor."""
+"""Excitation tables, time base, edge log, scheduler and predictor of the golden models."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_step_lists(motor):
     assert steps == tuple(int(word, 2) for word in TABLES[motor].split())
     if half:
         assert steps[::2] == step_list(phases, False)
-    # Neighbours differ by one phase in half step, by one exchanged pair in full step.
+    # Consecutive patterns differ in one phase (half step) or in a pair of phases (full step).
     changes = {bin(a ^ b).count("1") for a, b in zip(steps, steps[1:] + steps[:1], strict=True)}
     assert changes == ({1} if half else {2})
     with pytest.raises(ValueError, match="2 phases"):

@@ -1,1 +1,1 @@
-"""Packages for users: sources, cores, wheels."""
+"""Tests of the packages for users: sources, cores, wheels."""

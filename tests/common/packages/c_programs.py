@@ -1,4 +1,4 @@
-"""C programs on a simulated bus: compilers, builds with Verilator, evaluation of their output."""
+"""C programs on a simulated bus: compilers, builds with Verilator, evaluation of the output."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ DRIVER = ROOT / "drivers" / "c"
 BENCH = ROOT / "tb" / "cdriver"
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror".split()
 C99, CXX = ["gcc", "-std=c99"], ["g++", "-std=c++11", "-x", "c++"]
-# The code is compiled as freestanding, so that no 32-bit C library is necessary.
+# The code is compiled as freestanding, because a C library for 32 bits may be missing.
 C99_32_BIT = ["gcc", "-std=c99", "-m32", "-ffreestanding"]
 Lines = dict[str, list[dict[str, str]]]
 
@@ -45,7 +45,10 @@ def run(*command: object, seconds: int = 300) -> str:
 
 
 def compilations() -> list:
-    """Return (compiler, source) of all compilations; with 32 bits if supported, without stdio.h."""
+    """Return (compiler, source) of all compilations.
+
+    Sources without stdio.h are also compiled for 32 bits, if the compiler supports this.
+    """
     sources = [*sorted(DRIVER.glob("*.c")), *sorted((DRIVER / "examples").glob("*.c"))]
     compilers = {"c99": C99, "cxx11": CXX}
     probe = [*C99_32_BIT, "-x", "c", "-c", os.devnull, "-o", os.devnull]
@@ -79,7 +82,7 @@ def _digest(command: list[str], sources: Sequence[Path]) -> str:
 
 
 def simulate(name: str, top: str, design: Design, sources: list[Path], params: tuple[str, ...] = ()) -> Lines:
-    """Build C sources and one C++ file with the Verilated design, run the program, read its lines.
+    """Build C sources and one C++ file with the Verilated design, run the program, parse its output.
 
     Returns first word(s) -> lines, each name -> value.
 

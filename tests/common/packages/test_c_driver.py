@@ -1,4 +1,4 @@
-"""The C driver compiles without a warning and behaves on the simulated bus as the golden model predicts."""
+"""The C driver compiles without warnings and behaves on the simulated bus as the golden model predicts."""
 
 from __future__ import annotations
 
@@ -65,7 +65,9 @@ def lines(request) -> Lines:
     [("move", 30, None, 0, 3), ("constant", 300, 24, 1, 4), ("quiet", 12, None, 0, 3), ("step", 1, 0, 1, 2)],
 )
 def test_operation_gives_the_pulses_of_the_model(lines, name, count, rate, ccw, op):
-    """Count, direction and every interval of an operation by the driver are the predicted ones."""
+    """For each operation of the driver, count, direction and every interval of the pulses are the predicted
+    ones.
+    """
     assert result(lines, name) == (0, "ok")
     assert pulses(lines, name) == (
         0 if ccw else count,
@@ -78,7 +80,9 @@ def test_operation_gives_the_pulses_of_the_model(lines, name, count, rate, ccw, 
 
 
 def test_interrupt(lines):
-    """The bridge register shows the interrupt of a move only from its end to the finish status read."""
+    """The bridge register reports the interrupt of a move only from its end to the read of the finish
+    status.
+    """
     assert [lines["irq"][0][key] for key in ("running", "ended", "pin")] == ["0", "1", "1"]
     assert [lines["irq"][1][key] for key in ("read", "pin")] == ["0", "0"]
     assert lines["quiet"][1]["irq"] == "0"
@@ -95,7 +99,9 @@ def test_interrupt(lines):
     ],
 )
 def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
-    """After a switch ends a move of 100, cause, remaining and made pulses match each other and the model."""
+    """If a switch ends a move of 100 pulses, cause, remaining count and pulses agree with each other and with
+    the model.
+    """
     end, (cw, ccw_count, got) = ending(lines, name), pulses(lines, name)
     count = ccw_count if ccw else cw
     assert end["raw"] == 0x83 | bit and end[cause] == 1
@@ -103,7 +109,7 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
     assert count + end["left"] == 100 and (cw == 0 or ccw_count == 0)
     want = predict_move(INIT, 100).intervals
     if cause == "slow":
-        # After the switch, the running interval is completed, then one interval for each step of the ramp.
+        # After the switch, the current interval ends; then there is one interval for each step of the ramp.
         assert 20 + 6 <= count <= 20 + 7
         assert got == want[: len(got) - 6] + want[-6:]
     else:
@@ -113,13 +119,13 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
 
 
 def test_one_pulse_left(lines):
-    """After a limit before the last pulse, the driver distinguishes one remaining pulse from 0."""
+    """After a limit just before the last pulse, the driver returns that one pulse remains, not 0."""
     end = ending(lines, "late")
     assert (end["raw"], end["left"], pulses(lines, "late")[0]) == (0x93, 1, 24)
 
 
 def test_origin_and_stops(lines):
-    """The origin or a stop command ends home, jog and run, and the driver reports the cause."""
+    """Home ends at the origin, jog and run end after a stop command; the driver returns the cause."""
     home, jog, fast = (ending(lines, name) for name in ("home", "jog", "run"))
     assert (home["raw"], jog["raw"], fast["raw"]) == (0x87, 0xC5, 0xC6)
     assert jog["stopped"] and fast["stopped"] and not home["stopped"]
@@ -153,13 +159,13 @@ def test_origin_and_stops(lines):
     ],
 )
 def test_error_number(lines, name, number):
-    """For a byte that the device rejects, the driver returns its error number plus one and the text."""
+    """If the device rejects a byte, the driver returns its error number plus one, and the matching text."""
     value, text = result(lines, name)
     assert value == number + 1 and text.startswith(f"error {int(number)}: ")
 
 
 def test_errors_disturb_nothing(lines):
-    """A move in which bytes are rejected continues until its deceleration stop."""
+    """A move during which bytes are rejected continues up to its deceleration stop."""
     for name in ("E init", "E start", "E stop slowly"):
         assert result(lines, name) == (0, "ok")
     end, (cw, ccw, got) = ending(lines, "E"), pulses(lines, "E")
@@ -170,7 +176,7 @@ def test_errors_disturb_nothing(lines):
 
 @pytest.mark.parametrize("name", ["flags", "none", "too many", "motor", "ramp", "rates"])
 def test_bad_argument(lines, name):
-    """A value out of range is reported by the driver, which sends no byte."""
+    """For a value out of range, the driver returns an error and sends no byte."""
     assert result(lines, f"E {name}") == (18, "argument out of range")
 
 
@@ -189,13 +195,13 @@ def test_an_end_that_the_part_does_not_confirm(lines, name):
 
 @pytest.mark.parametrize("name", ["routine", "after it", "complete", "stopped"])
 def test_a_confirmed_end(lines, name):
-    """A confirmed end is ok, even if an interrupt routine has read the finish status before."""
+    """A confirmed end is ok, even if an interrupt routine has already read the finish status."""
     assert result(lines, f"U {name}") == (0, "ok")
     assert lines["U after it"][1]["raw"] == "83"
 
 
 def test_pins_and_reads(lines):
-    """All commands without motion are accepted, and the reads return the pins."""
+    """All commands without a motion are accepted, and the reads return the levels of the pins."""
     for name in ("aux on", "aux bits", "aux off", "switching", "aux in", "outputs", "off"):
         assert result(lines, name) == (0, "ok"), name
     outputs = int(lines["pins"][0]["outputs"], 16)
@@ -204,7 +210,7 @@ def test_pins_and_reads(lines):
     assert bin(outputs >> 3).count("1") == 2, "four-phase full step, positive: two coils on"
 
 
-# First four rows of the manual's table of patterns (chapter 10.1), as the phases that are on.
+# First four rows of the manual's table of patterns (chapter 10.1): phases that are on.
 ROWS = {
     (3, 0): ("12", "23", "31", "12"),
     (3, 1): ("12", "2", "23", "3"),
@@ -216,7 +222,7 @@ ROWS = {
 
 
 def test_every_initialisation(lines):
-    """For each motor, step, polarity and chopping, patterns and chopping are those of the manual."""
+    """For each motor type, step mode, polarity and chopper setting, the phases are those of the manual."""
     assert len(lines["motor"]) == 24
     for line in lines["motor"]:
         assert line["init"] == "0"
@@ -230,13 +236,15 @@ def test_every_initialisation(lines):
 
 
 def test_external_clock(lines):
-    """After an initialisation for a clock pin without edges, a move waits for the clock."""
+    """If the clock pin has no edges, an initialisation for it is accepted, and a move waits for the clock."""
     assert [line.get("result", "0") for line in lines["external"]] == ["0"] * 4
     assert (lines["external"][2]["busy"], lines["external"][2]["pulses"]) == ("1", "0")
 
 
 def test_busy_right_behind_the_last_byte(lines):
-    """The driver reports busy until the end of a move, although BUSY follows after 112 µs (P104-DS-03)."""
+    """Right after a move command the driver reports busy, although BUSY rises only after 112 µs
+    (P104-DS-03).
+    """
     look = next(line for line in lines["G look"] if "busy" in line)
     assert (look["busy"], look["again"]) == ("1", "1")
     assert next(line["rest"] for line in lines["G look"] if "rest" in line) == "0"
@@ -245,20 +253,24 @@ def test_busy_right_behind_the_last_byte(lines):
 
 
 def test_the_gap_before_busy_is_met(lines, request):
-    """With DATASHEET timing, the poll above falls into the gap before BUSY; FAST timing has no gap."""
+    """With DATASHEET timing, a read of the status in the test above is before BUSY rises; with FAST it is
+    not.
+    """
     gap = request.node.callspec.params["lines"] == "DATASHEET"
     assert next(line["bare"] for line in lines["G look"] if "bare" in line) == str(int(not gap))
 
 
 def test_excitation_off_right_behind_the_last_byte(lines):
-    """Directly after a move command, excitation off is rejected, not run as AUX ON; when idle it works."""
+    """Right after a move command, excitation off is rejected and not executed as AUX ON; at standstill it
+    works.
+    """
     assert result(lines, "G off refused")[0] == Error.NOT_WHILE_BUSY + 1
     assert (ending(lines, "G off")["raw"], pulses(lines, "G off")[0]) == (0x83, 12)
     assert result(lines, "G now") == (0, "ok")
 
 
 def test_stop_of_a_motion_that_lets_no_byte_in(lines, request):
-    """In a motion in which only stops are accepted (P104-DS-12), a stop replaces a read."""
+    """In a motion that accepts only stops (P104-DS-12), a stop replaces a read that is waiting."""
     deaf = request.node.callspec.params["lines"] == "DATASHEET"
     assert result(lines, "G fast refused")[0] == Error.NOT_WHILE_BUSY + 1
     assert result(lines, "G fast read")[0] == (16 if deaf else Error.NOT_WHILE_BUSY + 1)
@@ -267,7 +279,9 @@ def test_stop_of_a_motion_that_lets_no_byte_in(lines, request):
 
 
 def test_time_out(lines):
-    """If no device responds or a device is not ready, each wait ends and reports which of both it was."""
+    """Each wait ends if no device responds or a device is not ready, and the result distinguishes
+    both cases.
+    """
     assert result(lines, "probe") == result(lines, "alive") == (0, "ok")
     assert result(lines, "dead probe")[0] == result(lines, "dead init")[0] == 17
     assert lines["dead"][0]["answered"] == "0"
@@ -277,7 +291,7 @@ def test_time_out(lines):
 
 
 def test_rates(lines):
-    """For a speed, the driver finds the same nearest rate and its speed as exact arithmetic."""
+    """For each speed, the driver returns the same nearest rate and resulting speed as exact arithmetic."""
     good = 0
     for line in lines["rate"]:
         xtal, base, extra, pps = (int(line[key]) for key in ("xtal", "base", "extra", "pps"))

@@ -1,4 +1,6 @@
-"""The C drivers with damaged replies: bounded time, no wrong value, no access out of bounds."""
+"""The C drivers with damaged replies: calls end in bounded time, return no wrong value, stay within
+bounds.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ def program(tmp_path_factory):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_damaged_replies(program, seed):
-    """Cut, flipped, inserted and random bytes end every call with a result (P006-FRM-03, P312-SER-12)."""
+    """With cut, flipped, inserted and random bytes, every call ends with a result (P006-FRM-03,
+    P312-SER-12).
+    """
     found = {int(line.split()[0]): int(line.split()[1]) for line in run(program, seed, 3000).splitlines()}
     # The results include valid replies, time-outs, no device, damaged replies and rejections of all devices.
     assert {0, 16, 17, 18, 21, 37, 65, 96} <= found.keys()

@@ -1,4 +1,4 @@
-"""Dependencies of an installed package: models and library have no dependencies, extras are optional."""
+"""Dependencies of the installed package: models and library need no package, extras are optional."""
 
 from __future__ import annotations
 
@@ -30,7 +30,9 @@ MODULE_OF = {"pyvcd": "vcd", "PyYAML": "yaml"}
 
 
 def foreign(code: str, *flags: str) -> list[str]:
-    """Run code in a Python without this environment; return the modules that are not of the library."""
+    """Run code without the packages of this environment; return the loaded modules outside the standard
+    library.
+    """
     words = [sys.executable, "-I", *flags, "-c", FOREIGN.format(code=code), str(ROOT)]
     done = subprocess.run(words, text=True, capture_output=True, check=False, timeout=60)
     assert done.returncode == 0, done.stderr
@@ -56,12 +58,12 @@ PURE = {
 
 @pytest.mark.parametrize("code", PURE.values(), ids=PURE)
 def test_needs_the_standard_library_only(code):
-    """In a Python without any package, models, library and decoders load, without other modules."""
+    """In a Python without packages, models, library and decoders load, and load only the standard library."""
     assert foreign(code, "-S") == []
 
 
 def test_foreign_modules_are_seen():
-    """The test above would find a module that is not of the library."""
+    """The test above detects a module that is not in the standard library."""
     assert foreign("import sys, types\nsys.modules['serial.rs485'] = types.ModuleType('x')", "-S") == [
         "serial"
     ]
@@ -75,7 +77,7 @@ for row in Commands.rows:
 
 
 def test_commands_load_what_always_comes_along_only():
-    """The command line loads typer, rich and their dependencies, but no extras."""
+    """The command line loads typer, rich and their dependencies, but no package of an extra."""
     extras = {
         MODULE_OF.get(name, name)
         for extra in PROJECT["optional-dependencies"].values()
@@ -86,7 +88,7 @@ def test_commands_load_what_always_comes_along_only():
 
 
 def test_missing_extra_is_one_line(monkeypatch):
-    """For a missing library of an extra, one line names the library and the command to type."""
+    """If a package of an extra is missing, one line names it and the command to type."""
     monkeypatch.setattr(errors, "find_spec", lambda module: None if module == "vcd" else object())
     needs("plot", "a plot", "matplotlib")
     with pytest.raises(MissingExtraError, match=r"^a plot needs vcd, .*pip install 'openppmc\[plot\]'$"):
@@ -101,12 +103,12 @@ def test_missing_extra_is_one_line(monkeypatch):
     ),
 )
 def test_every_extra_that_is_asked_for_exists(extra):
-    """Each extra that the code requests is in pyproject.toml."""
+    """Each extra that the code refers to exists in pyproject.toml."""
     assert extra in PROJECT["optional-dependencies"]
 
 
 def test_readme_of_the_package_stands_alone():
-    """The page for the package index has no links into the tree, and its Python runs."""
+    """The page for the package index has no links into the tree, and its Python examples run."""
     links = re.findall(r"\]\(([^)\s]+)\)", README)
     assert all(re.match(r"https://", link) for link in links)
     blocks = re.findall(r"```python\n(.*?)```", README, re.DOTALL)

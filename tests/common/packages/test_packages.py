@@ -1,4 +1,4 @@
-"""The generated packages: fresh, complete, in compile order, and readable by their tools' rules."""
+"""The generated packages: up to date, complete, in compile order, in the formats of their tools."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8")
 
 
 def needed(group: str) -> set[str]:
-    """Return the group and all groups that it needs."""
+    """Return a group of rtl/files.yml and all groups that it needs."""
     return {group}.union(*(needed(other) for other in LISTED[group]["needs"]))
 
 
@@ -46,7 +46,7 @@ def listed(name: str) -> list[str]:
 
 @pytest.mark.parametrize("part", tops(), ids=lambda row: row.name)
 def test_list_of_a_part(part):
-    """A device's list contains the device, its carrier and their dependencies, in compile order."""
+    """The list of a device contains the device, its carrier and their dependencies, in compile order."""
     groups = needed(f"{part.rtl}_carrier" if part.carrier else part.rtl)
     assert groups > {part.rtl, "common"}
     assert listed(f"{part.rtl}.f") == [
@@ -55,7 +55,7 @@ def test_list_of_a_part(part):
 
 
 def test_bender():
-    """The groups of Bender.yml are those of rtl/files.yml, the carriers only with their target."""
+    """Bender.yml has the groups of rtl/files.yml; carriers are only in their own target."""
     sources = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))["sources"]
     plain = [file for group in sources if "target" not in group for file in group["files"]]
     assert plain == RTL
@@ -76,7 +76,7 @@ def test_cores():
             for entry in fileset.get("files", []):
                 file = path.parent / (entry if isinstance(entry, str) else next(iter(entry)))
                 if file.is_relative_to(ROOT / "build"):
-                    continue  # plain Verilog of `make verilog`
+                    continue  # `make verilog` writes this file, so it may be missing
                 assert file.is_file(), f"{path.name}: {file.name}"
                 found.append(file.relative_to(ROOT).as_posix())
         for target in core["targets"].values():
@@ -88,7 +88,7 @@ def test_cores():
     ("program", "told"), (("/no/such", "there is no such program"), ("true", "not a Verilator"))
 )
 def test_other_verilator_must_be_one(program, told):
-    """A VERILATOR that is not one is reported in one line before any check passes."""
+    """If VERILATOR is not a Verilator, one line reports it before any check."""
     words = [sys.executable, "-m", "scripts.fpga.packages", "--try", "--verilator", program]
     done = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, check=False, timeout=120)
     assert done.returncode == 1 and told in done.stdout + done.stderr

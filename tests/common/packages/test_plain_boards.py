@@ -1,4 +1,4 @@
-"""Boards in plain Verilog for FuseSoC: the settings for edalize, and the replacements of its tools."""
+"""Boards in plain Verilog for FuseSoC: the settings for edalize, and the launcher of its tools."""
 
 from __future__ import annotations
 
@@ -44,14 +44,16 @@ def test_core_has_the_board_tables_options():
 
 
 def test_unknown_board():
-    """For a board without a PPMC-104, one line lists those with one, and no file is written."""
+    """For a board without a PPMC-104, one line lists the boards with one, and no file is written."""
     with pytest.raises(ProjectError, match="^BOARD=tangnano20k: no FuseSoC target .there are icebreaker, "):
         plain_boards.write_library(["tangnano20k"], BUILD / "test" / "nowhere")
     assert not (BUILD / "test" / "nowhere").exists()
 
 
 def test_verdict(tmp_path, monkeypatch):
-    """A missed or wrong clock in the output of FuseSoC is a failure, and so is an empty file."""
+    """A missed or wrong clock in the output of FuseSoC is reported as a failure, and so is an empty
+    bitstream.
+    """
     monkeypatch.setattr(plain_boards, "relative", str)
     line = "Info: Max frequency for clock 'clk': {} MHz ({} at {} MHz)\n"
     log, bitstream = tmp_path / "next.log", tmp_path / "x.bin"
@@ -74,7 +76,9 @@ def test_verdict(tmp_path, monkeypatch):
 
 
 def test_attributes_of_vendors_cells():
-    """Attributes in capitals are written before their instances, as texts; others are omitted."""
+    """Attributes in capitals are written before the instances of their cells, as texts; others are
+    omitted.
+    """
     own = {"ICP_CURRENT": "12", "MFG_ENABLE_FILTEROPAMP": "1 ", "src": "a.sv:1.2"}
     cells = {"u_pll": {"type": "PLL", "attributes": own}, "u_x": {"type": "x", "attributes": {"src": "b"}}}
     found = vendor_attributes({"top": {"cells": cells}})
@@ -102,7 +106,7 @@ def test_unknown_tool(words, told):
 
 
 def test_missing_tool(tmp_path):
-    """In an environment without a package, one line names it."""
+    """If a package is missing in the environment, one line names it."""
     python = tmp_path / "python"
     python.symlink_to(Path(sys.executable).resolve())
     done = subprocess.run([python, LAUNCHER, "icepack"], text=True, capture_output=True, check=False)

@@ -1,4 +1,4 @@
-"""Files for GitHub: workflows, forms, citation; the targets and files that they name exist."""
+"""Files for GitHub: workflows, forms, citation. The targets and files that they name exist."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ by_name = pytest.mark.parametrize("path", TOLD, ids=lambda path: path.name)
 
 
 def commands(path) -> str:
-    """Return the commands in a file: the steps of a workflow, else code between ` or indented."""
+    """Return the commands in a file: the steps of a workflow, or else code between backquotes or indented."""
     text = path.read_text(encoding="utf-8")
     if path in WORKFLOWS:
         jobs = yaml.safe_load(text)["jobs"].values()
@@ -31,7 +31,7 @@ def commands(path) -> str:
 
 @by_name
 def test_targets_exist(path):
-    """Each `make X` in a file names a target of the table."""
+    """Each `make X` in a file names an existing target."""
     assert set(re.findall(r"\bmake ([a-z][\w-]*)", commands(path))) <= set(TARGETS)
 
 
@@ -43,14 +43,14 @@ def test_files_exist(path):
 
 
 def test_something_is_looked_at():
-    """The two tests above find targets and files."""
+    """The two tests above find targets and files at all."""
     text = "\n".join(map(commands, TOLD))
     assert {"nightly", "site", "test", "lint"} <= set(re.findall(r"\bmake ([a-z-]+)", text))
     assert ".ci/run" in text and "tests/common/host" in text
 
 
 def test_every_test_of_a_driver_runs_elsewhere():
-    """The workflow for other systems names all folders with tests of drivers."""
+    """The workflow for other operating systems names all folders with tests of drivers."""
     text = commands(GITHUB / "workflows" / "host.yml")
     folders = {f"tests/{path.parent.name}/host" for path in (ROOT / "tests").glob("*/host")}
     assert folders == set(re.findall(r"(?<![=/])\btests/\w+/host\b(?!/)", text))
@@ -68,7 +68,7 @@ def test_release_workflow():
 
 @pytest.mark.parametrize("path", FORMS, ids=lambda path: path.stem)
 def test_form(path):
-    """A form has name, description and questions with distinct ids; at least one answer is required."""
+    """A form has a name, a description and questions with unique ids, and requires at least one answer."""
     form = yaml.safe_load(path.read_text(encoding="utf-8"))
     assert form["name"] and form["description"]
     asked = [one for one in form["body"] if one["type"] != "markdown"]
@@ -85,7 +85,7 @@ def test_citation_is_of_this_version():
 
 
 def test_files_are_known_to_git():
-    """No rule for ignored files excludes workflows and forms."""
+    """No rule for ignored files matches workflows or forms."""
     names = [str(path.relative_to(ROOT)) for path in TOLD]
     done = subprocess.run(
         ["git", "check-ignore", *names], cwd=ROOT, capture_output=True, text=True, check=False

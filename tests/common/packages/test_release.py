@@ -1,4 +1,4 @@
-"""`make release`: its errors, archives that depend only on their contents, a dist/ that is complete."""
+"""`make release`: its errors, archives that depend only on their contents, a complete dist/."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def release(**changes) -> state.Release:
 
 
 def test_notes_are_the_newest_section():
-    """The notes are the text below the newest heading; an empty [Unreleased] is skipped."""
+    """The notes are the text below the newest heading, if [Unreleased] has no text."""
     assert state.section(TEXT, "1.2.0") == "- this"
 
 
@@ -41,7 +41,7 @@ def test_notes_are_the_newest_section():
     ],
 )
 def test_version_and_changelog_that_do_not_fit(text, version, message):
-    """If the version is not that of the newest heading, or its text is empty, one line reports it."""
+    """If the newest heading is not that of the version, or has no text, one line reports it."""
     with pytest.raises(ProjectError, match=message):
         state.section(text, version)
 
@@ -50,7 +50,7 @@ UNRELEASED = TEXT.replace("Unreleased]\n", "Unreleased]\n\n- new\n")
 
 
 def test_a_trial_takes_what_is_unreleased():
-    """A trial uses the text below [Unreleased], with any version in the next heading."""
+    """A trial uses the text below [Unreleased]; the next heading may have any version."""
     assert state.section(UNRELEASED, "1.2.0", trial=True) == "- new"
     assert state.section(UNRELEASED, "1.3.0", trial=True) == "- new"
     assert state.section("# Changelog\n\n## [Unreleased]\n\n- new\n", "0.1.0", trial=True) == "- new"
@@ -59,7 +59,7 @@ def test_a_trial_takes_what_is_unreleased():
 
 @pytest.mark.parametrize("trial", [False, True])
 def test_a_heading_that_does_not_fit_is_no_trial(trial):
-    """Without text below [Unreleased], the newest heading must be that of the version, also in a trial."""
+    """Without text below [Unreleased], the newest heading must be that of the version, even in a trial."""
     with pytest.raises(ProjectError, match=r"version 1.3.0, but the newest heading"):
         state.section(TEXT, "1.3.0", trial=trial)
 
@@ -80,7 +80,7 @@ def git_of(tagged: str, changed: str = ""):
 
 
 def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
-    """A trial of commits after the newest release has a version that ends in +trial."""
+    """A trial of commits after the newest release gets a version that ends in +trial."""
     changelog = tmp_path / "CHANGELOG.md"
     changelog.write_text(UNRELEASED.replace("1.2.0", state.__version__))
     monkeypatch.setattr(state, "CHANGELOG", changelog)
@@ -110,7 +110,7 @@ def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
     ],
 )
 def test_skip_and_only_make_a_trial(monkeypatch, capsys, arguments, trial):
-    """SKIP or ONLY selects a trial, and the last line states this; otherwise it is a release."""
+    """With SKIP or ONLY, the run is a trial, and its last line states this; otherwise it is a release."""
     asked = []
 
     def current_release(only, trial):
@@ -128,14 +128,16 @@ def test_skip_and_only_make_a_trial(monkeypatch, capsys, arguments, trial):
 
 
 def test_notes_of_a_trial_say_so():
-    """The notes of a trial state in the first lines that it is not to be published; others do not."""
+    """The notes of a trial state at the beginning that it is not a release; other notes do not."""
     text = notes.notes(release(version="1.2.0+trial", trial=True), [])
     assert text.startswith("# OpenPPMC 1.2.0+trial\n\n**Trial, not a release.**")
     assert "rial" not in notes.notes(release(), [])
 
 
 def test_the_python_package_of_a_trial(tmp_path):
-    """The version in a copy of the package becomes that of the trial; that of a release is unchanged."""
+    """In a copy of the package for a trial, the version is that of the trial; for a release it does not
+    change.
+    """
     file = tmp_path / "openppmc" / "__init__.py"
     file.parent.mkdir()
     text = f'__version__ = "{python.__version__}"\n'
@@ -146,7 +148,7 @@ def test_the_python_package_of_a_trial(tmp_path):
 
 
 def test_the_site_reports_its_stages(tmp_path, monkeypatch):
-    """A release prints the lines of `make site` during the build; a failure is one line."""
+    """A release prints the lines of `make site` as soon as they appear; a failure is one line."""
     told = []
     program = (
         "import sys; print('site: pages', flush=True); print('first\\nlast', file=sys.stderr); sys.exit({})"
@@ -160,7 +162,9 @@ def test_the_site_reports_its_stages(tmp_path, monkeypatch):
 
 
 def test_a_tag_elsewhere_is_another_release():
-    """A tag of the version on another commit is rejected; on this commit, or no tag, is accepted."""
+    """A version whose tag is on another commit is rejected; without a tag, or on this commit, it is
+    accepted.
+    """
     state.check_tag("1.2.0", "a" * 40, "")
     state.check_tag("1.2.0", "a" * 40, "a" * 40)
     with pytest.raises(ProjectError, match="v1.2.0 exists already, on bbbbbbbbbb"):
@@ -168,7 +172,7 @@ def test_a_tag_elsewhere_is_another_release():
 
 
 def test_a_changed_tree_is_refused(monkeypatch):
-    """A file that is not committed is named in one line."""
+    """If a file is not committed, one line names it."""
     monkeypatch.setattr(state, "git", lambda *words: " M README.md" if words[0] == "status" else "")
     with pytest.raises(ProjectError, match="^README.md is not committed"):
         state.current_release()
@@ -176,7 +180,7 @@ def test_a_changed_tree_is_refused(monkeypatch):
 
 @pytest.mark.parametrize("pack, suffix", [(archive.tar_gz, ".tar.gz"), (archive.zipped, ".zip")])
 def test_archives_depend_on_their_contents_alone(tmp_path, pack, suffix):
-    """The same files with other times, modes and order result in the same bytes of the archive."""
+    """Files with the same contents result in the same archive, regardless of their times, modes and order."""
     made = []
     for number, names in enumerate((("a", "b/c"), ("b/c", "a"))):
         folder = tmp_path / str(number)
@@ -200,13 +204,15 @@ def test_archives_depend_on_their_contents_alone(tmp_path, pack, suffix):
 
 
 def test_a_pdf_gets_the_time_of_the_commit():
-    """In a PDF the dates are replaced, and the positions of all bytes are unchanged."""
+    """In a PDF the dates are replaced by a text of the same length, so all other bytes keep their
+    positions.
+    """
     text = b"x /CreationDate (D:20260102030405+00'00') /ModDate (D:20260102030405+00'00') y"
     assert site.dated(text, 0) == text.replace(b"20260102030405", b"19700101000000")
 
 
 def test_unknown_bitstreams_are_named():
-    """For an unknown bitstream, one line lists the existing ones; without names all are built."""
+    """For an unknown bitstream, one line lists the existing ones; without names, all are built."""
     with pytest.raises(
         ProjectError, match="ONLY=nosuch: no such bitstream .there are icebreaker, icebreaker-bus"
     ):
@@ -216,7 +222,9 @@ def test_unknown_bitstreams_are_named():
 
 
 def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
-    """A missing npm is reported in one line before the build; without the site npm is not required."""
+    """A missing npm is reported in one line before the build begins; without the site, npm is not
+    required.
+    """
     made = []
     monkeypatch.setattr(site.shutil, "which", lambda name: None)
     monkeypatch.setattr(command, "current_release", lambda only, trial: release())
@@ -232,7 +240,7 @@ def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
 
 
 def test_dist_is_whole_or_as_it_was(tmp_path):
-    """If a job fails, dist/ is unchanged; otherwise it has files, checksums and notes."""
+    """If a step fails, dist/ is unchanged; otherwise it contains files, checksums and notes."""
     dist, scratch = tmp_path / "dist", tmp_path / "scratch"
 
     def good(of, out, folder):

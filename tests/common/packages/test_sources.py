@@ -1,4 +1,4 @@
-"""rtl/files.yml: its format, and the dependency checks between its groups."""
+"""rtl/files.yml: its format, and the checks of the dependencies between its groups."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ TWO = "low:\n  needs: []\n  files:\n    - a.sv\nhigh:\n  needs: [{}]\n  files:\n
 
 
 def test_read_as_yaml():
-    """A YAML package reads the same content in the list."""
+    """A YAML package reads the same content from the list as our own reader."""
     wanted = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
     assert list(LISTED) == list(wanted)
     for name, group in LISTED.items():
@@ -35,25 +35,27 @@ def test_read_as_yaml():
 
 
 def test_walls_hold():
-    """No file of the RTL uses a group that its own group does not need."""
+    """No file of the RTL uses a group that its own group does not list in `needs`."""
     assert walls(LISTED) == []
 
 
 def test_a_wall_stops_an_instance(tmp_path):
-    """An instance of a module of a group that is not needed is reported in one line."""
+    """If a file instantiates a module of a group that is not in `needs`, one line reports it."""
     root = checkout(tmp_path, TWO.format(""), a="", b="  a u_a ();")
     assert walls(groups(root)) == ["rtl/b.sv: a is in low, which high does not need"]
 
 
 @pytest.mark.parametrize("body", ["", "// a u_a ();", '  initial $display("a");', "/* a\n a */"])
 def test_a_need_for_nothing(tmp_path, body):
-    """A need that is used only in comments and texts is reported in one line."""
+    """If a file only mentions a needed group in comments or texts, one line reports that the need is not
+    used.
+    """
     root = checkout(tmp_path, TWO.format("low"), a="", b=body)
     assert walls(groups(root)) == ["rtl/files.yml: high names nothing of low, which it needs"]
 
 
 def test_needed_in_compile_order(tmp_path):
-    """All direct and indirect needs of a group precede it, each once."""
+    """All direct and indirect needs of a group precede it in the compile order, each once."""
     chain = {"a": "", "b": "a", "c": "b, a"}
     text = "".join(f"{name}:\n  needs: [{of}]\n  files:\n    - {name}.sv\n" for name, of in chain.items())
     listed = groups(checkout(tmp_path, text, a="", b=""))
@@ -73,7 +75,7 @@ def test_needed_in_compile_order(tmp_path):
     ],
 )
 def test_refused(tmp_path, text, said):
-    """A list in another format, or with a need that is not a group, is reported in one line."""
+    """If the list has another format, or a need is not a group, one line reports it."""
     with pytest.raises(SourcesError, match=said):
         groups(checkout(tmp_path, text))
 

@@ -1,4 +1,4 @@
-"""Inputs of vendors' tools and depending FuseSoC cores: plain Verilog, no warning of Verilator."""
+"""Inputs of vendors' tools, and FuseSoC cores that depend on ours: plain Verilog, no Verilator warning."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain_file import write
 from scripts.fpga.packages.cores import vendor_boards
 
-# Constructs that Quartus Lite and Standard, Vivado or GowinSynthesis reject, and other SystemVerilog words.
+# Constructs that Quartus Lite and Standard, Vivado or GowinSynthesis reject, and other words that only
+# SystemVerilog has.
 REJECTED = re.compile(
     r"\$(?:fatal|error|warning|info)\b|\b(?:input|output|inout)\s+(?:wire|var)\s+[a-z]\w*\s+[a-z\[]"
     r"|\bfor\s*\(\s*genvar\b|\binside\b|\bparameter\s+string\b|\w+'\("
@@ -53,7 +54,7 @@ def rejected(text: str) -> list[str]:
     ],
 )
 def test_rejected_construct_is_counted(code):
-    """The count below finds each construct."""
+    """The search for rejected constructs finds each of them."""
     assert rejected(code)
 
 
@@ -66,7 +67,7 @@ needs_fusesoc = pytest.mark.skipif(
 
 
 def passed(name: str, folder: Path, top: str) -> list[str]:
-    """Return the files that a vendor's list adds for a top; the Tcl error if it stops."""
+    """Return the files that a vendor's list adds for a top; raise the Tcl error with which the list stops."""
     tkinter = pytest.importorskip("tkinter")
     tcl, files = tkinter.Tcl(), []
     for command in ("add_files", "add_file", "set_global_assignment"):
@@ -78,7 +79,9 @@ def passed(name: str, folder: Path, top: str) -> list[str]:
 
 @pytest.mark.parametrize("name", LISTS)
 def test_list_adds_one_plain_file(name, tmp_path):
-    """A vendor's list adds only the plain Verilog of the chosen top, or stops with one line."""
+    """A vendor's list adds only the plain Verilog of the chosen top; if it is missing, the list stops with
+    one line.
+    """
     with pytest.raises(Exception, match=r"stmc\.v: not written; run `make verilog TOP=stmc` in "):
         passed(name, tmp_path, "stmc")
     file = tmp_path / "build" / "verilog" / "stmc.v"
@@ -97,7 +100,7 @@ def test_list_names_no_system_verilog(name):
 @needs_yosys
 @pytest.mark.parametrize("target", vendor_boards())
 def test_target_has_no_rejected_construct(target):
-    """A vendor's FuseSoC target passes one file of plain Verilog with 0 rejected constructs."""
+    """A vendor's FuseSoC target passes one file of plain Verilog, which has no rejected construct."""
     core = yaml.safe_load((ROOT / "openppmc_boards.core").read_text())
     files = []
     for fileset in core["targets"][target]["filesets"]:
@@ -112,12 +115,12 @@ def test_target_has_no_rejected_construct(target):
 @needs_yosys
 @pytest.mark.parametrize("row", tops(), ids=lambda row: row.name)
 def test_part_has_no_rejected_construct(row):
-    """The plain Verilog of each part has 0 rejected constructs."""
+    """The plain Verilog of each part has no rejected construct."""
     assert rejected(write(row.top, BUILD / "verilog").read_text()) == []
 
 
 def test_no_typed_text_parameter():
-    """No text parameter of the sources has the type string, which Vivado rejects."""
+    """No parameter of the sources has the type string, which Vivado rejects."""
     assert [relative(p) for p in (ROOT / "rtl").rglob("*.sv") if "parameter string" in p.read_text()] == []
 
 
@@ -137,7 +140,7 @@ def lint(*words: str) -> list[str]:
 
 @pytest.mark.parametrize("path", sorted((ROOT / "packages").glob("*.f")), ids=lambda path: path.stem)
 def test_list_of_a_part_is_free_of_lint(path):
-    """Without a waiver, -Wall reports no warning about the list of a device."""
+    """For the list of a device, -Wall reports no warning, without any waiver."""
     assert lint("-F", relative(path)) == []
 
 
@@ -146,7 +149,7 @@ BRIDGES = ("ppmc_wishbone", "ppmc_axil", "ppmc_spi", "ppmc_isa", "ppmc_uart_brid
 
 @pytest.mark.parametrize("top", BRIDGES)
 def test_bridge_is_free_of_lint(top):
-    """A top after the list replaces that of the list, and -Wall reports no warning about a bridge."""
+    """A --top-module after the list replaces the top of the list; for a bridge, -Wall reports no warning."""
     assert lint("-F", "packages/ppmc104.f", "--top-module", top) == []
 
 
@@ -155,7 +158,7 @@ def test_bridge_is_free_of_lint(top):
     [(row.top, "STEP_ACK" if row.name == "pmc006" else "TIMING") for row in tops() if row.rtl != "ppmc_bank"],
 )
 def test_wrong_text_is_rejected(top, name):
-    """A text of any length that is not a setting ends the elaboration; each setting is accepted."""
+    """A text parameter with an unknown value of any length ends the elaboration; each setting is accepted."""
     row = next(row for row in tops() if row.top == top)
     given = ("-F", f"packages/{row.rtl}.f")
     good = ("MANUAL", "ECHO") if name == "STEP_ACK" else ("FAST", "DATASHEET")
@@ -204,7 +207,7 @@ endmodule
 
 @needs_fusesoc
 def test_depending_core_is_free_of_lint(tmp_path):
-    """A FuseSoC core that depends on ours is linted with -Wall without one warning."""
+    """A FuseSoC core that depends on ours is linted with -Wall without a warning."""
     head = (ROOT / "rtl/ppmc104/ppmc104.sv").read_text().partition(") (")[2].partition(");")[0]
     known = set(re.findall(r"\.(\w+)", DESIGN)) | {"int_n"}
     rest = ["      .int_n"]

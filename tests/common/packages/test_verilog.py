@@ -1,4 +1,4 @@
-"""Plain Verilog: making the text of yosys readable; errors of `make verilog`."""
+"""Plain Verilog: the text of yosys is made readable; errors of `make verilog` are clear."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ SOURCES = {"sub": "// SPDX\n// sub: says it.\nmodule sub (\n    input wire logic
 
 
 def test_readable_text():
-    """Equal modules of yosys' text occur once, with comments; one-bit wires are removed, sums are not."""
+    """Equal modules occur once, with comments; numbered one-bit wires are replaced, but not sums."""
     text = readable(YOSYS, "top", SOURCES)
     assert text.startswith("module top (")
     assert text.count("// sub: says it.\nmodule top_sub (") == 1 == text.count("endmodule\n\n")
@@ -75,7 +75,7 @@ def test_readable_text():
 
 
 def test_header():
-    """The header of a top states version, licence and the built-in parameters."""
+    """The header of a top states version, licence and the parameters with which it was made."""
     sources = verilog.project.files("ppmc104")
     text = plain.header("ppmc104", "a part", sources, {"CLK_HZ": 50_000_000})
     assert "SPDX-License-Identifier: Apache-2.0" in text and f"OpenPPMC {__version__}" in text
@@ -97,7 +97,7 @@ def test_bad_input():
 
 
 class Bits:
-    """A level as Icarus returns it to cocotb."""
+    """A value with X, in the form in which Icarus returns it to cocotb."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -114,7 +114,7 @@ class Bits:
 
 
 def test_an_output_without_level_is_an_error(monkeypatch):
-    """Reading an output with X fails with its name, except for data that are not driven."""
+    """A read of an output with X raises an error with its name, except for a data bus that is not driven."""
     driven, resting = SimpleNamespace(value=Bits("1")), SimpleNamespace(value=Bits("0"))
     d_o = SimpleNamespace(value=Bits("1X0"), _name="d_o")
     irq = SimpleNamespace(value=Bits("X"), _name="irq")

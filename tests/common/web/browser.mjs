@@ -1,7 +1,7 @@
-// node browser.mjs SITE SHOTS PACKAGES TRIPPED [CHECK]: checks the playground in a real Chromium.
-// TRIPPED: module of a PPMC-104 whose simulation stops with an error when l1_n is low (trip.sv).
-// Prints one line of JSON per check: {name, error?, told?}.
-// Exit code 3 and one line if no browser is available.
+// node browser.mjs SITE SHOTS PACKAGES TRIPPED [CHECK]: check the playground in a real Chromium.
+// TRIPPED: module of a PPMC-104 (trip.sv) whose simulation stops with an error when l1_n is low.
+// Output: a line of JSON for each check, {name, error?, told?}.
+// If no browser is available, the program prints one line and ends with exit code 3.
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";
@@ -33,8 +33,8 @@ const view = await launch();
 const base = `http://127.0.0.1:${server.address().port}/`;
 fs.mkdirSync(shots, { recursive: true });
 const RUN = ".pg-run";
-const PATIENCE = 120_000; // ms; a busy computer is slow
-const MOST = 3; // short sessions of each device except the first device; test_engine.py plays more
+const PATIENCE = 120_000; // in ms; long, because the computer may be busy
+const MOST = 3; // number of short sessions of each device except the first one; test_engine.py plays more
 const equal = (got, wanted, what) => {
   if (got !== wanted) throw new Error(`${what}: ${JSON.stringify(got)} instead of ${JSON.stringify(wanted)}`);
 };
@@ -42,7 +42,7 @@ const truth = (got, what) => {
   if (!got) throw new Error(what);
 };
 
-/** A page; console errors fail the check at its end. */
+/** A page; errors on its console make the check fail at its end. */
 async function open(address = base, more = {}, prepare) {
   const context = await view.newContext({
     viewport: { width: 1400, height: 1000 },
@@ -164,7 +164,7 @@ const checks = {
       /ended by the limit/.test(document.querySelector(".pg-registers")?.textContent),
     );
     equal(await position(page), stopped, "position");
-    // A link contains the whole session, and the page opened by it has the same waves.
+    // A link contains the whole session: the page that it opens shows the same waves.
     const first = await saved(page, "pressed.vcd");
     await page.click("text=Link");
     await page.waitForFunction(() => location.hash.includes("text="));
@@ -210,7 +210,7 @@ const checks = {
         before + n,
       );
     }
-    // Zoom, cursors and their times by keys.
+    // Keys control the zoom and the cursors, and the times of the cursors are shown.
     await page.focus(".pg-waves canvas");
     for (const key of ["+", "+", "a", "ArrowRight", "ArrowRight", "b"]) await page.keyboard.press(key);
     await page.waitForFunction(() =>
@@ -224,7 +224,7 @@ const checks = {
     await type(page, "c 0A d 09 d 04 d 04 d 00\nc 45 d 00");
     await page.waitForTimeout(500);
     const browser = await view.newBrowserCDPSession();
-    // CPU time of the page's process, worker included, in s: Linux counts hundredths.
+    // CPU time in s of the page's process with its worker; Linux counts in hundredths of a second.
     const spent = async () => {
       const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
       const stats = processInfo
@@ -251,7 +251,7 @@ const checks = {
     gaps.sort((a, b) => a - b);
     const middle = gaps[gaps.length >> 1];
     const each = ((await passed()) - cycles) / ((await spent()) - cpu);
-    // A slow machine is no error; the figures are for docs/benchmarks.md.
+    // A low speed is not an error here; the figures are for docs/benchmarks.md.
     truth(each > 0, "the part runs");
     const speed = (await page.textContent(".pg-clock")).match(/([\d.]+) million/)?.[1];
     return [
@@ -315,13 +315,13 @@ const checks = {
       await type(page, text);
       const told = await message(page);
       truth(/the part has stopped: .*l1_n is low.*power it up again/s.test(told), `it says: ${told}`);
-      // After the stop, a new session runs on a new core, and the message is gone.
+      // After the simulation has stopped, a new session runs on a new core and removes the message.
       await type(page, "c 0A d C7 d 31 d 64 d 00\nc 43 d 03 d 00 d 00");
       await rest(page);
       equal(await position(page), 4, "position afterwards");
       truth(!(await page.$(".pg-trouble")), "the message stays");
     }
-    // A click on the pin instead of a typed command; after the stop, the core can be neither paused nor stepped.
+    // Here a click on the pin stops the simulation; after that, the core can be neither paused nor stepped.
     await page.click(".pg-pins >> text=l1_n");
     await page.click("text=Next pulse");
     truth(/power it up again/.test(await message(page)), "no message for a pin");

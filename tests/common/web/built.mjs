@@ -1,5 +1,5 @@
-// node built.mjs HTML SHOTS PACKAGES [CHECK]: checks the MkDocs site in a real Chromium. Prints one line of JSON per
-// check.
+// node built.mjs HTML SHOTS PACKAGES [CHECK]: check the MkDocs site in a real Chromium.
+// Output: a line of JSON for each check.
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";
@@ -10,7 +10,7 @@ const [, , html, shots, packages, only = ""] = process.argv;
 const { launch } = await import(pathToFileURL(path.join(packages, "launch.mjs")));
 const axe = fs.readFileSync(createRequire(path.resolve(packages, "package.json")).resolve("axe-core/axe.min.js"), "utf8");
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
-let delays = {}; // end of a path -> delay of the response in ms
+let delays = {}; // end of a path -> delay of its response in ms
 const server = http
   .createServer(async (request, answer) => {
     const { pathname } = new URL(request.url, "http://here");
@@ -28,9 +28,9 @@ const base = `http://127.0.0.1:${server.address().port}/`;
 const fromFile = pathToFileURL(`${html}/`).href;
 fs.mkdirSync(shots, { recursive: true });
 const PATIENCE = 30_000;
-const MOST_FRAME = 33; // ms of CPU time of the page, so that other processes do not count
-const MOST_PAUSE = 200; // ms of CPU time of the page
-const MOST_WAITING = 2; // frames in transit to the page: the one that it draws, and the one of Pause
+const MOST_FRAME = 33; // maximum CPU time of the page in ms; other processes do not count
+const MOST_PAUSE = 200; // maximum CPU time of the page in ms
+const MOST_WAITING = 2; // frames in transit to the page: the one that it draws, and that of Pause
 const equal = (got, wanted, what) => {
   if (got !== wanted) throw new Error(`${what}: ${JSON.stringify(got)} instead of ${JSON.stringify(wanted)}`);
 };
@@ -132,7 +132,7 @@ const checks = {
       `${base}playground.html#${new URLSearchParams({ ...RUN, part: "bank", text: axes })}`,
       {},
       () => {
-        // Count the frames that the worker has sent and the page has not drawn.
+        // Count the frames that the worker has sent but the page has not drawn yet.
         globalThis.waiting = globalThis.mostWaiting = 0;
         globalThis.Worker = class extends Worker {
           constructor(...words) {
@@ -152,7 +152,7 @@ const checks = {
     await page.waitForTimeout(4000);
     const browser = await view.newBrowserCDPSession();
     const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
-    // Linux counts the ns of each thread; the first thread of a renderer belongs to the page, the worker has another.
+    // Linux counts the ns of each thread. The first thread of a renderer is that of the page, not the worker.
     const spent = () =>
       processInfo
         .filter(({ type, id }) => type === "renderer" && fs.existsSync(`/proc/${id}/task/${id}/schedstat`))
@@ -234,7 +234,7 @@ const checks = {
         const canvas = document.querySelector(".pg-plot canvas");
         const { width, height } = canvas;
         const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
-        // Lines of motors have a colour, all others are grey.
+        // Lines of motors have a colour; all other lines are grey.
         const coloured = (x, y) => {
           const rgb = data.slice(4 * (x + width * y), 4 * (x + width * y) + 4);
           return rgb[3] > 100 && Math.max(rgb[0], rgb[1], rgb[2]) - Math.min(rgb[0], rgb[1], rgb[2]) > 60;

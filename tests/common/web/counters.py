@@ -11,7 +11,7 @@ FILE = ROOT / "build/site/figures.txt"
 
 
 def left_out(part: str, ends: Sequence[int], most: int, why: str) -> str:
-    """Return text about the sessions whose ends in cycles are `most` or more; "" without such sessions."""
+    """Return a note on the sessions that last `most` cycles or longer; "" if there is none."""
     titles = [session.name for session in sessions(part)]
     every = zip(titles, ends, strict=True)
     long = [f"{name} ({end // 10**6} million clk)" for name, end in every if end >= most]
@@ -19,7 +19,7 @@ def left_out(part: str, ends: Sequence[int], most: int, why: str) -> str:
 
 
 def add(line: str) -> None:
-    """Store a line."""
+    """Store a line with figures."""
     FILE.parent.mkdir(parents=True, exist_ok=True)
     with FILE.open("a", encoding="utf-8") as out:
         out.write(f"{line}\n")

@@ -1,4 +1,5 @@
-// node play.mjs ENGINE.js PLAYGROUND < [{part, text}]: plays sessions on the page's own engine, prints each result.
+// node play.mjs ENGINE.js PLAYGROUND < JSON: play sessions on the engine of the page and print each result.
+// JSON: [{part, text}, …].
 import fs from "node:fs";
 import path from "node:path";
 import { pathToFileURL } from "node:url";

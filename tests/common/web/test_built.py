@@ -33,7 +33,7 @@ LOADS = re.compile(
 
 @cache
 def site() -> Path:
-    """Build the pages without PDFs, in a folder with a space and letters outside ASCII."""
+    """Build the pages without PDFs, in a folder whose name has a space and letters outside ASCII."""
     return build(with_pdf=False, out=wasm.OUT / "tested/a site ü")
 
 
@@ -70,17 +70,17 @@ def pages() -> dict[str, str]:
 
 
 def test_titles():
-    """Each page has a title that no other page has."""
+    """The title of each page is unique."""
     titles = Counter(re.findall(r"<title>(.*?)</title>", text, re.S)[0] for text in pages().values())
     assert [title for title, count in titles.items() if count > 1] == []
 
 
 def test_no_other_host():
-    """No page loads a script, style sheet or picture from another host."""
+    """No page loads a script, a style sheet or a picture from another host."""
     assert {name: found for name, text in pages().items() if (found := LOADS.findall(text))} == {}
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_built(name):
-    """The page passes the check in a browser, without an error in the console."""
+    """The page passes its check in a browser without an error in the console."""
     assert checked()[name].get("error") is None, checked()[name]["error"]

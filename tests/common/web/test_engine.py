@@ -1,4 +1,4 @@
-"""The engine of the page under node: its edges are those of the same session on the golden model."""
+"""The engine of the page under node: in each session, its edges are those of the golden model."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tests.common.web.counters import add, left_out
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 LONG = 22_000_000
-"""In cycles; a longer session takes at least half a minute on an otherwise idle computer."""
+"""Length of a session in cycles; a longer session takes more than half a minute on an idle computer."""
 HERE = ROOT / "tests/common/web"
 
 
@@ -42,7 +42,7 @@ def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
 
 
 def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
-    """Return output edges, combined from the words of the outputs."""
+    """Return the output edges; changes of words are combined into levels of outputs."""
     outputs, levels = words(part.part, part.part.watched), part.part.reset_levels(part.params)
     found = []
     for t, word, value in rows:
@@ -54,7 +54,7 @@ def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
 
 @pytest.mark.parametrize("name", WEB_PARTS)
 def test_sessions(name):
-    """When the page plays a session of the manual, every byte and edge is correct."""
+    """If the page plays a session of the manual, every byte and every edge is correct."""
     part, count = WEB_PARTS[name], 0
     plays = [(session.text, player(part).play(session.text)) for session in sessions(name)]
     left = left_out(name, [recording.end for _, recording in plays], LONG, "they take too long")
@@ -84,7 +84,7 @@ MOVES = {
 
 
 def step_times(play: Player, motor: Motor) -> list[int]:
-    """Return the cycles of a motor's steps on the golden model; phases at standstill are not steps."""
+    """Return the cycles of a motor's steps on the golden model; chopping of the phases is not a step."""
     edges = play.bench.edges(play.output(motor))
     if not motor.phases:
         return [t for t, level in edges if level == motor.edge]
@@ -98,7 +98,7 @@ def speed_at(speeds: dict[str, list[float]], t: float) -> float:
 
 @pytest.mark.parametrize("name", WEB_PARTS)
 def test_speed_plot(name):
-    """The plot is 0 before the first step, then the frequency of each interval, then 0 again."""
+    """The plotted speed is 0 before the first step, then the frequency of each interval, then 0 again."""
     part, hz = WEB_PARTS[name], WEB_PARTS[name].config.clk_hz
     play = player(part)
     play.play(MOVES[name])
@@ -135,13 +135,13 @@ WRONG = (
 
 
 def test_bad_input():
-    """For an invalid text, one line states where and why."""
+    """For an invalid text, one line states the place and the reason."""
     for (text, wrong), got in zip(WRONG, played(*(("ppmc104", text) for text, _ in WRONG)), strict=True):
         assert wrong in got.get("error", ""), (text[:40], got)
 
 
 def test_the_machine_stops_the_motor():
-    """When the motor of the machine model reaches a switch, it stops there."""
+    """If the motor of the machine model reaches a switch, the motion ends there."""
     text = "machine on 0 -300 -150 0 1850 50\nc 0A d 09 d 04 d 04 d 00\nc 45 d 63\nuntil int_n 0\n"
     text += "c 80 r 95\nwait 100"
     (got,) = played(("ppmc104", text))

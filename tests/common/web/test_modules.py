@@ -21,9 +21,9 @@ from tests.common.web.counters import add, left_out
 
 HOSTS = 50
 LONG = 10_000_000
-"""In cycles; test_engine.py plays longer sessions, except those that would take minutes there, too."""
+"""Length of a session in cycles; test_engine.py plays longer sessions, except those that take minutes."""
 SLOWEST = 0.3
-"""Minimum speed of a module, relative to the native speed."""
+"""Minimum speed of a WebAssembly module, relative to native code."""
 every = pytest.mark.parametrize("name", WEB_PARTS)
 
 
@@ -49,7 +49,9 @@ def compared(part: WebPart, recording: Recording) -> int:
 
 @every
 def test_sessions_of_the_manual(name):
-    """In a session of the manual, every byte is the printed one and every edge that of the golden model."""
+    """In each session of the manual, every byte is the printed one, and every edge is that of the golden
+    model.
+    """
     part, counts, ends = WEB_PARTS[name], [], []
     for session in sessions(name):
         recording = player(part).play(session.text)
@@ -63,7 +65,7 @@ def test_sessions_of_the_manual(name):
 
 @every
 def test_random_hosts(name):
-    """With 50 random hosts, every edge of every output is that of the golden model."""
+    """With 50 random hosts, the module changes every output on the same edges as the golden model."""
     part = WEB_PARTS[name]
     counts = [compared(part, hosts.recorded(part, seed)) for seed in islice(hosts.seeds(part), HOSTS)]
     add(f"{name}: {HOSTS} random hosts, {sum(counts)} edges as in the golden model")
@@ -72,7 +74,7 @@ def test_random_hosts(name):
 
 @every
 def test_size(name):
-    """A web server sends less than 200 KB for a module."""
+    """A web server sends less than 200 KB for each module."""
     size = wasm.packed(wasm.build(name))
     add(f"{name}: {size / 1024:.0f} KB packed")
     assert size < wasm.MOST
@@ -80,12 +82,12 @@ def test_size(name):
 
 @every
 def test_no_path_of_this_machine(name):
-    """A module contains no path of this computer: another checkout produces the same bytes."""
+    """A module contains no path of this computer, so another checkout produces the same bytes."""
     assert str(ROOT).encode() not in wasm.build(name).read_bytes()
 
 
 def test_a_wrong_edge_is_found():
-    """In a recording with one edge one cycle late, the comparison names this edge."""
+    """If one edge of a recording is one cycle late, the comparison names this edge."""
     part = WEB_PARTS["ppmc104"]
     recording = player(part).play("c 0A d 09 d 04 d 04 d 00 c 43 d 0D d 00 d 00 pulse 14 1")
     place = next(n for n, edge in enumerate(recording.edges) if edge.signal == "pout_n")
@@ -95,7 +97,7 @@ def test_a_wrong_edge_is_found():
 
 
 def test_a_wrong_byte_is_found():
-    """A session with a wrong byte, or with an invalid line, is rejected with the number of the line."""
+    """A session with a wrong byte or an invalid line is rejected with the number of the line."""
     part = WEB_PARTS["ppmc104"]
     for text, wrong in (
         ("c 82\nr FD", "line 2: r FD: data is FC"),
@@ -117,7 +119,7 @@ def speed(part: WebPart, native: bool) -> float:
 
 
 def test_speed():
-    """With pulses running, WebAssembly has at least 0.3 of the speed of native code."""
+    """With pulses running, WebAssembly reaches at least 0.3 of the speed of native code."""
     part = WEB_PARTS["ppmc104"]
     native, module_speed = speed(part, native=True), speed(part, native=False)
     add(

@@ -1,4 +1,4 @@
-"""The npm packages: installed once, also if two processes need them at the same time."""
+"""The npm packages are installed once, even if two processes need them at the same time."""
 
 from __future__ import annotations
 

@@ -24,13 +24,13 @@ from tests.common.web.counters import add
 
 HERE = ROOT / "tests/common/web"
 SHOTS = ROOT / "build/site/shots"
-pytestmark = pytest.mark.xdist_group("page")  # one process opens the browser once for all of them
+pytestmark = pytest.mark.xdist_group("page")  # one process opens the browser once for all checks
 NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "browser.mjs").read_text(encoding="utf-8"), re.M)
 
 
 @cache
 def checked() -> dict[str, dict[str, str]]:
-    """Return the result of each check in the browser; skip with one line if there is no browser."""
+    """Return the result of each check in the browser; skip the tests with one line if there is no browser."""
     if shutil.which("node") is None:
         pytest.skip("node is not installed: no browser")
     folder = playground()
@@ -60,12 +60,12 @@ def checked() -> dict[str, dict[str, str]]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_page(name):
-    """The page passes the check, and the console has no error."""
+    """The page passes the check without an error in the console."""
     assert checked()[name].get("error") is None, checked()[name]["error"]
 
 
 def vcd_edges(path: Path, outputs: dict[str, int], ps: int) -> tuple[list[Edge], int]:
-    """Return (edges of these outputs in cycles, the last cycle) of a file that the page has saved."""
+    """Return (edges of these outputs in cycles, last cycle) from a file that the page has saved."""
     names: dict[str, str] = {}
     edges, t = [], -1
     for line in path.read_text(encoding="utf-8").splitlines():
@@ -96,8 +96,8 @@ def test_vcd():
 
 
 def test_data_sheet(tmp_path):
-    """In a PDF of a page, links to the web and within the page stay; links to local files are removed."""
-    checked()  # skips if there is no browser
+    """In the PDF of a page, links to the web and within the page remain; links to local files are removed."""
+    checked()  # the fixture skips the test if there is no browser
     (tmp_path / "page.html").write_text(
         '<h1 id="top">T</h1><a href="#top">a</a> <a href="other.html">b</a> <a href="https://example.org/">c</a>',
         encoding="utf-8",

@@ -16,7 +16,7 @@ from scripts.site.webparts import WEB_PARTS
 
 @pytest.fixture
 def quick(monkeypatch, tmp_path):
-    """Replace all slow steps; PDFs are possible."""
+    """Replace all slow steps; PDFs count as possible."""
     monkeypatch.setattr(pages, "node", lambda *words, folder=None: None)
     monkeypatch.setattr(pages, "packages", lambda folder: None)
     monkeypatch.setattr(pages.shutil, "copy", lambda source, to: None)
@@ -53,7 +53,7 @@ def test_without_a_browser_there_is_no_line_for_pdfs(quick, capsys, monkeypatch)
 
 
 def test_lines_arrive_through_a_pipe(tmp_path):
-    """In a pipe, a line arrives before the program ends: it is not held in a buffer."""
+    """Through a pipe, a line arrives while the program still runs, so it is not held in a buffer."""
     ended = tmp_path / "ended"
     program = "import pathlib, sys, time; from scripts.site.progress import say; say('one'); time.sleep(5); "
     program += "pathlib.Path(sys.argv[1]).touch()"

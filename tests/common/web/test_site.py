@@ -1,4 +1,4 @@
-"""The links of the pages to the playground, and the texts of the tables for bytes."""
+"""The links of the pages to the playground, and the tables that describe bytes."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from scripts.site.webparts import WEB_PARTS
 
 PAGES = [part for part in PARTS if (ROOT / "docs" / part / "examples.md").is_file()]
 WITHOUT = {("stmc", "9")}
-"""Chapters for another build than that of the playground."""
+"""Chapters that require another build than that of the playground."""
 
 
 def test_every_part_is_there():
-    """The pages link to all devices of the playground."""
+    """The playground has exactly the devices of the site."""
     assert set(PARTS) == set(WEB_PARTS)
 
 
 @pytest.mark.parametrize("part", PAGES)
 def test_every_example_can_be_run(part):
-    """Each chapter of examples with a session has a link, and the session exists."""
+    """Each chapter of the examples with a session has a link, and its session exists."""
     text = (ROOT / "docs" / part / "examples.md").read_text(encoding="utf-8")
     chapters = [chapter for chapter in re.split(r"^## (?=\d)", text, flags=re.M)[1:] if "```" in chapter]
     numbers = {chapter.split()[0] for chapter in chapters}
@@ -39,7 +39,9 @@ def test_every_example_can_be_run(part):
 
 
 def test_other_pages_stay_as_they_are():
-    """A page without sessions is unchanged; a manual gets one link."""
+    """A page without sessions is not changed; a manual gets one link; the first page gets one link to a
+    session.
+    """
     assert run_links("docs/host.md", "# A\n\ntext") == "# A\n\ntext"
     manual = run_links("docs/bank/README.md", "# A\n\ntext")
     assert manual.startswith("# A\n") and manual.count("playground.html#v=1&part=bank") == 1
@@ -48,7 +50,7 @@ def test_other_pages_stay_as_they_are():
 
 
 def test_words():
-    """The tables of a device contain texts for codes, data and responses, and no unknown codes."""
+    """The tables of a device contain a text for each code, status and field, and no unknown codes."""
     found = tables("ppmc104", Ppmc104Decoder())
     assert found["codes"]["43"]["text"] == "accelerate/decelerate, CW"
     assert found["codes"]["43"]["fields"] == [{"name": "pulses", "bytes": 3, "plus": 1}]

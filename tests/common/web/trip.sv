@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fault inside the PPMC-104, for the message of the page: the simulation stops when l1_n is low.
+// A fault inside the PPMC-104, whose message the page must show: the simulation stops when l1_n is low.
 module trip (
     input wire logic clk,
     input wire logic l1_n

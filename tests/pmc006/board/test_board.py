@@ -54,7 +54,7 @@ def line() -> Iterator[SimLine]:
 
 
 def test_three_controllers(line: SimLine) -> None:
-    """All controllers are found and moved together; the motors reach their positions."""
+    """All controllers are found and moved together, and the motors reach their positions."""
     with Pmc006Bus.open(line.port, 115_200, patience=PATIENCE) as bus:
         assert [one.address for one in bus.scan(range(1, 6))] == [1, 2, 3]
         for axis in bus.axes:
@@ -87,7 +87,9 @@ def slow_line() -> Iterator[SimLine]:
 
 
 def test_one_program_after_the_other(slow_line: SimLine, openppmc: CommandLine) -> None:
-    """A command finds the state that the previous one left: settings, a running motor, a locked one."""
+    """A command continues with the state that the previous one left: settings, a running motor, a locked
+    motor.
+    """
     run = (*PART, "--baud", "115200")
 
     def said(*words: str) -> str:
@@ -109,7 +111,7 @@ def test_one_program_after_the_other(slow_line: SimLine, openppmc: CommandLine) 
 
 
 def test_a_program_without_a_host(tmp_path: Path, until: Wait) -> None:
-    """The program starts at power-up, homes to its switch, and moves to and fro as GPI3 requests."""
+    """The program starts at power-up, homes to its switch, and moves to and fro according to GPI3."""
     text = tmp_path / "shuttle.asm"
     text.write_text(SHUTTLE)
     with start_line(f"part=pmc006,address=7,low=3900,speed=max,program={text}") as line:
@@ -126,7 +128,7 @@ def test_a_program_without_a_host(tmp_path: Path, until: Wait) -> None:
 
 
 def test_what_is_saved_lasts(tmp_path: Path) -> None:
-    """The EEPROM is a file: address, settings and program are restored at the next power-up."""
+    """The EEPROM is stored in a file: address, settings and program are restored at the next power-up."""
     spec = f"part=pmc006,speed=max,baud=115200,eeprom={tmp_path / 'ee.bin'}"
     program = assemble("OUT gpo3, 1")
     with start_line(spec) as line, Pmc006.open(line.port, baud=115_200, patience=PATIENCE) as motor:
@@ -141,7 +143,9 @@ def test_what_is_saved_lasts(tmp_path: Path) -> None:
 
 
 def test_a_foreign_program_with_plain_pyserial(line: SimLine) -> None:
-    """Frames of plain pyserial, as in the manual, are answered; partial frames and noise have no effect."""
+    """Frames that plain pyserial sends as in the manual are answered; partial frames and noise have no
+    effect.
+    """
     with serial.Serial(line.port, 115_200, timeout=10) as port:
         port.write(b"\x00\x5a\xff" + command(2, ord("j")))
         assert port.read(8) == reply(2, 8)
@@ -154,7 +158,7 @@ def test_a_foreign_program_with_plain_pyserial(line: SimLine) -> None:
 
 
 def test_real_time_and_pace() -> None:
-    """A line with speed=1 does not run faster than the clock."""
+    """A line with speed=1 does not run faster than real time."""
     with start_line("part=pmc006,address=1") as line, Pmc006.open(line.port, 1, patience=PATIENCE) as motor:
         begin = time.monotonic()
         motor.move(60)
@@ -176,7 +180,7 @@ def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
 
 
 def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
-    """`make board PART=pmc006` provides a name for the port and ends with Ctrl-C."""
+    """`make board PART=pmc006` creates a name for the port and ends with Ctrl-C."""
     link = tmp_path / "line"
     command_line = [sys.executable, "-m", "openppmc.sim", "part=pmc006", f"address=1..2,link={link}"]
     with foreground(command_line, cwd=ROOT) as process:
@@ -192,7 +196,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
 
 
 def test_wrong_rate_and_echo(line: SimLine) -> None:
-    """At another rate the line receives invalid frames; an echo needs no option."""
+    """At another baud rate the line receives only invalid frames; a line with echo needs no option."""
     with (
         Pmc006.open(line.port, 1, baud=9600) as motor,
         pytest.raises(StationNotResponding, match="baud rate"),

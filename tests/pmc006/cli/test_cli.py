@@ -93,7 +93,9 @@ def test_motions(run: Run) -> None:
 
 
 def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A running motor accepts other speeds and directions; as with a real line, all commands share it."""
+    """A motor that runs accepts another speed and direction; here all commands share one line, as a
+    real one.
+    """
     from openppmc.host import Pmc006Bus, line_port
     from openppmc.host.pmc006.station_link import Line
 
@@ -120,7 +122,7 @@ def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.Monkey
 def test_stops_and_flags(run: Run, tmp_path: Path) -> None:
     settings = ("set", "stops=3", *QUICK, *ONE)
     assert run(*PART, *settings).code == 0
-    # Each command has its own board here: a program enables the stops at power-up.
+    # Each command starts a fresh board. Therefore, the board's program enables the stops at power-up.
     text = tmp_path / "stops.asm"
     text.write_text("EXTEN on\n")
     port = ("--port", f"{PORT},program={text}")
@@ -287,7 +289,7 @@ goto 0 address=2
 
 
 def test_script_and_monitor(run: Run, tmp_path: Path) -> None:
-    """A script for two controllers is executed, and `monitor` shows both."""
+    """A script for two controllers is executed; `monitor` prints the state of both."""
     file = tmp_path / "run.txt"
     file.write_text(SCRIPT)
     port = ("--port", "model:speed=max,address=1..2")

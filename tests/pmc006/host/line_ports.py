@@ -1,4 +1,4 @@
-"""Ports for tests of PMC006B4: a modelled line that spoils frames and replies, and one that plays texts."""
+"""Ports for tests of PMC006B4: a modelled line that damages frames and replies, opened with a driver."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FATES = (*UNHEARD, *HEARD, *HARMLESS)
 
 
 class SpoiledLine(Spoiled):
-    """Modelled line of PMC006B4 that spoils frames and replies."""
+    """Modelled line of PMC006B4 that damages frames and replies."""
 
     def __init__(self, text: str, baud: int = 9600) -> None:
         super().__init__(f"speed=max,{text}", baud, "pmc006")
@@ -65,7 +65,9 @@ class SpoiledLine(Spoiled):
 
 
 def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[bytes], str | None]:
-    """Return a plan with the fault `fate` for `times` frames with this instruction after the first `skip`."""
+    """Return a plan that skips `skip` frames with this instruction; the next `times` have the fault
+    `fate`.
+    """
     left, passed = times, skip
 
     def plan(frame: bytes) -> str | None:
@@ -82,12 +84,12 @@ def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[byt
 
 
 def one(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
-    """Return such a port, and the controller on it."""
+    """Return such a port and the driver of one controller on it."""
     port = SpoiledLine(text)
     return port, Pmc006.open(port, address)
 
 
 def several(text: str = "address=1..2") -> tuple[SpoiledLine, Pmc006Bus]:
-    """Return such a port, and a bus on it."""
+    """Return such a port and the driver of the bus on it."""
     port = SpoiledLine(text)
     return port, Pmc006Bus.open(port)

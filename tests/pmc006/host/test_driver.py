@@ -88,7 +88,7 @@ QUICK = {"start_speed": 2000, "stop_speed": 2000, "max_speed": 2000}
 
 @pytest.fixture
 def motor() -> Iterator[tuple[SpoiledLine, Pmc006]]:
-    """Provide a controller at position 4000 of a carriage, EXT1 at 3800, EXT2 at 4400; steps are fast."""
+    """Provide a controller whose motor is at 4000, with EXT1 at 3800 and EXT2 at 4400; its steps are fast."""
     port, part = one("low=3800,high=4400,eeprom=none")
     with part:
         for name, value in QUICK.items():
@@ -144,7 +144,9 @@ def test_settings_explain_themselves() -> None:
 
 
 def test_a_value_that_the_part_refuses_is_told(motor: tuple[SpoiledLine, Pmc006]) -> None:
-    """A setting that the part rejects raises an error: the reply decides, as builds may have other ranges."""
+    """If the part rejects a setting, the driver raises an error: builds may have other ranges, so the reply
+    decides.
+    """
     _, part = motor
     node = settings.SETTINGS["current"]
     odd = settings.Setting(node.write, node.read, range(10_000), "0 to 9999", "")
@@ -185,7 +187,7 @@ def test_moves(motor: tuple[SpoiledLine, Pmc006]) -> None:
     part.zero()
     assert part.position == 0
     part.set_position(-(1 << 31))
-    assert part.move(-1).position == (1 << 31) - 1  # the position wraps
+    assert part.move(-1).position == (1 << 31) - 1  # the position overflows
     for call in (lambda: part.start_move(1 << 31), lambda: part.set_position(1 << 31), lambda: part.jog(0)):
         with pytest.raises(OutOfRange):
             call()
@@ -229,7 +231,9 @@ def test_free_runs(motor: tuple[SpoiledLine, Pmc006]) -> None:
 
 
 def test_a_move_is_stopped_with_its_ramp(motor: tuple[SpoiledLine, Pmc006]) -> None:
-    """A stop of a move lowers the maximum speed, ends the move at the stop speed, restores the setting."""
+    """A stop of a move reduces the maximum speed, waits for the end at the stop speed, and restores the
+    setting.
+    """
     port, part = motor
     part.acceleration = part.deceleration = 5
     part.start_speed = part.stop_speed = 300
@@ -270,7 +274,7 @@ def test_motions_of_other_programs(motor: tuple[SpoiledLine, Pmc006]) -> None:
 
 def test_emergency_stops(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
-    assert part.move(410).complete  # the stop is not enabled, so the motor runs into the switch
+    assert part.move(410).complete  # the stop is not enabled, so the motor passes the switch
     assert part.move(-410).complete
     part.enable_stops()
     with pytest.raises(
@@ -303,10 +307,10 @@ def test_refusals_say_why(motor: tuple[SpoiledLine, Pmc006]) -> None:
     part.free = 0
     with pytest.raises(SpeedRefused, match=r"maximum speed of 100 steps/s is below the start speed \(2000\)"):
         part.move(5, speed=100)
-    motion = part.jog(FORWARD, speed=100)  # the setting does not affect a free run
+    motion = part.jog(FORWARD, speed=100)  # the start speed does not limit a free run
     part.halt()
     assert motion.result is not None
-    port.node().part.context.settings.vmax = 0  # a program can set this
+    port.node().part.context.settings.vmax = 0  # only a program can set this value
     with pytest.raises(SpeedRefused, match="the maximum speed is 0"):
         part.jog(FORWARD)
 
@@ -333,7 +337,7 @@ def test_stalls(motor: tuple[SpoiledLine, Pmc006]) -> None:
 @pytest.mark.parametrize("start", [4000, 3790])
 @pytest.mark.parametrize("microsteps", [16, 32])
 def test_homing_on_ext1(start: int, microsteps: int) -> None:
-    """Homing on EXT1 ends at the same place, also if the motor starts on the switch."""
+    """Homing on EXT1 ends at the same position, even if the motor starts on the switch."""
     port, part = one(f"low=3800,high=4400,start={start},eeprom=none")
     with part:
         part.microsteps = microsteps
@@ -379,7 +383,9 @@ def test_what_is_saved_comes_back(tmp_path: Path) -> None:
 
 
 def test_a_save_that_fails_is_an_error() -> None:
-    """A failed save raises an error after a read of V; a later save with a working EEPROM succeeds."""
+    """After a failed save, a read of V makes the driver raise an error; with a working EEPROM a later save
+    succeeds.
+    """
     port, part = one("eeprom=none")
     with part:
         for call in (part.save, part.burn_program):
@@ -391,7 +397,7 @@ def test_a_save_that_fails_is_an_error() -> None:
 
 
 def test_the_example_program_of_the_rules() -> None:
-    """Program P1 makes three times 200 steps, then sets GPO1, as in P006-AC-39 and -40."""
+    """Program P1 makes three moves of 200 steps, then sets GPO1, as in P006-AC-39 and P006-AC-40."""
     port, part = one()
     with part:
         words = [(3, 1), (8, 3200), (12, 0), (1, 200), (0x810, 0), (11, 0), (0x812, 3), (14, 3), (0x111, 1)]
@@ -409,7 +415,7 @@ def test_the_example_program_of_the_rules() -> None:
 
 
 def test_ranges_are_those_of_the_part() -> None:
-    """The driver accepts exactly the values that the model accepts."""
+    """The driver accepts exactly those values that the model accepts."""
     names = {
         "microsteps": "mstep",
         "current": "cur",
@@ -489,7 +495,9 @@ def test_the_first_that_answers() -> None:
 
 
 def test_other_builds_and_adapters() -> None:
-    """Moves work with the echo reply of `s`, another rate, and an adapter that receives its own bytes."""
+    """Moves work if `s` has an echo reply, at another baud rate, and if the adapter receives its own
+    bytes.
+    """
     for text, baud in (("ack=echo", 9600), ("echo=on", 9600), ("ack=echo,echo=on,clk=25000000", 115_200)):
         with Pmc006.open(f"model:speed=max,eeprom=none,{text}", 255, baud) as part:
             part.max_speed = part.start_speed = part.stop_speed = 3000

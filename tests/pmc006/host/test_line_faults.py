@@ -1,6 +1,6 @@
 """Frames and replies of PMC006B4 that are lost, cut, damaged, doubled, merged or late.
 
-Also replies of another station.
+Replies of another station are also tested.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def count(port: SpoiledLine, letter: str) -> int:
 @pytest.mark.parametrize("fate", FATES)
 @pytest.mark.parametrize("steps", [40, -3, 300])
 def test_a_start_with_a_fault_moves_once(steps: int, fate: str) -> None:
-    """With any fault of the frame or its reply, the motor moves exactly the commanded distance."""
+    """For any fault of a start or of its reply, the motor moves exactly the commanded distance."""
     port, part = quick()
     with part:
         port.plan = once("s", fate)
@@ -86,7 +86,7 @@ def test_a_free_run_with_a_fault_runs_once(fate: str) -> None:
 
 @pytest.mark.parametrize("letter", ["j", "c"])
 def test_a_start_is_settled_in_spite_of_more_faults(letter: str) -> None:
-    """If the reply to a start and those of the next reads are lost, the driver still confirms the start."""
+    """If the replies to a start and to the next reads are lost, the driver still confirms the start."""
     port, part = quick()
     with part:
         plans = [once("s", LOSE_REPLY), once(letter, LOSE_REPLY, 3, skip=1)]
@@ -105,7 +105,7 @@ def test_a_controller_that_falls_silent_after_a_start() -> None:
 
 
 def test_a_locked_start_is_no_start() -> None:
-    """A start that EXT has locked is rejected, even if the rejection is lost."""
+    """A start that EXT locks raises ExtStopActive, even if the reply to the start is lost."""
     port, part = quick("eeprom=none,low=3995")
     with part:
         part.stops = 1
@@ -119,7 +119,7 @@ def test_a_locked_start_is_no_start() -> None:
 def test_an_implausible_reply_to_a_start_is_looked_into() -> None:
     port, part = quick()
     with part:
-        port.plan = once("s", CHANGED_REPLY)  # the check byte of this frame is wrong
+        port.plan = once("s", CHANGED_REPLY)  # the check byte of this reply is wrong
         assert part.move(5).position == 5
     played = Played(*[reply(255, value).hex() for value in (8, 1, 7)], reply(255, 77).hex())
     played.replies += [reply(255, value) for value in (9, 8, 12)]
@@ -165,7 +165,9 @@ def test_what_may_be_repeated_is(fate: str) -> None:
 
 @pytest.mark.parametrize("fate", [LOSE_FRAME, LOSE_REPLY, CHANGED_REPLY, LATE_REPLY, DOUBLE_REPLY])
 def test_a_program_arrives_whole(fate: str) -> None:
-    """A program is loaded completely: the pointer also advances with a word whose reply is lost."""
+    """A program is loaded completely: if the reply to a word is lost, the driver knows that the pointer has
+    advanced.
+    """
     program = assemble("again: CNTI\nCMP counter, 7\nJNE again\nOUT gpo2, 1")
     port, part = quick()
     with part:
@@ -189,7 +191,7 @@ def test_a_program_is_read_in_spite_of_faults(fate: str) -> None:
 
 
 def test_a_program_that_does_not_stay() -> None:
-    """A defective memory of the part is detected."""
+    """A program word that the part does not store correctly is detected."""
     port, part = quick()
 
     def plan(frame: bytes) -> None:
@@ -203,9 +205,9 @@ def test_a_program_that_does_not_stay() -> None:
 
 
 def test_half_a_frame_is_forgotten_before_the_next() -> None:
-    """After a cut frame, the next frame is not sent before the controller has discarded the rest.
+    """After a cut frame, the driver sends the next frame only when the controller has discarded the rest.
 
-    At 1200 bit/s a controller waits longer for the rest of a frame than the master for a reply.
+    At 1200 bit/s, a controller waits longer for the rest of a frame than the master waits for a reply.
     """
     port = SpoiledLine("eeprom=none", 1200)
     with Pmc006(Line(port, 1200, patience=0.03)) as part:
@@ -214,9 +216,9 @@ def test_half_a_frame_is_forgotten_before_the_next() -> None:
 
 
 def test_a_program_starts_once() -> None:
-    """If the reply to `z` is lost, a running program is detected and is not started twice.
+    """If the reply to `z` is lost but the program runs, the driver detects this and does not start it again.
 
-    If no program runs, a short one may have run, and LostReply is raised.
+    If no program runs, a short program may already have ended, so LostReply is raised.
     """
     port, part = quick()
     with part:
@@ -292,7 +294,9 @@ def test_what_is_told(replies: list[str], error: type[Exception], text: str) -> 
 
 
 def test_replies_are_found_among_others() -> None:
-    """The reply is found after noise, a reply of another station, the master's own echo, or a cut reply."""
+    """A reply is found after noise, after a reply of another station, after the master's own echo, and after
+    a cut reply.
+    """
     mine, other = reply(5, -2), reply(6, 77)
     sent = command(5, ord("c"))
     for before in (
@@ -314,7 +318,7 @@ def test_replies_are_found_among_others() -> None:
 
 
 def test_two_with_one_address() -> None:
-    """Equal replies of two controllers with one address overlap; different ones are garbled."""
+    """Two controllers with one address send equal replies without an error; different replies are garbled."""
     with Pmc006Bus.open("model:speed=max,address=3,twin=3") as bus:
         assert bus.scan([3])[0].problem == ""
         for number, board in enumerate(bus.line.port.line.stations):  # type: ignore[attr-defined]
@@ -324,9 +328,10 @@ def test_two_with_one_address() -> None:
 
 
 def test_late_replies_do_not_answer_the_next_question() -> None:
-    """A late reply is not accepted as the reply to the next frame.
+    """A late reply is never accepted as the reply to the next frame.
 
-    If all replies are late, the controller counts as silent; once they are in time, they are matched again.
+    If all replies are late, the controller counts as not responding; when they are in time again, they are
+    accepted.
     """
     port, part = quick()
     with part:
@@ -353,7 +358,7 @@ def test_the_port_goes_away() -> None:
 def test_noise(seed: int) -> None:
     """With one character in 60 damaged in both directions, the motor makes the right number of steps.
 
-    If the result cannot be determined, an error is raised, and the position is correct afterwards.
+    If the driver cannot determine the result, it raises an error; a later read of the position is correct.
     """
     part = Pmc006.open(f"model:speed=max,eeprom=none,noise=60,seed={seed}", 255)
     generator = random.Random(seed)

@@ -92,7 +92,7 @@ def test_the_example_of_the_rules() -> None:
 @example(Program.of([Instruction(0x0D, 0, 57)]))
 @example(Program.of([Instruction(0x0D, 3, 0), Instruction(0x12, 8, MASK), Instruction(0x13, 1, 5)]))
 def test_there_and_back(made: Program) -> None:
-    """For any 200 words, the conversions between text, words and image are lossless."""
+    """Conversions between text, words and image lose nothing, for any 200 words."""
     assert assemble(disassemble(made)) == made
     assert assemble(disassemble(made, numbers=True)) == made
     assert Program.from_image(made.image()) == made
@@ -189,7 +189,7 @@ def test_images() -> None:
 
 
 def test_what_a_try_does_not_change() -> None:
-    """An instruction by E is harmless only if it changes no state (P006-PRG-20)."""
+    """An instruction counts as harmless for E only if it changes no state (P006-PRG-20)."""
     does = {name for name, kind in KINDS.items() if not harmless(kind.opcode)}
     assert does == {
         "ROT",

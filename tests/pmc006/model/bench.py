@@ -1,4 +1,4 @@
-"""Test bench for motion and drive of the PMC006B4 without the rest of the part: time, records, motions."""
+"""Test bench for motion and drive of the PMC006B4 without the rest of the part."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ SETUP = {"cur": 1000, "acc": 3, "dec": 3, "vmax": 3200}
 
 
 class Bench:
-    """Motion and drive at clk_hz; registers have factory values except those given. BOOT ends at edge 0.
+    """Motion and drive at clk_hz, with factory values in all registers that are not given. BOOT ends at edge
+    0.
 
     Attributes:
         steps: edges of mon_step.
@@ -60,14 +61,14 @@ class Bench:
         self.run(self.queue.now + round(us * self.per_us))
 
     def rest(self) -> None:
-        """Run until a motion has ended without a stop."""
+        """Run until the current motion has ended without a stop."""
         while self.motion.busy:
             edge = self.queue.next_edge()
             assert edge is not None
             self.run(edge)
 
     def do(self, action: Callable[[int], None], phase: Phase = Phase.STORE) -> int:
-        """Call action(t) at the next edge t, and run this edge."""
+        """Call action(t) at the next edge t, then run this edge."""
         t = self.t
         self.queue.at(t, phase, action)
         self.run(t)
@@ -83,17 +84,17 @@ class Bench:
         return self.do(write)
 
     def start(self, count: int | None) -> int:
-        """Start a displacement, or the speed mode for None; return the edge of t = 0."""
+        """Start a displacement, or the speed mode if `count` is None; return the edge of t = 0."""
         motion = self.motion
         t = self.do(motion.run if count is None else lambda t: motion.start(t, count))
         return self.us.edge_of(self.us.first(t + self.shared.core_timing.plan))
 
     def halt(self) -> int:
-        """Stop immediately at the next edge."""
+        """Stop the motion immediately at the next edge."""
         return self.do(self.motion.halt, Phase.GUARD)
 
     def references(self) -> tuple[int, int, int, int]:
-        """Return phase_a_ref, its sign, phase_b_ref, its sign."""
+        """Return phase_a_ref and its sign, then phase_b_ref and its sign."""
         levels = self.log.levels
         a, b = (levels[f"phase_{x}_ref"] for x in "ab")
         return a, levels["phase_a_sign"], b, levels["phase_b_sign"]
@@ -101,7 +102,7 @@ class Bench:
 
 @dataclass
 class Made:
-    """A motion in us: steps as (us, speed, stage), updates as (us, speed), and its end.
+    """A recorded motion: steps as (us, speed, stage), updates as (us, speed), and the us of its end.
 
     Attributes:
         goal: target of the first ramp.
@@ -117,22 +118,22 @@ class Made:
 
     @property
     def intervals(self) -> list[int]:
-        """Times between steps in us, the first from t = 0."""
+        """Intervals between the steps in us; the first begins at t = 0."""
         times = [0, *(t for t, *_ in self.steps)]
         return [b - a for a, b in zip(times, times[1:], strict=False)]
 
 
 def undisturbed(target: int) -> Callable[[int], LiveRegisters]:
-    """Return registers that do not change."""
+    """Return constant registers with this target."""
     return lambda t: LiveRegisters(target)
 
 
 def make(
     order: MotionStart, live: Callable[[int], LiveRegisters] | None = None, updates: int = 1 << 40
 ) -> Made:
-    """Return the steps of a motion; live(t): registers at t us.
+    """Run a motion to its end and return its record; live(t) returns the registers at t us.
 
-    The motion ends after `updates` updates in any case.
+    After `updates` updates, the motion is cut off.
     """
     live = live or undisturbed(order.target)
     engine = Engine(order)

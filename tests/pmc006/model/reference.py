@@ -1,7 +1,7 @@
 """Motion engine of the PMC006B4 in steps of one microsecond, a reference for the golden model.
 
-It is written according to the rules P006-MOT, with rational arithmetic and one state for each register,
-and it is slow. It shares no code with the golden model.
+It follows the rules P006-MOT directly, with rational arithmetic and one state for each register, so it is
+slow. It shares no code with the golden model.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ def slope(n: int) -> int:
 
 
 def full(progress: Fraction, up: bool) -> int:
-    """Return the share of a ramp in units of 2^-32, at most 1."""
+    """Convert the progress of a ramp in one update into units of 2^-32, at most 1, rounded up or down."""
     scaled = progress * 2**32
     return min(2**32, ceil(scaled) if up else floor(scaled))
 
 
 class Reference:
-    """Reference motion; it ends when `done`.
+    """A motion computed independently of the golden model, in steps of 1 us, until `done` is True.
 
     Attributes:
         steps: pairs (us, speed).
@@ -87,7 +87,7 @@ class Reference:
         self.u = 0
 
     def look(self) -> None:
-        """Evaluate the state after an update tick: the list in docs/pmc006/README.md, 6."""
+        """Evaluate the state after an update tick, by the list in docs/pmc006/README.md, chapter 6."""
         off = self.n is None and self.off(self.t)
         if self.phase in ("STOP", "END") and not off:
             self.phase, self.seen = "CRUISE", self.v
@@ -148,7 +148,7 @@ class Reference:
             self.look()
 
     def run(self, last: int) -> Reference:
-        """Run to the end, but at most `last` us."""
+        """Run until the motion has ended, but at most to `last` us."""
         while not self.done and self.t < last:
             self.tick()
         return self

@@ -1,7 +1,7 @@
 """Acceptance checks AC-01 to AC-67 on the golden model.
 
-They are the tests of the RTL with the literal values of the manual, 9600 baud at 16 MHz, and some checks that
-last too long for the RTL.
+They are the tests of the RTL, here with the literal values of the manual (9600 baud, 16 MHz), and some checks
+that last too long for the RTL.
 """
 
 from __future__ import annotations
@@ -31,7 +31,9 @@ OTHERS = (
 @pytest.mark.parametrize("build", OTHERS, ids=[build.name for build in OTHERS])
 @verifies("P006-AC-48", "P006-AC-53")
 def test_ac_48(build: Config, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The checks without an EEPROM pass with other parameters, in the short form of the RTL."""
+    """The checks without an EEPROM also pass with other parameters, in the short form in which the RTL runs
+    them.
+    """
     monkeypatch.setattr(Host, "literal", False)
     run = 0
     for name in SHORT:
@@ -44,7 +46,7 @@ def test_ac_48(build: Config, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @verifies("P006-AC-29", "P006-EXC-40")
 def test_ac_29() -> None:
-    """In 256 cycles, the unrecorded bit streams have the number of ones that the reference states."""
+    """In 256 cycles, a bit stream that is not recorded has the number of ones that its reference states."""
 
     async def check() -> None:
         host = await ready(OnModel(F16))

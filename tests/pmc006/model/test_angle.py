@@ -58,7 +58,7 @@ def test_examples() -> None:
 def test_references_are_cosine_and_sine(angle: int, peak: int) -> None:
     a, a_sign, b, b_sign = flat(angle, peak)
     turn = 2 * pi * angle / 512
-    # Tolerance: half a unit of the sine table, scaled, and half a unit of the reference.
+    # Tolerance: half a unit of the sine table, scaled by the peak, plus half a unit of the reference.
     assert abs((-a if a_sign else a) - peak * cos(turn)) <= 0.5 + peak / 512 + 1e-9
     assert abs((-b if b_sign else b) - peak * sin(turn)) <= 0.5 + peak / 512 + 1e-9
     assert a_sign == (cos(turn) < -1e-9) and b_sign == (sin(turn) < -1e-9)
@@ -111,7 +111,9 @@ def test_peak_code() -> None:
 
 @verifies("P006-EXC-13", "P006-EXC-24", "P006-EXC-22")
 def test_references_within_64_clk() -> None:
-    """All four references change together after each step, update, and change of a register."""
+    """All four reference outputs change together after each step, each update, and each change of a
+    register.
+    """
     bench = Bench(cur=1000, vmax=3000, vstart=3000, vstop=3000, mstep=0)
     bench.wait(10)
     bench.start(40)
@@ -124,14 +126,15 @@ def test_references_within_64_clk() -> None:
     changes = sorted({edge.t for edge in bench.log.edges if edge.signal in names})
     for cause in causes:
         assert any(cause < t <= cause + 64 for t in changes)
-    # At constant speed at angle 64 + 4 * 128: 13 more, advanced by 57 units.
+    # At constant speed, angle 64 + 4 * 128: the current is increased by 13, the angle is advanced by 57
+    # units.
     levels = [bench.log.of(f"phase_{x}_ref", bench.steps[7]) for x in "ab"]
     assert (levels[0][0][1], levels[1][0][1]) == (7, 77)
 
 
 @verifies("P006-EXC-23", "P006-EXC-12")
 def test_the_advance_has_the_sense_of_the_motion() -> None:
-    """The advance has the direction of the motion: 57 units from angle 64 are 121 forward, 7 backward."""
+    """The angle is advanced in the direction of the motion: 57 units from 64 give 121 forward, 7 backward."""
     for direction, b, a in ((1, 77, 7), (0, 7, 77)):
         bench = Bench(cur=1000, vmax=3000, vstart=3000, vstop=3000, mstep=0, dir=direction)
         bench.start(None)
@@ -157,7 +160,7 @@ def test_idle_current() -> None:
     bench.change(autodec=1)
     bench.wait(5)
     assert bench.references() == (3, 0, 3, 0)
-    # An accepted start restores the current before its first step.
+    # An accepted start restores the current before the first step.
     bench.start(16)
     bench.wait(5)
     assert bench.references() == (45, 0, 45, 0)
@@ -199,6 +202,6 @@ def test_free() -> None:
     a, b = references(angle, 64)
     assert bench.references() == (*a, *b)
     assert bench.log.levels["bridge_a_en"] == bench.log.levels["bridge_b_en"] == 1
-    # The idle time has not been restarted.
+    # FREE has not restarted the idle time.
     bench.run(t + 100_010 * 16)
     assert bench.drive.decayed

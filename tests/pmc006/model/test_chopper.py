@@ -35,7 +35,7 @@ class Phases:
         self.queue.at(t, phase, lambda now: getattr(self.chopper, what)(now, *levels))
 
     def run(self, t: int) -> list[tuple[int, int, int]]:
-        """Run all edges up to t; return the changes of the commands since the last call, each once."""
+        """Run all edges up to t; return the changes of the outputs since the last call, one per edge."""
         while (edge := self.queue.next_edge()) is not None and edge <= t:
             self.queue.now = edge - 1
             self.queue.run_edge(edge)
@@ -85,15 +85,15 @@ def test_comparator_ends_the_pulse_after_blanking() -> None:
     phases = Phases()
     phases.at(0, "enable", True)
     phases.at(0, "reference", 100, 1)
-    # The new sign takes one cycle to act. If it is early, the end of blanking is used; if it is late, it acts
-    # immediately.
+    # The new sign acts one cycle later. If the comparator is already high during blanking, the pulse ends at
+    # the end of blanking; if it becomes high later, the pulse ends immediately.
     phases.at(325, "compare", 1)
     phases.at(338, "compare", 0)
     assert phases.run(656) == [(321, 0, 1), (337, 0, 0)]
     assert phases.run(657) == [(657, 0, 1)]
     phases.at(700, "compare", 1)
     phases.at(1021, "compare", 0)
-    # At 1020 the comparator is still 1, so fast decay follows, which the comparator ends.
+    # At 1020 the comparator is still 1, so fast decay follows, until the comparator is 0.
     assert phases.run(1200) == [(700, 0, 0), (1020, 1, 0), (1036, 0, 0)]
     phases.at(1356, "compare", 1)
     phases.at(1400, "compare", 0)
@@ -106,11 +106,12 @@ def test_changes_of_the_reference() -> None:
     phases.at(0, "enable", True)
     phases.at(10, "reference", 100, 0)
     assert phases.run(400) == [(320, 1, 0)]
-    # Another size of the reference has no effect. Another sign switches the bridge off and restarts the time.
+    # A new magnitude of the reference has no effect. A new sign turns the bridge off and restarts the
+    # off-time.
     phases.at(401, "reference", 101, 0)
     phases.at(500, "reference", 101, 1)
     assert phases.run(900) == [(501, 0, 0), (821, 0, 1)]
-    # A new sign restarts the time in OFF as well.
+    # A new sign also restarts the off-time in the state OFF.
     phases.at(1000, "compare", 1)
     phases.at(1100, "reference", 5, 0)
     phases.at(1101, "compare", 0)
@@ -120,7 +121,9 @@ def test_changes_of_the_reference() -> None:
 
 @verifies("P006-CHP-04", "P006-CHP-03")
 def test_a_reference_of_0_lets_the_current_fall() -> None:
-    """A reference of 0 ends no pulse: the comparator is still used, but OFF follows OFF instead of ON."""
+    """A reference of 0 does not end a pulse, and the comparator still acts; but after OFF, another OFF
+    follows instead of ON.
+    """
     phases = Phases()
     phases.at(0, "enable", True)
     phases.at(10, "reference", 100, 0)
@@ -129,12 +132,12 @@ def test_a_reference_of_0_lets_the_current_fall() -> None:
     assert phases.run(819) == [(320, 1, 0), (500, 0, 0)]
     phases.at(900, "compare", 0)
     assert phases.run(900) == [(820, 0, 1), (900, 0, 0)]
-    # At 1220, 1540 and 1860 nothing changes; then there is a current again.
+    # At 1220, 1540 and 1860 the off-time ends without a change; then the comparator reports a current again.
     phases.at(2000, "compare", 1)
     assert phases.run(2179) == []
     assert phases.run(2340) == [(2180, 0, 1), (2340, 0, 0)]
     phases.at(2341, "compare", 0)
-    # A reference that returns at the edge of a decision is one cycle too late for it.
+    # A reference that is set on the edge of a decision is one cycle too late for this decision.
     phases.at(2660, "reference", 7, 0)
     assert phases.run(2979) == []
     assert phases.run(2980) == [(2980, 1, 0)]
@@ -175,7 +178,7 @@ def test_against_a_chopper_that_looks_at_every_clk(seed: int) -> None:
         causes.setdefault(t, []).append((what, levels))
         t += rng.choice((1, 5, 6, 20, rng.randint(1, 45), rng.randint(1, 150)))
 
-    # Registers of a synchronous circuit: state, counter, and those of the drive around it.
+    # Registers of an equivalent synchronous circuit: state, counter, and those of the drive around them.
     state, count, pins = "OFF", 0, (0, 0)
     level = reference = sign_now = sign_before = enabled = 0
     wanted = []
@@ -233,7 +236,7 @@ def test_stream_has_as_many_ones_as_the_reference_says() -> None:
 @pytest.mark.parametrize("tau", [64, 128, 256])
 @verifies("P006-EXC-40")
 def test_ripple_behind_a_low_pass(tau: int) -> None:
-    """The ripple after a low-pass filter is at most 256 / tau codes (tau in cycles), as the manual states."""
+    """After a low-pass filter, the ripple of a bit stream is at most 256 / tau codes (tau in cycles)."""
     keep = exp(-1 / tau)
     for ref in (1, 31, 85, 127, 128, 255):
         stream, level, seen = Stream(0), float(ref), []
@@ -246,7 +249,9 @@ def test_ripple_behind_a_low_pass(tau: int) -> None:
 
 @verifies("P006-CHP-05", "P006-EXC-40", "P006-CHP-01")
 def test_pins() -> None:
-    """Both outputs are low 2 cycles after the comparator pin; each phase has its own comparator."""
+    """Both outputs of a phase are low 2 cycles after the comparator pin rises; each phase has its own
+    comparator.
+    """
     bench = Bench(**SETUP)
     bench.wait(100)
     assert [bench.log.levels[pin] for pin in ("m10", "m11", "m20", "m21")] == [1, 0, 1, 0]

@@ -1,4 +1,4 @@
-"""A save of the PMC006B4 cut off at any edge of the EEPROM's lines leaves old or new settings."""
+"""If the power fails during a save, at any edge of the EEPROM's lines, the old or the new settings remain."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from openppmc.model.pmc006.settings import LEGAL, PLACES, Settings, page_of, val
 
 CLK_HZ, BAUD, COPY = 8_000_000, 115_200, 0x360
 RELEASES = {"together": ((1, 1),), "scl first": ((1, 0), (1, 1)), "sda first": ((0, 1), (1, 1))}
-"""Levels of SCL and SDA as a reset releases both; the pull-ups may be unequal."""
+"""Levels of SCL and SDA while a reset releases them; one pull-up may be faster than the other."""
 
 
 @cache
 def lines(page: bytes) -> tuple[tuple[int, int], ...]:
-    """Return the levels that the part drives on both lines while it saves the settings of `page`."""
+    """Return the levels with which the part drives both lines while it saves the settings of `page`."""
     part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
     part.run_until(CLK_HZ // 500)
     values = values_of(page)
@@ -31,7 +31,7 @@ def lines(page: bytes) -> tuple[tuple[int, int], ...]:
     since, bit = part.now, CLK_HZ / BAUD
     for number, byte in enumerate(command(values["addr"], "t")):
         part.on_char(since + 1 + round((10 * number + 9.5) * bit), byte)
-    # SDA is held low from outside: each byte is acknowledged.
+    # SDA is held low from outside, so each byte is acknowledged.
     part.run_until(since + CLK_HZ // 200)
     levels, found = {"scl_oe": 0, "sda_oe": 0}, []
     edges = sorted((t, pin, level) for pin in levels for t, level in part.log.of(pin, since))
@@ -43,7 +43,9 @@ def lines(page: bytes) -> tuple[tuple[int, int], ...]:
 
 
 def cuts(content: bytes, changes: tuple[tuple[int, int], ...], release: str) -> Iterator[bytes]:
-    """Yield the content of the EEPROM after 0, 1, 2 .. of these changes and the release of both lines."""
+    """Yield the content of the EEPROM if only 0, 1, 2 .. of these changes occur before both lines are
+    released.
+    """
     chip = Eeprom24C32(CLK_HZ, content, write_us=0)
     for t, levels in enumerate(((1, 1), *changes)):
         _look(chip, t, *levels)
@@ -59,19 +61,19 @@ def _look(chip: Eeprom24C32, t: int, scl: int, sda: int) -> None:
 
 
 def judged(memory: bytes) -> dict[str, int] | None:
-    """Return the settings that a boot loads (P006-BAD-14): from the block, else from its copy."""
+    """Return the settings that a boot loads (P006-BAD-14): those of the block, or else those of its copy."""
     return values_of(memory[:32]) or values_of(memory[COPY : COPY + 32])
 
 
 def some(rng: random.Random) -> bytes:
-    """Return a page of any legal settings."""
+    """Return a page with random legal settings."""
     return page_of(Settings(**{name: rng.choice(list(LEGAL[name])) for name in PLACES}))  # type: ignore[call-overload]
 
 
 def mixes(old: bytes, new: bytes) -> bool:
-    """Return whether a page with bytes of both pages has a correct sum by chance.
+    """Return whether some mixture of both pages has a correct sum by chance.
 
-    This case, one change in 256, cannot be detected.
+    The part cannot detect this case, which occurs in one of 256 changes.
     """
     torn = [new[:place] + old[place:] for place in range(1, 32)]
     return any(values_of(page) is not None for page in torn if page not in (old, new))
@@ -81,9 +83,9 @@ def mixes(old: bytes, new: bytes) -> bool:
 @pytest.mark.parametrize("seed", range(2))
 @verifies("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
 def test_a_cut_at_any_edge_of_the_lines(seed: int, release: str) -> None:
-    """A cut at any edge of the lines leaves old or new settings.
+    """If a save is cut off at any edge of the lines, the old or the new settings remain.
 
-    The EEPROM has a copy, no copy yet, or a copy that is already torn.
+    Before the save, the EEPROM has a copy, no copy, or a copy that is already damaged.
     """
     rng = random.Random(seed)
     old = new = some(rng)
@@ -107,7 +109,7 @@ def test_a_cut_at_any_edge_of_the_lines(seed: int, release: str) -> None:
 
 @verifies("P006-EEP-10")
 def test_the_copy_goes_first() -> None:
-    """The copy is written first, so that one of the two is always complete."""
+    """The copy is written before the block, so one of the two is always complete."""
     new = page_of(Settings(addr=9, mstep=64))
     changes = lines(new)
     halves = list(cuts(b"", changes, "together"))

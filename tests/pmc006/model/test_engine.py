@@ -21,10 +21,10 @@ COEFFICIENT = st.integers(0, 5)
 
 
 def compare(order: MotionStart, changes: dict[int, tuple[int, bool]], straight: bool, last_us: int) -> None:
-    """Compare engine and reference.
+    """Check that engine and reference make the same steps and end at the same time.
 
     Args:
-        changes: us -> (target, speed mode off) from then on.
+        changes: us -> (target, speed mode off) from that time on.
     """
 
     def at(t: int) -> tuple[int, bool]:
@@ -64,7 +64,9 @@ def test_same_as_the_reference(seed: int) -> None:
 
 @verifies("P006-MOT-42")
 def test_back_to_speed_between_the_ramp_and_the_end() -> None:
-    """In W10, N=1 after the STOP ramp, in the last 100 us before its end, returns to the target speed."""
+    """In worked move W10, N = 1 after the STOP ramp, in the last 100 us before the end, returns the motor to
+    the target speed.
+    """
     changes = {100_000: (3200, True), 202_150: (3200, False)}
     compare(MotionStart(None, 600, 600, 3200, 3, 3), changes, False, 500_000)
     made = make(
@@ -87,7 +89,9 @@ def test_target_zero_and_back() -> None:
 
 @verifies("P006-MOT-21", "P006-MOT-52")
 def test_target_below_the_start_speed() -> None:
-    """Only the analog target can be below the start speed: there is no plan and no deceleration then."""
+    """A target below the start speed, which only the analog input can set, is planned without a ramp; if it
+    is also below the stop speed, there is no deceleration.
+    """
     assert plan(1000, 600, 400, 500, 2, 3) == Plan(500, 2, 3)
     made = make(MotionStart(1000, 600, 400, 350, 2, 3))
     assert {speed for _, speed in made.updates} == {350} and made.engine.decel_start is None
@@ -105,7 +109,7 @@ def test_short_moves_know_no_maximum_speed(target: int) -> None:
 
 
 def check_move(made: Made, order: MotionStart) -> None:
-    """Check the properties of a move (P006-MOT) for constant parameters."""
+    """Check the properties that the rules P006-MOT require of a move with constant parameters."""
     n, steps = order.n, made.steps
     assert n is not None and len(steps) == n
     speeds = [speed for _, speed in made.updates]
@@ -123,7 +127,7 @@ def check_move(made: Made, order: MotionStart) -> None:
         assert 2 <= sum(stage is Stage.CREEP for *_, stage in steps) <= 4
     engine = made.engine
     for first, later in zip(speeds, speeds[10:], strict=False):
-        # The ten updates may contain parts of two ramps.
+        # These ten updates may belong to two ramps.
         n_of = engine.acc if later >= first else engine.dec
         assert abs(later - first) <= 1.5 * acceleration(n_of) * 1.02 / 1000 + 2 or engine.decel_start
 
@@ -161,7 +165,7 @@ def test_speed_mode(vs: int, ve: int, target: int, acc: int, dec: int) -> None:
     assert speeds[0] == min(vs, target) and max(speeds) <= target
     top = speeds.index(max(speeds))
     assert speeds[:top] == sorted(speeds[:top])
-    # The deceleration lasts as long as its mean acceleration requires, plus one update to detect the stop.
+    # The deceleration lasts as long as with its mean acceleration, plus one update in which the stop is seen.
     there = dict(made.updates)[400_000]
     down = max(0, there - ve) / acceleration(dec) * 1e6
     assert -1 <= made.end - 400_000 - down <= 201

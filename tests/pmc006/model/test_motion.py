@@ -1,4 +1,4 @@
-"""Motions of the PMC006B4 at clock edges: t = 0, steps, ends, stops, live registers (P006-MOT)."""
+"""Motions of the PMC006B4, exact to the clock edge: start, steps, ends, stops, live registers (P006-MOT)."""
 
 from __future__ import annotations
 
@@ -49,7 +49,9 @@ def test_backwards_in_speed_mode() -> None:
 @verifies("P006-MOT-42", "P006-STA-14")
 @pytest.mark.parametrize(("early", "ends"), [(0, False), (1, False), (-1, True)])
 def test_withdrawn_on_the_last_edge(early: int, ends: bool) -> None:
-    """N=1 at the edge that would end the motion is in time; one cycle later it is not."""
+    """N = 1 on the edge that would end the motion still continues it; one cycle later, the motion has
+    ended.
+    """
     probe = Bench(**SETUP)
     bench = Bench(**SETUP)
     for one in (probe, bench):
@@ -108,7 +110,7 @@ def test_latched_and_live_registers() -> None:
 @pytest.mark.parametrize("seed", range(6))
 @verifies("P006-MOT-30", "P006-MOT-50", "P006-MOT-51", "P006-MOT-52")
 def test_live_targets(seed: int) -> None:
-    """Registers and strobes at random edges take effect at the first update after the change."""
+    """Registers and strobes that change at random edges take effect at the first update after the change."""
     rng = random.Random(seed)
     analog = seed % 2
     bench = Bench(8_000_000, **SETUP, analog=analog)
@@ -162,14 +164,14 @@ def test_analog_full_scale() -> None:
 @pytest.mark.parametrize("late", [0, 1])
 @verifies("P006-MOT-51")
 def test_a_strobe_on_the_edge_of_the_copy_is_too_late(late: int) -> None:
-    """The copy of update 100 has the value of the previous edge."""
+    """A strobe on the edge at which update 100 copies the analog value is too late for this copy."""
     bench = Bench(vmax=8000, analog=1, vstart=100)
     bench.do(partial(_strobe, bench, 1023), Phase.PINS)
     origin = bench.start(None)
     bench.run(origin + 10_000 * 16 - 2 + late)
     bench.do(partial(_strobe, bench, 1), Phase.PINS)
     bench.wait(250)
-    # The speed has begun to fall, or continues to rise.
+    # If the strobe was too late, the target remains 8000; otherwise the target is 7.
     engine = bench.motion.engine
     assert engine and engine.goal == (8000 if late else 7)
 
@@ -190,7 +192,7 @@ def test_compensation() -> None:
     assert compensation(3000, 0, 1000, 300, 1250) == (13, 57)
     assert compensation(3200, 16, 1000, 300, 1250) == (0, 3)
     assert compensation(16_000, 0, 4000, 1200, 2000) == (1167, 64)
-    # About 7 % and 13 degrees at 1000 full steps/s with factory factors (R-21).
+    # About 7 % and 13 degrees at 1000 full steps/s with the factory values of both factors (R-21).
     b, w = compensation(16_000, 16, 4000, 300, 1250)
     assert abs(b / 255 - 0.07) < 0.002 and w == 19
 
@@ -229,7 +231,9 @@ def test_compensation_in_a_ramp_is_one_update_old() -> None:
 
 @verifies("P006-STL-01")
 def test_steady_speed() -> None:
-    """The answer is delayed by one update, so that it does not depend on the duration of an advance."""
+    """The constant-speed output follows by one update, so it does not depend on the duration of the
+    calculation.
+    """
     bench = Bench(**SETUP)
     origin = bench.start(2000)
     made = make(MotionStart(2000, 600, 600, 3200, 3, 3))

@@ -1,4 +1,4 @@
-"""Worked moves of the PMC006B4 in us: the 47 moves of MOVES, and W1..W14."""
+"""Worked moves of the PMC006B4 with times in us: the 47 moves of MOVES, and W1 to W14."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ from openppmc.model.pmc006.motion.engine import (
 )
 from tests.pmc006.model.bench import Made, make
 
-# A row has: N, VSTART, VSTOP, VMAX, coefficients set and used, goal, highest speed, us and steps left at the
-# final deceleration, steps in creep, end, last speed, first and last intervals.
+# Columns: N, VSTART, VSTOP, VMAX, coefficients set, coefficients used, target, highest speed; time and
+# remaining steps at the final deceleration; steps in CREEP; time of the end, last speed, first intervals,
+# last intervals.
 MOVES = """
 M01 1 600 600 3200 3/3 3/3 600 600 - - - 1667 600 1667 1667
 M02 2 600 600 3200 3/3 3/3 600 600 - - - 3334 600 1667,1667 1667,1667
@@ -72,7 +73,7 @@ ROWS = [line.split() for line in MOVES.strip().splitlines()]
 
 
 def row_of(cells: list[str]) -> list[str]:
-    """Return the row of the table for the move that the model makes."""
+    """Return the cells of a row, computed from the move that the model makes."""
     n, vs, ve, vmax = map(int, cells[1:5])
     acc, dec = map(int, cells[5].split("/"))
     made = make(MotionStart(n, vs, ve, vmax, acc, dec))
@@ -101,7 +102,7 @@ def test_move(cells: list[str]) -> None:
 
 
 def fits(gaps: list[int], pattern: str) -> bool:
-    """Return whether intervals begin and end like a pattern with `..`."""
+    """Return whether the first and the last intervals are those of a pattern with `..`."""
     head, _, tail = pattern.partition("..")
     first, last = ([int(word) for word in part.split(",")] for part in (head, tail or head))
     return gaps[: len(first)] == first and gaps[-len(last) :] == last
@@ -135,7 +136,7 @@ def test_w5_the_peak_falls() -> None:
     made = make(MotionStart(256, 600, 600, 16_000, 3, 3))
     assert fits(made.intervals, "1661,1621,1551,1467,1375,1287..1605,1652,1667,1667,1666")
     assert made.engine.decel_start and made.engine.decel_start[0] == 127
-    # The deceleration begins as soon as the stopping distance is reached.
+    # The deceleration begins when the remaining steps are no more than the stopping distance.
     assert made.engine.decel_start[0] <= stopping_distance(made.engine.decel_start[1], 600, 5)
 
 
@@ -144,14 +145,14 @@ def test_w6_a_ramp_lasts_as_long_as_a_straight_one() -> None:
     made = make(MotionStart(2000, 600, 600, 3200, 3, 3))
     speeds = dict(made.updates)
     assert speeds[95_600] == 1900
-    # The ramp lasts 2600 / 13600 s, of which half passes up to the middle.
+    # The ramp lasts 2600 / 13600 s; its middle is at half of this time.
     assert next(t for t, speed in made.updates if speed == 3200) <= 191_200
     assert next(t for t, _, stage in made.steps if stage is Stage.CRUISE) > 191_100
     assert sum(t <= 191_100 for t, *_ in made.steps) == 2000 - 1638
 
 
 def off_from(t: int, target: int) -> Made:
-    """Run speed mode from 600 to `target`, switched off at t us."""
+    """Run speed mode from 600 to `target` and switch it off at t us."""
     return make(MotionStart(None, 600, 600, target, 3, 3), lambda now: LiveRegisters(target, stop=now >= t))
 
 

@@ -1,4 +1,4 @@
-"""Motor windings on the golden model of the PMC006B4, and the current that it regulates in them (R-22)."""
+"""Motor windings on the golden model of the PMC006B4, and how well it regulates their current (R-22)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ T_OFF, T_BLANK, LATE = 20e-6, 1e-6, 3 / CLK_HZ
 
 @pytest.mark.parametrize("seed", range(5))
 def test_an_arc_solves_its_equation(seed: int) -> None:
-    """The closed formula of a current agrees with Runge-Kutta steps of 0.1 us."""
+    """The closed formula of a current agrees with a Runge-Kutta integration in steps of 0.1 us."""
     rng = random.Random(seed)
     motor = Motor(rng.uniform(0.2, 10), rng.uniform(2e-4, 1e-2))
     emf = Emf(rng.uniform(0, 12), 2 * pi * rng.uniform(1, 1000), rng.uniform(0, 6))
@@ -54,14 +54,14 @@ def test_diodes_end_at_zero() -> None:
     arc = CurrentSegment(Motor(), 0.0, 1.0, -24.0, Emf(6.0, 1500.0, 1.0))
     assert arc.zero_from == inf
     arc.stop_at_zero(positive=True)
-    # The time is 2 mH * 1 A / 24 V, slightly changed by the resistance and the back EMF.
+    # The current would fall for 2 mH * 1 A / 24 V; resistance and back EMF change this time slightly.
     assert 50e-6 < arc.zero_from < 120e-6
     assert arc.at(arc.zero_from - 1e-6) > 0 == arc.at(arc.zero_from) == arc.at(1.0)
 
 
 @verifies("P006-CHP-05", "P006-CHP-03")
 def test_every_change_of_the_comparator_is_there() -> None:
-    """Every change of the comparator is detected, compared with a check in each cycle."""
+    """The plant changes the comparators in the same cycles as a check of the currents in each cycle."""
     rig = BootedMotor(Case(cur=2000))
     pins, told = rig.part.pins, {"cmp_a": [(0, 0)], "cmp_b": [(0, 0)]}
 
@@ -85,12 +85,14 @@ def test_every_change_of_the_comparator_is_there() -> None:
                 current, expected = winding.current(t / CLK_HZ), winding.reference(t / CLK_HZ)
                 assert abs(current - expected) < 1e-9 or level == (current > expected)
         assert flips > 50
-    # Fast decay has reduced the current: 1.2 A in less than 1 ms.
+    # Fast decay has reduced the current by 1.2 A in less than 1 ms.
     assert all(winding.current(rig.part.now / CLK_HZ) < 0.31 for winding in plant.windings.values())
 
 
 def stated_ripple(ampere: float, motor: Motor) -> float:
-    """Return the highest ripple at standstill: a shortest pulse in each direction and the off-time fall."""
+    """Return the highest ripple at standstill: a shortest pulse in each direction, and the fall in the
+    off-time.
+    """
     pulses = 2 * motor.volt / motor.henry * (T_BLANK + LATE)
     return pulses + motor.ohm * ampere / motor.henry * T_OFF
 
@@ -98,7 +100,7 @@ def stated_ripple(ampere: float, motor: Motor) -> float:
 @pytest.mark.parametrize(("cur", "steps"), [(400, 0), (1000, 0), (1000, 7), (2000, 5), (4000, 0)])
 @verifies("P006-CHP-02", "P006-CHP-03")
 def test_ripple_at_rest(cur: int, steps: int) -> None:
-    """The mean is the reference, also if it is small compared with a shortest pulse."""
+    """The mean current is the reference, even if the reference is small compared with a shortest pulse."""
     for found in holding(Case(cur=cur), steps):
         mean, peak = ripple(found)
         limit = stated_ripple(found.reference[0], Motor())
@@ -129,8 +131,8 @@ def measured(cur: int, full: int, emf: float, tau: float = 0.0) -> WaveMetrics:
 def test_the_current_follows_a_sine(cur: int, full: int, error: float, thd: float) -> None:
     """Up to 1000 full steps/s in 1/16 steps, the current follows a sine within 5 % rms.
 
-    The THD of the phase current is below 3 %. At 0.4 A, which is 26 units of the reference, both limits
-    may be slightly exceeded.
+    The THD of the phase current is below 3 %. At 0.4 A, which is only 26 units of the reference, both limits
+    are slightly higher.
     """
     found = measured(cur, full, 0.0)
     print(found)
@@ -140,10 +142,11 @@ def test_the_current_follows_a_sine(cur: int, full: int, error: float, thd: floa
 @pytest.mark.parametrize(("mstep", "thd"), [(16, 0.015), (2, 0.25)])
 @verifies("P006-CHP-04", "P006-CHP-03")
 def test_no_current_hangs_at_a_reference_of_0(mstep: int, thd: float) -> None:
-    """At 200 full steps/s without a lead, FAST removes the rest of a positive half wave at a reference of 0.
+    """At 200 full steps/s without a lead, fast decay removes the remaining current when the reference becomes
+    0.
 
-    With the bridge held off, 0.28 A of a half step remained, and the THD was 1.9 % in 1/16 steps. After a
-    negative half wave there is no pulse.
+    Without it, 0.28 A would remain in half steps, and the THD would be 1.9 % in 1/16 steps. After a negative
+    half wave there is no pulse.
     """
     both = cruising(Case(1000, mstep, 200, scomp=300, periods=1))
     above = max(residual_current(found)[0] for found in both)
@@ -155,9 +158,10 @@ def test_no_current_hangs_at_a_reference_of_0(mstep: int, thd: float) -> None:
 @pytest.mark.parametrize(("cur", "limit"), [(400, 0.12), (1000, 0.12), (1900, 0.145)])
 @verifies("P006-CHP-03", "P006-CHP-04")
 def test_the_current_follows_against_back_emf(cur: int, limit: float) -> None:
-    """Against 6 V of back EMF with a lead of 90 degrees, the current follows within 12 %.
+    """With 6 V of back EMF and a lead of 90 degrees, the current follows a sine within 12 %.
 
-    At 2 A it is 14 % in 1/16 steps; a smooth sine of 2 A is followed within 12 %.
+    At 2 A the error is 14 % in 1/16 steps, so the limit is 14.5 %; a smooth sine of 2 A is followed within 12
+    %.
     """
     found = measured(cur, 1000, 6.0)
     print(found)
@@ -165,7 +169,9 @@ def test_the_current_follows_against_back_emf(cur: int, limit: float) -> None:
 
 
 def test_a_real_filter_costs_its_delay() -> None:
-    """A low-pass of 30 us turns the current by 2 pi * 250 Hz * 30 us and smoothes the steps."""
+    """A low-pass filter of 30 us delays the phase of the current by 2 pi * 250 Hz * 30 us and smooths the
+    steps.
+    """
     found, ideal = measured(1000, 1000, 0.0, tau=30e-6), measured(1000, 1000, 0.0)
     assert found.thd < 0.03 and found.amplitude < ideal.amplitude
     assert abs(found.amplitude / ideal.amplitude - 1) < 0.01
@@ -184,7 +190,9 @@ def test_too_much_back_emf() -> None:
 
 @verifies("P006-STA-12", "P006-CHP-01")
 def test_beside_a_host() -> None:
-    """A motor runs on the bridges of a part with a host; with FREE the current decays to 0."""
+    """A motor on the bridges of a part with a host has the commanded current; with FREE the current falls to
+    0.
+    """
 
     async def check() -> None:
         host = await MotorHost.start(OnModel())

@@ -1,4 +1,4 @@
-"""Golden model of the PMC006B4 without time: frames, code table, parameter page, program image, opcodes."""
+"""Functions of the PMC006B4's golden model without time: frames, code table, settings, programs, opcodes."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ def take(assembler: Assembler, line: bytes) -> list[Command]:
 
 @verifies("P006-FRM-01", "P006-FRM-02", "P006-FRM-06", "P006-FRM-08", "P006-BAD-01", "P006-BAD-02")
 def test_assembler_on_random_streams() -> None:
-    """The assembler returns exactly the valid frames of a stream, with their data.
+    """From any stream, the assembler returns exactly the valid frames, with their data.
 
-    The stream has whole frames, random bytes without 0xA5, and damaged frames.
+    The stream contains whole frames, random bytes except 0xA5, and damaged frames.
     """
     for seed in range(40):
         rng, line, wanted = random.Random(f"frames {seed}"), b"", []
@@ -66,7 +66,7 @@ def test_assembler_on_random_streams() -> None:
 
 @verifies("P006-UART-05", "P006-FRM-03")
 def test_pins_of_a_reply() -> None:
-    """A reply has 80 contiguous bits with the start bit at 2 Tb, and de is high from 1 Tb to 82 Tb."""
+    """A reply has 80 contiguous bits that begin at 2 Tb; de is high from 1 Tb to 82 Tb."""
     changes = changes_of(reply(0xFF, 0x08))
     assert changes[0] == (1, "de", 1) and changes[-1] == (82, "de", 0)
     levels, level = [], 1
@@ -82,7 +82,7 @@ def test_pins_of_a_reply() -> None:
 
 @verifies("P006-CMD-48", "P006-BAD-07")
 def test_code_table() -> None:
-    """49 codes are known, including V, an addition of this project; the other 207 have the same entry."""
+    """Exactly 49 codes are known, among them V, which this project added."""
     known = "ABEFGIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
     assert sorted(LETTERS) == sorted(known) and len(TABLE) == 256
     assert {chr(code) for code in range(256) if TABLE[code] is not UNKNOWN} == set(known)
@@ -125,7 +125,7 @@ def test_pages() -> None:
 
 
 def patched(*changes: tuple[int, int], repair: bool = True) -> bytes:
-    """Return the factory page with other bytes, and with a matching sum if `repair` is true."""
+    """Return the factory page with some bytes changed; if `repair` is true, the sum matches again."""
     page = bytearray(FACTORY_PAGE)
     for place, value in changes:
         page[place] = value
@@ -140,7 +140,9 @@ PAIRS = {12: (65, 3000), 14: (65, 3000), 16: (100, 1200), 18: (300, 2000), 20: (
 
 @verifies("P006-BAD-14", "P006-EEP-01")
 def test_validity_of_every_byte_and_field() -> None:
-    """A page is valid for the legal values of each byte and pair; only the fields in use are checked."""
+    """A page is valid exactly if each byte and each pair in use has a legal value; unused fields may have any
+    value.
+    """
     for place in range(31):
         for value in range(256):
             if place < 3:
@@ -183,7 +185,7 @@ def test_validity_of_programs() -> None:
 
 @verifies("P006-BAD-16", "P006-PRG-20")
 def test_opcodes() -> None:
-    """The words decode to their fields; opcode 0x15 and all above are END."""
+    """Each word decodes to its fields; opcode 0 and all opcodes from 0x15 on are END."""
     assert sorted(OPERATIONS) == list(range(0x15))
     for opcode in range(256):
         operation, option, operand = decode(0xABCD_5A00 | opcode, 0xFFFF_FFFE)

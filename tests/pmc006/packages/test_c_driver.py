@@ -1,4 +1,4 @@
-"""The C driver of the PMC006B4 on the Verilated part with its EEPROM, character by character."""
+"""The C driver of the PMC006B4 on the Verilated part with its EEPROM; characters pass over the line."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def position(lines: Lines, name: str) -> tuple[int, int]:
     ("name", "steps", "at"), [("move", 400, 500), ("back", -50, 450), ("F lost", 60, 137)]
 )
 def test_move(lines, name, steps, at):
-    """A move makes the commanded steps, and its end is confirmed, also if the reply to the start was lost."""
+    """A move makes the commanded steps and ends confirmed, even if the reply to the start is lost."""
     got = end(lines, name)
     assert (got["wait"], got["complete"], got["steps"], got["position"]) == (OK, 1, steps, at)
     assert pulses(lines, name)[:2] == (max(steps, 0), max(-steps, 0))
@@ -58,7 +58,9 @@ def test_positions(lines):
 
 
 def test_speed_mode_and_stops(lines):
-    """A run ends with its ramp or immediately; a move has no deceleration stop (P006-CMD-06, P006-CMD-11)."""
+    """A run can be stopped with its ramp or immediately, a move only immediately (P006-CMD-06,
+    P006-CMD-11).
+    """
     for name in ("open", "speed", "zero", "run", "faster", "slowly", "stop"):
         assert result(lines, name)[0] == OK, name
     slowly, stop = end(lines, "slowly"), end(lines, "stop")
@@ -70,7 +72,7 @@ def test_speed_mode_and_stops(lines):
 
 
 def test_switch_and_home(lines):
-    """EXT2 ends a move and rejects the next; homing finds EXT1, moves off it and sets 0 (P006-EXT-01)."""
+    """EXT2 ends a move and rejects the next one; homing finds EXT1, moves off it and sets 0 (P006-EXT-01)."""
     got = end(lines, "ext")
     assert (got["wait"], got["complete"], got["ext1"], got["ext2"]) == (OK, 0, 0, 1)
     assert result(lines, "ext refused")[0] == REFUSED
@@ -81,7 +83,7 @@ def test_switch_and_home(lines):
 
 
 def test_settings(lines):
-    """Each setting accepts its whole range and reads it back; no value beyond it is sent."""
+    """Each setting accepts its whole range, and a read returns it; a value outside the range is not sent."""
     assert len(lines["setting"]) == 14
     for line in lines["setting"]:
         assert (line["set"], line["get"], line["ok"]) == ("00", "00", "1"), line
@@ -96,7 +98,7 @@ def test_bad_arguments(lines):
 
 
 def test_outputs_version_release(lines):
-    """Outputs follow, the version is read, and a released motor rejects a move."""
+    """Outputs have the commanded levels, the version is read, and a motor without current rejects a move."""
     assert lines["version"][0]["value"] == str(0x123)
     assert lines["pins"][0]["gpo"] == "15"
     assert [line["result"] for line in lines["release"]] == ["0", "0"]
@@ -104,7 +106,7 @@ def test_outputs_version_release(lines):
 
 
 def test_memory(lines):
-    """Address and current are kept over a reset after a save; a missing EEPROM is an error (P006-CMD-41)."""
+    """After a save, address and current survive a reset; a missing EEPROM is an error (P006-CMD-41)."""
     for name in ("address", "current", "save", "save again", "open", "program", "burn", "run", "halt"):
         assert result(lines, f"M {name}")[0] == OK, name
     assert lines["M kept"][0]["value"] == "1200"
@@ -112,7 +114,9 @@ def test_memory(lines):
 
 
 def test_program(lines):
-    """A loaded program runs; loading while it runs is rejected; a halt keeps the motion (P006-CMD-47)."""
+    """A loaded program runs; no program can be loaded while it runs; a halt does not end its motion
+    (P006-CMD-47).
+    """
     assert result(lines, "M while")[0] == REFUSED
     assert sum(pulses(lines, "M run")[:2]) == 200
     assert lines["M pins"][0]["gpo"] == "02"
@@ -120,19 +124,19 @@ def test_program(lines):
 
 @pytest.mark.parametrize("name", ["sum", "head", "address"])
 def test_damaged_replies(lines, name):
-    """A damaged reply to a read instruction is requested again (P006-FRM-01)."""
+    """If the reply to a read instruction is damaged, the instruction is repeated (P006-FRM-01)."""
     assert position(lines, f"F {name}") == (OK, 77)
 
 
 def test_lost_reply_to_a_start(lines):
-    """A start whose reply is damaged is not repeated: the motor makes the steps once."""
+    """If the reply to a start is damaged, the start is not repeated: the motor makes the steps only once."""
     assert result(lines, "F lost")[0] == BAD_REPLY
     assert position(lines, "F where") == (OK, 137)
     assert result(lines, "F absent")[0] == TIMEOUT
 
 
 def test_reset(lines):
-    """After a reset during a motion its end is unconfirmed; after any reset the position is unknown."""
+    """If a reset occurs during a motion, its end is unconfirmed; after any reset the position is unknown."""
     assert end(lines, "U move")["wait"] == UNCONFIRMED
     assert position(lines, "U where")[0] == UNKNOWN_POSITION
     assert position(lines, "U set") == (OK, 500)

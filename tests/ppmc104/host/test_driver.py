@@ -39,13 +39,13 @@ timing = "FAST"
 
 @pytest.fixture(autouse=True, params=["FAST", "DATASHEET"])
 def _timing(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Run every test in both timings."""
+    """Run every test with both timings."""
     monkeypatch.setitem(globals(), "timing", request.param)
 
 
 @contextmanager
 def board(plant: str = "", **setup: object) -> Iterator[Ppmc104]:
-    """Yield an initialised axis; `setup` has the keyword arguments of `initialise`."""
+    """Yield an initialised axis; `setup` holds the keyword arguments of `initialise`."""
     with Ppmc104.open(f"model:speed=max,timing={timing},{plant}") as axis:
         axis.initialise(**setup)  # type: ignore[arg-type]
         yield axis
@@ -87,8 +87,8 @@ def test_initialise_tells_what_is_reached() -> None:
     ],
 )
 def test_the_motor_runs_at_the_speed_that_was_told(arguments: dict[str, object], base_hz: int) -> None:
-    """The time of a long constant move, read from the part's own pulses, is that of the reported speed;
-    straps included.
+    """A long constant move, by the pulses of the part, lasts as long as the reported speed states; this
+    includes the straps.
     """
     with board(**arguments) as axis:
         assert axis.setup is not None
@@ -104,8 +104,8 @@ def test_the_motor_runs_at_the_speed_that_was_told(arguments: dict[str, object],
 
 
 def test_a_speed_of_the_other_base_clock() -> None:
-    """A constant speed selects the base clock that reaches it; the next ramp uses its own base clock
-    again.
+    """A constant speed selects the base clock with which it is possible; the next ramp uses its own base
+    clock again.
     """
     with board(start_pps=1000, high_pps=5000) as axis:
         assert isinstance(axis.link.port, ModelPort)
@@ -369,7 +369,7 @@ def test_home_from_a_switch_that_sticks() -> None:
 
 
 def test_every_error_number_is_raised_as_its_own_exception(axis: Ppmc104) -> None:
-    """Each error number, provoked by a script on the golden model, raises its own exception."""
+    """Each error number that a script provokes on the golden model raises its own exception."""
     link = axis.link
     rest: list[tuple[type[CommandRefused], int, Script]] = [
         (NothingToStop, 0x80, Script().call(0x40)),
@@ -465,7 +465,9 @@ def test_excitation_off(axis: Ppmc104) -> None:
 
 
 def test_datasheet_timing() -> None:
-    """With the processing times of the old chip, an initialisation takes 17 to 163 ms."""
+    """With the processing times of the old chip, an initialisation takes 17 to 163 ms, and moves
+    still work.
+    """
     with board("timing=DATASHEET", ramp_pulses=11_000) as axis:
         before = axis.link.clock()
         assert axis.move(300).complete
@@ -476,7 +478,9 @@ def test_datasheet_timing() -> None:
 
 
 def test_a_look_before_busy_rises() -> None:
-    """With DATASHEET timing, BUSY rises 112 us after the command; a fast host polls before that."""
+    """With DATASHEET timing, BUSY rises 112 us after the command; a poll before that does not end the
+    motion.
+    """
     with Ppmc104.open("model:speed=max,timing=DATASHEET", baud=3_000_000) as axis:
         axis.initialise()
         axis.move(1)
@@ -489,8 +493,8 @@ def test_a_look_before_busy_rises() -> None:
 
 
 def test_excitation_off_right_after_a_start() -> None:
-    """Excitation off directly after a start is rejected, although the part with DATASHEET timing is not
-    BUSY yet and would accept the code as AUX ON.
+    """Excitation off directly after a start is rejected, even though a part with DATASHEET timing is not BUSY
+    yet and would execute the code as AUX ON.
     """
     with Ppmc104.open(f"model:speed=max,timing={timing}", baud=3_000_000) as axis:
         axis.initialise(start_pps=5000, high_pps=9000)
@@ -523,7 +527,7 @@ def test_wrong_part() -> None:
 
 
 def test_noise_on_the_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If every fifth transfer loses a byte, each move is still made exactly once."""
+    """If every fifth transfer loses a byte, each move is nevertheless made exactly once."""
     port = ModelPort("speed=max")
     axis = Ppmc104.open(port)
     count = 0
@@ -544,7 +548,7 @@ def test_noise_on_the_line(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_ctrl_c_in_the_middle_of_a_request(axis: Ppmc104, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After a KeyboardInterrupt between request and answer, the next command works."""
+    """If a KeyboardInterrupt occurs between request and answer, the next command works."""
     axis.jog(CW, 2000)
     read = axis.link.port.read
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from openppmc.model import Latency, Ppmc104
 from tests.common.model.host import ModelHost
 
-# The latencies are separate from those of the RTL, so that tests of single edges do not change with its
-# constants.
+# Fixed latencies, independent of the RTL, so that tests of single edges do not change with the constants of
+# the RTL.
 NOMINAL = Latency(
     c_event=2,
     window_open=1,

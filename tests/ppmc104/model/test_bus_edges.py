@@ -25,7 +25,9 @@ def test_write_event_and_c_event_edges():
 
 @pytest.mark.parametrize("after", range(8))
 def test_a_written_byte_is_never_invisible(after):
-    """A status read directly after a write returns IBF = 1 or the effect of the byte (P104-BUS-07)."""
+    """A status read directly after a write returns IBF = 1 or already the effect of the byte
+    (P104-BUS-07).
+    """
     model = Ppmc104()
     edge0 = model.write(10, 1, 0xFF)
     assert model.read(edge0 + after, 1) in ((0x02,) if after < 3 else (0x02, 0x80))
@@ -51,7 +53,7 @@ def test_either_pin_ends_a_write(ending):
 
 
 def test_read_strobe_ends_a_write():
-    """rd_n that falls during a write strobe ends the write; no read takes place (P104-BUS-02)."""
+    """If rd_n falls during a write strobe, the write ends, and no read takes place (P104-BUS-02)."""
     model = Ppmc104()
     model.pins(10, cs_n=0, wr_n=0, a0=1, d_i=0xC1)
     model.pins(12, rd_n=0)
@@ -60,8 +62,8 @@ def test_read_strobe_ends_a_write():
 
 
 def test_replacement_in_the_window_and_on_the_c_event_edge():
-    """The newest byte is accepted; on the same edge as a C-event, the old one is consumed first
-    (P104-HSK-02).
+    """If a byte is replaced while it waits, only the newest one is accepted; on the edge of a C-event, the
+    old byte is accepted first (P104-HSK-02).
     """
     model = AnyModel(latency=replace(NOMINAL, build_clk=lambda rl, rh, pa: 500))
     t = 10
@@ -119,7 +121,7 @@ def test_three_byte_answer():
 
 
 def test_read_command_beats_a_byte_on_its_way_out():
-    """A new answer replaces the byte that a data read is just consuming (P104-HSK-08)."""
+    """If a data read is just consuming a byte, a new answer replaces this byte (P104-HSK-08)."""
     for wait in range(6):
         host = ModelHost()
         host.run("c 81")
@@ -134,7 +136,7 @@ def test_read_command_beats_a_byte_on_its_way_out():
 
 
 def test_output_survives_motion():
-    """A motion does not change an unread byte (P104-HSK-08, P104-BAD-22)."""
+    """A motion does not change an answer byte that was not read yet (P104-HSK-08, P104-BAD-22)."""
     host = ModelHost()
     host.run(INIT_A + " c 81 c 44 d 63 d 02 d 00 d 00")
     assert host.read(1) == 0x05 and host.fetch() == 0xCF
@@ -142,8 +144,8 @@ def test_output_survives_motion():
 
 
 def test_reset_between_two_edges_and_short():
-    """A low level of rst_n between two edges resets the core; its output changes have the number of the
-    next edge.
+    """If rst_n is low only between two edges, the core is reset; the changes of its outputs have the number
+    of the next edge.
     """
     host = ModelHost(phase_idle=0)
     assert host.out("s") == 0
@@ -173,7 +175,7 @@ def test_strobe_across_reset_release():
 
 
 def test_quantum_counter_starts_at_the_release():
-    """After a reset, the chopper has the same phases as after power-up, for any edge of the release."""
+    """After a reset, the chopper has the same phase as after power-up, for any edge of the release."""
 
     def chopped(release: int) -> list[int]:
         model = Ppmc104()

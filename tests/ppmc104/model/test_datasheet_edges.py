@@ -1,4 +1,4 @@
-"""DATASHEET times of the golden model, exact to the cycle, without latencies of a core (P104-DS)."""
+"""DATASHEET times of the golden model, exact to the cycle, with the fixed latencies of NOMINAL (P104-DS)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ModelHost = partial(AnyHost, latency=NOMINAL, timing="DATASHEET")
 
 
 def ready(init: str = INIT_B, **pins: int) -> AnyHost:
-    """Return an initialised host with the pins set and the mailbox open."""
+    """Return an initialised host whose pins are set and whose mailbox is open."""
     host = ModelHost()
     host.run(init)
     host.pause(270_000)
@@ -37,8 +37,8 @@ def ready(init: str = INIT_B, **pins: int) -> AnyHost:
     ],
 )
 def test_start(move, busy, first):
-    """BUSY, hold and dir change together, then pulse 1 follows; the pins follow by one cycle
-    (P104-DS-03..06).
+    """BUSY, hold and dir change together, and pulse 1 follows after its time; the motor pins are one cycle
+    later (P104-DS-03..06).
     """
     host = ready()
     host.run(move)
@@ -52,7 +52,7 @@ def test_start(move, busy, first):
 
 
 def test_bytes_wait_for_the_start():
-    """The mailbox is closed until BUSY rises; then the byte is checked with BUSY = 1 (P104-DS-03)."""
+    """A byte written after a start waits until BUSY rises and is then checked with BUSY = 1 (P104-DS-03)."""
     host = ready()
     host.run("c 46")
     event = host.written
@@ -72,8 +72,8 @@ def test_bytes_wait_for_the_start():
     ],
 )
 def test_forced_deceleration_flag_comes_late(code, fall, delay, pulses):
-    """The flag is set 17 us after the write event, or 12 us (plateau: 17 us) after the level was
-    detected (P104-DS-10).
+    """The deceleration flag is set 17 us after the write event, or 12 us (on the plateau 17 us) after the
+    level was detected (P104-DS-10).
     """
     for offset, expected in zip((-1, 0), pulses, strict=True):
         host = ready()
@@ -110,7 +110,9 @@ def test_second_decelerating_stop_waits_for_the_first():
 
 @pytest.mark.parametrize("move, closed", [("c C3", False), ("c 43", True)])
 def test_speed_limit_depends_on_the_mode(move, closed):
-    """112 quanta are too fast in phase mode, but not in POUT mode (P104-DS-12)."""
+    """Intervals of 112 quanta are too short to accept bytes in phase mode, but not in POUT mode
+    (P104-DS-12).
+    """
     host = ready("c 0A d 0D d 0D d 04 d 00")
     host.run(move + " d 63 d 00 d 00")
     host.fall(10, 20)
@@ -122,7 +124,9 @@ def test_speed_limit_depends_on_the_mode(move, closed):
 
 
 def test_speed_limit_ends_with_the_fast_part():
-    """Bytes are accepted again in the first slow interval of the deceleration."""
+    """In the deceleration of a fast move, bytes are accepted again from the first interval of 148 quanta on
+    (P104-DS-12).
+    """
     host = ready("c 0A d 27 d 09 d 04 d 00")
     host.run("c 43 d 13 d 00 d 00")
     host.fall(8, 20)
@@ -148,8 +152,8 @@ def test_speed_limit_ends_with_the_fast_part():
     ],
 )
 def test_end(move, pulses, disturb, end, opened):
-    """BUSY and INT, then the mailbox, follow the last pulse or the deciding edge by their times
-    (P104-DS-06..08).
+    """After the last pulse or the deciding edge, BUSY and INT change after their time, and then the mailbox
+    opens (P104-DS-06..08).
     """
     host = ready(INIT_A, **({"l3_n": 0} if disturb == "l3_n" else {}))
     host.run(move)
@@ -168,7 +172,9 @@ def test_end(move, pulses, disturb, end, opened):
 
 
 def test_auxiliary_output_and_excitation_off_roles():
-    """The outputs take 14 us, Excitation OFF 18 us, and 14 us when it acts as AUX ON (P104-DS-11)."""
+    """AUX outputs change after 14 us. Excitation off acts after 18 us, or after 14 us if it is executed as
+    AUX ON (P104-DS-11).
+    """
     host = ready()
     host.run("c 86 d 0A")
     event = host.written

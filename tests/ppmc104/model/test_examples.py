@@ -1,4 +1,4 @@
-"""Examples of the manual, and parts of acceptance checks that are too long for the RTL, on the model."""
+"""Examples of the manual, and the parts of acceptance checks that last too long for the RTL, on the model."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""Coincidences in the motion of the golden model, exact to the cycle (P104-LIM-09, P104-END,
-P104-FDC-06).
+"""Coincidences of events in the motion of the golden model, exact to the cycle.
+
+Rules: P104-LIM-09, P104-END, P104-FDC-06.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def stop_at(host: AnyHost, code: int, edge: int) -> None:
 
 @pytest.mark.parametrize("offset, pulses", [(-1, 5), (0, 5), (1, 6), (2, 6)])
 def test_cause_on_the_edge_of_a_pulse_event(offset, pulses):
-    """An immediate cause suppresses the pulse event on its own edge, not the previous one."""
+    """An immediate cause suppresses a pulse event on its own edge, but not one on the edge before it."""
     for cause in ("limit", "stop"):
         host = moving(INIT_A + " c 45 d 13")
         event = host.fall(5) - 1 + 640
@@ -48,7 +49,9 @@ def test_cause_on_the_edge_of_a_pulse_event(offset, pulses):
 
 @pytest.mark.parametrize("lead, honoured", [(0, [0, 0]), (1, [-1, 0]), (4, [-4, -3])])
 def test_flag_close_to_a_pulse_event(lead, honoured):
-    """A flag counts if set `flag_lead` cycles or more before the pulse event (P104-FDC-06)."""
+    """A deceleration flag acts on a pulse event if it is set at least `flag_lead` cycles before it
+    (P104-FDC-06).
+    """
     latest, too_late = honoured
     for offset, pulses in ((latest, 8), (too_late, 10 if lead else 8)):
         host = moving(INIT_B + " c 43 d E7 d 03 d 00", flag_lead=lead)
@@ -102,8 +105,8 @@ def test_slow_limit_released_before_the_plateau_is_lost_in_pulse_mode():
 
 
 def test_end_edges_of_an_immediate_stop():
-    """BUSY falls imm_end after the decision if pout_n is high, and at the rise of the pin if pout_n is
-    low.
+    """If pout_n is high, BUSY falls imm_end cycles after the decision; if pout_n is low, BUSY falls when
+    pout_n rises.
     """
     for after, expected in ((200, 200 + 2 + 1), (80, 80 + 2 + 1), (78, 81), (77, 80), (10, 80), (0, 80)):
         host = moving(INIT_A + " c 45 d 63")
@@ -117,8 +120,8 @@ def test_end_edges_of_an_immediate_stop():
 
 
 def test_cause_at_the_start_needs_two_clk():
-    """A cause at the start is decided on the edge after the start edge; the end follows one cycle later
-    (P104-LIM-07).
+    """A cause that is active at the start is decided on the edge after the start edge; the end follows one
+    cycle later (P104-LIM-07).
     """
     host = ModelHost()
     host.run(INIT_A)
@@ -146,7 +149,7 @@ def test_operation_on_the_edge_of_the_hold_time_keeps_hold_low():
 
 
 def test_latency_moves_what_it_names():
-    """Each constant of the core shifts its own edges and no others."""
+    """Each latency constant of the core shifts only the edges that it describes."""
 
     def run(**changes: int) -> tuple[int, ...]:
         host = moving(INIT_A, **changes)
@@ -184,7 +187,7 @@ def test_chopper_phase_survives_neither_start_nor_reset():
 
 
 def test_suppressed_base_edge_when_the_clock_gets_faster():
-    """A base edge that would make a pulse while pout_n is low is not counted (P104-TIM-05)."""
+    """While pout_n is low, a base edge that would make a pulse is not counted (P104-TIM-05)."""
     host = moving("c 1A d 09 d 04 d 04 d 00 c 44 d 00 d 02 d 00 d 00")
     for rise in (0, 300, 320, 340, 360, 380, 600, 900):
         host.model.pins(1000 + rise, clock=1)
@@ -196,21 +199,23 @@ def test_suppressed_base_edge_when_the_clock_gets_faster():
 
 
 def test_external_clock_without_vsel_puts_the_pulse_off():
-    """The rest of 7.5 us is added after e_b, unless the clock is slow there (P104-INT-03)."""
+    """With vsel low, the rest of 7.5 us delays the pulse after edge e_b, unless the clock is slow there
+    (P104-INT-03).
+    """
     host = moving("c 1A d 09 d 04 d 04 d 00")
     host.pins(vsel=0)
     host.pause(6)
     host.run("c 44 d 01 d 03 d 00 d 00")
     start = host.t + 200
-    # Edges e_a .. e_b: edge 0 makes pulse 1. The last gap is too long for the addition.
+    # Rising edges of the clock; edge 0 makes pulse 1. The last interval is too long for the addition.
     for rise in (0, 50, 100, 260, 300, 340, 500, 700, 900, 1100, 1300):
         host.model.pins(start + rise, clock=1)
         host.model.pins(start + rise + 8, clock=0)
     host.t = start + 2000
     host.sync()
     first, *rest = (fall - start - 3 for fall in host.pulses())
-    # Pulse 2: e_b = 100, w = 0: 220. Pulse 3: e_a = 260, w = 40, e_b = 340: 420. Pulse 4: e_b = 900,
-    # slow.
+    # Pulse 2: e_b = 100, w = 0, so 220. Pulse 3: e_a = 260, w = 40, e_b = 340, so 420. Pulse 4: e_b = 900,
+    # where the clock is slow.
     assert (first, rest) == (0, [220, 420, 900])
 
 
@@ -227,7 +232,9 @@ def test_level_seen_on_the_start_edge_is_judged_one_clk_later():
 
 @pytest.mark.parametrize("rate, low", [(0, 16), (1, 32), (2, 48), (3, 80), (9, 80)])
 def test_low_time_of_the_fastest_rates(rate, low):
-    """The low time is half the interval only at 500 kHz with vsel = H (P104-TIM-05)."""
+    """At 500 kHz with vsel = H, rates 0 to 2 have a low time of half the interval; otherwise it is W
+    (P104-TIM-05).
+    """
     for csel, vsel, expected in ((1, 1, low), (0, 1, 80), (1, 0, 80)):
         host = moving(INIT_A)
         host.pins(csel=csel, vsel=vsel)
@@ -253,7 +260,7 @@ def test_interval_of_a_stopped_move_dies_with_it():
 
 
 def test_flagged_move_that_reaches_all_pulses_is_complete():
-    """A flagged move that outputs all pulses is complete (P104-FDC-05, P104-END-05)."""
+    """A move with a deceleration flag that outputs all its pulses is complete (P104-FDC-05, P104-END-05)."""
     host = moving(INIT_B + " c 43 d 01 d 00 d 00")
     host.fall(1, 100)
     assert host.command(0x41) == 0x04
@@ -262,7 +269,7 @@ def test_flagged_move_that_reaches_all_pulses_is_complete():
 
 @pytest.mark.parametrize("move, status", [("c 43 d 02 d 00 d 00", 0xF4), ("c 44 d 13 d 02 d 00 d 00", 0x04)])
 def test_stops_in_the_last_low_time(move, status):
-    """In the last low time, 0x41 of a ramped move returns error 7; other stops are accepted without
+    """In the last low time of a ramped move, 0x41 returns error 7; other stops are accepted and have no
     effect (P104-STP-08).
     """
     host = moving(INIT_B + " " + move)
@@ -273,15 +280,15 @@ def test_stops_in_the_last_low_time(move, status):
 
 
 def test_limit_on_the_edge_of_the_start_acts_as_one_that_was_there_before():
-    """The guard evaluates the limits from the cycle after the start on; a limit on the start edge acts
-    like an earlier one.
+    """A limit that becomes active on the start edge acts like one that was active before, because the limits
+    are evaluated from the next cycle on.
     """
     ends = []
     for early in (True, False):
         host = moving(INIT_A)
         if early:
             host.pins(l1_n=0)
-        host.pause(400)  # the ramp table is built during this time
+        host.pause(400)  # long enough to build the ramp table
         event = host.write(1, 0x46)
         if not early:
             host.go(event)  # detected 2 cycles later, on the C-event

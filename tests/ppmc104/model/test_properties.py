@@ -100,7 +100,7 @@ OPERATIONS = {2: 0, 3: 3, 4: 4, 5: 1, 6: 0, 7: 1}
 
 @st.composite
 def moves(draw: st.DrawFn) -> dict:
-    """Draw one operation with its ramp and at most one disturbance between pulse events."""
+    """Draw an operation, its ramp, and at most one disturbance that is between two pulse events."""
     operation = draw(st.sampled_from([2, 3, 3, 4, 5, 6, 7]))
     pulse_only = operation in (3, 6) and draw(st.booleans())
     rl = draw(st.integers(0, 30))
@@ -145,7 +145,7 @@ def test_one_move_with_one_disturbance(move):
         edge = host.fall(target)
         length = 4 * host.model.intervals[target - 1].quanta
         if length >= 64:
-            # Keep a distance to pulse events, which have separate tests.
+            # Keep a distance to pulse events: tests of single edges cover the coincidences.
             host.go(edge + 5 + move["after"] % (length - 30))
             flag_after = target
             if cause.startswith("0x"):
@@ -156,7 +156,7 @@ def test_one_move_with_one_disturbance(move):
         host.command(0x40)
     ignored = False
     if endless:
-        # A cause that the operation ignores does not end it.
+        # If the operation ignores the cause, it does not end.
         host.pause(30_000)
         host.sync()
         if host.model.busy:
@@ -209,8 +209,8 @@ def test_one_move_with_one_disturbance(move):
     ramp=st.booleans(),
 )
 def test_external_clock_counts_edges(n, rate, periods, vsel, ramp):
-    """With any external clock N pulses are output, each at least (rate + 1) edges after the previous
-    one.
+    """With any external clock, all N pulses are output, and there are at least rate + 1 clock edges between
+    two pulses.
     """
     host = Host()
     host.run(f"c 1E d {rate:02X} d {rate // 2:02X} d 04 d 00")
@@ -246,7 +246,7 @@ def test_external_clock_counts_edges(n, rate, periods, vsel, ramp):
 
 @given(st.lists(st.tuples(st.integers(1, 6), st.integers(0, 1), st.integers(0, 1)), max_size=60))
 def test_any_bus_noise_stores_whole_bytes_only(changes):
-    """With strobes of any length, a byte that was on the bus is stored completely, or no byte is stored."""
+    """After strobes of any length, a byte was stored completely, or no byte was stored."""
     model, t = Ppmc104(), 5
     for wait, wr_n, rd_n in changes:
         model.pins(t, cs_n=0, wr_n=wr_n, rd_n=rd_n, a0=1, d_i=0x87)

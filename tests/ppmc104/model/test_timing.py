@@ -1,4 +1,6 @@
-"""Times that no acceptance check specifies, on the model: external pulse widths, DATASHEET delays."""
+"""Times on the model that no acceptance check covers: pulse widths of the external clock, DATASHEET
+delays.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ EXTERNAL = "c 1A d 09 d 04 d 04 d 00"
 
 
 def clock_run(host: Host, period: int, edges: int, phase: int = 0) -> None:
-    """Output this number of periods of the external clock, high for half of each."""
+    """Output `edges` periods of the external clock, high for half of each period."""
     start = host.t + phase
     for i in range(edges):
         host.model.pins(start + i * period, clock=1)
@@ -17,8 +19,8 @@ def clock_run(host: Host, period: int, edges: int, phase: int = 0) -> None:
 
 
 def test_tim_05_external_pulse_width():
-    """With the external clock, the low time ends at a clock edge if this occurs before W: for R >= 1 at a
-    rising edge, for R = 0 at the falling edge (P104-TIM-05).
+    """With the external clock, a clock edge before W ends the low time: for R >= 1 a rising edge, for R = 0
+    the falling edge (P104-TIM-05).
     """
     for rate, period, low in (
         (1, 64, 64),
@@ -82,7 +84,7 @@ def test_ds_08_immediate_and_forced_ends():
 
 
 def test_ds_10_flag_comes_late():
-    """A flag that is set only after the natural deceleration began sets no cause bit."""
+    """A deceleration flag that is set after the natural deceleration has begun sets no cause bit."""
     host = datasheet(INIT_B)
     host.run("c 43 d E7 d 03 d 00")
     host.fall(3, 400)

@@ -32,7 +32,7 @@ TIMEBASE = Timebase(8_000_000, 16_000_000)
 
 @pytest.fixture
 def board(start_board: StartBoard) -> SimBoard:
-    """A board with two axes and the default plants."""
+    """A board with a PPMC-2104 and the default plants."""
     return start_board(part="ppmc2104")
 
 
@@ -50,14 +50,14 @@ def positions(board: SimBoard) -> tuple[int, int]:
 
 
 def edges(log: Path, axis: int) -> list[tuple[int, int]]:
-    """Return cycle and position of the pulses of an axis."""
+    """Return (cycle, position) of each pulse of an axis."""
     rows = [line.split() for line in log.read_text().splitlines()[1:]]
     return [(int(clk), int(at)) for clk, _, at, of in rows if int(of) == axis]
 
 
 def test_info_and_wrong_driver(board: SimBoard) -> None:
-    """The bridge reports the part and rejects the driver of another part; the driver rejects a move before
-    initialisation.
+    """The bridge reports the part, so the driver of another part raises WrongDevice; a move before the
+    initialisation is rejected.
     """
     with pytest.raises(WrongDevice, match="PPMC-2104, not a PPMC-104"):
         Ppmc104.open(board.port)
@@ -72,7 +72,7 @@ def test_info_and_wrong_driver(board: SimBoard) -> None:
 
 
 def test_both_at_once(board: SimBoard) -> None:
-    """Moves of both axes overlap; each outputs its own pulses and ends separately."""
+    """Moves of both axes can overlap; each axis outputs its own pulses and ends separately."""
     with Ppmc2104.open(board.port) as part:
         initialise(part)
         long = part.y.start_move(4000)
@@ -85,7 +85,9 @@ def test_both_at_once(board: SimBoard) -> None:
 
 @pytest.mark.parametrize("timing", ["FAST", "DATASHEET"])
 def test_coordinated_start(start_board: StartBoard, tmp_path: Path, timing: str) -> None:
-    """Both axes begin in the same cycle, and every interval of both is the predicted number of cycles."""
+    """In a coordinated start, both axes begin in the same cycle, and every interval has the predicted number
+    of cycles.
+    """
     log = tmp_path / "pulses.txt"
     board = start_board(part="ppmc2104", log=log, timing=timing)
     with Ppmc2104.open(board.port) as part:
@@ -111,7 +113,7 @@ def test_coordinated_start(start_board: StartBoard, tmp_path: Path, timing: str)
 
 
 def test_fast_pulses_of_both(start_board: StartBoard, tmp_path: Path) -> None:
-    """At 250 000 pulses per second on both axes, the pulse counters of the bridge miss no pulse."""
+    """At 250 000 pulses/s on both axes, the pulse counters of the bridge count every pulse."""
     log = tmp_path / "pulses.txt"
     board = start_board(part="ppmc2104", log=log, cw=99_000, slow_cw=99_000, cw2=99_000, slow_cw2=99_000)
     with Ppmc2104.open(board.port) as part:
@@ -125,7 +127,7 @@ def test_fast_pulses_of_both(start_board: StartBoard, tmp_path: Path) -> None:
 
 
 def test_a_limit_stops_both(start_board: StartBoard) -> None:
-    """In a coordinated move, an axis that is not at its limit stops as well, with its ramp."""
+    """If one axis of a coordinated move reaches its limit, the other axis is also stopped, with its ramp."""
     board = start_board(part="ppmc2104", slow_cw2=6000)
     with Ppmc2104.open(board.port) as part:
         initialise(part)
@@ -139,7 +141,7 @@ def test_a_limit_stops_both(start_board: StartBoard) -> None:
 
 
 def test_home_and_refused_starts(start_board: StartBoard) -> None:
-    """Homing of axis 2 starts on its switch; the part rejects a start into the limit."""
+    """Homing of axis 2 works if it starts on the switch; a start of axis 1 into its limit is rejected."""
     board = start_board(part="ppmc2104", start2=-150, start=40_000)
     with Ppmc2104.open(board.port) as part:
         initialise(part)
@@ -152,7 +154,7 @@ def test_home_and_refused_starts(start_board: StartBoard) -> None:
 
 
 def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
-    """Errors of one axis during motions of both do not change either motion."""
+    """Errors of one axis during motions of both axes change neither motion."""
     with Ppmc2104.open(board.port) as part:
         initialise(part)
         motions = part.start_moves(3000, 3500)
@@ -165,12 +167,12 @@ def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
 
 
 def yank(part: Ppmc2104) -> None:
-    """Close the port, as a crash of the host or an unplugged cable does."""
+    """Close the port without notice, as a crash of the host or an unplugged cable does."""
     part.link.port._serial.close()
 
 
 def test_unplugged_in_a_coordinated_move(board: SimBoard, until: Wait) -> None:
-    """Without a host, both motors make their pulses; the next host reads the right positions."""
+    """Without a host, both motors make all their pulses; the next host reads the right positions."""
     part = Ppmc2104.open(board.port)
     initialise(part)
     part.start_moves(8000, -3000)
@@ -184,8 +186,8 @@ def test_unplugged_in_a_coordinated_move(board: SimBoard, until: Wait) -> None:
 
 
 def test_host_dies_between_the_commands(board: SimBoard, until: Wait) -> None:
-    """If the host of an axis that waits for RUN is gone, no motor moves when the next host opens the
-    board.
+    """If a host ends while an axis waits for RUN, this axis does not move when the next host opens
+    the board.
     """
     part = Ppmc2104.open(board.port)
     initialise(part)
@@ -203,7 +205,7 @@ def test_host_dies_between_the_commands(board: SimBoard, until: Wait) -> None:
 
 
 def axes_at_rest(port: str) -> list[int]:
-    """Return the positions of both axes, which must be at standstill."""
+    """Return the positions of both axes; fail unless both are at standstill."""
     with Ppmc2104.open(port) as part:
         assert not any(part.status().busy)
         axes: tuple[Axis, ...] = part.axes
@@ -214,7 +216,7 @@ def axes_at_rest(port: str) -> list[int]:
 def test_ctrl_c_stops_with_ramps(
     board: SimBoard, openppmc: CommandLine, until: Wait, words: tuple[str, ...]
 ) -> None:
-    """Ctrl-C stops all motions that the command has started."""
+    """Ctrl-C stops all motions that the command has started, each with its ramp."""
     process = openppmc.begin(board.port, *words, *SLOW)
 
     def pulses() -> list[int]:
@@ -239,7 +241,7 @@ def test_ctrl_c_stops_with_ramps(
 
 
 def test_commands(board: SimBoard, openppmc: CommandLine, tmp_path: Path) -> None:
-    """In a session of single commands, the part is that of IDENT, and set-ups are stored per axis."""
+    """Single commands detect the part by IDENT and store the set-up of each axis."""
     for words in (
         ("init", *SLOW),
         ("init", "--axis", "2", "--start", "2000", "--high", "9000"),
@@ -256,7 +258,7 @@ def test_commands(board: SimBoard, openppmc: CommandLine, tmp_path: Path) -> Non
 
 
 def test_another_part_was_named(board: SimBoard, openppmc: CommandLine) -> None:
-    """`--part` is compared with the part of the board."""
+    """If `--part` names another part than that of the board, the command fails with one line."""
     code, _, err = openppmc.run(board.port, "--part", "ppmc104", "info")
     assert code == 1 and one_line(err) and "PPMC-2104, not a PPMC-104" in err
     code, out, err = openppmc.run(board.port, "--part", "ppmc2104", "info")
@@ -264,7 +266,7 @@ def test_another_part_was_named(board: SimBoard, openppmc: CommandLine) -> None:
 
 
 def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
-    """`--part ppmc2104 --port sim:` builds the board with that part, and a script moves both axes."""
+    """`--part ppmc2104 --port sim:` starts a board with that part, on which a script moves both axes."""
     log, script = tmp_path / "pulses.txt", tmp_path / "demo.txt"
     script.write_text("move 300 400\nmove -50 axis=2\nposition\n")
     code, out, err = openppmc.run(f"sim:part=ppmc2104,log={log}", "script", str(script), *SLOW)
@@ -282,13 +284,13 @@ def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
     ],
 )
 def test_bad_text(openppmc: CommandLine, port: str, expected: str) -> None:
-    """A mistake after `sim:` is reported in one line with the known words."""
+    """A mistake in the text after `sim:` is reported in one line with the valid words."""
     code, _, err = openppmc.run(port, "info")
     assert code == 1 and one_line(err) and expected in err, err
 
 
 def test_straps_and_pins(start_board: StartBoard) -> None:
-    """The straps reach ERRINT, CSEL and RUN of each axis, and select the axis whose pins PINS returns."""
+    """The straps set ERRINT, CSEL and RUN of each axis, and select the axis whose pins PINS returns."""
     board = start_board(part="ppmc2104", start2=-450)
     with Ppmc2104.open(board.port) as part:
         initialise(part)

@@ -190,7 +190,7 @@ def test_bad_lines(run: Run, tmp_path: Path, port: str, text: str, line: int, me
 
 @pytest.mark.parametrize("again", [False, True])
 def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool) -> None:
-    """Ctrl-C stops both axes with their ramps; a second Ctrl-C during the deceleration stops both
+    """The first Ctrl-C stops both axes with their ramps; a second one during the deceleration stops both
     immediately.
     """
     with Ppmc2104.open(TWO) as part:
@@ -214,7 +214,8 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
         assert text.endswith(f", axis 1: position {after[0]}, axis 2: position {after[1]}")
         low, high = (0, 500) if again else (1900, 2300)
         assert all(low <= b - a <= high for a, b in zip(before, after, strict=True))
-        assert again or abs(after[0] - after[1]) < 5  # the second stop follows the first directly
+        # Both immediate stops are sent one directly after the other.
+        assert again or abs(after[0] - after[1]) < 5
         assert not any(part.status().busy)
 
 
@@ -238,12 +239,12 @@ def test_ctrl_c_in_a_real_process(tmp_path: Path) -> None:
     told = re.fullmatch(r"interrupted: stopped, axis 1: position (-?\d+), axis 2: position (-?\d+)\n", err)
     assert told is not None, err
     x, y = map(int, told.groups())
-    # Each axis has a separate stop command, so the time between them depends on the load of the computer.
+    # Each axis needs a separate stop command; the time between them depends on the load of the computer.
     assert 0 <= x < 8000 and 0 <= y < 8000
 
 
 def test_stop_what_another_program_left(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """`stop` stops every moving axis; a constant speed requires --now."""
+    """`stop` stops every moving axis with its ramp; an axis at constant speed requires --now."""
     with Ppmc2104.open(TWO) as part:
         for axis in (part.x, part.y):
             axis.initialise()

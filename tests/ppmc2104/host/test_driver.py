@@ -68,9 +68,7 @@ def model(part: Ppmc2104) -> Carrier:
 
 
 def first_pulses(part: Ppmc2104) -> list[list[int]]:
-    """Return a list per axis to which the cycle of each pulse is appended, observed inside the modelled
-    board.
-    """
+    """Return a list for each axis, to which the modelled board appends the cycle of each pulse."""
     seen: list[list[int]] = [[], []]
     real = model(part)._follow
     levels = [1, 1]
@@ -113,11 +111,13 @@ def test_a_part_without_a_driver() -> None:
 
 
 def test_opening_clears_what_others_left() -> None:
-    """Opening clears errors of both axes, a command that waits for data, and an unread answer."""
+    """When a driver opens the part, it clears errors of both axes, an incomplete command, and an unread
+    answer.
+    """
     port = ModelPort("part=ppmc2104,speed=max")
     link = Link(port)
     for script in (
-        Script().post(1, b"\x07").post(1, b"\xa7"),  # undefined codes: error 1 of either axis
+        Script().post(1, b"\x07").post(1, b"\xa7"),  # undefined codes: error 1 of both axes
         Script().post(1, b"\x02").post(0, b"\x63"),  # only two bytes of an initialisation
         Script().post(1, b"\x83").post(1, b"\x22"),  # an unread answer, then a command of axis 2
     ):
@@ -148,8 +148,9 @@ def test_a_motion_of_another_program_goes_on() -> None:
 
 @pytest.mark.parametrize("early", [True, False])
 def test_ends_that_nobody_read_hide_no_other(early: bool) -> None:
-    """An unread end of another program's motion, which keeps int_n low, does not hide other ends,
-    whether it ended before or after the opening.
+    """While the end of another program's motion is unread, int_n stays low; this does not hide other ends.
+
+    It may have ended before or after the opening.
     """
     first = Ppmc2104.open("model:part=ppmc2104,speed=max")
     first.x.initialise(**SETUP)
@@ -165,8 +166,8 @@ def test_ends_that_nobody_read_hide_no_other(early: bool) -> None:
 
 
 def test_an_axis_left_waiting_for_run_does_not_start() -> None:
-    """If a program ended between the commands of a coordinated start, the next one can open the part
-    and use the other axis. It ends the wait only when a stop is requested.
+    """If a program ended between the commands of a coordinated start, the next program can open the part and
+    use the other axis. The waiting axis waits until a stop is requested.
     """
     port = ModelPort("part=ppmc2104,speed=max")
     first = Ppmc2104.open(port)
@@ -221,7 +222,9 @@ def test_a_move_of_one_axis_leaves_the_other_alone(part: Ppmc2104) -> None:
 
 
 def test_the_end_of_the_other_axis_does_not_hide_this_one(part: Ppmc2104) -> None:
-    """int_n stays low while an end is unread, so the wait for one axis also reads the end of the other."""
+    """int_n stays low while an end is unread, so the wait for one axis also reads the end of the
+    other axis.
+    """
     short, long = part.x.start_move(100), part.y.start_move(2000)
     before = part.link.clock()
     end = long.wait()
@@ -232,8 +235,8 @@ def test_the_end_of_the_other_axis_does_not_hide_this_one(part: Ppmc2104) -> Non
 
 @pytest.mark.parametrize("setups", [({}, {}), ({}, {"start_pps": 1000}), ({"start_pps": 1000}, {})])
 def test_together_begins_on_one_clk(setups: tuple[dict[str, int], dict[str, int]]) -> None:
-    """Coordinated starts work with ramps of different base clocks, too: the driver sets the straps of
-    both axes.
+    """A coordinated start works even if the ramps need different base clocks: the driver sets the straps of
+    each axis.
     """
     with board() as part:
         for axis, setup in zip((part.x, part.y), setups, strict=True):
@@ -250,7 +253,7 @@ def test_together_begins_on_one_clk(setups: tuple[dict[str, int], dict[str, int]
 
 
 def test_together_at_constant_speeds(part: Ppmc2104) -> None:
-    """In a coordinated start, one axis can use the slow base clock and the other the fast one."""
+    """In a coordinated start at constant speeds, the axes can use different base clocks."""
     seen = first_pulses(part)
     part.move_together(40, 300, 1000, 100_000)
     assert seen[0][0] == seen[1][0]
@@ -329,7 +332,7 @@ def test_stop_with_a_ramp(part: Ppmc2104) -> None:
 
 
 def test_stop_at_constant_speed_is_immediate(part: Ppmc2104) -> None:
-    """At constant speed the part rejects a decelerating stop, and the driver stops immediately
+    """At constant speed the part rejects a decelerating stop, so the driver stops immediately
     (P2104-STP-03).
     """
     part.x.jog(CCW, 2000)
@@ -357,7 +360,7 @@ def test_stop_twice_and_stop_at_rest(part: Ppmc2104) -> None:
 
 
 def test_stop_while_the_part_waits_for_run(part: Ppmc2104) -> None:
-    """If a RUN pin is held low externally, no pulse is output, and a stop ends the motion."""
+    """If the RUN pin is held low externally, a move outputs no pulse, and a stop ends it."""
     model(part).set_pins(run=0)
     model(part).straps = lambda levels: None  # type: ignore[method-assign]
     motion = part.x.start_move(500)
@@ -389,7 +392,7 @@ def test_limits_and_starts_on_them(part: Ppmc2104) -> None:
     assert model(part).position == 40_000
     assert part.x.inputs().active == ["limit cw", "slow cw"]
     assert part.y.inputs().active == []
-    # The part rejects such a start (error 7); for the user it is the same as on a PPMC-104.
+    # The part rejects such a start (error 7); the driver raises the same error as for a PPMC-104.
     with pytest.raises(LimitReached, match="after 0 of 1 pulses") as caught:
         part.x.step(CW)
     assert caught.value.result.pulses == 0
@@ -428,8 +431,8 @@ def test_home(start: int, how: dict[str, bool]) -> None:
 
 
 def test_every_error_number_has_its_exception(part: Ppmc2104) -> None:
-    """Each error number, provoked by a script on axis 2 of the golden model, raises its exception and
-    is cleared immediately.
+    """Each error number that a script provokes on the golden model raises its own exception, and the driver
+    clears the error immediately.
     """
     link = part.link
     model(part).set_pins(bl_n=0b01)
@@ -560,7 +563,7 @@ def test_reset(part: Ppmc2104) -> None:
 
 
 def test_noise_during_coordinated_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If every fifth transfer loses a byte, each pair of moves is still made exactly once."""
+    """If every fifth transfer loses a byte, each pair of moves is nevertheless made exactly once."""
     with board() as part:
         port = part.link.port
         write, count = port.write, 0
@@ -579,8 +582,8 @@ def test_noise_during_coordinated_starts(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_ctrl_c_in_the_middle_of_a_coordinated_start(part: Ppmc2104, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If Ctrl-C interrupts only the wait for the answer, both axes run, and the driver stops them
-    before it raises.
+    """If Ctrl-C occurs while the driver waits for the answer to a coordinated start, both axes run; the
+    driver stops them before it raises KeyboardInterrupt.
     """
     read = part.link.port.read
 

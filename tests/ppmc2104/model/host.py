@@ -10,20 +10,21 @@ from tests.common.model.host import ModelHost
 B1 = "c 02 d 63 d 13 d 0A d 00"
 B2 = "c 22 d 63 d 13 d 0A d 00"
 LONG = " c 43 d E7 d 03 d 00"
-# Rates of the ramp that B1 and B2 set, index 0..10.
+# Rates of the ramp that B1 and B2 set, for the ramp indices 0 to 10.
 RAMP = [99, 53, 41, 34, 30, 27, 24, 23, 21, 20, 19]
 
 
 def clk(rates: list[int], base: int = 32) -> list[int]:
-    """Return intervals in cycles at 16 MHz: base 32 (500 kHz) or 128 (125 kHz)."""
+    """Return intervals in cycles at 16 MHz; base 32 is the clock of 500 kHz, base 128 that of 125 kHz."""
     return [base * (rate + 1) for rate in rates]
 
 
 class Host(ModelHost):
-    """`ModelHost` of the PPMC-2104. Scripts may also contain e1, e2 (error code read), idle (both axes
-    at standstill), ready (no CMND).
+    """`ModelHost` of the PPMC-2104.
 
-    `axis` (1 or 2) is the axis of pulses(), intervals(), lows() and fall().
+    Scripts may also contain e1, e2 (read of an error code), idle (wait until both axes are at standstill) and
+    ready (wait until no CMND is set). `axis` (1 or 2) is the axis of pulses(), intervals(), lows() and
+    fall().
     """
 
     MODEL = Ppmc2104
@@ -56,7 +57,7 @@ class Host(ModelHost):
         return got
 
     def idle(self) -> None:
-        """Wait for BUSY = 0 of both axes without a bus access."""
+        """Wait until BUSY = 0 for both axes, without accesses to the bus."""
         self.sync()
         while self.model.busy(1) or self.model.busy(2):
             self.step()
@@ -79,7 +80,7 @@ class Host(ModelHost):
         return low_times(self.model.bits("pout_n", self.axis, self.mark))
 
     def phases(self) -> list[str]:
-        """Return the levels of the phase pins of `axis` since `mark`, as five digits S5..S1."""
+        """Return the phase pins of `axis` at each change since `mark`, as five digits S5..S1."""
         return [f"{value:05b}" for _, value in self.model.log.of(f"s{self.axis}_n", self.mark)]
 
     def status(self) -> int:
@@ -87,7 +88,7 @@ class Host(ModelHost):
         return self.read(1)
 
     def end(self) -> tuple[int, int]:
-        """Wait for the end of `axis`; return end status and remaining value as the host reads them."""
+        """Wait for the end of `axis`; return end status and remaining value, read as a host does."""
         base = 0x20 * (self.axis - 1)
         mark = self.mark
         self.poll(BUSY[self.axis - 1], 0)

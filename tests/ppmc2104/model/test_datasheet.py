@@ -9,7 +9,7 @@ from cocotb_tests.ppmc2104.datasheet_timing import CONSTANT, SETTING, detection
 from openppmc.model import Latency
 from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
-# The latencies of this core are 0, so that the times are exactly those of the tables.
+# The window latency of this core is 0, so that all times are exactly those of the tables.
 PLAIN = Latency(ds_window=0)
 
 
@@ -108,7 +108,7 @@ def test_immediate_stop_in_fin_does_not_delay_the_end():
 @verifies("P2104-DS-03")
 @pytest.mark.parametrize("lead, pulses", [(512, 10), (511, 12)])
 def test_deceleration_stop_acts_at_the_end_of_its_window(lead, pulses):
-    """The flag acts on pulse 6 if the window is over by then."""
+    """A deceleration stop acts on pulse 6 if its window ends before this pulse event, else on a later one."""
     host = ready()
     host.run(LONG)
     sixth = host.fall(5) - 1 + 992
@@ -203,7 +203,7 @@ def test_no_ticks_while_a_window_is_open():
     event = host.write(1, 0xA6) + 2
     host.pin("fl_n", 0)
     host.idle()
-    # The longest time is the window of 43 us, then a complete polling period.
+    # The longest time is the window of 43 us plus a complete polling period.
     assert host.model.now == event + 688 + 560 + 1
 
 
@@ -221,14 +221,14 @@ def test_immediate_stop_while_pout_is_low():
 @verifies("P2104-DS-20")
 @pytest.mark.parametrize("early, ends", [(0, 0), (1, 688 - 1 + 560)])
 def test_tick_on_the_edge_on_which_a_window_opens(early, ends):
-    """A polling tick on the edge that opens a window still counts; if the window opens one cycle before
-    it, the tick waits for the end of the window.
+    """A polling tick on the edge that opens a window still acts; if the window opens one cycle earlier, the
+    tick is delayed until after the window.
     """
     host = ready(B1 + " ready " + B2)
     host.run("c 45 d FF")
     tick = c_event(host) + 32 * 16 + 20 * 560
-    # A byte is accepted 6 cycles after its strobe begins; a level is detected 2 cycles after it is
-    # sampled.
+    # A byte is accepted 6 cycles after its strobe begins; a level is detected 2 cycles after the edge that
+    # samples it.
     host.go(tick - 6 - early)
     assert host.write(1, 0xA6) + 2 == tick - early
     host.model.pins(tick - 2, fl_n=0b10)
@@ -239,7 +239,7 @@ def test_tick_on_the_edge_on_which_a_window_opens(early, ends):
 @verifies("P2104-DS-20")
 @pytest.mark.parametrize("late, ends", [(0, 560), (560, 560), (561, 1120)])
 def test_first_tick_after_a_window(late, ends):
-    """The first tick after a window is not at its end, but a complete period later."""
+    """The first polling tick after a window is one complete period after its end, not at its end."""
     host = ready(B1 + " ready " + B2)
     host.run("c 45 d FF")
     host.fall(3, after=50)
@@ -271,7 +271,7 @@ def test_live_levels_at_the_start():
 
 
 def error(host: Host, script: str) -> int:
-    """Return the error of an operation of axis 1; stop the operation if it started."""
+    """Return the error number of an operation of axis 1; stop the operation if it has started."""
     (code,) = host.run(script + " e1")
     if host.model.busy(1):
         host.run("c 40")

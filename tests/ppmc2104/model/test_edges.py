@@ -29,7 +29,9 @@ def test_ac_79_three_bytes(busc):
 @verifies("P2104-BUS-01", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-12")
 def test_what_makes_a_strobe():
     def shows(busc: int, first: int, second: int) -> tuple[int, int]:
-        """Return d_oe in a strobe with these levels, and ERROR after it (the byte is an undefined code)."""
+        """Return d_oe during a strobe with these levels, and ERROR after it (the byte is an undefined
+        code).
+        """
         host = Host(busc=busc)
         host.pins(cs_n=0, ds_wrs_n=first, rw_rds_n=second, a0=1, d_i=0x87)
         host.pause(6)
@@ -82,7 +84,9 @@ def test_shared_builder_queues():
 
 @pytest.mark.parametrize("early, taken", [(0, 1), (1, 1), (-1, 1), (-2, 2)])
 def test_code_that_meets_the_end_of_the_build(early, taken):
-    """CMND falls on one edge, and a waiting code is accepted on the next; later codes are not delayed."""
+    """A code that waits for the end of a build is accepted one edge after CMND falls; a later code waits no
+    longer than usual.
+    """
     host = Host(B1)
     while host.model.status & 0x10:
         host.step()

@@ -1,6 +1,4 @@
-"""Acceptance checks of errors, rejected instructions and the handshake on the golden model of the
-PPMC-2104.
-"""
+"""Acceptance checks of errors, rejected instructions and handshake on the golden model of the PPMC-2104."""
 
 from __future__ import annotations
 
@@ -114,7 +112,7 @@ def test_ac_33_rate_zero_needs_the_external_clock():
         host.pause(20)
     host.sync()
     assert len(host.model.pulses(1)) > 5
-    # A second setting is checked against the active clock source.
+    # A second initial setting is checked with the active clock source.
     host.run("c 40")
     assert host.run("c 02 d 05 d 00 d 04 d 00 e1 ready") == [0]
 

@@ -27,7 +27,7 @@ SUMS = {2: 3200, 3: 6400, 4: 8128, 10: 15776, 11: 16768, 20: 23776, 21: 24448, 2
 
 
 def stopped(during: int, script: str = LONG, code: str = "41", setup: str = B1) -> Host:
-    """Return a host whose move gets a stop in the given interval."""
+    """Return a host whose move was stopped by a command in the interval `during`."""
     host = Host(setup + script)
     host.fall(during, after=100)
     mark = host.mark
@@ -212,7 +212,7 @@ def test_ex_13_pulse_width(rate, interval, low):
 
 
 def external(host: Host, script: str, period: int, axis: int = 1) -> None:
-    """Run extck with 50 % duty cycle until the axis is at standstill."""
+    """Run a script; then output `extck` with 50 % duty cycle until the axis is at standstill."""
     host.run(script)
     while host.model.busy(axis):
         host.pin("extck", 1, axis)

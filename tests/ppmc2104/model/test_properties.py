@@ -118,13 +118,13 @@ axis_1_action = st.one_of(
 
 
 def axis_2_edges(model: Ppmc2104) -> list[tuple[int, str, int]]:
-    """Return all output edges of axis 2."""
+    """Return all output edges of axis 2, sorted by time."""
     shared = [(t, signal, bit) for signal in AXIS_2_OUTPUTS for t, bit in model.bits(signal, 2)]
     return sorted(shared + [(t, "s2_n", value) for t, value in model.log.of("s2_n")])
 
 
 def two_runs(moves: list, traffic: list | None, clk_hz: int) -> Ppmc2104:
-    """Run the moves of axis 2 at fixed edges, with traffic to axis 1 between them, if any."""
+    """Run the moves of axis 2 at fixed edges; between them is the traffic to axis 1, if any."""
     host = Host("c 36 d 09 d 04 d 04 d 00 ready", clk_hz=clk_hz)
     start, rest = 20_000, iter(traffic or [])
     for place, (code, data, pin, offset) in enumerate(moves):
@@ -183,8 +183,8 @@ def axis_2_move() -> st.SearchStrategy:
     st.sampled_from([16_000_000, 11_059_200]),
 )
 def test_axis_1_never_changes_axis_2(moves, traffic, clk_hz):
-    """Traffic to axis 1 never changes the edges of axis 2 (P2104-OPR-10, P2104-BCK-05, P2104-STP-06)."""
-    # A pin change of axis 2 must be on the same edge in both runs, so traffic ends before it.
+    """Traffic to axis 1 never changes an edge of axis 2 (P2104-OPR-10, P2104-BCK-05, P2104-STP-06)."""
+    # Pin changes of axis 2 must be on the same edges in both runs, so the traffic pauses before them.
     alone = two_runs(moves, None, clk_hz)
     beside = two_runs(moves, traffic, clk_hz)
     assert [e[1:] for e in axis_2_edges(alone)] and axis_2_edges(alone) == axis_2_edges(beside)
@@ -205,8 +205,8 @@ def test_axis_1_never_changes_axis_2(moves, traffic, clk_hz):
     after=st.integers(6, 500),
 )
 def test_pulses_and_remaining_value_add_up(n, rl, span, pa, code, cause, fall, after):
-    """The remaining value follows m = N - j, and bits 6-3 distinguish a complete move from a cut one
-    (P2104-END-05, -06).
+    """After j of N pulses, m = N - j pulses remain; if m > 0, one of bits 6-3 is 1, except at the origin
+    (P2104-END-05, P2104-END-06).
     """
     rh = max(1, rl - span)
     host = Host(f"c 02 d {rl:02X} d {rh:02X} d {pa:02X} d 00 ready")
@@ -249,7 +249,7 @@ def test_pulses_and_remaining_value_add_up(n, rl, span, pa, code, cause, fall, a
     )
 )
 def test_interrupt_latches(steps):
-    """int_n follows a reference model of raised and read interrupts (P2104-INT-01..05)."""
+    """int_n agrees with a reference model of the interrupts that were raised and read (P2104-INT-01..05)."""
     host = Host(B1 + " c 22 d 63 d 13 d 0A d 00 ready")
     errint, pending = 1, set()
     for code, wait in steps:

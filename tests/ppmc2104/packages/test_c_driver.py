@@ -1,4 +1,4 @@
-"""The C driver of the PPMC-2104 on the Verilated part, one bus access after the other."""
+"""The C driver of the PPMC-2104 on the Verilated part, with accesses to its bus."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.xdist_group("cdriver_2104")  # one worker builds and ru
 
 INIT = bytes([99, 49, 10, 0])
 OK, BAD_ARGUMENT, UNCONFIRMED, UNKNOWN_POSITION, ERROR = 0, 18, 19, 20, 32
-"""ERROR: offset of the results for the error numbers of the part."""
+"""ERROR: offset of a result that contains an error number of the part."""
 
 
 @pytest.fixture(scope="module", params=TIMINGS)
@@ -54,14 +54,14 @@ def position(lines: Lines, name: str) -> tuple[int, int]:
     ],
 )
 def test_motion_makes_the_pulses_of_the_model(lines, name, cw, ccw, rate, raw):
-    """Count, direction and every interval of a motion are those of the model (P2104-RMP-01)."""
+    """The count, the direction and every interval of a motion equal those of the model (P2104-RMP-01)."""
     want = predict_move(INIT, cw + ccw, rate, part="ppmc2104").intervals
     assert pulses(lines, name) == (cw, ccw, want)
     assert (ending(lines, name)["raw"], ending(lines, name)["left"]) == (raw, 0)
 
 
 def test_positions(lines):
-    """A position is unknown until it is set; then it counts confirmed motions, each of them once."""
+    """A position is unknown until it is set; after that, each confirmed motion is counted once."""
     assert position(lines, "unknown")[0] == result(lines, "unknown move")[0] == UNKNOWN_POSITION
     assert position(lines, "moving")[0] == ERROR + 5
     assert position(lines, "after move") == (OK, 30)
@@ -76,7 +76,7 @@ def test_interrupt(lines):
 
 
 def test_both_axes_start_on_one_edge(lines):
-    """Two motions that wait for RUN make their first pulses on the same clock edge (P2104-OPR-02)."""
+    """Two motions that wait for RUN output their first pulses on the same clock edge (P2104-OPR-02)."""
     assert result(lines, "both")[0] == OK
     begins = [next(line for line in lines[name] if "cw" in line) for name in ("first", "second")]
     assert len({line["at"].split()[0] for line in begins}) == 1
@@ -95,7 +95,7 @@ def test_no_axis_starts_if_one_is_rejected(lines):
     [("fl", 0x10, 0xC7), ("bl", 0x10, 0xCD), ("alm", 0x20, 0x8F), ("fhl", 0x08, 0xCB)],
 )
 def test_switch_ends_the_move(lines, name, bit, inputs):
-    """A switch in a move of 100 pulses ends it with consistent cause, remaining count and pulses.
+    """If a switch ends a move of 100 pulses, cause, remaining count and pulses agree with each other.
 
     P2104-LIM-03, P2104-LIM-04, P2104-LIM-05.
     """
@@ -105,8 +105,8 @@ def test_switch_ends_the_move(lines, name, bit, inputs):
 
 
 def test_origin_and_stops(lines):
-    """Origin search, jog and run end by the origin or a stop; a decelerating stop without a ramp is
-    error 8.
+    """The origin ends a search, a stop ends jog and run; a decelerating stop of a motion without a ramp
+    returns error 8.
     """
     raws = [ending(lines, name)["raw"] for name in ("home", "jog", "run")]
     assert raws == [0x87, 0xC5, 0xC6]
@@ -133,19 +133,21 @@ def test_origin_and_stops(lines):
     ],
 )
 def test_error_number(lines, name, number):
-    """A rejected instruction returns the error number of its axis and the text (P2104-ERR-01)."""
+    """If the part rejects an instruction, the driver returns the error number of the axis and the matching
+    text (P2104-ERR-01).
+    """
     value, text = result(lines, f"E {name}")
     assert value == ERROR + number and text.startswith(f"error {number}: ")
 
 
 def test_stop_with_an_unfinished_instruction(lines):
-    """A stop acts although it drops an unfinished instruction (P2104-STP-07)."""
+    """A stop acts even if it drops an unfinished instruction (P2104-STP-07)."""
     assert result(lines, "E half stop")[0] == OK
     assert ending(lines, "E half")["raw"] == 0xC3
 
 
 def test_bad_arguments(lines):
-    """A value out of range is an error, and nothing moves."""
+    """For a value out of range, the driver returns an error, and no motor moves."""
     named = [name for name in lines if name.startswith("A ") and "result" in lines[name][0]]
     assert len(named) == 12
     assert {result(lines, name)[0] for name in named} == {BAD_ARGUMENT}
@@ -153,7 +155,7 @@ def test_bad_arguments(lines):
 
 
 def test_pins_and_reads(lines):
-    """Instructions without a motion are accepted; reads return the pins."""
+    """Instructions without a motion are accepted, and the reads return the levels of the pins."""
     for name in ("switching", "hold", "aux", "aux in", "outputs", "off"):
         assert result(lines, f"P {name}") == (OK, "ok"), name
     assert lines["pins"][0]["aux"] == "02"
@@ -161,7 +163,7 @@ def test_pins_and_reads(lines):
 
 
 def test_reset_in_a_motion(lines):
-    """A reset in a motion is an unconfirmed end, and the position is unknown (P2104-BAD-23)."""
+    """If the part is reset in a motion, the end is unconfirmed and the position is unknown (P2104-BAD-23)."""
     assert result(lines, "U reset")[0] == result(lines, "U reset left")[0] == UNCONFIRMED
     assert position(lines, "U where")[0] == UNKNOWN_POSITION
     assert result(lines, "U routine")[0] == result(lines, "U after it")[0] == OK
@@ -169,7 +171,7 @@ def test_reset_in_a_motion(lines):
 
 
 def test_time_out(lines):
-    """Without a part, or with a motion longer than the wait, each wait ends with its own error."""
+    """Each wait ends if the part is missing or the motion takes longer; the results distinguish the cases."""
     assert result(lines, "dead ones")[0] == 17
     assert result(lines, "dead zeros")[0] == 16
     assert result(lines, "dead held")[0] == 17

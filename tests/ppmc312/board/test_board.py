@@ -1,4 +1,4 @@
-"""The virtual board with a PPMC-312: block registers accessed through the bridge, a motor with an encoder."""
+"""The virtual board with a PPMC-312: its block registers through the bridge, a motor with an encoder."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ QUICK = [(5000, 20), (10_000, 30), (20_000, 40), (40_000, 60)]
 
 
 def test_pulses_and_registers(start_board: StartBoard, tmp_path: Path) -> None:
-    """Every pulse of three moves is output at its exact cycle.
+    """Every pulse of three moves is output in its exact cycle.
 
-    Each instruction is one message, and the table is read back.
+    No message needs a repeat, and the table that the driver reads back is the one that it sent.
     """
     log = tmp_path / "pulses.txt"
     board = start_board(part="ppmc312", speed="max", log=log)
@@ -53,7 +53,9 @@ def test_pulses_and_registers(start_board: StartBoard, tmp_path: Path) -> None:
 
 
 def test_switches_and_encoder(start_board: StartBoard) -> None:
-    """Origin, index, limits and encoder act on the part, and an obstacle stops the shaft."""
+    """Origin, index, limits and encoder work on the part, and an obstacle stops the shaft but not the
+    pulses.
+    """
     board = start_board(
         part="ppmc312", speed="max", start=600, ccw=-900, slow_ccw=-700, block=1500, alarm="-500..-450"
     )
@@ -80,7 +82,7 @@ def test_switches_and_encoder(start_board: StartBoard) -> None:
 def test_overrides_and_events(start_board: StartBoard) -> None:
     """Overrides change the speed and stop a motion at their positions.
 
-    Straps of the board work as event inputs and RUN.
+    The straps of the board work as event inputs and as RUN.
     """
     board = start_board(part="ppmc312", speed="max")
     with Ppmc312.open(board.port) as part:

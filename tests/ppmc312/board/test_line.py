@@ -28,13 +28,15 @@ PATIENCE = 5.0
 
 @pytest.fixture
 def line() -> Iterator[SimLine]:
-    """Provide a line of all sixteen stations at full speed: 0.02 of real time while all move."""
+    """Provide a line of all sixteen stations at full speed, which is 0.02 of real time while all of them
+    move.
+    """
     with start_line("speed=max,baud=83333,start=100,cw=600,slow_cw=500") as made:
         yield made
 
 
 def test_sixteen_stations(line: SimLine) -> None:
-    """All stations are found, initialised and moved together; the motors reach their positions."""
+    """All stations are found, initialised and moved together, and the motors reach their positions."""
     with Ppmc312Bus.open(line.port, 83_333, patience=PATIENCE) as bus:
         assert [(one.station, one.version, one.problem) for one in bus.scan()] == [
             (number, 0x12, "") for number in range(16)
@@ -53,7 +55,7 @@ def test_sixteen_stations(line: SimLine) -> None:
 
 
 def test_one_program_after_the_other(line: SimLine, openppmc: CommandLine) -> None:
-    """A command keeps the state that the previous one left; the set-up of each station is stored."""
+    """A command continues with the state that the previous one left; the set-up of each station is stored."""
     run = (*PART, "--baud", "83333")
     setup = ("--start", "4000", "--high", "8000", "--ramp", "600")
     assert openppmc.run(line.port, *run, "init", "--axis", "2,5", *setup)[0] == 0
@@ -71,7 +73,7 @@ def test_one_program_after_the_other(line: SimLine, openppmc: CommandLine) -> No
 
 
 def test_real_time_and_pace() -> None:
-    """A line with speed=1 does not run faster than the clock."""
+    """A line with speed=1 does not run faster than real time."""
     with start_line("stations=1") as line, Ppmc312Bus.open(line.port, patience=PATIENCE) as bus:
         axis = bus.axis(0)
         axis.initialise(*QUICK)
@@ -91,7 +93,7 @@ def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
 
 
 def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
-    """`make board PART=ppmc312-serial` provides a name for the port and ends with Ctrl-C."""
+    """`make board PART=ppmc312-serial` creates a name for the port and ends with Ctrl-C."""
     link = tmp_path / "line"
     command = [sys.executable, "-m", "openppmc.sim", "part=ppmc312-serial", f"stations=3,link={link}"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
@@ -108,7 +110,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
 
 
 def test_wrong_speed_and_echo(line: SimLine) -> None:
-    """At another speed the line receives invalid frames; an echo is distinguished from a reply."""
+    """At another baud rate the line receives only invalid frames; an echo is distinguished from a reply."""
     with Ppmc312Bus.open(line.port, 19_200) as bus, pytest.raises(StationNotResponding, match="speed"):
         bus.axis(0).version()
     with start_line("stations=1,echo=on") as echoing:
@@ -119,9 +121,9 @@ def test_wrong_speed_and_echo(line: SimLine) -> None:
 
 
 def test_taken_unplugged_and_strange_ports(line: SimLine, until: Wait) -> None:
-    """One master can open a port at a time.
+    """Only one master can open a port at a time.
 
-    A port that disappears raises Disconnected; a terminal without stations has an empty scan result.
+    If the port disappears, Disconnected is raised; on a terminal without stations, a scan finds no station.
     """
     with Ppmc312Bus.open(line.port, 83_333, patience=PATIENCE) as bus:
         with pytest.raises(PortError, match="close it first"):

@@ -60,12 +60,12 @@ def test_init_and_plan(run: Run, tmp_path: Path, curve: str) -> None:
     assert "sigmoid, 2000 pulses" in out and "stop speed" in out and "ramp down" in out
     plot = tmp_path / "x.svg"
     values = json.loads(run("plan", "5000", "--base-clock", "1e6", "--json", "--plot", str(plot)).out)
-    # Worked move E13 (P312-CHK-17) has 1 532 294 ticks, including the last interval of 1000.
+    # Worked move E13 (P312-CHK-17) has 1 532 294 ticks, including 1000 of the last interval.
     assert values["move"]["seconds"] == pytest.approx((1_532_294 - 1000) / 1e6)
     assert (values["move"]["ramp_pulses"], values["move"]["plateau_intervals"]) == (2000, 1000)
     assert plot.stat().st_size > 1000
     small = json.loads(run("plan", "23", "--curve", curve, "--json").out)["move"]
-    # Worked move E3 (P312-CHK-15) has 11 pulses up and 12 pulses down.
+    # Worked move E3 (P312-CHK-15) has 11 pulses while accelerating and 12 while decelerating.
     assert small["profile"] == "triangle" and (small["ramp_pulses"], small["down_pulses"]) == (11, 12)
     assert small["seconds"] == pytest.approx(0.0045)
     flat = json.loads(run("plan", "5", "--curve", curve, "--speed", "5000", "--json").out)["move"]
@@ -223,7 +223,7 @@ def test_refusals_are_one_line(run: Run, words: tuple[str, ...], message: str, c
 
 
 def test_ctrl_c_decelerates(run: Run, tmp_path: Path) -> None:
-    curve = tmp_path / "slow.csv"  # slow enough for a busy computer
+    curve = tmp_path / "slow.csv"  # so slow that the test also works on a busy computer
     curve.write_text("250,3\n500,4\n1000,5\n")
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()

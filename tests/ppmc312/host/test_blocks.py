@@ -1,4 +1,4 @@
-"""Bytes of the PPMC-312: instruction blocks, responses and tables of the worked examples of its rules."""
+"""Blocks of the PPMC-312: instructions, responses and tables of the worked examples of its rules."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def test_transactions_of_the_rules(row: int, block: bytes, start: int, wanted: s
 def test_free_curve_of_the_rules() -> None:
     """The blocks of a free curve equal transactions 34 to 36 of tb_transactions.py.
 
-    With a separate deceleration, the number of its stages follows.
+    If the deceleration is separate, the opening block also contains the number of its stages.
     """
     blocks = blocks312.free_curve(1, [100, 200, 400], [5, 4, 3])
     assert [blocks312.bus_order(block).hex(" ") for block in blocks] == [
@@ -227,7 +227,7 @@ def test_responses_whose_length_is_wrong() -> None:
 
 
 def test_status_and_inputs() -> None:
-    """Each bit of status and inputs has the place that the rules state (P312-CMD-4D, -27)."""
+    """Each bit of status and inputs is at the position that the rules state (P312-CMD-4D, -27)."""
     rest = Status.parse(bytes([0x00, 0x02, 0x00]))
     assert (rest.state, rest.busy, rest.run_monitored, rest.overrides) == (State.NOR, False, True, 0)
     names = ("interlock", None, "encoder_watched", "position_watched", "end_monitored")
@@ -252,7 +252,7 @@ def test_status_and_inputs() -> None:
 
 
 def test_base_clock_by_the_slowest_speed() -> None:
-    """The planned base clock is the fastest with which 65 535 ticks are long enough for the slowest speed."""
+    """The planned base clock is the fastest one with which the slowest speed needs at most 65 535 ticks."""
     for slowest, clk in ((5000, 0), (123, 0), (122, 1), (15.3, 1), (7.7, 2), (4, 3), (1, 4), (0.3, 5)):
         setup = PPMC312.plan(XTAL, SetupRequest(start_pps=slowest, high_pps=7000, ramp_pulses=9_000_000))
         assert setup.clock.clk == clk, slowest
@@ -266,7 +266,7 @@ def test_base_clock_by_the_slowest_speed() -> None:
 
 
 def test_initial_settings() -> None:
-    """Initial settings have the bytes of the tables T1 to T5 (docs/ppmc312/README.md, 8.1)."""
+    """Planned initial settings have the bytes of the tables T1 to T5 (docs/ppmc312/README.md, 8.1)."""
     examples: list[tuple[dict[str, object], str]] = [
         ({}, "09 00 01 03 E8 00 C8 00 07 D0"),
         ({"sigmoid": True}, "09 00 09 03 E8 00 C8 00 07 D0"),
@@ -298,7 +298,9 @@ def test_initial_settings() -> None:
 def test_fewest_pulses_of_a_ramp(
     start: int, high: int, stop: int | None, sigmoid: bool, least: list[int]
 ) -> None:
-    """The driver names the least number of pulses; one less is error 05 (P312-TBL-05)."""
+    """The driver computes the minimum number of pulses of a ramp; with one pulse less, the setting is
+    rejected with error 05 (P312-TBL-05).
+    """
     rates = (start, start if stop is None else stop, high)
     assert profile._least(rates, sigmoid)[: len(least)] == least
     least = (2 * least)[:2]
@@ -340,7 +342,9 @@ def test_bad_setups_are_told_before_they_are_sent(arguments: dict[str, object], 
 
 
 def test_prediction_of_a_move() -> None:
-    """Predictions equal worked moves E13 and E17 (P312-CHK-17); input that the part rejects is rejected."""
+    """Predictions equal worked moves E13 and E17 (P312-CHK-17); input that the part would reject is
+    rejected.
+    """
     one, two = "01 03e8 00c8 0007d0", "11 03e8 01f4 00c8 0007d0 0005dc"
     move = predict_move(bytes.fromhex(one), 5000, part="ppmc312")
     assert isinstance(move, TableMove) and (move.kind, len(move.clk)) == (0, 5000)
@@ -367,7 +371,7 @@ def test_prediction_of_a_move() -> None:
 
 
 def test_free_curve_with_a_deceleration_of_its_own() -> None:
-    """A curve with three stages up and two down has the blocks TG of cocotb_tests/ppmc312/blocks.py."""
+    """A curve with three stages up and two down gives the blocks TG of cocotb_tests/ppmc312/blocks.py."""
     setup = plan_curve(MEGAHERTZ, [(2500, 3), (5000, 4, 4), (10_000, 5, 6)])
     assert [block.hex(" ") for block in setup.blocks] == [
         "02 04 01 11 03 02",
@@ -422,6 +426,6 @@ def test_a_curve_that_is_no_text(tmp_path: Path) -> None:
 
 
 def test_seconds_of_a_ramp() -> None:
-    """The duration of a ramp is that of three, four and five intervals of 400, 200 and 100 us."""
+    """The duration of a ramp is the sum of its intervals: three of 400 us, four of 200 us, five of 100 us."""
     setup = plan_curve(MEGAHERTZ, [(2500, 3), (5000, 4), (10_000, 5)])
     assert setup.seconds(setup.table.pa) == pytest.approx(float(Fraction(2500, 1_000_000)))

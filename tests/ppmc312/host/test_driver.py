@@ -64,12 +64,12 @@ from openppmc.model.ppmc312.codes import Code, Source, State
 from openppmc.sim.common.machine import parse_machine
 
 TF = ((2500, 3), (5000, 4), (10_000, 5))
-"""Rates 400, 200, 100 with 3, 4, 5 pulses at 1 MHz (table TF in docs/ppmc312/README.md, 8.2)."""
+"""Speeds with 3, 4 and 5 pulses: at 1 MHz, rates 400, 200, 100 (table TF in docs/ppmc312/README.md, 8.2)."""
 
 
 @contextmanager
 def board(plant: str = "", curve: bool = True) -> Iterator[Ppmc312]:
-    """Provide a part with the short table TF, or without a table."""
+    """Provide a part with the short table TF, or without a table if `curve` is false."""
     with Ppmc312.open(f"model:speed=max,part=ppmc312,{plant}") as part:
         if curve:
             part.load_curve(TF, base_clock=1_000_000)
@@ -96,7 +96,9 @@ def messages(part: Ppmc312) -> int:
 
 
 def gaps(part: Ppmc312, act: Callable[[], object]) -> list[int]:
-    """Return the intervals between the pulses of `act` in ticks of 1 us, recorded in the modelled board."""
+    """Run `act` and return the intervals between its pulses in ticks of 1 us, recorded in the
+    modelled board.
+    """
     seen: list[int] = []
     machine = model(part)
     real = machine._follow
@@ -124,9 +126,9 @@ def test_what_answers_is_checked() -> None:
 
 
 def test_opening_clears_what_others_left() -> None:
-    """Opening the driver reads all that another program has left: a half-read answer and a report.
+    """When a driver opens the part, it reads all that another program has left: half an answer and a report.
 
-    Otherwise the next instruction would cause an alarm.
+    An unread response would make the next instruction cause an alarm.
     """
     port = ModelPort("speed=max,part=ppmc312")
     link = Link(port)
@@ -143,7 +145,9 @@ def test_opening_clears_what_others_left() -> None:
 
 
 def test_an_instruction_is_one_message(part: Ppmc312) -> None:
-    """An instruction and its answer are one message, regardless of the size of the answer."""
+    """An instruction with its answer needs one message of the bridge, regardless of the size of the
+    answer.
+    """
     for ask in (part.version, part.status, lambda: part.position, part.inputs, part.excitation_on):
         before = messages(part)
         ask()
@@ -151,7 +155,7 @@ def test_an_instruction_is_one_message(part: Ppmc312) -> None:
 
 
 def test_reports_that_come_first_are_not_lost(part: Ppmc312) -> None:
-    """A stop report that the read window holds when the next instruction is sent is not discarded."""
+    """If a stop report is waiting when the next instruction is sent, the report is not lost."""
     part.start_constant(2, 10_000)
     part.link.pause(0.01)
     assert model(part).part.core.responses.any_waiting
@@ -161,7 +165,7 @@ def test_reports_that_come_first_are_not_lost(part: Ppmc312) -> None:
 
 
 def test_words_of_the_machine() -> None:
-    """Every part has a cam in the machine options; encoder options exist only for this part."""
+    """The machine options of every part have a cam as origin; encoder options exist only for this part."""
     (plant,) = parse_machine("part=ppmc312").plants
     assert [plant.levels(at)["origin"] for at in (-51, -50, 0, 1)] == [1, 0, 0, 1]
     assert [at for at in range(-450, 450) if not plant.index_level(at)] == [-420, -20, 380]
@@ -215,7 +219,9 @@ def test_without_a_table() -> None:
 
 
 def test_what_the_part_itself_refuses(part: Ppmc312) -> None:
-    """Blocks that the driver itself never sends are rejected by the part with the right exception."""
+    """If the driver is made to send blocks that it never builds, the part rejects each with its own
+    exception.
+    """
     for block, kind, text in (
         (blocks.initial_setting(1, 1000, 1, 2000), RateRefused, "high rate 2 to 65519"),
         (blocks.initial_setting(1, 1000, 200, 761), TableRefused, "2 pulses"),
@@ -242,7 +248,9 @@ def test_a_speed_outside_the_table(part: Ppmc312) -> None:
 
 
 def test_pulses_of_a_move(part: Ppmc312) -> None:
-    """Moves equal worked moves E1 and E3 (P312-CHK-15), and a constant speed has constant intervals."""
+    """Moves have the intervals of worked moves E1 and E3 (P312-CHK-15); at constant speed all intervals are
+    equal.
+    """
     assert gaps(part, lambda: part.move(30)) == [400] * 3 + [200] * 4 + [100] * 16 + [200] * 4 + [400] * 2
     assert part.motion is not None and part.motion.shape == "trapezoid"
     assert gaps(part, lambda: part.move(-23)) == [400] * 3 + [200] * 4 + [100] * 9 + [200] * 4 + [400] * 2
@@ -294,7 +302,7 @@ def test_only_what_the_state_allows(part: Ppmc312) -> None:
 
 
 def test_stops_and_changes_of_speed(part: Ppmc312) -> None:
-    """After stop a ramp of twelve pulses follows; at the stop speed there is no ramp (LOW)."""
+    """A stop from the high speed has a ramp of twelve pulses; at the stop speed there is no ramp (LOW)."""
     motion = part.jog(CW, high=True)
     part.process_reports(0.05)
     end = part.stop()
@@ -361,7 +369,7 @@ def test_limits_and_alarm() -> None:
 
 
 def test_speed_limit(part: Ppmc312) -> None:
-    """A motion slower than the limit continues at an active slow-down limit."""
+    """With an active slow-down limit, a motion slower than the speed limit is not ended."""
     part.limit_speed(6000)
     model(part).set_pins(fhl_n=0)
     assert part.move_constant(10, 5000).complete
@@ -375,9 +383,9 @@ def test_speed_limit(part: Ppmc312) -> None:
 @pytest.mark.parametrize("start", [4000, 5, 0, -20, -60, -500])
 @pytest.mark.parametrize("way", [{}, {"fast": True}, {"to_limit": True}, {"index": True}])
 def test_home_finds_one_place(start: int, way: dict[str, bool]) -> None:
-    """Homing from any position ends at the CW edge of the cam (-50..0), or at the index on it (-20).
+    """Homing from any position ends at the CW edge of the cam (-50..0), or at the index on the cam (-20).
 
-    If the motor starts beyond the cam, only a search from a limit finds it.
+    If the motor starts beyond the cam, only a search that begins at a limit finds it.
     """
     with board(f"start={start},cw=4200,slow_cw=4100,ccw=-900,slow_ccw=-600") as part:
         if start < -50 and "to_limit" not in way:
@@ -396,7 +404,7 @@ def test_zero_return_and_search(part: Ppmc312) -> None:
     assert model(part).position == 0
     part.move(300)
     end = part.zero_return(CCW).wait()
-    # Phase 1 decelerates for twelve pulses, phase 2 returns to the cam, which it has not left.
+    # Phase 1 decelerates for twelve pulses; phase 2 returns to the cam, which the motor has not left.
     assert end.finish == Bit.ORIGIN and model(part).position == -12
 
 
@@ -423,7 +431,9 @@ def test_overrides(part: Ppmc312) -> None:
 
 
 def test_overrides_that_fail(part: Ppmc312) -> None:
-    """A change of speed with a ramp fails on a ramp, and the following stop is discarded with it."""
+    """A change of speed with a ramp fails during a ramp, and the stop that is registered after it is
+    discarded.
+    """
     part.override_speed(5000, at=5)
     part.override_stop(at=100)
     assert part.move(500).complete
@@ -438,7 +448,9 @@ def test_overrides_that_fail(part: Ppmc312) -> None:
 
 
 def test_overrides_too_close_together(part: Ppmc312) -> None:
-    """An override while the answer of the previous one is unread causes an alarm (P312-RSP-20)."""
+    """If an override is executed while the answer of the previous one is unread, an alarm is raised
+    (P312-RSP-20).
+    """
     part.override_speed(5000, at=200)
     part.override_speed(10_000, at=201)
     with pytest.raises(AlarmStop):
@@ -501,7 +513,7 @@ def test_event_buffers(part: Ppmc312) -> None:
 def test_the_end_of_another_motion_is_no_end_of_ours(part: Ppmc312, monkeypatch: pytest.MonkeyPatch) -> None:
     """The stop report of another motion does not end a motion that starts after it.
 
-    The step of an event begins and ends just before the start; its answer and its stop report arrive first.
+    Here an event makes a step just before the start, so its answer and its stop report arrive first.
     """
     part.event_add(1, blocks.single_step(CW))
     monkeypatch.setattr(part.link, "forget_events", lambda: part.pulse_event(1))
@@ -510,7 +522,7 @@ def test_the_end_of_another_motion_is_no_end_of_ours(part: Ppmc312, monkeypatch:
     assert part.next_report() == Executed(Source.EVENT, Code.STEP)
     assert part.next_report() == Stopped(Bit.NORMAL, 1)
     with pytest.raises(ProtocolError, match="201 of 200 pulses counted, position 201"):
-        motion.wait()  # the event moved the motor after the start
+        motion.wait()  # the event has moved the motor by one step
 
 
 def test_an_event_that_fails(part: Ppmc312) -> None:
@@ -527,7 +539,9 @@ def test_an_event_that_fails(part: Ppmc312) -> None:
 
 
 def test_encoder_that_stands() -> None:
-    """If an obstacle stops the shaft after 50 pulses, the pulses continue and both monitors report it."""
+    """If an obstacle stops the shaft after 50 pulses, all pulses are output, and both monitors report the
+    deviation.
+    """
     with board("block=4050") as part:
         part.watch_encoder(20)
         part.watch_position(20)
@@ -608,7 +622,7 @@ def test_terminals(part: Ppmc312) -> None:
 
 
 def test_reset(part: Ppmc312) -> None:
-    """Both kinds of reset end a motion and clear all state."""
+    """Both kinds of reset end a motion and clear table, reports and position."""
     for reset in (part.reset, part.software_reset):
         part.load_curve(TF, base_clock=1_000_000)
         part.jog(CW)
@@ -632,7 +646,7 @@ def test_a_part_in_reset_is_told(part: Ppmc312) -> None:
 
 
 def test_datasheet_timing() -> None:
-    """With DATASHEET timing, building takes 115 ms and a reset 1.6 ms; the driver waits for this time."""
+    """With DATASHEET timing, a table takes 115 ms and a reset 1.6 ms; the driver waits that long."""
     with board("timing=DATASHEET", curve=False) as part:
         begin = part.link.clock()
         part.initialise()
@@ -647,7 +661,7 @@ def test_datasheet_timing() -> None:
 
 
 def test_crystal_and_clock() -> None:
-    """Speeds are those that were requested, regardless of the crystal."""
+    """With any crystal, the speeds are those that were requested."""
     with board("xtal=8000000,clk=27000000", curve=False) as part:
         part.initialise(1000, 5000, 2000)
         motion = part.start_constant(500, 2500)

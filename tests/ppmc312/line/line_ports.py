@@ -1,4 +1,6 @@
-"""Ports for tests of the PPMC-312's line: plans of spoiled frames, and a bus on such a port."""
+"""Ports for tests of the PPMC-312's line: plans of damaged frames, and a bus on a port that damages
+frames.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ BAUD = 38_400
 
 
 def once(code: int, fate: str, times: int = 1) -> Callable[[bytes], str | None]:
-    """Return a plan in which the first `times` frames with this serial code have that fault."""
+    """Return a plan in which the first `times` frames with this serial code have the fault `fate`."""
     left = times
 
     def plan(frame: bytes) -> str | None:
@@ -25,6 +27,6 @@ def once(code: int, fate: str, times: int = 1) -> Callable[[bytes], str | None]:
 
 
 def spoiled(text: str = "stations=2") -> tuple[Spoiled, Ppmc312Bus]:
-    """Return such a port, and a bus on it."""
+    """Return a port that damages frames, and the driver of the bus on it."""
     port = Spoiled("speed=max," + text, BAUD, "ppmc312-serial")
     return port, Ppmc312Bus.open(port, BAUD)

@@ -1,4 +1,4 @@
-"""Driver of the PPMC-312 on a line, with the modelled stations and in virtual time."""
+"""Driver of the PPMC-312 on a line of modelled stations, in virtual time."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ from openppmc.model.ppmc312.codes import Source, State
 from tests.common.host.line_ports import Played
 
 FAST = (4000, 8000, 600)
-"""Start speed, high speed, ramp: a table whose motions need little simulation time."""
+"""Start speed, high speed, ramp of a table whose motions need little simulation time."""
 SPEED = 83_333
 
 
 @contextmanager
 def line(text: str = "stations=2", initialised: int | None = 1) -> Iterator[Ppmc312Bus]:
-    """Provide a line with one station initialised."""
+    """Provide a line on which one station is initialised."""
     with Ppmc312Bus.open(f"model:speed=max,{text}", SPEED) as bus:
         if initialised is not None:
             bus.axis(initialised).initialise(*FAST)
@@ -66,7 +66,7 @@ def line(text: str = "stations=2", initialised: int | None = 1) -> Iterator[Ppmc
 
 
 def pins(bus: Ppmc312Bus, station: int, **levels: int) -> None:
-    """Set pins of a station's part; the other pins are those of the plant."""
+    """Set pins of a station's part; the plant sets all other pins."""
     bus.line.port.line.station(station).set_pins(**levels)  # type: ignore[attr-defined]
 
 
@@ -323,7 +323,7 @@ def test_checksums_of_characters_and_echo() -> None:
 
 
 def test_a_slower_crystal() -> None:
-    """All speeds scale with the crystal, also that of the line."""
+    """All speeds are proportional to the crystal frequency, also the baud rate of the line."""
     with Ppmc312Bus.open("model:speed=max,stations=1,xtal=8000000", xtal_hz=8_000_000) as bus:
         axis = bus.axis(0)
         assert bus.line.baud == 9600
@@ -337,7 +337,7 @@ def test_a_slower_crystal() -> None:
 def test_datasheet_timing_is_waited_for() -> None:
     with Ppmc312Bus.open("model:speed=max,stations=1,timing=DATASHEET") as bus:
         axis = bus.axis(0)
-        bus.line.pause(0.002)  # the station ignores frames so soon after its reset
+        bus.line.pause(0.002)  # the station ignores frames that arrive so soon after its reset
         axis.initialise(*FAST)
         assert axis.move(5).complete and axis.counters.repeated == 0
 

@@ -28,7 +28,7 @@ STARTS: dict[int, tuple[Callable[[Station312], object], int]] = {
 @pytest.mark.parametrize("fate", ANY_FATE)
 @pytest.mark.parametrize("code", STARTS)
 def test_a_start_with_a_fault_moves_once(code: int, fate: str) -> None:
-    """With any fault of the frame or of its reply, the motor moves exactly the commanded distance."""
+    """For any fault of a start or of its reply, the motor moves exactly the commanded distance."""
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -56,7 +56,9 @@ def test_an_endless_start_with_a_lost_reply() -> None:
 
 
 def test_a_stop_whose_reply_is_lost_may_come_too_late() -> None:
-    """A repeated stop that is rejected because the motor has already stopped is not an error."""
+    """If the reply to a stop is lost, the repeated stop may be rejected because the motor has stopped; this
+    is no error.
+    """
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -70,7 +72,9 @@ def test_a_stop_whose_reply_is_lost_may_come_too_late() -> None:
 
 
 def test_a_start_is_known_by_the_position_alone() -> None:
-    """If the replies to a start and to the poll with its end are lost, the position proves the motion."""
+    """If the replies to a start and to the poll that reports its end are lost, the position proves the
+    motion.
+    """
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -171,7 +175,9 @@ def test_what_nobody_can_know_is_told() -> None:
 
 @pytest.mark.parametrize("fate", [LOSE_REPLY, BREAK_REPLY])
 def test_a_lost_poll_does_not_lose_the_end(fate: str) -> None:
-    """If the reply with the END code is lost, the code is read again, and so is an alarm."""
+    """If the reply with the END code is lost, the driver reads the code again; the same holds for an
+    alarm.
+    """
     port, bus = spoiled("stations=2,alarm=3850..3900")
     with bus:
         axis = bus.axis(1)
@@ -202,9 +208,10 @@ def test_a_reset_station_has_no_motion_any_more() -> None:
 
 
 def test_a_damaged_order_that_looks_good_is_noticed() -> None:
-    """A damaged instruction with a valid checksum is detected by the position at its end.
+    """If an instruction is damaged but its checksum is valid, the driver detects this by the position at the
+    end.
 
-    Bit 7 of a data byte is not part of the checksum.
+    The checksum does not include bit 7 of a data byte.
     """
     port, bus = spoiled()
     with bus:
@@ -221,7 +228,7 @@ def test_a_damaged_order_that_looks_good_is_noticed() -> None:
 
 
 HERE, BLIND = "A1 30 30 30 30 30 30 32 34 3A", "A1 30 30 30 30 30 30 61 34 3A"
-"""Position 24h, and the same frame with bit 7 of the byte inverted: its checksum is valid, too."""
+"""Reply with position 24h, and the same reply with bit 7 of the byte inverted: both checksums are valid."""
 REST, MOVES = "A1 30 30 30 32 30 30 5C", "A1 30 30 30 34 30 30 5A"
 
 
@@ -233,9 +240,9 @@ def test_a_damaged_position_that_looks_good_is_read_again() -> None:
 
 
 def test_a_motion_explains_two_positions() -> None:
-    """Two different positions are valid during a motion, not at standstill.
+    """Two reads may return different positions during a motion, but not at standstill.
 
-    If the master has not set a table, it does not know the speed, only that the motor moves.
+    The master has not set a table here, so it does not know the speed, only that the motor moves.
     """
     further = "A1 30 30 30 30 30 30 32 35 39"
     port, axis = station(HERE, further, MOVES, MOVES)
@@ -245,7 +252,7 @@ def test_a_motion_explains_two_positions() -> None:
 
 
 class CorruptPosition:
-    """Inverts bit 7 of the last byte of the next `left` replies with a position."""
+    """Inverts bit 7 of the last byte in the next `left` replies with a position."""
 
     def __init__(self, left: int) -> None:
         self._left, self._place = left, 0
@@ -262,7 +269,9 @@ class CorruptPosition:
 
 
 def test_a_jump_is_no_motion() -> None:
-    """A position that differs by 128 pulses is read again: 8000 pulses/s are too slow for this difference."""
+    """If a position differs by 128 pulses, it is read again: at 8000 pulses/s the motor cannot have moved so
+    far.
+    """
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -283,14 +292,14 @@ def test_positions_that_never_agree() -> None:
 
 
 def test_a_damaged_status_is_read_again() -> None:
-    """A status with bit 7 of the first byte inverted (RUN monitored or not) is read again."""
+    """A status in which bit 7 of the first byte is inverted (RUN monitored or not) is read again."""
     port, axis = station("A1 38 30 30 32 30 30 5C", REST, REST)
     assert axis.status().run_monitored and axis.counters.garbled == 1
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_noisy_line(seed: int) -> None:
-    """With one character in 150 damaged, frames are repeated, but every move has the right distance."""
+    """With one character in 150 damaged, frames are repeated, and every move has the commanded distance."""
     with Ppmc312Bus.open(f"model:speed=max,stations=2,noise=150,seed={seed}", 38_400, patience=0.03) as bus:
         axis = bus.axis(1)
         line = bus.line.port.line  # type: ignore[attr-defined]
@@ -302,7 +311,7 @@ def test_a_noisy_line(seed: int) -> None:
                 wanted += pulses
                 assert line.station(1).position == wanted, seed
         except (PpmcError, ValueError) as error:
-            # A flipped bit 7 is not detected by the checksum in a few cases; then an error is raised.
+            # In a few cases the checksum does not detect a flipped bit 7; then an error is raised.
             assert isinstance(error, LinkError) or "station 1" in str(error), seed
 
 
@@ -365,7 +374,7 @@ def test_an_unplugged_port() -> None:
 
 
 def station(*replies: str, echo: bool = False, option: bool = False) -> tuple[Played, Station312]:
-    """Return station 1 on a port that plays replies."""
+    """Return a port that returns these replies, and the driver of station 1 on it."""
     port = Played(*replies, echo=echo)
     return port, Ppmc312Bus.open(port, 38_400, echo=option).axis(1)
 
@@ -398,10 +407,10 @@ def test_only_noise() -> None:
 @pytest.mark.parametrize(
     "reply",
     [
-        "91 6E",  # ready, but data was requested
+        "91 6E",  # ready, although data was requested
         "81 7E",  # busy
-        "A1 62 32 1B",  # not a version, invalid checksum
-        "B1 30 30 4E",  # an error code that does not exist
+        "A1 62 32 1B",  # not a version, and an invalid checksum
+        "B1 30 30 4E",  # an error code that is not defined
         "A1 30 30 38 32 30 30 5C",  # a state with bit 7 flipped
     ],
 )

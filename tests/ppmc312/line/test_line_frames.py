@@ -31,7 +31,7 @@ from openppmc.host.ppmc312.line.wire import (
 )
 from openppmc.model.ppmc312.codes import Code
 
-# Frames to station 1. The number in a name is that of the transaction in
+# Frames to station 1. The number in each name is that of the transaction in
 # cocotb_tests/ppmc312/tb_serial_transactions.py. The first block has the flags of T1 in the data sheet.
 INSTRUCTIONS = {
     "1 initial T1": (
@@ -138,7 +138,7 @@ def test_replies_of_chapter_12(wire: str) -> None:
 
 
 def test_the_checksum_of_the_sheet_both_ways() -> None:
-    """The second example of the data sheet has checksum 09 by its text and 4D as printed (P312-CHK-57)."""
+    """The second example of the data sheet has checksum 09 by the text, but 4D as printed (P312-CHK-57)."""
     data = bytes.fromhex("001011225566abcdef")
     assert checksum(0x91, data) == 0x09 and checksum(0x91, data, SumMode.CHARS) == 0x4D
     assert frame(POLL | 1, mode=SumMode.CHARS) == b"\x81\x7f"
@@ -216,7 +216,7 @@ def test_stations_have_numbers() -> None:
 
 
 def test_replies_read_as_the_bus_answers() -> None:
-    """Serial replies are converted to the answers that the parallel driver expects."""
+    """Serial replies are converted to the answers of the parallel mode, which the driver expects."""
     position = response(blocks.read_position(True), Reply(1, DATA, bytes.fromhex("12345678")))
     assert position.raw.hex(" ") == "03 06 42 01 12 34 56 78"
     assert response(blocks.block(Code.VERSION), Reply(1, DATA, b"\x12")).raw.hex(" ") == "03 02 40 12"

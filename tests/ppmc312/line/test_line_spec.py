@@ -1,4 +1,4 @@
-"""The options of a virtual line, and interactions of several stations on it."""
+"""The options of a virtual line, and how several stations on it affect each other."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_bad_words(text: str, says: str) -> None:
 
 
 def heard(text: str, *frames: str) -> bytes:
-    """Return the reply to frames, each with 10 ms of silence after it."""
+    """Return the reply to these frames; after each frame the line is idle for 10 ms."""
     line = StationLine(parse_line("baud=83333," + text))
     line.run(1000)
     for wire in frames:
@@ -72,12 +72,12 @@ def heard(text: str, *frames: str) -> bytes:
 def test_stations_answer_only_their_own_frames() -> None:
     assert heard("stations=3", "91 34 31 2D").hex(" ").upper() == "A1 31 32 4C"
     assert heard("stations=3", "93 34 31 2B") == b""
-    # A control code for another station discards a partial frame.
+    # A control code for another station makes the station discard a partial frame.
     assert heard("stations=3", "91 34 82 7D 31 2D").hex(" ").upper() == "92 6D"
 
 
 def test_replies_of_two_stations_collide() -> None:
-    """Equal replies of two stations overlap; the different replies of two motor positions are garbled."""
+    """If two stations reply at the same time, equal replies are received; different ones are garbled."""
     text = "stations=2,start1=-10,twin=1"
     assert heard(text, "91 34 31 2D").hex(" ").upper() == "A1 31 32 4C"
     one, other = (heard(f"stations=2,start1={start}", "91 32 37 47") for start in (-10, 4000))
@@ -86,7 +86,7 @@ def test_replies_of_two_stations_collide() -> None:
 
 
 def test_stations_run_while_others_are_asked() -> None:
-    """A station that receives no frames runs to the time of the line when its state is read."""
+    """A station that receives no frames runs up to the time of the line when its state is read."""
     line = StationLine(parse_line("stations=2,clk=16000000"))
     line.run(1000)
     for data in ("0001" + "03e8" + "00c8" + "0007d0", "85" + "03e8"):

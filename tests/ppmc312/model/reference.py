@@ -1,4 +1,4 @@
-"""Tables of the PPMC-312 specification, and its notation for lists of pulses."""
+"""Tables of the PPMC-312 specification, and functions for its notation of pulse lists."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ TH = curve([100, 200, 400], [6, 4], [5, 4, 3])
 
 
 def runs(steps: list[Step]) -> str:
-    """Return pulses in the notation rate x pulses: `400x3 200x4`."""
+    """Return pulses in the notation "rate x pulses": `400x3 200x4`."""
     groups = ((rate, len(list(group))) for rate, group in groupby(step.rate for step in steps))
     return " ".join(f"{rate}x{count}" for rate, count in groups)
 
 
 def ticks(steps: list[Step]) -> int:
-    """Return the ticks from pulse 1 to the end of pulse output."""
+    """Return the ticks from pulse 1 to the end of the last interval."""
     return sum(step.rate for step in steps)

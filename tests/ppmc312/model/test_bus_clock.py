@@ -1,4 +1,4 @@
-"""The clock frequency that the 65 ns write strobes of the PPMC-312's data sheet require (R-07)."""
+"""The clock frequency that the PPMC-312 needs for the write strobes of 65 ns in its data sheet (R-07)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from cocotb_tests.harness import project
 from openppmc.model.ppmc312.part import Ppmc312
 
 STROBE, SET_UP = 65, 35
-"""Time in ns for which the write strobe lasts, and for which data is valid before its end."""
+"""Length of the write strobe, and time for which data is valid before the end of the strobe, in ns."""
 LEAST = math.ceil(Fraction(2 * 10**9, SET_UP))
-"""Lowest clock in Hz at which two samples fit between the change of the data and the end of the strobe."""
+"""Lowest clock in Hz with which two samples fit between the change of the data and the end of the strobe."""
 CSR, ENABLES = 0, 0x70
 
 
@@ -21,8 +21,8 @@ def written(clk_hz: int, phase: Fraction) -> int:
     """Write ENABLES to CSR with the shortest strobe of the data sheet; return the content of CSR afterwards.
 
     Args:
-        phase: ns from an edge of the clock to the change of the data. This change is sampled one cycle late,
-            as a synchroniser may do.
+        phase: time in ns from a clock edge to the change of the data. This change is sampled one cycle late,
+            as by a synchroniser.
     """
     period = Fraction(10**9, clk_hz)
     model = Ppmc312(clk_hz)
@@ -38,7 +38,7 @@ def written(clk_hz: int, phase: Fraction) -> int:
     changes.setdefault(edge(data) + 1, {})["d_i"] = ENABLES
     for t in sorted(changes):
         model.pins(t, **changes[t])
-    # Other data follow immediately after the strobe.
+    # After the strobe, other data follow immediately.
     model.pins(end, d_i=0)
     model.pins(end + 10, cs_n=0, oe_n=0, rs=CSR)
     model.run_until(end + 20)
@@ -46,21 +46,23 @@ def written(clk_hz: int, phase: Fraction) -> int:
 
 
 def phases(clk_hz: int) -> list[Fraction]:
-    """Return times of the data change between two edges; the second one is the worst case."""
+    """Return times from a clock edge to the data change; the second one is the worst case."""
     period = Fraction(10**9, clk_hz)
     return [Fraction(0), Fraction(1, 10**9), *(period * n / 8 for n in range(1, 8))]
 
 
 @pytest.mark.parametrize(("offset", "taken"), [(-1, False), (0, True), (1, True)])
 def test_least_clock(offset: int, taken: bool) -> None:
-    """At 57.2 MHz the written byte is correct at each phase of the clock, 1 Hz below the bound it is not."""
+    """With a clock of LEAST Hz, the written byte is correct at each phase of the clock; with 1 Hz less it is
+    not.
+    """
     clk_hz = LEAST + offset
     found = [written(clk_hz, phase) for phase in phases(clk_hz)]
     assert (set(found) == {ENABLES}) == taken, found
 
 
 def test_the_figure_is_printed() -> None:
-    """The ruling and the replacement guide print this bound."""
+    """The ruling and the guide for replacement contain this bound."""
     figure = f"{math.ceil(LEAST / 10**5) / 10:.1f} MHz"
     for name in ("rulings.md", "replace.md"):
         text = (project.ROOT / "docs" / "ppmc312" / name).read_text(encoding="utf-8")

@@ -21,12 +21,12 @@ LONGEST = 32
 def test_fixed_latencies() -> None:
     begin = TIMING.arbitration + TIMING.effect
     assert begin + TIMING.copy + TIMING.answer + LONGEST <= 4096
-    assert begin <= 64  # instruction 80: no rising edge later than 64 cycles after the header
+    assert begin <= 64  # instruction 80 outputs no rising edge later than 64 cycles after the header
     assert begin + TIMING.look_up() + TIMING.ramp_lead <= 512
-    assert TIMING.answer + 4 <= 64  # the answer to a start follows t0
+    assert TIMING.answer + 4 <= 64  # the answer to a start is available after t0
     assert TIMING.report + TIMING.rest <= 64 and TIMING.turn_back <= 64
     assert TIMING.count <= 2 and TIMING.armed <= 4 and TIMING.next_response <= 4 and TIMING.reload >= 8
-    assert TIMING.compare + 2 <= TIMING.least == 4  # a stop at a position precedes the next pulse
+    assert TIMING.compare + 2 <= TIMING.least == 4  # a stop at a position takes effect before the next pulse
     assert TIMING.slow_lead <= 4 and TIMING.lead + 2 <= 4 and TIMING.origin_lead + 2 <= 4
 
 
@@ -44,5 +44,5 @@ def test_tables_and_plans(table: Table) -> None:
         TIMING.starting(constant(table, table.high, 1), True),
     ]
     assert max(starts) + begin + TIMING.answer + LONGEST <= 4096
-    # At 50 MHz pulse 1 occurs within 20 us of the header; 5 us of this time are direction set-up.
+    # At 50 MHz, pulse 1 follows the header within 20 us, of which 5 us are the direction set-up.
     assert 2 + begin + max(starts) + 250 <= 20 * 50

@@ -1,4 +1,4 @@
-"""Worked examples E1..E32 of the PPMC-312 without time: plans, changes and stops by pulses."""
+"""Worked examples E1 to E32 of the PPMC-312 without time: plans, and changes and stops at pulses."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ PLANS = [
 
 
 def fits(text: str, pattern: str) -> bool:
-    """Return whether a list of pulses has the head and the tail of a pattern with `...`."""
+    """Return whether a list of pulses has the beginning and the end of a pattern with `...`."""
     head, dots, tail = (piece.strip() for piece in pattern.partition("..."))
     if not dots:
         return text == head
@@ -75,9 +75,9 @@ Act = tuple[int, object]
 
 
 def walk(plan: Plan, *acts: Act, limit: int = 10_000) -> tuple[list[Step], Cause]:
-    """Return the pulses of a sequence and the reason of its end.
+    """Run a sequence; return its pulses and the reason of its end.
 
-    Each act takes place in the interval of its number, 0 before pulse 1.
+    Each act takes place in the interval of its number; interval 0 is before pulse 1.
     """
     sequence, steps = Sequence(plan), []
     for number in range(limit):
@@ -130,7 +130,7 @@ def test_change(name: str, plan: Plan, acts: list[Act], pulses: str, cause: Caus
 
 @verifies("P312-MOT-32")
 def test_ramp_down_goes_on_at_the_new_rate() -> None:
-    """A ramp to a lower speed continues at the new rate (E28)."""
+    """After a ramp to a lower speed, the motion continues at the new rate (E28)."""
     steps, _ = walk(constant(TF, 100), (10, Change(400, True)), limit=30)
     assert runs(steps) == "100x10 200x4 400x16"
     assert [step.stage for step in steps[9:18]] == [None, 125, 125, 125, 125, 124, 124, 124, None]
@@ -138,7 +138,7 @@ def test_ramp_down_goes_on_at_the_new_rate() -> None:
 
 @verifies("P312-MOT-20")
 def test_walk_from_a_constant_rate() -> None:
-    """A deceleration from a constant rate begins at its stage (E29)."""
+    """A deceleration from a constant rate begins at the stage of this rate (E29)."""
     steps, end = walk(constant(T1, 500), (7, SLOW))
     assert (len(steps), end) == (257, Cause.SLOW)
     assert fits(runs(steps), "500x7 504x10 512x11 521x10 529x10 ... 969x5 1000x5")
@@ -170,7 +170,7 @@ def test_requests_during_a_walk() -> None:
 @given(st.sampled_from([TF, TG, TH, T1, T3, T4]), st.integers(1, 6000), st.data())
 @verifies("P312-MOT-07", "P312-MOT-33")
 def test_counts_are_exact(table: Table, n: int, data: st.DataObject) -> None:
-    """A counted operation without a deceleration request has n pulses, regardless of changes of its speed."""
+    """A counted operation without a request to decelerate has n pulses, even if its speed is changed."""
     rate = data.draw(st.integers(table.high, table.slowest))
     plan = ramped(table, rate, n)
     assert plan.up + plan.down <= n and len(plan.steps()) == n

@@ -1,4 +1,4 @@
-"""Any move of the PPMC-312 at its pins has the pulse times, widths and counts of the closed formulas."""
+"""Any move of the PPMC-312 at its pins has pulse times, widths and counts by the closed formulas."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def free_curve(clk: int, rates: list[int], pa: list[int], pd: list[int]) -> list
 
 @st.composite
 def settings(draw: st.DrawFn) -> tuple[int, list[int], list[int], list[int]]:
-    """Draw base clock, rates and pulses of a small curve, fastest stage first."""
+    """Draw base clock, rates and pulses of a small curve; the rates begin with the fastest."""
     clk = draw(st.integers(0, 2))
     least = 16 if clk == 0 else 4
     rates = sorted(draw(st.lists(st.integers(least, 600), min_size=2, max_size=14)))

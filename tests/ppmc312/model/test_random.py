@@ -1,4 +1,4 @@
-"""Random hosts on the PPMC-312 model: the part answers, counts and never hangs with any input."""
+"""Random hosts on the PPMC-312 model: with any input, the part answers, counts, and never hangs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PINS = ("evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n"
 
 
 def instruction(rng: random.Random) -> bytes:
-    """Return a block: mostly a legal one, sometimes random bytes."""
+    """Return an instruction block: usually a legal one, sometimes random bytes."""
     if rng.random() < 0.08:
         return bytes(rng.randrange(256) for _ in range(rng.randint(1, 32)))
     code = rng.choice([*LENGTHS, 0x82, 0x82, 0x83, 0x80, 0x81, 0x87, 0x88, 0x10, 0x11, 0x46])
@@ -47,7 +47,7 @@ def test_random_host(seed: int) -> None:
 
 
 async def play(rng: random.Random) -> None:
-    """Perform all actions of the host."""
+    """Play a random host, and check that the part still works afterwards."""
     setting, build = rng.choice((TF, TG, TH)), rng.choice((F16, F16, D16))
     host = await Host.start(OnModel(build), *setting)
     model, reads = host.bench.golden, rng.choice((0.2, 0.9, 1.0))
@@ -75,7 +75,7 @@ async def play(rng: random.Random) -> None:
         if model.state is State.ABN and rng.random() < 0.5 and not await host.read(CSR) & MWEF:
             await host.put(message(Code.ALARM_CLEAR))
             await host.pause(200)
-    # The part works after a host has read everything and reset it.
+    # When the host has read everything and reset the part, the part must work.
     for _ in range(2500):
         await host.pause(2000)
         if not await host.read(CSR) & MREF:

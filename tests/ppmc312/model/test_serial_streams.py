@@ -1,4 +1,4 @@
-"""Any bytes on the line of a PPMC-312: it never hangs and never executes a frame with a wrong checksum."""
+"""With any bytes on the line, a PPMC-312 never hangs and never executes a frame with a wrong checksum."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_campaign(seed: int) -> None:
 @given(st.binary(max_size=60))
 @verifies("P312-SER-10", "P312-SER-11", "P312-SER-14", "P312-BAD-16")
 def test_only_good_frames_count(noise: bytes) -> None:
-    """Each accepted frame is a part of the stream, with the right address, length and checksum."""
+    """Each accepted frame was in the stream, with the right address, length and checksum."""
     parser, seen = Parser(1, LENGTHS, "BINARY"), b""
     for byte in noise + b"\x91" + noise:
         seen += bytes([byte])
@@ -86,7 +86,9 @@ def test_silence(characters: str, outcome: Outcome | None) -> None:
 
 @verifies("P312-SER-17", "P312-SER-44", "P312-BAD-06")
 def test_codes_without_a_meaning() -> None:
-    """Each code that the serial mode does not define is unknown and skipped until silence (P312-SER-17)."""
+    """Each code that is not defined for the serial mode is reported as unknown and skipped until silence
+    (P312-SER-17).
+    """
     listed = {
         0x00,
         *range(0x02, 0x07),

@@ -31,12 +31,12 @@ ROM = [
 
 
 def weighted(values: tuple[int, ...]) -> int:
-    """Return the sum of (i + 1) x value."""
+    """Return the sum of (i + 1) x value over all entries i of a table."""
     return sum((i + 1) * value for i, value in enumerate(values))
 
 
 def error(*arguments: object, **options: object) -> int | None:
-    """Return the error number of a rejected setting, or None."""
+    """Return the error number of a rejected setting, or None if it is accepted."""
     try:
         build(*arguments, **options)  # type: ignore[arg-type]
     except SettingError as refused:
@@ -80,14 +80,16 @@ def test_sides_start_at_their_own_rates() -> None:
 
 @verifies("P312-TBL-02", "P312-TBL-03")
 def test_equal_first_rates_belong_to_the_slower_side() -> None:
-    """If rounding makes R[1] = R[0], the slower ramp starts at stage 0, the other at its last stage."""
+    """If rounding makes R[1] = R[0], the slower ramp starts at stage 0, and the other ramp at the last stage
+    with its rate.
+    """
     table = build(300, 300, 100, 3000, 0, sigmoid=True, separate=False)
     assert table.rates[:8] == (300, 300, 300, 299, 299, 298, 297, 296)
     assert (table.sa, table.sd, table.slowest, table.na) == (0, 0, 300, 3000) and min(table.pa) > 2
     for start, stop, sa, sd in ((300, 299, 0, 4), (299, 300, 4, 0), (300, 300, 0, 0), (300, 298, 0, 5)):
         table = build(start, stop, 100, 3000, 4000, sigmoid=True)
         assert (table.sa, table.sd, table.na, table.nd) == (sa, sd, 3000, 4000), (start, stop)
-    # R[1] = R[0] holds up to 624, where RS (RS - RH) / RH is below 65536 / 20.
+    # R[1] = R[0] holds up to RS = 624, because RS (RS - RH) / RH is below 65536 / 20.
     heads = [build(rs, rs, 100, 6000, 0, sigmoid=True, separate=False).rates[:3] for rs in (624, 625, 626)]
     assert heads == [(624, 624, 622), (625, 624, 623), (626, 625, 624)]
 
@@ -118,9 +120,9 @@ def test_error_boundaries() -> None:
 )
 @verifies("P312-TBL-02", "P312-TBL-04", "P312-TBL-06")
 def test_any_table(start: int, stop: int, high: int, total: int, sigmoid: bool) -> None:
-    """Every setting results in an error number or in a table with the properties of P312-TBL-02.
+    """Every setting gives an error number, or a table with the properties of P312-TBL-02.
 
-    The expected values follow from the formulas of the engine.
+    The expected values are computed with the formulas of the table engine.
     """
     try:
         table = build(start, stop, high, total, total, sigmoid=sigmoid)
@@ -185,7 +187,7 @@ def test_stages_of_the_small_tables() -> None:
 
 
 def fails(blocks: list[tuple[int, str]]) -> int:
-    """Return the error number of a transfer; the first pair is its code block."""
+    """Return the error number of a free-curve transfer; the first pair is its code block."""
     with pytest.raises(SettingError) as refused:
         transfer = FreeCurve(blocks[0][0], bytes.fromhex(blocks[0][1]))
         for header, data in blocks[1:]:

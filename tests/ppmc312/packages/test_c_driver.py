@@ -14,7 +14,7 @@ OK, BAD_ARGUMENT, UNCONFIRMED, UNKNOWN_POSITION, BAD_REPLY = 0, 18, 19, 20, 21
 PARAMETER, STATE, LIMIT, FULL, BUS_ONLY = 64, 65, 66, 70, 71
 NORMAL, ORIGIN, SLOWLY, STOP, SWITCH, ALARM = 0x40, 0x20, 0x08, 0x04, 0x01, 0x80
 TICK = 1
-"""Clock cycles of a tick at 8 MHz."""
+"""Cycles of a tick at a clock of 8 MHz."""
 
 
 @pytest.fixture(scope="module", params=TIMINGS)
@@ -51,7 +51,7 @@ def reports(lines: Lines, name: str) -> list[tuple[int, int, int]]:
 
 @both
 def test_open(lines, way):
-    """A part that answers returns its version (P312-CMD-40)."""
+    """If the part responds, its version is returned (P312-CMD-40)."""
     assert result(lines, f"{way} open") == (OK, "ok")
     assert lines[f"{way} version"][0]["byte"] == "12"
 
@@ -62,7 +62,9 @@ def test_open(lines, way):
     [("move", 3000, 0, 3100), ("constant", 0, 40, 3060), ("to", 0, 2060, 1000), ("step", 1, 0, 1001)],
 )
 def test_motion(lines, way, name, cw, ccw, at):
-    """A motion makes the commanded pulses in the commanded direction and ends confirmed (P312-CMD-82)."""
+    """A motion makes the commanded pulses in the commanded direction, and its end is confirmed
+    (P312-CMD-82).
+    """
     assert result(lines, f"{way} {name}")[0] == OK
     assert pulses(lines, f"{way} {name}")[:2] == (cw, ccw)
     assert end(lines, f"{way} {name}") == (OK, NORMAL, 1, at)
@@ -70,7 +72,9 @@ def test_motion(lines, way, name, cw, ccw, at):
 
 @both
 def test_rates(lines, way):
-    """Intervals are those of the table: the start rate at both ends, the high rate between (P312-TBL-01)."""
+    """The intervals are those of the table: the start rate at both ends, the high rate in the middle
+    (P312-TBL-01).
+    """
     got = pulses(lines, f"{way} move")[2]
     assert (got[0], min(got), max(got)) == (250 * TICK, 50 * TICK, 250 * TICK)
     assert pulses(lines, f"{way} constant")[2] == [200 * TICK] * 39
@@ -78,7 +82,7 @@ def test_rates(lines, way):
 
 @both
 def test_positions(lines, way):
-    """A position is unknown until it is set with a table in place (P312-CMD-43)."""
+    """A position is unknown until it is set while a table is active (P312-CMD-43)."""
     assert position(lines, f"{way} unknown")[0] == result(lines, f"{way} unknown to")[0] == UNKNOWN_POSITION
     assert result(lines, f"{way} early zero")[0] == STATE
     assert position(lines, f"{way} after move") == (OK, 3100)
@@ -88,14 +92,16 @@ def test_positions(lines, way):
 
 @both
 def test_tables(lines, way):
-    """A ramp with too few pulses is rejected by the part; sigmoid and linear ramps are accepted."""
+    """The part rejects a ramp with too few pulses; it accepts sigmoid and linear ramps."""
     assert result(lines, f"{way} short ramp")[0] == PARAMETER
     assert result(lines, f"{way} sigmoid")[0] == result(lines, f"{way} table")[0] == OK
 
 
 @both
 def test_changes_and_stops(lines, way):
-    """A running motion changes its rate and stops, now or at a position (P312-CMD-80, P312-CMD-87)."""
+    """In a motion, the rate can be changed, and a stop can be immediate or at a position (P312-CMD-80,
+    P312-CMD-87).
+    """
     for name in ("run", "change", "faster", "stop there", "run to", "jog"):
         assert result(lines, f"{way} {name}")[0] == OK, name
     assert end(lines, f"{way} slowly")[:3] == (OK, SLOWLY, 0)
@@ -109,7 +115,9 @@ def test_changes_and_stops(lines, way):
 
 @both
 def test_events(lines, way):
-    """An edge of an event pin executes the registered instruction, and a report confirms it (P312-EVT-01)."""
+    """An edge of an event pin executes the registered instruction, and a report confirms this
+    (P312-EVT-01).
+    """
     assert result(lines, f"{way} event")[0] == result(lines, f"{way} event move")[0] == OK
     assert [row[:2] for row in reports(lines, f"{way} event 0")] == [(0x0B, 0x26 if way == "bus" else 0xE8)]
     assert lines[f"{way} outputs"][0]["pins"] == "3e"
@@ -123,14 +131,17 @@ def test_events(lines, way):
 @both
 @pytest.mark.parametrize(("name", "cause"), [("fl", SWITCH), ("search", ORIGIN), ("alarm", ALARM)])
 def test_switches(lines, way, name, cause):
-    """A switch or the alarm ends a motion; the cause is reported, the position agrees (P312-INP-12)."""
+    """If a switch or the alarm ends a motion, the cause is reported, and the position agrees
+    (P312-INP-12).
+    """
     value, got, complete, _ = end(lines, f"{way} {name}")
     assert (value, got, complete) == (OK, cause, int(cause == ORIGIN))
 
 
 @both
 def test_limit_alarm_and_run(lines, way):
-    """A limit rejects a start, the alarm state must be cleared, and RUN holds a motion.
+    """A limit rejects a start, the alarm state must be cleared, and a low RUN holds a motion before its
+    start.
 
     P312-INP-11, P312-INP-20, P312-INP-33.
     """
@@ -144,7 +155,7 @@ def test_limit_alarm_and_run(lines, way):
 
 @both
 def test_other_instructions(lines, way):
-    """Instructions without a motion are accepted, and reads return the pins."""
+    """Instructions without a motion are accepted, and the reads return the levels of the pins."""
     named = [name for name in lines if name.startswith(f"{way} O ")]
     assert len(named) == 13
     assert {result(lines, name)[0] for name in named} == {OK}
@@ -155,7 +166,7 @@ def test_other_instructions(lines, way):
 
 @both
 def test_bad_arguments(lines, way):
-    """A value out of range is an error, and nothing is sent."""
+    """For a value out of range, the driver returns an error and sends nothing."""
     named = [name for name in lines if name.startswith(f"{way} A ")]
     assert len(named) == 21
     assert {result(lines, name)[0] for name in named} == {BAD_ARGUMENT}
@@ -163,7 +174,7 @@ def test_bad_arguments(lines, way):
 
 
 def test_only_on_the_bus(lines):
-    """Separate decelerations, free curves and motions that wait for an event exist on the bus only."""
+    """Separate decelerations, free curves and motions that wait for an event exist only on the bus."""
     for name in ("separate", "curve", "move", "event move"):
         assert result(lines, f"bus B {name}")[0] == OK, name
     assert end(lines, "bus B move")[:3] == (OK, NORMAL, 1)
@@ -175,7 +186,7 @@ def test_only_on_the_bus(lines):
 
 @both
 def test_reset_in_a_motion(lines, way):
-    """After a reset during a motion its end is unconfirmed, and the position is unknown (P312-CMD-42)."""
+    """If the part is reset in a motion, the end is unconfirmed and the position is unknown (P312-CMD-42)."""
     assert end(lines, f"{way} U move")[0] == UNCONFIRMED
     assert position(lines, f"{way} U where")[0] == UNKNOWN_POSITION
     assert position(lines, f"{way} U rest")[0] == UNKNOWN_POSITION
@@ -185,7 +196,7 @@ def test_reset_in_a_motion(lines, way):
 
 
 def test_no_part(lines):
-    """Without a part each wait ends with "no part" or a time-out."""
+    """Without a part, each wait ends with "no part" or a bad reply."""
     assert result(lines, "bus dead")[0] == result(lines, "bus ones")[0] == 17
     assert result(lines, "bus zeros")[0] == BAD_REPLY
 

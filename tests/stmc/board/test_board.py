@@ -1,4 +1,4 @@
-"""The virtual board with an STMC: its motor follows the phases, and the board counts their steps."""
+"""The virtual board with an STMC: the motor follows the phases, and the board counts their steps."""
 
 from __future__ import annotations
 
@@ -15,11 +15,13 @@ from ...common.board.fixtures import CommandLine, StartBoard
 
 FAST = {"start_pps": 2000, "high_pps": 9000, "ramp_pulses": 100}
 TICK = 8_000_000 / 48_675
-"""Period of the step clock of the board in cycles."""
+"""Period of the board's step clock in cycles."""
 
 
 def test_every_motor(start_board: StartBoard) -> None:
-    """For each type, mode and logic, the motor (plant), the counter (RTL) and the command agree."""
+    """For each motor type, step mode and logic, the plant, the step counter of the RTL and the driver
+    agree.
+    """
     board = start_board(part="stmc", speed="max")
     with Stmc.open(board.port) as axis:
         for phases, half, positive in product((3, 4, 5), (False, True), (True, False)):
@@ -37,8 +39,8 @@ def test_every_motor(start_board: StartBoard) -> None:
 
 
 def test_edges_exact(start_board: StartBoard, tmp_path: Path) -> None:
-    """Every gap between steps is exact with the internal clock, and without drift with that of the
-    board.
+    """With the internal clock, every gap between steps is exact; with the clock of the board, the steps do
+    not drift.
     """
     log = tmp_path / "steps.txt"
     board = start_board(part="stmc", speed="max", log=log)
@@ -61,7 +63,7 @@ def test_edges_exact(start_board: StartBoard, tmp_path: Path) -> None:
 
 
 def test_switches(start_board: StartBoard) -> None:
-    """Reference point, limits and MON reach the part, and the bridge identifies it."""
+    """Reference point, limits and MON act on the part, and the bridge reports its identity."""
     board = start_board(part="stmc", speed="max", start=500, ccw=-400, alarm="700..800")
     with Stmc.open(board.port) as axis:
         assert (axis.link.identity.part, axis.link.identity.counter, axis.read_map) == (105, True, "FAMILY")
@@ -89,7 +91,7 @@ def test_switches(start_board: StartBoard) -> None:
 
 
 def test_sim_port(openppmc: CommandLine) -> None:
-    """`--part stmc --port sim:` builds the board with that part."""
+    """`--part stmc --port sim:` starts a board with that part."""
     words = ("--part", "stmc", "home", "--start", "345", "--high", "825")
     code, out, err = openppmc.run("sim:speed=max,start=30", *words)
     assert (code, out) == (0, "position 0: origin found\n"), err
@@ -109,7 +111,7 @@ def test_bad_text(text: str, expected: str) -> None:
 
 
 def test_parameters() -> None:
-    """The values of the text are passed to the top module."""
+    """The options of the text become parameters of the top module."""
     spec = sim.parse_spec("part=stmc,read_map=family,xtal=20000000,timing=datasheet")
     assert spec.parameters == {
         "CLK_HZ": 8_000_000,

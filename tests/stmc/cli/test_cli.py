@@ -37,7 +37,7 @@ def test_init_and_plan(run: Run, tmp_path: Path) -> None:
     assert "345.213 pps (divisor 141), requested 345 pps" in out and "48675 Hz (external)" in out
     plot = tmp_path / "x.svg"
     values = json.loads(run("plan", "801", *words, "--json", "--plot", str(plot)).out)
-    # Worked move W9 (docs/stmc/README.md, 8.4) takes 66 634 ticks.
+    # Worked move W9 (docs/stmc/README.md, 8.4) lasts 66 634 ticks.
     assert values["move"]["seconds"] == pytest.approx(66_634 / 48_675)
     assert plot.stat().st_size > 1000
     flat = ("plan", "5", *words[:4], "--ramp", "0")

@@ -1,6 +1,6 @@
 """The driver of the STMC on the modelled board, in virtual time.
 
-Functions common to all parts are tested in test_driver.py.
+tests/ppmc104/host/test_driver.py tests the functions that all parts have in common.
 """
 
 from __future__ import annotations
@@ -46,7 +46,9 @@ from openppmc.model.stmc.carrier import Carrier
 
 XTAL = 16_000_000
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
-"""Gaps of 20 steps with divisors 20 and 5 and a ramp of 8 (worked move W1 of docs/stmc/README.md, 8.4)."""
+"""Gaps of a move of 20 steps with divisors 20 and 5 and a ramp of 8: worked move W1 of docs/stmc/README.md,
+8.4.
+"""
 
 
 timing = "FAST"
@@ -54,7 +56,7 @@ timing = "FAST"
 
 @pytest.fixture(autouse=True, params=["FAST", "DATASHEET"])
 def _timing(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Run every test in both timings."""
+    """Run every test with both timings."""
     monkeypatch.setitem(globals(), "timing", request.param)
 
 
@@ -80,7 +82,7 @@ def model(axis: Stmc) -> Carrier:
 
 
 def gaps(axis: Stmc, steps: int, pps: speeds.Number | None = None) -> list[int]:
-    """Return the cycles between the phase changes of a move, observed inside the modelled board."""
+    """Return the cycles between the phase changes of a move, recorded in the modelled board."""
     seen: list[int] = []
     machine = model(axis)
     real = machine._follow
@@ -104,13 +106,15 @@ def gaps(axis: Stmc, steps: int, pps: speeds.Number | None = None) -> list[int]:
 
 
 def test_the_worked_examples_of_the_sheet() -> None:
-    """The doctests of `clock` pass: 345/s and 825/s at 48 675 Hz, at least five examples."""
+    """The doctests of `clock` pass; there are at least five, among them 345/s and 825/s at 48 675 Hz."""
     failed, attempted = doctest.testmod(stmc)
     assert not failed and attempted >= 5
 
 
 def test_bytes_of_an_initialisation() -> None:
-    """The bytes of an initialisation are 00sc plmm, then D1, D2, PA (docs/stmc/README.md, Initialisation)."""
+    """The bytes of an initialisation are the code 00sc plmm, D1, D2, and PA (docs/stmc/README.md,
+    Initialisation).
+    """
     examples: list[tuple[dict[str, object], str]] = [
         ({"start_pps": 345, "high_pps": 825, "ramp_pulses": 400}, "1A 8D 3B 90 01"),
         ({"start_pps": 100, "high_pps": 2500, "ramp_pulses": 65_535}, "0A 7D 05 FF FF"),
@@ -155,14 +159,14 @@ def test_impossible_setups_are_refused_before_the_part_hears_of_them(
 
 
 def test_steps_with_the_internal_clock() -> None:
-    """On the internal clock, a tick is exactly 1280 cycles at 16 MHz."""
+    """With the internal clock, a tick is exactly 1280 cycles at 16 MHz."""
     with board(start_pps=625, high_pps=2500, ramp_pulses=8, base_clock=12_500) as axis:
         assert gaps(axis, 20) == [1280 * ticks for ticks in W1]
         assert gaps(axis, -4, 1250) == [12_800] * 3
 
 
 def test_steps_with_the_clock_of_the_board() -> None:
-    """On the 48 675 Hz clock, gaps have no drift: each step is within two cycles of the sum of its
+    """With the clock of 48 675 Hz the steps do not drift: each is within two cycles of the sum of its
     ticks.
     """
     with board(start_pps=2433.75, high_pps=9735, ramp_pulses=8) as axis:
@@ -217,7 +221,9 @@ def test_open_part() -> None:
 @pytest.mark.parametrize("read_map", ["SHEET", "FAMILY"])
 @pytest.mark.parametrize("moving", [False, True])
 def test_read_codes_are_found_out(read_map: str, moving: bool) -> None:
-    """The driver detects the read codes at rest and during a motion of another program, which continues."""
+    """The driver detects the read codes at standstill and in a motion of another program, which is not
+    disturbed.
+    """
     with board(f"read_map={read_map}") as first:
         if moving:
             first.jog(CCW, 1000)
@@ -235,7 +241,7 @@ def test_read_codes_are_found_out(read_map: str, moving: bool) -> None:
 
 
 def test_other_read_codes_are_not_sent(axis: Stmc, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The driver does not send 84h and above, undefined in the default map; it sends 81h, which
+    """The driver never sends codes from 84h on, which the default map does not define; it sends 81h, which
     identifies the map, only once.
     """
     sent: list[int] = []
@@ -265,7 +271,9 @@ def test_moves(axis: Stmc) -> None:
 
 
 def test_the_end_comes_as_a_message(axis: Stmc) -> None:
-    """`int_n` reports the end to the driver; the polling of BUSY every half second is not needed."""
+    """`int_n` reports the end of a motion, so the driver need not wait for its poll of BUSY every half
+    second.
+    """
     before = axis.link.clock()
     assert axis.move(300).complete
     assert axis.link.clock() - before < 0.15
@@ -307,7 +315,7 @@ def test_limits() -> None:
 
 
 def test_motor_off() -> None:
-    """The MON input is reported in place of the alarm of related devices."""
+    """The MON input of the STMC is reported where other parts report the alarm."""
     with board("alarm=4500..4600") as axis:
         text = "MON input ended the motion at position 500 after 500 of 2000 pulses: switch the motor on"
         with pytest.raises(AlarmStop, match=text) as caught:
@@ -331,7 +339,7 @@ def test_home_finds_the_same_place_from_everywhere(start: int, how: dict[str, bo
 
 
 class Flag(Plant):
-    """Plant whose reference point is a flag of 21 steps."""
+    """Plant whose reference point is active over 21 steps."""
 
     def levels(self, position: int) -> dict[str, int]:
         return {**super().levels(position), "origin": int(not -20 <= position <= 0)}
@@ -339,8 +347,8 @@ class Flag(Plant):
 
 @pytest.mark.parametrize("how", [{"fast": True}, {"to_limit": True}])
 def test_home_comes_back_to_a_flag_it_has_passed(how: dict[str, bool]) -> None:
-    """The start-up of the data sheet finds the flag: to the end of the travel, then command 7 back to
-    the reference point.
+    """Homing as in the data sheet finds a flag that the motor has passed: it moves to the end of the travel,
+    then back to the reference point with command 7.
     """
     with board("start=300", start_pps=2000, high_pps=8000, ramp_pulses=100) as axis:
         model(axis).plants = (Flag(ccw=-1000, slow_ccw=-200),)
@@ -349,7 +357,9 @@ def test_home_comes_back_to_a_flag_it_has_passed(how: dict[str, bool]) -> None:
 
 
 def test_a_flag_on_the_other_side_is_not_found(axis: Stmc) -> None:
-    """A search that starts below the flag ends at the deceleration limit and reports it (ruling R-19)."""
+    """A search that starts below the flag ends at the deceleration limit, and the driver reports this
+    (R-19).
+    """
     model(axis).plants = (Flag(start=-100, ccw=-1000, slow_ccw=-200),)
     model(axis).positions[0] = -100
     with pytest.raises(OriginNotFound, match="home in the other direction") as caught:
@@ -361,8 +371,8 @@ def test_a_flag_on_the_other_side_is_not_found(axis: Stmc) -> None:
 
 
 def test_every_error_number_is_raised_as_its_own_exception(axis: Stmc) -> None:
-    """Each error number, provoked by a script on the golden model, raises its own exception; number 4
-    does not exist.
+    """Each error number that a script provokes on the golden model raises its own exception; number 4 does
+    not exist.
     """
     rest: list[tuple[type[CommandRefused], int, Script]] = [
         (NothingToStop, 0x80, Script().call(0x40)),
@@ -396,7 +406,7 @@ def test_every_error_number_is_raised_as_its_own_exception(axis: Stmc) -> None:
 
 
 def test_reset_is_no_step(axis: Stmc) -> None:
-    """After a reset, counting continues from the first pattern."""
+    """After a reset, the position is kept, and steps are counted from the first pattern on."""
     axis.move(1)
     axis.reset()
     axis.initialise()

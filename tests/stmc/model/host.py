@@ -6,14 +6,14 @@ from openppmc.model.chip import Square
 from openppmc.model.stmc.part import Stmc
 from tests.common.model.host import ModelHost
 
-# Period of the external clock of the acceptance checks, in cycles.
+# Period of the external clock in cycles, as in the acceptance checks.
 EXT16 = 16
 TICK = 1280
 SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
 
 
 def init(code: int, d1: int, d2: int, pa: int) -> str:
-    """Return the script of an initialisation; the arguments are numbers."""
+    """Return the script of an initialisation with these values."""
     return f"c {code:02X} d {d1:02X} d {d2:02X} d {pa & 0xFF:02X} d {pa >> 8:02X} "
 
 
@@ -27,7 +27,7 @@ INTERNAL = init(0x0A, 20, 5, 8)
 
 
 class Clocked(Stmc):
-    """The model with a free-running external clock; `ext` = 0: the pin is not driven."""
+    """The model with a free-running external clock; with `ext` = 0 the pin is not driven."""
 
     def __init__(self, ext: int = EXT16, **parameters: object) -> None:
         super().__init__(**parameters)
@@ -49,9 +49,9 @@ class Clocked(Stmc):
 
 
 class Host(ModelHost):
-    """`ModelHost` of the STMC.
+    """`ModelHost` of the STMC; it runs its script when it is created.
 
-    It runs its script immediately; scripts may also contain idle (wait for BUSY = 0).
+    Scripts may also contain idle (wait until BUSY = 0).
     """
 
     MODEL = Clocked
@@ -71,7 +71,7 @@ class Host(ModelHost):
         return got
 
     def start(self, script: str) -> None:
-        """Send a motion command; steps are counted from here."""
+        """Send a motion command; later calls count the steps from here on."""
         mark = self.t
         self.run(script)
         self.mark = mark
@@ -82,21 +82,21 @@ class Host(ModelHost):
         return self.finish()
 
     def pulses(self) -> list[int]:
-        """Return the steps since `mark`: changes of `s`."""
+        """Return the edges of the steps since `mark`, which are the changes of `s`."""
         return [t for t, _ in self.model.log.of("s", self.mark)]
 
     def gaps(self, tick: int = EXT16) -> list[int]:
-        """Return the gaps since `mark` in ticks of `tick` cycles; the external clock may deviate by one
-        cycle.
+        """Return the gaps since `mark` in ticks of `tick` cycles, rounded, because edges of the external
+        clock may deviate by one cycle.
         """
         return [round(gap / tick) for gap in self.intervals()]
 
     def in_gap(self, i: int, after: int = 40) -> None:
-        """Run to `after` cycles after step i, the step that begins gap i."""
+        """Run to `after` cycles after step i, which begins gap i."""
         self.fall(i + 1, after)
 
     def finish(self) -> tuple[int, int]:
-        """Wait for the end; return FIN and REM as the host reads them."""
+        """Wait for the end; return FIN and REM, read as a host does."""
         self.idle()
         mark = self.mark
         (status,) = self.run("c 80 r")
@@ -105,7 +105,7 @@ class Host(ModelHost):
         return status, low | mid << 8 | high << 16
 
     def blip(self, clocks: int, **levels: int) -> None:
-        """Set levels for this number of cycles, then the idle levels."""
+        """Set levels for `clocks` cycles, then the idle levels."""
         self.pins(**levels)
         self.pause(clocks - 1)
         self.pins(**{pin: self.model.INPUTS[pin] for pin in levels})

@@ -1,5 +1,6 @@
-"""DATASHEET times of the STMC (STMC-DS-01..14) on the golden model: -0/+16 cycles, plus the delay to
-the pins.
+"""DATASHEET times of the STMC (STMC-DS-01..14) on the golden model.
+
+A time may be up to 16 cycles longer than stated, plus the delay to the pins.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ def sheet(script: str = INTERNAL, **parameters: object) -> Host:
 
 
 def ready(host: Host) -> Host:
-    """Wait until the initialisation is complete."""
+    """Wait until the part has completed the initialisation."""
     host.run("c 80 r")
     return host
 
@@ -27,7 +28,7 @@ def near(got: int, nominal: int, slack: int = 0) -> bool:
 
 
 def taken(host: Host) -> int:
-    """Return the edge on which a waiting byte is accepted."""
+    """Return the edge on which the waiting byte is accepted."""
     host.pause(4)
     host.sync()
     while host.model.status & 2:
@@ -36,7 +37,9 @@ def taken(host: Host) -> int:
 
 
 def command_and_times(host: Host, script: str) -> tuple[int, int, int]:
-    """Return the write event of the last byte, and the fall of hold and the first step relative to it."""
+    """Return the write event of the last byte, and the edges of hold's fall and of the first step
+    after it.
+    """
     *head, last = script.split("/")
     host.start(" ".join(head))
     reg, byte = last.split()

@@ -1,4 +1,4 @@
-"""Cases that no acceptance check of the RTL covers, on the golden model: all codes, both logics, all
+"""Cases on the golden model that no acceptance check of the RTL covers: all codes, both logics, all
 switches.
 """
 
@@ -88,7 +88,7 @@ def test_all_switches_active():
 @verifies("STMC-DEC-03")
 @pytest.mark.parametrize("stop", ["c 41", "l3_n"])
 def test_request_in_the_first_levels_of_a_flat_start(stop):
-    """x(v) = D1 also for levels above 0: there a request stops the motion immediately, too."""
+    """If a level above 0 also has the divisor D1, a request at this level stops the motion immediately."""
     host = Host(init(0x1A, 10, 9, 16))
     host.start("c 43 " + count(99))
     host.in_gap(3)

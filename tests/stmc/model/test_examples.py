@@ -1,4 +1,4 @@
-"""Worked examples W1..W23 and ramp reference values of the STMC, on the golden model at pin level."""
+"""Worked examples W1 to W23 and reference values of ramps of the STMC, on the golden model at its pins."""
 
 from __future__ import annotations
 

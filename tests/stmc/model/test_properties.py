@@ -1,4 +1,4 @@
-"""Invariants of the golden model of the STMC with random hosts, switches and clocks, and of its board."""
+"""Invariants of the golden models of the STMC and its board, with random hosts, switches and clocks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The C driver of the STMC with its port accessors, on a simulated ISA bus with a J105 board."""
+"""The C driver of the STMC with its port functions, on a simulated ISA bus with a J105 board."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ TICK = 16  # period of the external clock here, in cycles
 
 
 def gaps(steps: int, divisor: int | None = None, init: bytes = INIT) -> list[int]:
-    """Return the intervals in cycles of a move with the external clock."""
+    """Return the expected intervals in cycles of a move with the external clock."""
     return [TICK * rate for rate in predict_move(init, steps, divisor, part="stmc").rates]
 
 
@@ -37,7 +37,7 @@ def gaps(steps: int, divisor: int | None = None, init: bytes = INIT) -> list[int
 def lines(request) -> Lines:
     """Output of tb/cdriver/stmc_test.c: first word(s) -> its lines, each as name -> value."""
     sources = [DRIVER / "ppmc104.c", DRIVER / "stmc.c", BENCH / "stmc_test.c", BENCH / "isa_bus.cpp"]
-    # The "external" clock is fast, because every cycle is simulated.
+    # The "external" clock is fast, because every cycle has to be simulated.
     design = part_design("j105_stmc", F16)
     params = ("-GEXT_HZ=1000000", timed(request.param))
     return simulate(f"cdriver_stmc_{request.param.lower()}", "j105_stmc", design, sources, params)
@@ -48,7 +48,7 @@ def lines(request) -> Lines:
     [("move", 20, None, 0, 3), ("constant", 5, 7, 1, 4), ("step", 1, 1, 1, 2), ("internal", 4, None, 0, 3)],
 )
 def test_motion_makes_the_steps_of_the_model(lines, name, count, divisor, ccw, op):
-    """Count, direction and every gap of a motion by the driver are the predicted ones."""
+    """The count, the direction and every gap of a motion by the driver equal the predicted values."""
     assert result(lines, name) == (0, "ok")
     want = gaps(count, divisor)
     if name == "internal":
@@ -61,19 +61,19 @@ def test_motion_makes_the_steps_of_the_model(lines, name, count, divisor, ccw, o
 
 
 def test_both_bytes_of_the_ramp(lines):
-    """With a ramp of 259 steps, a short move accelerates at the rate of this long ramp."""
+    """With a ramp of 259 steps, a short move has the acceleration of this long ramp."""
     assert pulses(lines, "long") == (60, 0, gaps(60, init=bytes([20, 5, 3, 1])))
 
 
 def test_ports(lines):
-    """Through the accessors at 3B0h and 3B1h the part responds, and its registers read as documented."""
+    """With the port functions at 3B0h and 3B1h, the part responds, and its registers read as documented."""
     assert result(lines, "probe") == result(lines, "outputs") == result(lines, "inputs") == (0, "ok")
-    # Phases 1 and 2 are on, at standstill, cw. No switch is active, and the motor is on.
+    # Phases 1 and 2 are on, standstill, CW. No switch is active, and the motor is on.
     assert (lines["levels"][0]["out"], lines["levels"][0]["in"]) == ("c4", "cf")
 
 
 def test_read_codes_are_found_out(lines):
-    """The probe detects the codes of the default map, and those of READ_MAP = "SHEET" (R-01)."""
+    """The probe detects the read codes of the default map and those of READ_MAP = "SHEET" (R-01)."""
     assert lines["default"][0]["map"] == "1"
     assert result(lines, "sheet probe") == (0, "ok")
     found = lines["sheet"][3]
@@ -84,8 +84,8 @@ def test_read_codes_are_found_out(lines):
 
 
 def test_interrupt(lines):
-    """IRQ is asserted with the last step of a move with interrupt, not of one without, and the read of
-    the finish status deasserts it.
+    """The last step of a move with interrupt asserts IRQ, that of a quiet move does not; the read of the
+    finish status deasserts IRQ.
     """
     assert lines["irq"][0]["quiet"] == "0" and pulses(lines, "quiet")[0] == 3
     values = lines["irq"][1]
@@ -94,8 +94,8 @@ def test_interrupt(lines):
 
 
 def test_interrupt_served_after_the_restart(lines):
-    """The read of an interrupt routine that runs during the next motion is rejected; the read after
-    the end of this motion deasserts IRQ.
+    """If an interrupt routine runs only during the next motion, its read is rejected; a read after this
+    motion deasserts IRQ.
     """
     assert result(lines, "late") == result(lines, "late again") == (0, "ok")
     assert result(lines, "late service")[0] == Error.NOT_WHILE_BUSY + 1
@@ -116,11 +116,11 @@ def test_interrupt_served_after_the_restart(lines):
     ],
 )
 def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
-    """A switch after 30 of 100 steps leads to cause, remaining count and steps that agree with each
-    other and with the model.
+    """If a switch acts after 30 of 100 steps, cause, remaining count and steps agree with each other and with
+    the model.
     """
     end, (cw, back, got) = ending(lines, name), pulses(lines, name)
-    # The motion stops immediately, or after the running gap and the eight gaps of the ramp (STMC-DEC-04).
+    # The motion stops immediately, or after the current gap and the eight gaps of the ramp (STMC-DEC-04).
     count = 30 + (9 if cause == "slow" else 0)
     assert (cw, back) == ((0, count) if ccw else (count, 0))
     assert end["raw"] == 0x83 | bit and end[cause] == 1 and end["left"] == 100 - count
@@ -131,7 +131,7 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
 
 
 def test_reference_point_and_stops(lines):
-    """Home, jog and run end by the reference point or a stop and report it."""
+    """Home ends at the reference point, jog and run end after a stop; the driver returns the cause."""
     ends = {name: ending(lines, name) for name in ("home", "there", "jog", "run")}
     assert [end["raw"] for end in ends.values()] == [0x87, 0x87, 0xC5, 0xC6]
     assert pulses(lines, "home") == (0, 7, gaps(7, 10))
@@ -159,14 +159,14 @@ def test_reference_point_and_stops(lines):
     ],
 )
 def test_error_number(lines, name, number):
-    """For a byte that the part rejects, the driver returns the error number plus one and the text."""
+    """If the part rejects a byte, the driver returns the error number plus one, and the matching text."""
     value, text = result(lines, name)
     assert value == number + 1 and text.startswith(f"error {int(number)}: ")
     assert ("divisor" in text) == (number == Error.BAD_RAMP)
 
 
 def test_errors_disturb_nothing(lines):
-    """Rejected bytes during a move do not affect it; it continues to its decelerating stop."""
+    """Bytes that are rejected during a move do not change it; it continues up to its decelerating stop."""
     for name in ("E init", "E start", "E stop slowly"):
         assert result(lines, name) == (0, "ok")
     end, (cw, ccw, got) = ending(lines, "E"), pulses(lines, "E")
@@ -176,12 +176,12 @@ def test_errors_disturb_nothing(lines):
 
 @pytest.mark.parametrize("name", ["reset", "reset left"])
 def test_reset_in_a_motion(lines, name):
-    """A reset in a motion is an unconfirmed end, not "complete" (STMC-FIN-01)."""
+    """If the part is reset in a motion, the end is unconfirmed, not "complete" (STMC-FIN-01)."""
     assert result(lines, f"U {name}") == (19, "the part does not confirm the end of the motion")
 
 
 def test_bad_arguments(lines):
-    """The driver reports values out of range and sends no byte."""
+    """For a value out of range, the driver returns an error and sends no byte."""
     named = [name for name in lines if name.startswith("A ") and "result" in lines[name][0]]
     assert len(named) == 11
     assert {result(lines, name) for name in named} == {(18, "argument out of range")}
@@ -189,8 +189,8 @@ def test_bad_arguments(lines):
 
 
 def test_time_out(lines):
-    """If no device responds at the ports, or a motion is longer than the wait, each wait ends with its
-    own error.
+    """Each wait ends if no device responds or a motion takes longer, and the results distinguish both
+    cases.
     """
     assert result(lines, "dead ports")[0] == result(lines, "dead init")[0] == 17
     assert result(lines, "short wait")[0] == 16
@@ -198,7 +198,9 @@ def test_time_out(lines):
 
 
 def test_speeds(lines):
-    """For each speed, the driver finds the nearest divisor and its speed, as exact arithmetic does."""
+    """For each speed, the driver returns the nearest divisor and the resulting speed, as exact arithmetic
+    does.
+    """
     good = 0
     for line in lines["speed"]:
         clock, speed = int(line["clock"]), int(line["speed"])

@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc312-serial`: sixteen axes on one line, every station compared with its golden model."""
+"""`make demo PART=ppmc312-serial`: sixteen axes on one line, each station compared with its golden model."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def show_talk(run: LineRun) -> None:
 
 
 def show_axes(run: LineRun, comparisons: list[Comparison]) -> None:
-    """Print for each axis the order, the motion at its pins, its reports and the comparison."""
+    """Print for each axis its pulses, its polls and reports, and the comparison with its golden model."""
     table = Table(title="Sixteen axes", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     heads = ("station", "pulse 1 / ms", "last pulse / ms", "pulses", "polls: busy", "stop reported / ms")
     for head in (*heads, "position read", "edges of the RTL", "edges of the model", "without a twin"):
@@ -100,7 +100,7 @@ def show_axes(run: LineRun, comparisons: list[Comparison]) -> None:
 
 
 def main() -> int:
-    """Run the demo; return 0 if RTL and golden models agree in every edge."""
+    """Run the demo; return 0 if every edge of the RTL equals that of the golden models."""
     steps = Steps()
     begin = time.monotonic()
     try:

@@ -1,4 +1,4 @@
-"""The picture of sixteen axes on one line: positions, transmissions over time, three exchanges bit by bit."""
+"""The picture of sixteen axes on one line: positions, transmissions over time, bits of three exchanges."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def shade(number: int, count: int) -> Any:
 def ways(
     axes: Axes, run: LineRun, comparisons: Sequence[Comparison], span: tuple[int, int], ms: float
 ) -> None:
-    """Draw the position of every axis from its pulses, with a dot for each position read back."""
+    """Draw the position of every axis from its pulses, with a dot for each position that was read."""
     read = {one.station: one for one in run.talk if one.code == 0x42}
     for number, comparison in enumerate(comparisons):
         rows = [(span[0], 0), *positions(comparison)]
@@ -53,7 +53,7 @@ def ways(
 
 
 def traffic(axes: Axes, talk: Sequence[Exchange], count: int, ms: float) -> None:
-    """Draw one row for each station: frames of the master to it, and its replies."""
+    """Draw a row for each station: the frames that the master sends to it, and its replies."""
     rows: dict[str, list[tuple[int, float, float]]] = {}
     for one in talk:
         rows.setdefault("master", []).append((one.station, one.begin, one.sent_end))
@@ -81,7 +81,7 @@ def traffic(axes: Axes, talk: Sequence[Exchange], count: int, ms: float) -> None
 
 
 def characters(one: Exchange) -> list[tuple[int, str]]:
-    """Return (edge in the middle of a character, its text) for both frames."""
+    """Return (edge in the middle of a character, its text) for each character of both frames."""
     rows = []
     for begin, frame in ((one.begin, one.question), (one.replied, one.answer)):
         for place, byte in enumerate(frame):
@@ -92,7 +92,7 @@ def characters(one: Exchange) -> list[tuple[int, str]]:
 
 
 def exchange(axes: Axes, run: LineRun, comparison: Comparison, one: Exchange, letter: str) -> None:
-    """Draw the levels of master and station, and the characters."""
+    """Draw the levels of the master and of the station, and their characters."""
     traces = [
         Trace("MASTER", 1, pin(run.recording.stimulus, "master"), MASTER),
         Trace("SND", 0, comparison.actual["snd"], "#7a4fa3"),

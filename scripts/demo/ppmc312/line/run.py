@@ -1,4 +1,4 @@
-"""Result files of a run of the line demo."""
+"""The files in which a run of the line demo stores its result."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scripts.demo.ppmc312.line.talk import Exchange, exchanges
 
 @dataclass(frozen=True)
 class LineRun:
-    """Result of a run: the recording of the line, chapters, exchanges, positions read back."""
+    """Result of a run: the recording of the line, chapters, exchanges, and the positions that were read."""
 
     recording: Recording
     chapters: list[dict[str, Any]]

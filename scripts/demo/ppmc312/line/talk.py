@@ -1,4 +1,4 @@
-"""Frames of the PPMC-312's line as pairs of question and answer, with their meaning as text."""
+"""Frames on the line of the PPMC-312 as pairs of question and answer, with their meaning as text."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ class Exchange:
 
     @property
     def sent(self) -> str:
-        """The question as characters: control code and checksum in hexadecimal, all between them as text."""
+        """The question as text: control code and checksum in hexadecimal, the other characters unchanged."""
         return as_text(self.question)
 
     @property
     def got(self) -> str:
-        """The answer as characters."""
+        """The answer as text, in the format of the question."""
         return as_text(self.answer)
 
     @property
@@ -92,7 +92,7 @@ def as_text(frame: bytes) -> str:
 
 
 def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
-    """Return exchanges from rows (begin, end, "master" or "station", hexadecimal characters) by time."""
+    """Return the exchanges in rows (begin, end, "master" or "station", hexadecimal text) sorted by time."""
     found: list[Exchange] = []
     for begin, end, who, text in talk:
         begin, end, data = int(begin), int(end), bytes.fromhex(str(text))

@@ -1,4 +1,4 @@
-"""VCD and saved views of the line: the sender, and pins, position and speed of each station."""
+"""VCD and saved views of the line: who sends, and each station's pins, position and speed."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from scripts.demo.scenes import pin
 
 PINS = ("txd", "snd", "pout", "dir", "cd_n")
 STRAPS = {"adr": 4, "mod": 3}
-"""Strap pins of each station and their number of bits."""
+"""Strap pins of a station, with their numbers of bits."""
 MOVING = ("speed_pps", "position")
 
 
 def positions(comparison: Comparison) -> list[tuple[int, int]]:
-    """Return (edge of a pulse, position after it) for each pulse."""
+    """Return (edge of the pulse, position after it) for each pulse."""
     turns = [(t, 2, level) for t, level in comparison.actual["dir"]]
     pulses = [(t, 1, level) for t, level in comparison.actual["pout"] if level]
     where, sign, rows = 0, 1, []
@@ -37,7 +37,7 @@ def positions(comparison: Comparison) -> list[tuple[int, int]]:
 
 
 def view(stations: int) -> View:
-    """Return the groups of the saved views: the line, then each station."""
+    """Return the groups of signals in the saved views: the line, then each station."""
     groups = [("line", ("line.master", "line.line", "line.question", "line.answer"))]
     groups += [
         (f"station {n}", tuple(f"station{n}.{name}" for name in (*MOVING, *PINS))) for n in range(stations)
@@ -46,7 +46,7 @@ def view(stations: int) -> View:
 
 
 def write(run: LineRun, comparisons: list[Comparison], stem: Path) -> list[Path]:
-    """Write VCD, GTKWave and Surfer files with this stem; return their paths."""
+    """Write the VCD and the saved views for GTKWave and Surfer, with this file stem; return their paths."""
     vcd, gtkw, sucl = (stem.with_suffix(suffix) for suffix in (".vcd", ".gtkw", ".sucl"))
     recording = run.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
@@ -94,5 +94,5 @@ def write(run: LineRun, comparisons: list[Comparison], stem: Path) -> list[Path]
 
 
 def recording_part(comparisons: list[Comparison]) -> str:
-    """Return the part name of the stations."""
+    """Return the name of the part in each station."""
     return comparisons[0].recording.part

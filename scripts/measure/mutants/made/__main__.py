@@ -24,7 +24,7 @@ from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, dig
 
 NAME = "mutate"
 GOAL, LEAST = 95.0, 70.0
-"""Required score of a folder in %; of a small sample, which is less meaningful."""
+"""Required score of a folder in %; for a small sample, whose score is less meaningful."""
 SMALL = 50
 NOT_GUIDED = "run `make coverage` first to make this much faster"
 
@@ -40,7 +40,7 @@ def known() -> dict[str, str]:
 
 
 def on_file(keys: Container[str]) -> list[Done]:
-    """Return the last result of each of these mutants if its file is unchanged."""
+    """Return the last result of each of these mutants whose file has not changed since."""
     with Store() as store:
         found = {done.key: done for _, done in store.all(NAME) if done.key in keys and "file" in done.data}
     return [done for done in found.values() if done.data["file"] == digest(done.key.split(" ")[0])]

@@ -1,4 +1,4 @@
-"""Mutants of a run: all of the selected files, or a sample that grows with COUNT."""
+"""Mutants of a run: all mutants of the selected files, or a sample that grows with COUNT."""
 
 from __future__ import annotations
 
@@ -17,17 +17,20 @@ LEFT_OUT = ("boards",)
 
 @cache
 def of_file(file: str) -> list[Fault]:
-    """Return all mutants of a file."""
+    """Return all mutants of a file of rtl/."""
     return faults((ROOT / file).read_text(encoding="utf-8"))
 
 
 def folder_of(file: str) -> str:
-    """Return the folder below rtl/."""
+    """Return the folder below rtl/ to which a file belongs."""
     return file.split("/")[1]
 
 
 def rtl_files(word: str = "") -> list[str]:
-    """Return the files of a folder below rtl/, else those whose path contains the word; or ProjectError."""
+    """Return the files of a folder below rtl/ with this name, or else those whose path contains the word.
+
+    Raises ProjectError if there are none.
+    """
     every = [relative(path) for path in sorted(RTL.rglob("*.sv"))]
     every = [file for file in every if folder_of(file) not in LEFT_OUT]
     found = [file for file in every if folder_of(file) == word] or [file for file in every if word in file]
@@ -42,7 +45,7 @@ def _lot(file: str, number: int) -> str:
 
 
 def sample(files: Sequence[str], count: int | None) -> Iterator[tuple[str, Fault]]:
-    """Yield `count` random mutants of each folder: the same each time, and more for a higher count."""
+    """Yield `count` pseudo-random mutants of each folder; a higher count keeps those of a lower count."""
     lots = [(_lot(file, fault.number), file, fault) for file in files for fault in of_file(file)]
     drawn: Counter[str] = Counter()
     kept = []

@@ -1,8 +1,8 @@
 """The mutants of an RTL file: small faults at places of slang's syntax tree.
 
-Only code that hardware evaluates is changed: expressions and assignments of always blocks, continuous
-assignments, inputs of instances. Unchanged are parameters, declarations, widths and ranges, generate
-conditions, case labels, functions, assertions and all other code that SYNTHESIS excludes.
+Only code that becomes hardware is changed: expressions and assignments of always blocks, continuous
+assignments, inputs of instances. Parameters, declarations, widths and ranges, generate conditions, case
+labels, functions, assertions and all other code that SYNTHESIS excludes are not changed.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SWAPS = {
     "<<": ">>",
     ">>": "<<",
 }
-"""Operator -> its replacement."""
+"""Operator -> the operator that replaces it."""
 LOGIC = ("&&", "||")
 ASSIGNMENTS = ("AssignmentExpression", "NonblockingAssignmentExpression")
 SKIPPED = (
@@ -84,7 +84,7 @@ class Finder:
         return self.text[start:end]
 
     def _module(self, node: Any) -> None:
-        """Find code that runs: always blocks, assignments, instances."""
+        """Find the code that becomes hardware: always blocks, assignments, instances."""
         name = kind(node)
         if name in ("AlwaysFFBlock", "AlwaysCombBlock", "AlwaysBlock", "ContinuousAssign"):
             if self._of(node).startswith("assign unused"):
@@ -97,7 +97,7 @@ class Finder:
                 self._module(child)
 
     def _walk(self, node: Any) -> None:
-        """Add the faults of a node that runs."""
+        """Add the faults of a node in such code."""
         name = kind(node)
         if name in SKIPPED or "Event" in name:
             return
@@ -128,7 +128,7 @@ class Finder:
                 self._walk(child)
 
     def _condition(self, predicate: Any) -> None:
-        """Add an if that is always true, and one that is never true; for a reset only the second."""
+        """Add the faults of an if: the condition is always, or never, true; for a reset only the second."""
         text = self._of(predicate)
         if "rst" not in text:
             self._add(predicate, "1'b1", "always")
@@ -155,7 +155,7 @@ class Finder:
 
 
 def faults(text: str) -> list[Fault]:
-    """Return all mutants of a file, in order of their places; code that only silences lint is unchanged."""
+    """Return all mutants of a file, in order of their places, except in code that only silences lint."""
     finder = Finder(text)
     return [
         fault for fault in finder.found if not any(start <= fault.start < end for start, end in finder.unused)

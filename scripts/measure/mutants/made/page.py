@@ -32,7 +32,7 @@ SO_FAR = "The mutants ran at different times; for some survivors only the first 
 
 @dataclass(frozen=True)
 class Tried:
-    """A mutant and its verdict.
+    """A mutant and the result of its tests.
 
     Attributes:
         test: the test that killed the mutant.
@@ -50,7 +50,7 @@ class Tried:
 
     @property
     def why(self) -> str:
-        """The reason why it is equivalent; "" if it has not been reviewed."""
+        """The reason why the mutant is equivalent; "" if it has not been reviewed."""
         return judged().get((self.file, self.source, self.fault.what), "")
 
 

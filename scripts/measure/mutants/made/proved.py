@@ -1,4 +1,4 @@
-"""The quick proofs whose blocks contain a file, and the proof that a mutant of it makes fail."""
+"""Quick proofs of mutants: those whose blocks contain a file, and the first one that a mutant makes fail."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
 
 
 def failing(file: str, fault: Fault, tried: Sequence[Proof]) -> str:
-    """Return the first proof with a counterexample or a cover that is not reached; "" if all proofs hold."""
+    """Return the first proof with a counterexample or an unreached cover; "" if all proofs hold."""
     text = alone((ROOT / file).read_text(encoding="utf-8"), fault)
     change = Change(f"{Path(file).stem}-{fault.number}", file, text)
     for proof in tried:

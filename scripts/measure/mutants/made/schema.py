@@ -1,6 +1,6 @@
 """All mutants of a file in one copy: +mutant=N selects one when the simulation starts; 0: no mutant.
 
-Thus, a design is compiled once for all mutants of a file. Lines keep their numbers.
+Thus, a design is compiled only once for all mutants of a file. Line numbers do not change.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
     heads = _heads(text)
 
     def render(start: int, end: int, within: list[tuple[int, int, bool]]) -> str:
-        """Return the text of [start, end) with all places inside it, except the caller's own place."""
+        """Return the text of [start, end) with the mutants of the places `within` it."""
         parts, at, rest = [], start, within
         while rest:
             place = rest[0]
@@ -61,5 +61,5 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
 
 
 def _flat(text: str) -> str:
-    """Return a text on one line without comments, so that all following lines keep their numbers."""
+    """Return a text on one line without comments, so that the line numbers after it do not change."""
     return " ".join(line.partition("//")[0].strip() for line in text.splitlines())

@@ -1,9 +1,11 @@
-"""Tests for the mutants of a file: groups of tests, each a simulator process, the fastest first.
+"""Tests for the mutants of a file: groups of tests, each in one simulator process, the fastest first.
 
-If results of a coverage campaign are stored (`make coverage`), the groups are those that cover the line of
-the mutant: first those of its block, then groups newer than the campaign, then by their time for each covered
-point of the file. Otherwise, they are the groups of the folder: tests of blocks, then of the parts that
-contain the file, directed tests before random tests.
+If results of a coverage campaign are stored (`make coverage`), the groups that cover the line of the mutant
+run in this order: groups of its block, groups that are newer than the campaign, all others by their time for
+each covered point of the file.
+
+Without such results, the groups of the folder run: tests of blocks before those of the parts that contain the
+file, directed tests before random tests.
 """
 
 from __future__ import annotations
@@ -33,7 +35,7 @@ AT_LAST = ("cocotb_tests/common/test_benches.py", "cocotb_tests/board/")
 
 Group = tuple[str, ...]
 GUIDED, FEW = 6, 2
-"""Number of groups in one pytest: of those that cover the line, and of those that may cover it."""
+"""Number of groups in one pytest run: of those that cover the line, and of those that may cover it."""
 
 
 @cache
@@ -69,7 +71,7 @@ def _rank(group: Group, file: str) -> int:
 
 @dataclass(frozen=True)
 class _Reach:
-    """Coverage of a group: lines of files, and the number of covered points of each file."""
+    """Coverage of a group: covered lines of each file, and the number of covered points of each file."""
 
     group: Group
     seconds: float
@@ -78,7 +80,7 @@ class _Reach:
 
 
 class Suites:
-    """Groups of tests for lines of files, returned by `of`."""
+    """Groups of tests; `of` returns those for a line of a file."""
 
     def __init__(self) -> None:
         self._reached: list[_Reach] = []
@@ -92,11 +94,12 @@ class Suites:
             points = Points.unpack(done.data["points"])
             self._reached.append(_Reach(known[key], done.seconds, _lines(points), _weights(points)))
         self._new = [group for key, group in known.items() if key not in latest]
-        # A sample of coverage is not sufficient, because groups are missing; a few new tests are permitted.
+        # The stored coverage may lack a few groups that are newer than the campaign. If it is only that of a
+        # sample, it lacks too many groups.
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
-        """Return the groups in order of their runs; several are joined, because each start takes seconds."""
+        """Return the groups in the order of their runs; some are joined, because each start takes seconds."""
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
@@ -116,7 +119,7 @@ class Suites:
 
 
 def _together(all_groups: Sequence[Group], size: int) -> Iterator[Group]:
-    """Yield `size` groups as one, in their order."""
+    """Join every `size` groups into one, in their order."""
     for at in range(0, len(all_groups), size):
         yield tuple(test for group in all_groups[at : at + size] for test in group)
 

@@ -1,4 +1,4 @@
-"""One mutant on a worker: run proofs and tests until one fails.
+"""Run proofs and tests on one mutant until one fails.
 
 The order is: the proofs of its block, its groups of tests, the proofs of the blocks that contain it.
 """
@@ -45,7 +45,7 @@ class Mutant:
 
     @property
     def key(self) -> str:
-        """Key that is unique among all mutants of the tree."""
+        """Key of the mutant, unique in the tree."""
         return f"{self.file} {self.fault.number}"
 
 
@@ -67,7 +67,7 @@ def copy_of(file: str) -> Path:
 
 
 def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
-    """Run tests; return the verdict on the mutant, and the first test that failed."""
+    """Run the tests; return what became of the mutant, and the name of the first test that failed."""
     environment = {
         **os.environ,
         MUTANT: f"{mutant.file} {mutant.fault.number} {copy_of(mutant.file)}",
@@ -87,7 +87,7 @@ def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
 
 
 def met(mutant: Mutant) -> tuple[str, str]:
-    """Return the verdict on the mutant, and the test that killed it, or `PROOF` and the proof."""
+    """Return what became of the mutant, and the test that killed it, or `PROOF` and the name of the proof."""
     own, others = proofs_of(mutant.file)
     if name := failing(mutant.file, mutant.fault, own):
         return KILLED, PROOF + name
@@ -101,6 +101,6 @@ def met(mutant: Mutant) -> tuple[str, str]:
 
 
 def run_one(mutant: Mutant) -> Result:
-    """Try one mutant; an endless test is counted separately from a failing check."""
+    """Try one mutant; a test that does not end is counted separately from a failing check."""
     verdict, test = met(mutant)
     return Result(verdict != BROKEN, {"verdict": verdict, "test": test, "file": digest(mutant.file)})
