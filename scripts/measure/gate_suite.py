@@ -20,8 +20,8 @@ from openppmc import parts
 from scripts.fpga.flow import gates, plain
 
 QUICK = "quick"
-# The quick subset: the tests that each part lists, on one family; each family has some of the parts. Synthesis
-# takes most of its time.
+# The quick subset: the tests that each part lists, on one family; each family has some of the parts. Most of
+# its time is synthesis.
 QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
 QUICK_DEFAULT = "ecp5"
 
