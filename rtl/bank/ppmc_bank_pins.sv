@@ -40,7 +40,8 @@ module ppmc_bank_pins
   pin_cmd_t pin_cmd_q;
   logic [RoundBits-1:0] at_cycle_q;
   logic loads_pulse;  // strobe: a command with a pulse is loaded
-  // cycle_hit: the command is executed in this cycle; end_motion: a cause ends the motion in this cycle
+  // cycle_hit: the command is executed in this cycle; end_motion: a switch, STOP or a halt ends the motion in
+  // this cycle
   logic cycle_hit, limit, halt, end_motion, pulse, pulse_end, set_pins, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;

@@ -72,7 +72,7 @@ package ppmc_bridge_pkg;
     logic       valid;   // strobe: op and arg are valid
     sys_e       op;      // RATE, EVENTS, RECORD or another op
     logic [2:0] arg;     // first operand
-    logic [7:0] straps;  // strap outputs
+    logic [7:0] straps;  // strap outputs, set by op STRAPS
   } bridge_cmd_t;
 
   // Operand of op RECORD.

@@ -32,7 +32,7 @@ module ppmc_uart_bridge
     input  wire logic               int_ni,        // interrupt, active low
     output logic                    part_rst_no,   // reset of the device, active low
     // board
-    output logic      [        7:0] straps_o,      // strap outputs
+    output logic      [        7:0] straps_o,      // strap outputs, set by operation STRAPS
     input  wire logic [        7:0] pins_i,        // pins for operation PINS
     input  wire logic [  Watch-1:0] watch_i,       // levels for the recorder
     input  wire logic [Axes*32-1:0] count_i,       // pulse counters; axis 1 is in bits 31:0

@@ -2,7 +2,7 @@
 // ppmc_uart_host: host interface of a board for a PC. Contains the UART bridge and the pulse counters, and
 //         returns the levels of the switches.
 // Rules:  docs/uart_bridge.md. PINS returns the levels of one axis: {alarm, origin, slow CCW, slow CW, CCW,
-//         CW limit, hold, int_n}. With two axes, strap bit 7 selects the axis (1: axis 1).
+//         CW limit, hold, int_n}. With two axes, strap output 7 selects the axis (1: axis 1).
 // Timing: this block synchronises switches_ni and rxd_i. The outputs of the device are synchronous to
 //         clk_i.
 `default_nettype none
@@ -32,7 +32,7 @@ module ppmc_uart_host #(
     input  wire logic              int_ni,       // interrupt, active low
     output logic                   part_rst_no,  // reset of the device, active low
     // board
-    output logic      [       7:0] straps_o,     // strap outputs
+    output logic      [       7:0] straps_o,     // strap outputs, set by operation STRAPS
     input  wire logic [Axes*6-1:0] switches_ni,  // switches for operation PINS
     input  wire logic [  Axes-1:0] hold_i,       // HOLD for operation PINS; high: standstill
     input  wire logic [  Axes-1:0] pout_ni,      // pulses to be counted

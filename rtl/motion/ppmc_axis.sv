@@ -98,7 +98,7 @@ module ppmc_axis
   assign low_o = PulsePin && low;
   assign last = last_pulse || (OriginAtPulse && op_q.origin && switches_i.origin);
 
-  // An immediate cause also suppresses a pulse that is scheduled for the same edge.
+  // An immediate end also suppresses a pulse that is scheduled for the same edge.
   always_comb begin
     fire = 1'b0;
     if (state_q == StStart) fire = width_past && go_i && (op_q.single || !base_q.external || rise);
@@ -305,8 +305,8 @@ module ppmc_axis
           base: base_q
       };
 
-  // The assertions check that no pulse occurs at or after an immediate cause, that a motion without a cause
-  // completes its count, and that no pulse is missed because a low time was not cut.
+  // The assertions check that no pulse occurs at or after an immediate end, that a motion without a cause of
+  // the end completes its count, and that no pulse is missed because a low time was not cut.
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
   // External clock edges less than 4 cycles apart are too fast (P104-BAD-14, P2104-BAD-19): the cut may be

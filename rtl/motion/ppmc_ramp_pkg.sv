@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_pkg: passes that the ramp builder makes over its bit-serial numbers.
+// How:    ppmc_ramp_serial defines n, u and v; ppmc_ramp_builder defines PA, r, a and b.
 `default_nettype none
 
 package ppmc_ramp_pkg;
@@ -9,9 +10,9 @@ package ppmc_ramp_pkg;
 
   typedef enum logic [2:0] {
     PassInit,  // n = PA, v = 0
-    PassMulBit,  // v = 2v + bit * n, for one multiplier bit; the highest is first
+    PassMulBit,  // v = 2v + bit * n, per multiplier bit, highest bit first
     PassMulOne,  // v = 2v + n, for a multiplier bit of 1
-    PassMulEnd,  // n = n + v, v = 0; together: n = n * (multiplier + 1)
+    PassMulEnd,  // n = n + v, v = 0; completes n = n * (multiplier + 1)
     PassDivideSquare,  // v = n / s / s, s = 2r + 1
     PassSubtract,  // v = v - u
     PassDivide,  // v = v / (a - b) / (a + b)

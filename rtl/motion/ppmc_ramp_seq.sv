@@ -42,7 +42,7 @@ module ppmc_ramp_seq #(
     output logic last_o,  // 1: the next pulse is the last pulse
     output logic final_o,  // 1: the next pulse completes the count
     output logic top_o,  // 1: the running interval is on the plateau
-    output logic at_start_rate_o,  // before any deceleration; 1: the running interval has the start-up rate
+    output logic at_start_rate_o,  // 1: running interval at the start-up rate; valid before any deceleration
     output logic dec_o,  // 1: the natural deceleration has begun
     output logic [CountBits-1:0] left_o  // remaining pulses minus 1; at least 0
 );
@@ -90,7 +90,7 @@ module ppmc_ramp_seq #(
       dec_o  <= 1'b0;
     end else begin
       near_q <= !high && !ppmc_pkg::less(32'(ramp_level), 32'(left_o[StepBits-1:0]));
-      full_q <= reached;  // without a look-up and before the deceleration; 1: ramp_level = PA
+      full_q <= reached;  // 1: ramp_level = PA; valid without a look-up and before the deceleration
       zero_q <= !high && left_o[StepBits-1:0] == '0;
       low_q  <= ramp_level[StepBits-1:1] == '0;
       if (load_i) begin
@@ -137,9 +137,9 @@ module ppmc_ramp_seq #(
   // After a look-up, the threshold of lookup_rate_q is valid, so the next look-up begins with a test.
   // below: ramp_level < threshold; during deceleration, ramp_level <= threshold. In these cases, the sum
   // has a carry.
-  // If base clocks are 4 cycles apart, a look-up always ends before the end of its interval, because n is
-  // at most the rate of the interval. If base clocks are 6 cycles apart, it also ends before the middle of
-  // the interval: on ramps of 4 steps and more, n is smaller than the rate, or 1.
+  // If the ticks of the base clock are 4 cycles apart, a look-up always ends before the end of its interval,
+  // because n is at most the rate of the interval. If they are 6 cycles apart, it also ends before the
+  // middle of the interval: on ramps of 4 steps and more, n is smaller than the rate, or 1.
   assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), decel_q} + {1'b0, ramp_level_nq, decel_q};
   assign reached             = !below;
   assign more                = !end_q && reached != decel_q;

@@ -2,9 +2,9 @@
 // ppmc_ramp_serial: bit-serial arithmetic of the ramp builder. One block RAM stores three long numbers;
 //         each word has one bit of each number.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
-// Timing: a pass begins in the cycle after start_i and takes 2 cycles more than it has words. last_o marks
-//         its last cycle, in which the next pass may be started. PassOutput outputs one bit per cycle from
-//         its third to its last cycle (use_o = 1).
+// Timing: a pass begins in the cycle after start_i. A pass over w words takes w + 2 cycles. last_o marks its
+//         last cycle, in which the next pass may be started. PassOutput outputs one bit per cycle from its
+//         third to its last cycle (use_o = 1).
 // How:    n is the numerator, u the subtrahend between the divisions, v a product, quotient or difference.
 //         Bit i is stored in word i. A quotient follows its dividend by two cycles and is written two words
 //         lower, so its lowest bits are stored in the last two words of the RAM. No pass ever writes a 1
@@ -21,7 +21,7 @@ module ppmc_ramp_serial
     input  wire logic              clk_i,
     input  wire logic              rst_ni,
     input  wire logic              start_i,   // strobe: begin a pass
-    input  wire pass_e             next_i,    // pass to be begun; valid with start_i
+    input  wire pass_e             next_i,    // next pass; valid with start_i
     input  wire pass_e             pass_i,    // current pass: next_i, from the cycle after start_i on
     input  wire logic              mul_i,     // multiplier bit of PassMulBit; stable during the pass
     input  wire logic              keep_i,    // 1: PassMulEnd also sets u; stable during the pass

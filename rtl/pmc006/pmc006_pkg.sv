@@ -102,7 +102,7 @@ package pmc006_pkg;
   // Instruction in progress.
   typedef struct packed {
     logic [7:0]    op;
-    logic [3:0]    option;  // option of a program instruction, 15: 15 or more; otherwise 0
+    logic [3:0]    option;  // program instruction: option, saturates at 15; others: 0
     instr_source_e source;
     logic [31:0]   data;
   } exec_cmd_t;
@@ -226,7 +226,7 @@ package pmc006_pkg;
     logic [1:0] trigm;    // trigger edge, 1: rising; [0]: EXT1
     logic [1:0] exten;    // 1: emergency input enabled; [0]: EXT1
     logic       offline;  // 1: start the user program after the boot
-    logic [6:0] stlen;    // stall length, samples; 64 only after a reset
+    logic [6:0] stlen;    // stall length in samples, 0 .. 63; reset value 64
     logic [2:0] stcfg;    // [0]: detect a stall, [1]: stop the motion, [2]: drive GPO5
     logic [8:0] stlvl;    // stall level; compared with bemf_i.level
   } control_settings_t;

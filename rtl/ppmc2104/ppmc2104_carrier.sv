@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc2104_carrier: PPMC-2104 board without clock generator and pads. Contains ppmc2104 and one host
 //         interface: the UART bridge or the bus pins of the old chip.
-// Rules:  HOST = "UART": docs/uart_bridge.md, with the straps {axis 1 selected for PINS, -, -, errint_n,
-//         run, csel}; HOST = "BUS": P2104-PORT-01. Wiring: docs/boards.md.
+// Rules:  HOST = "UART": docs/uart_bridge.md, with the strap outputs {axis 1 selected for PINS, -, -,
+//         errint_n, run, csel}; HOST = "BUS": P2104-PORT-01. Wiring: docs/boards.md.
 // Timing: as ppmc2104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
 //         external synchroniser.
 `default_nettype none
@@ -31,7 +31,7 @@ module ppmc2104_carrier #(
     output logic      [7:0] d_o,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // with HOST = "UART", the straps can also set errint_n, run and csel to 0
+    // with HOST = "UART", strap outputs of the bridge can also set errint_n, run and csel to 0
     input  wire logic       errint_n,
     input  wire logic [2:1] run,
     input  wire logic [2:1] csel,

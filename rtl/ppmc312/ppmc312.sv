@@ -17,7 +17,7 @@ module ppmc312
     parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter              TIMING   = "FAST",      // or "DATASHEET": processing times of the old chip
     parameter int unsigned VERSION  = 'h12,        // value that the version instruction returns, 0 .. 255
-    parameter              SUM_MODE = "BINARY",    // or "CHARS": checksum of the serial mode
+    parameter              SUM_MODE = "BINARY",    // checksum of the serial mode; or "CHARS"
     parameter int unsigned SND_LEAD = 1,           // bits from the rise of snd to the start bit, 1 .. 16
     parameter int unsigned SND_WAIT = 0            // snd rises SND_WAIT + 0.5 bits after a stop bit, 0 .. 8
 ) (

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_carrier: PPMC-312 board without clock generator and pads. Contains ppmc312 and one host
 //         interface: the UART bridge, the pins of the parallel bus, or the serial line.
-// Rules:  HOST = "UART": docs/uart_bridge.md. Strap bits 0, 1, 2 are ANDed with run, evt0_n, evt1_n.
+// Rules:  HOST = "UART": docs/uart_bridge.md. Strap outputs 0, 1, 2 of the bridge are ANDed with run,
+//         evt0_n, evt1_n.
 //         HOST = "BUS": the pins of the parallel bus.
 //         HOST = "SERIAL": the serial station. It receives frames from both lines (only one may have a
 //         master) and sends replies to both. Wiring: docs/boards.md.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc_carrier: board with the controller of the J105 STMC, without clock generator and pads. Contains
 //         stmc, its external step clock, and one host interface: the UART bridge or the bus pins of stmc.
-// Rules:  HOST = "UART": docs/uart_bridge.md, no straps, alarm = MON; HOST = "BUS": STMC-BUS-01..22; step
-//         clock: J105-06. Wiring: docs/boards.md.
+// Rules:  HOST = "UART": docs/uart_bridge.md, alarm = MON. Only strap output 0 is used, and only with a
+//         recorder. HOST = "BUS": STMC-BUS-01..22. Step clock: J105-06. Wiring: docs/boards.md.
 // Timing: as stmc. With RECORD != 0, switches act 2 cycles later. No input needs an external synchroniser.
 `default_nettype none
 
@@ -91,7 +91,7 @@ module stmc_carrier #(
       .wave_o(ext_wave)
   );
 
-  // With a recorder, strap 0 can stop the step clock, whose edges would otherwise fill the memory.
+  // With a recorder, strap output 0 can stop the step clock, whose edges would otherwise fill the memory.
   assign ext_clk = ext_wave && (straps[0] || RECORD == 0);
 
   stmc #(

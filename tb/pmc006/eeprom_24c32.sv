@@ -152,8 +152,8 @@ module eeprom_24c32 #(
     end
   endfunction
 
-  // Blocking assignments, because the steps have the order of the model. No other block reads the internal
-  // state.
+  // Blocking assignments, because the statements of a cycle depend on their order. No other block reads the
+  // internal state.
   /* verilator lint_off BLKSEQ */
   always @(posedge clk_i) begin
     if (was_on && !on_i) power_off();

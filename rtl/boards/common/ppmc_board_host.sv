@@ -2,7 +2,7 @@
 // ppmc_board_host: host interface of a board. It is either the UART bridge with its pulse counters, or the
 //         bus pins of the old chip.
 // Rules:  Host = "UART": docs/uart_bridge.md. Host = "BUS": the bus pins are connected directly to the
-//         device, and all straps are 1.
+//         device, and all strap outputs are 1.
 // Timing: see ppmc_uart_host. With "BUS", all paths are combinational.
 `default_nettype none
 

@@ -4,7 +4,7 @@
 //         oscillator.
 // Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/bank/pins.pcf. 24 pins: pulse, direction and CCW
 //         limit of 8 axes. An axis without an origin switch uses the CCW limit as its origin. The break-off section
-//         must be off.
+//         must not be attached.
 // Timing: see ppmc_bank_carrier.
 `default_nettype none
 

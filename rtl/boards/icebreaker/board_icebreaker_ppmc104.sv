@@ -2,8 +2,8 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_icebreaker_ppmc104: PPMC-104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are straps of
-//         the bridge.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are strap
+//         outputs of the bridge.
 // Timing: see ppmc104_carrier.
 `default_nettype none
 
@@ -19,7 +19,7 @@ module board_icebreaker_ppmc104 #(
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // clock selection; with HOST = "UART", the straps can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", strap outputs of the bridge can also set csel and vsel to 0
     input  wire logic       clock,
     // switches, active low
     input  wire logic       l1_n,

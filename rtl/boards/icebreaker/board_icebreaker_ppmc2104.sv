@@ -3,8 +3,8 @@
 // board_icebreaker_ppmc2104: PPMC-2104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
 // Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc2104/pins.pcf. CSEL, RUN and ERRINT are
-//         straps of the bridge; S5 of axis 1, the phases of axis 2, the external base clocks and AUXI have no pins.
-//         The break-off section must be off.
+//         strap outputs of the bridge; S5 of axis 1, the phases of axis 2, the external base clocks and AUXI have no
+//         pins. The break-off section must not be attached.
 // Timing: see ppmc2104_carrier.
 `default_nettype none
 

@@ -28,7 +28,7 @@ module board_ulx3s_ppmc104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with HOST = "UART", the straps can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", strap outputs of the bridge can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,

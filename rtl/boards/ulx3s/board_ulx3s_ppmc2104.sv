@@ -29,7 +29,7 @@ module board_ulx3s_ppmc2104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // with HOST = "UART", the straps can also set errint_n, run and csel to 0
+    // with HOST = "UART", strap outputs of the bridge can also set errint_n, run and csel to 0
     input  wire logic       errint_n,
     input  wire logic [2:1] run,
     input  wire logic [2:1] csel,

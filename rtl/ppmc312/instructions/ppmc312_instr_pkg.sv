@@ -18,10 +18,10 @@ package ppmc312_instr_pkg;
   typedef enum logic [2:0] {
     CheckOk,
     CheckData,     // data block of a free-curve transfer
-    CheckParam,    // F0 with an error number
-    CheckStatus,   // F1
-    CheckCommand,  // F5
-    CheckSize      // F6
+    CheckParam,    // response F0 with an error number
+    CheckStatus,   // response F1
+    CheckCommand,  // response F5
+    CheckSize      // response F6
   } check_e;
 
   // Source of the last bytes of a response.

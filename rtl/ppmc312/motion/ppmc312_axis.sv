@@ -19,7 +19,7 @@ module ppmc312_axis
     input  wire logic         execute_i,       // strobe: execute block_i
     input  wire block_t       block_i,         // instruction; stable long before execute_i
     input  wire motion_req_t  motion_req_i,    // starts and rate changes
-    input  wire alarm_event_t multi_i,         // multiple occurrence
+    input  wire alarm_event_t multi_i,         // multiple-occurrence alarm
     // active table
     input  wire logic         built_i,         // strobe: a new table is active
     input  wire table_t       table_i,         // description of the table
@@ -34,7 +34,7 @@ module ppmc312_axis
     output axis_state_t       state_o,         // state of the motor side
     output axis_event_t       axis_event_o,    // events to be reported
     output monitor_req_t      monitor_req_o,   // reports of the monitors
-    input  wire monitor_ack_t monitor_ack_i    // reports of the monitors: being loaded, read
+    input  wire monitor_ack_t monitor_ack_i    // a report of a monitor is being loaded, has been read
 );
 
   logic [7:0] code;

@@ -112,8 +112,8 @@ module ppmc312_stage_unit
 
   assign table_write = build_busy ? builder_write : table_write_i;
 
-  // At standstill, the motion does not need its read port, so a plan may use it. While 87 or 88 look up a
-  // rate (plan_both = 0), and after a plan (plan_busy = 0), the motion uses the port.
+  // At standstill, the motion does not need its read port, so a plan may use it. While instruction 87 or 88
+  // looks up a rate (plan_both = 0), and after a plan (plan_busy = 0), the motion uses the port.
   assign plan_owns_port = plan_busy && plan_both;
 
   ppmc312_stage_table u_table (

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins_fv: proves that a pulse occurs only in the cycle of its command. Proves that after a
-// cause, no pulse occurs until the axis is armed again.
+// ppmc_bank_pins_fv: proves that a pulse occurs only in the cycle of its command. Proves that after an
+// effective switch, STOP or a halt, no pulse occurs until the axis is armed again.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -27,7 +27,7 @@ module ppmc_bank_pins_fv
   assign load_i = cycle_i == '0;
   always_ff @(posedge clk_i) cycle_i <= rst_ni ? cycle_i + 1'b1 : '0;
 
-  logic blocked_q;  // 1: a cause has occurred, and the axis has not been armed since then
+  logic blocked_q;  // 1: `cause` was high, and the axis has not been armed since then
   logic has_pulse_q;  // 1: the current command has a pulse
   logic [2:0] at_cycle_q;
   logic limit, switch_cause, cause;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_uart_host_fv: the host with two axes. Proves that operation PINS returns the switches of the axis
-// that the straps select, and that each counter counts the pulses of its axis.
+// that strap output 7 selects, and that each counter counts the pulses of its axis.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_axis_fv: a complete motion. Proves the number of pulses, their times and low times, and that no
 // pulse follows the end. Times are short: the width is 6 cycles, quanta are at least 4 cycles
-// apart, base clocks have 2 or 3 quanta.
+// apart, and a period of the base clock has 2 or 3 quanta.
 // Assumes: rising edges of the clock pin are at least 8 cycles apart. Table entries are at most PA, and the
 // entry of the high-speed rate is PA. Rates and PA are stable during a motion. Stops, switches and
 // gates are unconstrained.
@@ -84,7 +84,7 @@ module ppmc_axis_fv
 
   op_t op_q;
   base_clock_t base_q;
-  logic ended_q;  // 1: an immediate cause has occurred
+  logic ended_q;  // 1: a cause of an immediate end has occurred
   logic [4:0] total_q, pulses_q;  // total_q: requested pulses; pulses_q: pulses that have been output
   logic [1:0] rate_q;
   logic immediate, limit;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_base_clock_fv: proves that base clocks are exactly one period apart, and that the extra time delays
-// the first base clock of an interval.
+// ppmc_base_clock_fv: proves that the ticks of the base clock are exactly one period apart, and that the
+// extra time delays the first tick of an interval.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -27,8 +27,8 @@ module ppmc_base_clock_fv (
   );
 
   logic began_q;  // 1: a pulse has occurred
-  logic [3:0] left_q;  // quanta until the next base clock
-  logic second_q;  // 1: the first base clock of the interval has occurred
+  logic [3:0] left_q;  // quanta until the next tick
+  logic second_q;  // 1: the first tick of the interval has occurred
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {began_q, left_q} <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial_fv: proves that a pass takes two cycles more than it has words, and that no word is read
-// while it is written.
+// ppmc_ramp_serial_fv: proves that a pass over w words takes w + 2 cycles, and that no word is read while it
+// is written.
 `include "ppmc_fv.svh"
 `default_nettype none
 

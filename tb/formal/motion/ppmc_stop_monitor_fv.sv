@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_monitor_fv: proves that every immediate cause ends the motion in the same cycle, that no other
-// event ends it immediately, and that the causes are recorded.
+// ppmc_stop_monitor_fv: proves that every cause of an immediate end ends the motion in the same cycle, that
+// no other event ends it immediately, and that the causes are recorded.
 `include "ppmc_fv.svh"
 `default_nettype none
 
