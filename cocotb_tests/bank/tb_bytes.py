@@ -166,8 +166,8 @@ async def bank_hsk_04_answer_coincides_with_a_read(dut):
 
 @directed("BANK-HSK-02", builds=(B8, B32))
 async def bank_hsk_02_end_takes_the_visit(dut):
-    """A visit that ends a motion or completes an initialisation accepts no byte; the byte is accepted at the
-    next visit (BANK-HSK-02).
+    """A visit that ends a motion or completes an initialisation does not accept a waiting byte; the next
+    visit accepts it (BANK-HSK-02).
     """
     env = await Env.start(dut)
     axis = await env.ready(4)

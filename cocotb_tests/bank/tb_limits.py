@@ -129,7 +129,8 @@ def cases_of_pins() -> list[tuple[str, int, int, int]]:
 async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
     """Run every case `rounds` times, each time on the next axis.
 
-    If `rounds` is R, each case runs at each position in the round.
+    If `rounds` is R, the number of cycles in a round of the bank, each case runs at each position in that
+    round.
     """
     env = await Env.start(dut)
     waves, rng = Waves(env, rate), random.Random(rate)

@@ -171,7 +171,8 @@ async def bank_mot_03_byte_before_it_is_known(dut):
         axis.at(visit - early - SYNC, l1_n=0)
         await env.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
         await env.bench.clocks(3 * env.round)
-        # The visit that ends the motion accepts no byte; at the next visit the byte is a stop at standstill.
+        # The visit that ends the motion does not accept the byte; at the next visit it is a stop at
+        # standstill.
         env.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
         axis.set(l1_n=1)
         env.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
@@ -253,8 +254,7 @@ async def bank_mot_05_which_pulse_counts(dut):
             await axis.pulse(2)
             await axis.idle()
             # The motion ends after the interval of index 0. After pulse 1 the current interval has index 0;
-            # after
-            # pulse 2 it has index 1.
+            # after pulse 2 it has index 1.
             want = 2 if visit <= second else 4
             env.check("BANK-MOT-05", f"pulses, V {visit - second:+} cycles", len(axis.pulses), want)
             await axis.finish()

@@ -86,7 +86,7 @@ async def bank_chp_01_settings(dut):
 
 @directed("BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_hsk_02_chopper_takes_the_visit(dut):
-    """If a visit orders an edge of the chopper, it accepts no byte; the byte is accepted at the next visit
+    """A visit that orders an edge of the chopper does not accept a waiting byte; the next visit accepts it
     (BANK-HSK-02).
     """
     env = await Env.start(dut)

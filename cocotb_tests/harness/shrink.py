@@ -166,7 +166,11 @@ def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
 
 
 def _bit(rows: Sequence[tuple[int, int]]) -> int:
-    """Return the cycles per bit: the longest time of which most times between changes are near multiples."""
+    """Return the cycles per bit, estimated from the times between changes.
+
+    The result is the time whose multiples are near the largest number of these times. If several times are
+    equally good, it is the longest of them.
+    """
     lengths = Counter(b - a for (a, _), (b, _) in pairwise(rows))
 
     def fitting(bit: int) -> int:

@@ -67,7 +67,7 @@ def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x
 
 
 def page(**changes: int) -> bytes:
-    """Return the factory page with other bytes at the addresses a00 to a1e; its sum is correct."""
+    """Return the factory page with other bytes at the addresses a00 to a1e; its checksum is correct."""
     content = bytearray(FACTORY_PAGE)
     for name, value in changes.items():
         content[int(name[1:], 16)] = value

@@ -75,7 +75,7 @@ class CollisionHost(MotionHost):
     async def _start(self, course: Course) -> tuple[int, int]:
         """Start a motion and wait for the replies.
 
-        Return the begin of the first frame and the end of the last one.
+        Return the start of the first frame and the end of the last one.
         """
         host, begin = self.host, self.host.t
         for place, (code, data) in enumerate(course):

@@ -1,4 +1,4 @@
-"""Frames of random hosts of the PMC006, and the wait for their replies; registers and reads."""
+"""Frames of random hosts of the PMC006: registers, reads, outputs and saves, and the wait for the replies."""
 
 from __future__ import annotations
 

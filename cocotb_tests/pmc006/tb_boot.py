@@ -48,7 +48,7 @@ async def p006_all_registers_of_the_page(dut: Any) -> None:
 
 
 ILLEGAL = ({"a03": 121}, {"a04": 6}, {"a08": 2}, {"a0C": 64, "a0D": 0}, {"a13": 8}, {"a15": 0x10}, {"a02": 2})
-"""Changes of one byte or field of a valid block whose sum is correct."""
+"""Changes that make one byte or field of a valid block illegal; `page` adds the correct checksum."""
 
 
 @directed("P006-BAD-14", "P006-EEP-01")
@@ -66,7 +66,7 @@ async def p006_one_bad_field_makes_the_block_bad(dut: Any) -> None:
 
 @directed("P006-BAD-14", "P006-EEP-01")
 async def p006_sum_and_unused_bytes_of_the_block(dut: Any) -> None:
-    """Unused bytes of the block may have any value if the sum is correct."""
+    """Unused bytes of the block may have any value if the checksum is correct."""
     unused = {f"a{place:02X}": 0xA0 + place for place in (0x05, *range(0x16, 0x1F))}
     assert await (await booted(dut, image(page(a04=8, **unused)))).ask("k") == 8
     for place in (0x05, 0x1F):
@@ -77,7 +77,7 @@ async def p006_sum_and_unused_bytes_of_the_block(dut: Any) -> None:
 
 @directed("P006-BAD-14", "P006-EEP-10", "P006-EEP-01", "P006-PRG-11")
 async def p006_a_copy_replaces_a_bad_block(dut: Any) -> None:
-    """A valid copy replaces a block with an invalid sum, head or field.
+    """A valid copy replaces a block with an invalid checksum, head or field.
 
     The copy is validated in the same way, and nothing is written. If the block is valid, the copy is not
     used. The program is validated independently.
@@ -110,7 +110,7 @@ async def p006_a_copy_replaces_a_bad_block(dut: Any) -> None:
 
 @directed("P006-BAD-15", "P006-PRG-11", "P006-PRG-01", "P006-EEP-11")
 async def p006_which_programs_count(dut: Any) -> None:
-    """A program is valid if its sum and its end mark are correct.
+    """A program is valid if its checksum and its end mark are correct.
 
     After an invalid program, all 200 words are 0, and no program is started.
     """

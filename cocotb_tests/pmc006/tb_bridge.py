@@ -44,7 +44,8 @@ def never_both(host: Host) -> bool:
 
 @directed("P006-CHP-02", "P006-CHP-03", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20", builds=BUILDS)
 async def p006_stuck_comparators(dut: Any) -> None:
-    """With a comparator stuck at 1, OFF and FAST alternate; with one stuck at 0, ON lasts indefinitely.
+    """With a comparator stuck at 1, the off state and fast decay alternate; with one stuck at 0, the on state
+    lasts indefinitely.
 
     The phases are independent of each other.
     """
@@ -76,15 +77,15 @@ async def p006_stuck_comparators(dut: Any) -> None:
 
 @directed("P006-CHP-03", "P006-CHP-05", builds=BUILDS)
 async def p006_lengths_of_the_pulses(dut: Any) -> None:
-    """ON lasts at least the blanking time, and after it until the comparator rises.
+    """The on state lasts at least the blanking time, and after it until the comparator rises.
 
-    FAST ends when the comparator falls, or after TF.
+    Fast decay ends when the comparator falls, or after TF.
     """
     host, times = await ready(dut)
 
     async def cycle(rise: int, fall: int) -> tuple[int, int]:
-        """Raise cmp_a `rise` cycles after an ON begins; lower it `fall` cycles after the next pulse
-        begins.
+        """Raise cmp_a `rise` cycles after an on state begins; lower it `fall` cycles after the next fast
+        decay begins.
         """
         await host.pins(cmp_a=1)
         await host.pause(2 * times.off + 2 * times.fast)
@@ -119,9 +120,9 @@ async def p006_lengths_of_the_pulses(dut: Any) -> None:
 
 @directed("P006-CHP-04", "P006-CHP-02", "P006-CHP-06", builds=BUILDS)
 async def p006_reversals(dut: Any) -> None:
-    """A change of the sign causes an OFF of TOFF; no bridge reverses directly.
+    """A change of the sign causes an off state that lasts TOFF; no bridge reverses directly.
 
-    With a reference of 0, no ON occurs.
+    With a reference of 0, no on state occurs.
     """
     host, times = await ready(dut)
     await set_constant_speed(host, 500, m=2, P=300)
@@ -147,9 +148,9 @@ async def p006_reversals(dut: Any) -> None:
 
 @directed("P006-CHP-04", "P006-CHP-03", builds=BUILDS)
 async def p006_reference_of_0(dut: Any) -> None:
-    """At a reference of 0, FAST reduces the remaining current to 0.
+    """At a reference of 0, fast decay reduces the remaining current to 0.
 
-    Then one OFF follows another, exact to the cycle, until the reference is not 0.
+    Then one off state follows another, exact to the cycle, until the reference is not 0.
     """
     host, times = await ready(dut)
     await set_constant_speed(host, 500, m=2)
@@ -157,7 +158,8 @@ async def p006_reference_of_0(dut: Any) -> None:
     await wait_stopped(host)
     await host.pause(64)
     assert not await host.out("phase_b_ref") and not await host.out("phase_b_sign")
-    # The previous ON ends because the comparator is high. The comparator falls during the second FAST.
+    # The previous on state ends because the comparator is high. The comparator falls during the second fast
+    # decay.
     await host.pins(cmp_b=1)
     since = host.t
     await host.pause(2 * times.off + times.fast + times.blank)
@@ -166,14 +168,14 @@ async def p006_reference_of_0(dut: Any) -> None:
     (first, _), (over, _), (second, _), (fall, _) = host.edges("m21", since)
     assert (over - first, second - over) == (times.fast, times.off)
     assert times.blank <= fall - second <= times.fast
-    # The comparator reports a current again, so FAST follows at the next end of an OFF.
+    # The comparator reports a current again, so fast decay begins at the next end of an off state.
     await host.pins(cmp_b=1)
     await host.pause(times.off + 4)
     await host.pins(cmp_b=0)
     again = host.edges("m21", fall + 1)[0][0]
     assert (again - fall) % times.off == 0
     assert [level for _, level in host.edges("m20", since)] == [0], "on without a reference"
-    # The next step changes the sign and therefore causes another OFF.
+    # The next step changes the sign and therefore causes another off state.
     await start(host, 1)
     await host.pause(2 * times.off + 64)
     turned = host.edges("phase_b_sign", again)[0][0]

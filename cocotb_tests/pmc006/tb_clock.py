@@ -15,7 +15,9 @@ BUILDS = (ODD,)
 
 @directed("P006-PAR-01", "P006-MOT-03", "P006-MOT-20", "P006-MOT-05", "P006-AC-45", builds=BUILDS)
 async def p006_intervals(dut: Any) -> None:
-    """The worked example M13 is exact: `intervals` checks each interval, and the sum excludes a drift."""
+    """The worked example M13 is exact: `intervals` checks each interval, and their sum shows that there is no
+    drift.
+    """
     host = await Host.start(dut)
     await host.ok(u=3, o=3, v=3200)
     await start(host, 256)

@@ -37,7 +37,7 @@ async def collide(host: Host, code: str, data: int, shift: int, **levels: int) -
 
 
 def frame_clk(host: Host) -> int:
-    """Return the cycles from the begin of a frame to e (its last stop-bit sample), including the
+    """Return the cycles from the start of a frame to e (its last stop-bit sample), including the
     synchronisers.
     """
     return 7 * ceil(10 * host.bit) + 2 + ceil(9.5 * host.bit) - 1

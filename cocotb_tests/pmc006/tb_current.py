@@ -40,7 +40,7 @@ async def p006_regulated_at_rest_and_after_a_fall(dut: Any) -> None:
     await host.ms(0.5)
     assert await off_by(host, plant, since) < 0.04
     pulses = {pin: len(host.edges(pin, since)) // 2 for pin in ("m10", "m11", "m20", "m21")}
-    # Each phase has one ON or FAST pulse per period of slightly more than 20 us.
+    # Each phase has one pulse, an on state or fast decay, per period of slightly more than 20 us.
     assert all(15 < pulses[a] + pulses[b] < 26 for a, b in (("m10", "m11"), ("m20", "m21")))
 
 

@@ -1,5 +1,5 @@
-"""The EEPROM models of the benches in SystemVerilog and Python: with equal lines, both pull the same
-lines.
+"""The EEPROM models of the benches in SystemVerilog and Python: if their lines have the same levels, both
+pull the same lines low.
 """
 
 from __future__ import annotations

@@ -44,7 +44,9 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 @directed("P006-BAD-24", "P006-CMD-15")
 @probe("u_control.u_settings.u_reply_ram.count_q")
 async def p006_reset_restores_any_state(dut: Any) -> None:
-    """After a reset the replies are correct, regardless of the levels of the register copies at power-up."""
+    """After a reset the replies are correct, regardless of the power-up value of the counter that fills the
+    RAM of the reply values.
+    """
     host = await Host.start(dut)
     if host.bench.simulated:
         for state in range(64):

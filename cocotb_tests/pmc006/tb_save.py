@@ -45,7 +45,7 @@ async def p006_save(dut: Any) -> None:
 
 @directed("P006-EEP-10", "P006-CMD-54")
 async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
-    """A save contains the old or the new VSTART, never a mixture, and its sum is correct.
+    """A save contains the old or the new VSTART, never a mixture, and its checksum is correct.
 
     The test changes VSTART before, between and after the writes of its two bytes; each of the two pages reads
     VSTART again. The device stretches the clock, so that a byte takes longer than a frame.
@@ -72,7 +72,7 @@ async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
 
 @directed("P006-EEP-11", "P006-CMD-02", "P006-BAD-12", "P006-BAD-11", "P006-PRG-02")
 async def p006_burn(dut: Any) -> None:
-    """Instruction B clears the mark, writes 25 pages, then writes sum and mark.
+    """Instruction B clears the mark, writes 25 pages, then writes checksum and mark.
 
     During this time instruction W is rejected, a program runs, and the buffer does not change.
     """

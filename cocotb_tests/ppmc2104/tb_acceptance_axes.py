@@ -87,7 +87,9 @@ async def p2104_ac_48_origin_when_run_rises(dut: Any) -> None:
 
 @directed("AC-49", "P2104-LIM-05", "P2104-FDC-01", "P2104-FDC-04")
 async def p2104_ac_49_slow_down_limit_in_run_wait(dut: Any) -> None:
-    """If FHL is low for 10 cycles in RUN wait, run then starts a motion of one pulse (AC-49)."""
+    """If FHL is low for 10 cycles in RUN wait, the next rise of run starts a motion of only one pulse
+    (AC-49).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(run=0)

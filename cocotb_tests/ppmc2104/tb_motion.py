@@ -60,7 +60,7 @@ async def p2104_tim_01_starts(dut: Any) -> None:
 
 @directed("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", builds=(F16, F11, F100))
 async def p2104_tim_02_run(dut: Any) -> None:
-    """In RUN wait, after a rise of run, also for only 2 cycles, pulse 1 occurs W to W + 6 cycles later
+    """In RUN wait, pulse 1 occurs W to W + 6 cycles after run rises, even if run is high for only 2 cycles
     (P2104-TIM-02).
     """
     env = await Env.start(dut)
@@ -105,8 +105,8 @@ async def p2104_tim_02_run(dut: Any) -> None:
 
 @directed("P2104-TIM-02", "P2104-OPR-10", builds=(F11, F48))
 async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
-    """If both run pins rise at any phase of the quantum, both axes in RUN wait output pulse 1 on the same
-    edge (P2104-TIM-02).
+    """If both axes are in RUN wait and both run pins rise together, at any phase of the quantum, pulse 1 of
+    both axes occurs on the same edge (P2104-TIM-02).
     """
     env = await Env.start(dut)
     first, second = await env.both(INIT_A)

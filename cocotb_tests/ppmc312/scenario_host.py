@@ -124,7 +124,7 @@ class ScenarioHost(MisuseHost):
         return max(2, rng.randint(min(self.rates) - 1, max(self.rates) + 8))
 
     def distance(self, rate: int) -> int:
-        """Return a number of pulses near the limits between the kinds of operations."""
+        """Return a number of pulses near the boundaries between the kinds of operations."""
         rng, table = self.rng, self.model.core.table
         if table is None or rng.random() < 0.2:
             return rng.choice((1, 2, 3, 9, 30, 0))

@@ -1,5 +1,5 @@
-"""Resets of the PPMC-312, by the pin and by instruction FF, that coincide with accesses, blocks and motions;
-mode pins.
+"""Resets of the PPMC-312, by the pin and by instruction FF, that coincide with accesses, blocks and motions.
+The tests also change the mode pin, which is sampled at the end of a reset.
 """
 
 from __future__ import annotations

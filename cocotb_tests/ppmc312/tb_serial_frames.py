@@ -118,7 +118,7 @@ async def p312_serial_sum_of_characters(dut: Any) -> None:
 async def p312_serial_the_blind_bit(dut: Any) -> None:
     """If bit 7 of a data byte is wrong, this is not detected, and the instruction is executed.
 
-    The manual warns of this: bit 7 of a byte is not part of the sum.
+    The manual warns of this: bit 7 of a byte is not part of the checksum.
     """
     host = await SerialHost.start(dut)
     good = summed(0x91, b"\x43\x00\x00\x00\x14")

@@ -97,7 +97,8 @@ async def p312_serial_frames_back_to_back_with_a_slow_line_driver(dut: Any) -> N
 async def p312_serial_a_reply_that_is_ready_about_half_a_bit_after_the_frame(dut: Any) -> None:
     """snd rises after the end of the frame or of an instruction in progress, whichever is later.
 
-    An event is processed before the frame, one cycle later in each round.
+    Before the end of the frame an event occurs, one cycle later in each repetition; it is processed before
+    the frame.
     """
     host = await SerialHost.start(dut, TS, "49 03 08 82 00 01 EE 00 00 00 28")
     waited = []
@@ -204,7 +205,7 @@ async def p312_serial_noise_in_the_middle(dut: Any) -> None:
     host = await SerialHost.start(dut)
     frame = summed(0x91, b"\x26\x15")
     for place in range(1, len(frame)):
-        # The sum does not include the highest bit of a byte.
+        # The checksum does not include the highest bit of a byte.
         for bit in (0, 2, 5):
             for number, byte in enumerate(frame):
                 await host.character(byte, spikes=[(bit + 1.3, 80)] if number == place else ())

@@ -171,7 +171,8 @@ async def p312_end_wait(dut: Any) -> None:
         await host.ask(stop)
         await host.pause(7000)
         assert host.condition == 0x08 and await host.quiet(200)
-        # These instructions have no effect now; overrides are registered.
+        # In the END wait, these direct instructions are accepted without an effect, and an override is
+        # registered.
         for block in (
             message(Code.CHANGE, "00 0064"),
             message(Code.RAMP_CHANGE, "00 00C8"),

@@ -190,7 +190,9 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ bad input
 
     def random_write(self) -> tuple[int, int]:
-        """Return a byte that is not the divisor of a constant-speed motion too fast for the clock."""
+        """Return register and byte of a write; as a divisor, the byte does not make a constant-speed motion
+        too fast for the clock.
+        """
         rng = self.rng
         if rng.random() < 0.5:
             return 1, rng.choice(KNOWN)

@@ -66,7 +66,7 @@ def some(what: tuple[str, int, int]) -> Result:
 
 
 def blocks(first: int, count: int) -> Iterator[tuple[int, int]]:
-    """Yield (first seed, number) of each job; all limits between jobs are multiples of the job size."""
+    """Yield (first seed, number) of each job; boundaries between jobs are multiples of the job size."""
     size, end = (LARGE_BLOCK if count >= LARGE else BLOCK), first + count
     while first < end:
         last = min(end, (first // size + 1) * size)

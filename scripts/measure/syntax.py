@@ -8,9 +8,9 @@ from typing import Any
 
 
 def _hidden(text: str) -> str:
-    """Return the text in which code that is not for synthesis is blank; all other letters keep their places.
+    """Return the text with spaces in place of code that is not for synthesis; positions do not change.
 
-    slang counts bytes, so each letter is one byte.
+    slang counts bytes, so each non-ASCII character is replaced by a character of one byte.
     """
 
     def blank(match: re.Match[str]) -> str:

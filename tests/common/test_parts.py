@@ -74,7 +74,9 @@ def test_every_row_has_its_folders(row):
 
 @every
 def test_rtl_and_carrier(row):
-    """The top of a device is in its group of rtl/files.yml; a carrier exists exactly if the table has one."""
+    """The top of a device is in its group of rtl/files.yml; a carrier exists if and only if the table has
+    one.
+    """
     assert project.top_file(row).stem == row.top
     assert row.families and set(row.families) <= {"ecp5", "ice40"}
     carrier = (f"{row.rtl}_carrier" in project.listed()) and not row.of

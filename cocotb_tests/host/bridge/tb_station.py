@@ -123,8 +123,8 @@ async def station_direction(dut):
 @cocotb.test()
 @configs(STATION)
 async def station_reset(dut):
-    """The reset line of the host stops a motion immediately and switches all outputs off; the straps are
-    pins.
+    """The reset line of the host stops a motion immediately and switches all outputs off. The straps are
+    connected to pins of the board: a motion waits until its run pin is high.
     """
     host = await start(dut, 0)
     await host.instruction(*INIT)

@@ -15,8 +15,8 @@ from .slave import ERR, IBF, OBF, RegisterModel
 @cocotb.test()
 @configs(FAST)
 async def waits_handshake(dut):
-    """Before each write IBF = 0 was read, before each read OBF = 1 was read, and the bytes are in order
-    (UB-OPS-01, UB-WAIT-01, UB-OPS-02).
+    """A status with IBF = 0 is read before each write, and one with OBF = 1 before each data read; the bytes
+    are in order (UB-OPS-01, UB-WAIT-01, UB-OPS-02).
     """
     bench = await Bench.start(dut, RegisterModel(lag=4))
     for _ in range(30):

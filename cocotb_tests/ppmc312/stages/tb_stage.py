@@ -246,7 +246,7 @@ async def _load(u: BlockDriver, table: Table) -> None:
 
 
 def operation(rand: random.Random, table: Table) -> tuple[int, int | None]:
-    """Return a rate and a number of pulses (None: endless) near the limits between the kinds of profiles."""
+    """Return a rate and a number of pulses (None: endless) near a boundary between the kinds of profiles."""
     used = table.rates[table.first :]
     rate = rand.choice((table.high, rand.choice(used), rand.choice(used) + 1, rand.randint(2, 0xFFFF)))
     if rand.random() < 0.1:

@@ -40,7 +40,7 @@ def write_section(marker: str, title: str, text: str, heads: list[str], rows: Se
 
 
 def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
-    """Run a demo in turns on RTL and golden model; return the times and the rows of the table."""
+    """Run a demo alternately on RTL and golden model; return the times and the rows of the table."""
     times = None
     console.print("building …")
     for run, times in enumerate(turns(demo, RUNS), 1):

@@ -1,6 +1,6 @@
 """Run times of a demo on three sides: RTL under cocotb, RTL alone in Verilator, golden model.
 
-The sides run in turns, so that a ratio of one turn is meaningful on a machine with other load.
+In each turn, every side runs once, so that a ratio of one turn is meaningful on a machine with other load.
 """
 
 from __future__ import annotations

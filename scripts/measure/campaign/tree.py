@@ -21,7 +21,7 @@ def files(folders: Iterable[str] = FOLDERS) -> list[Path]:
 
 
 def tree(folders: Iterable[str] = FOLDERS) -> str:
-    """Return the digest of names and contents of `files(folders)` and of all package versions: 12 letters."""
+    """Return 12 hex digits: digest of names and contents of `files(folders)` and of all package versions."""
     sha = hashlib.sha256()
     for path in [*files(folders), ROOT / "requirements.lock"]:
         content = hashlib.sha256(path.read_bytes()).digest()

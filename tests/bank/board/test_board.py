@@ -1,4 +1,4 @@
-"""The virtual board with a bank: the RTL with its bridge, moved by the driver and the command line."""
+"""The virtual board with a bank: the RTL with its bridge, accessed by the driver and by the command line."""
 
 from __future__ import annotations
 

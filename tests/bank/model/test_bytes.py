@@ -50,7 +50,7 @@ def test_status_read_with_a_byte_in_the_buffer():
 
 
 def test_end_of_a_motion_takes_the_visit():
-    """The visit that ends a motion accepts no byte; the next visit accepts it (BANK-HSK-02)."""
+    """A visit that ends a motion does not accept a waiting byte; the next visit accepts it (BANK-HSK-02)."""
     host = Host()
     host.ready(1)
     start = host.send(1, "c 42")
@@ -63,8 +63,8 @@ def test_end_of_a_motion_takes_the_visit():
 
 
 def test_completion_takes_the_visit():
-    """The visit that completes an initialisation accepts no byte; the next visit accepts it (BANK-HSK-02,
-    BANK-INI-02).
+    """The visit that completes an initialisation does not accept a waiting byte; the next visit accepts it
+    (BANK-HSK-02, BANK-INI-02).
     """
     host = Host(64)
     last = host.send(1, "c 0A d 05 d 05 d 04 d 00")

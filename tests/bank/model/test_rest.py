@@ -37,7 +37,7 @@ def test_completion_to_the_clk(wait, monkeypatch):
     host = Host()
     last = host.send(2, "c 0A d 14 d 0A d 04 d 00")
     host.write_at(last + 20, 2, STATUS, 0x42)
-    # The visit that completes the initialisation accepts no byte; the next visit accepts it.
+    # The visit that completes the initialisation does not accept the byte; the next visit accepts it.
     started = last + build + wait + 8
     host.go(started - 1)
     assert not host.model.busy(2)

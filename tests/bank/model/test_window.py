@@ -68,7 +68,7 @@ def test_not_ready(after, status, config):
 
 @pytest.mark.parametrize("event, mask", [(15, 0), (16, 5)])
 def test_writes_before_ready_do_nothing(event, mask):
-    """A write event on edge R + 7 or earlier has no effect; on edge R + 8 it has (BANK-GEN-05)."""
+    """A write event on edge R + 7 or earlier has no effect; one on edge R + 8 has an effect (BANK-GEN-05)."""
     host = Host()
     host.t = 4
     host.write_at(event, 0, MASK, 5)

@@ -117,8 +117,8 @@ def test_soak_counts_its_bytes():
 
 
 def test_blocks_of_seeds_begin_where_they_always_do():
-    """Blocks of seeds have fixed limits, regardless of the first seed and the count; each seed is in one
-    block.
+    """The boundaries between blocks of seeds do not depend on the first seed or the count; each seed is in
+    exactly one block.
     """
     assert list(blocks(1, 60)) == [(1, 24), (25, 25), (50, 11)]
     assert list(blocks(30, 30)) == [(30, 20), (50, 10)]

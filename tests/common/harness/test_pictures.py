@@ -1,4 +1,6 @@
-"""The pictures of docs/: lines recorded from a model, and texts that are not covered."""
+"""The pictures of docs/: lines recorded from a model, rows that fit the page, and break marks that cover no
+text.
+"""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ ITEMS = {param.values[0].test: param.values[0] for param in FOUND}
     ],
 )
 def test_a_stalled_block_fails_with_the_line_it_waits_in(test: str, said: str) -> None:
-    """The same holds for the second test of a process."""
+    """The message names the line that waits, also if the test is the second one of its process."""
     items = tuple(ITEMS[name] for name in sorted({"polls", test}))
     job = Job(area_design("stalled", BLOCKS), items, 1)
     build(job.design)

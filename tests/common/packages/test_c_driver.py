@@ -125,7 +125,9 @@ def test_one_pulse_left(lines):
 
 
 def test_origin_and_stops(lines):
-    """Home ends at the origin, jog and run end after a stop command; the driver returns the cause."""
+    """A homing motion ends at the origin; jog and run motions end after a stop command. The driver returns
+    the cause.
+    """
     home, jog, fast = (ending(lines, name) for name in ("home", "jog", "run"))
     assert (home["raw"], jog["raw"], fast["raw"]) == (0x87, 0xC5, 0xC6)
     assert jog["stopped"] and fast["stopped"] and not home["stopped"]

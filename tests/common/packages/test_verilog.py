@@ -63,7 +63,9 @@ SOURCES = {"sub": "// SPDX\n// sub: says it.\nmodule sub (\n    input wire logic
 
 
 def test_readable_text():
-    """Equal modules occur once, with comments; numbered one-bit wires are replaced, but not sums."""
+    """Equal modules occur once, with comments; numbered one-bit wires are replaced by their expressions, but
+    the result of an addition is kept.
+    """
     text = readable(YOSYS, "top", SOURCES)
     assert text.startswith("module top (")
     assert text.count("// sub: says it.\nmodule top_sub (") == 1 == text.count("endmodule\n\n")

@@ -93,8 +93,8 @@ def test_motions(run: Run) -> None:
 
 
 def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A motor that runs accepts another speed and direction; here all commands share one line, as a
-    real one.
+    """A running motor accepts another speed and direction; here all commands share one line, as on real
+    hardware.
     """
     from openppmc.host import Pmc006Bus, line_port
     from openppmc.host.pmc006.station_link import Line

@@ -111,7 +111,7 @@ def test_changes_of_the_reference() -> None:
     phases.at(401, "reference", 101, 0)
     phases.at(500, "reference", 101, 1)
     assert phases.run(900) == [(501, 0, 0), (821, 0, 1)]
-    # A new sign also restarts the off-time in the state OFF.
+    # A new sign also restarts the off-time in the off state.
     phases.at(1000, "compare", 1)
     phases.at(1100, "reference", 5, 0)
     phases.at(1101, "compare", 0)
@@ -121,8 +121,8 @@ def test_changes_of_the_reference() -> None:
 
 @verifies("P006-CHP-04", "P006-CHP-03")
 def test_a_reference_of_0_lets_the_current_fall() -> None:
-    """A reference of 0 does not end a pulse, and the comparator still acts; but after OFF, another OFF
-    follows instead of ON.
+    """A reference of 0 does not end a pulse, and the comparator still acts; but an off state is followed by
+    another off state, not by an on state.
     """
     phases = Phases()
     phases.at(0, "enable", True)

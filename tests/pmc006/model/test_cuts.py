@@ -71,7 +71,7 @@ def some(rng: random.Random) -> bytes:
 
 
 def mixes(old: bytes, new: bytes) -> bool:
-    """Return whether some mixture of both pages has a correct sum by chance.
+    """Return whether some mixture of both pages has a correct checksum by chance.
 
     The part cannot detect this case, which occurs in one of 256 changes.
     """

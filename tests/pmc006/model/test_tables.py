@@ -125,7 +125,7 @@ def test_pages() -> None:
 
 
 def patched(*changes: tuple[int, int], repair: bool = True) -> bytes:
-    """Return the factory page with some bytes changed; if `repair` is true, the sum matches again."""
+    """Return the factory page with some bytes changed; if `repair` is true, the checksum is correct."""
     page = bytearray(FACTORY_PAGE)
     for place, value in changes:
         page[place] = value
@@ -140,8 +140,8 @@ PAIRS = {12: (65, 3000), 14: (65, 3000), 16: (100, 1200), 18: (300, 2000), 20: (
 
 @verifies("P006-BAD-14", "P006-EEP-01")
 def test_validity_of_every_byte_and_field() -> None:
-    """A page is valid exactly if each byte and each pair in use has a legal value; unused fields may have any
-    value.
+    """A page is valid if and only if each byte and each pair in use has a legal value; unused fields may have
+    any value.
     """
     for place in range(31):
         for value in range(256):

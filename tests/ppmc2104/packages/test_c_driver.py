@@ -105,8 +105,8 @@ def test_switch_ends_the_move(lines, name, bit, inputs):
 
 
 def test_origin_and_stops(lines):
-    """The origin ends a search, a stop ends jog and run; a decelerating stop of a motion without a ramp
-    returns error 8.
+    """The origin ends a search, and a stop ends jog and run motions; a decelerating stop of a motion without
+    a ramp returns error 8.
     """
     raws = [ending(lines, name)["raw"] for name in ("home", "jog", "run")]
     assert raws == [0x87, 0xC5, 0xC6]

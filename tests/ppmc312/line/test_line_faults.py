@@ -57,7 +57,7 @@ def test_an_endless_start_with_a_lost_reply() -> None:
 
 def test_a_stop_whose_reply_is_lost_may_come_too_late() -> None:
     """If the reply to a stop is lost, the repeated stop may be rejected because the motor has stopped; this
-    is no error.
+    is not an error.
     """
     port, bus = spoiled()
     with bus:

@@ -21,7 +21,7 @@ LONGEST = 32
 def test_fixed_latencies() -> None:
     begin = TIMING.arbitration + TIMING.effect
     assert begin + TIMING.copy + TIMING.answer + LONGEST <= 4096
-    assert begin <= 64  # instruction 80 outputs no rising edge later than 64 cycles after the header
+    assert begin <= 64  # instruction 80: pout has no rising edge later than 64 cycles after the header
     assert begin + TIMING.look_up() + TIMING.ramp_lead <= 512
     assert TIMING.answer + 4 <= 64  # the answer to a start is available after t0
     assert TIMING.report + TIMING.rest <= 64 and TIMING.turn_back <= 64

@@ -131,7 +131,9 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
 
 
 def test_reference_point_and_stops(lines):
-    """Home ends at the reference point, jog and run end after a stop; the driver returns the cause."""
+    """A homing motion ends at the reference point; jog and run motions end after a stop. The driver returns
+    the cause.
+    """
     ends = {name: ending(lines, name) for name in ("home", "there", "jog", "run")}
     assert [end["raw"] for end in ends.values()] == [0x87, 0x87, 0xC5, 0xC6]
     assert pulses(lines, "home") == (0, 7, gaps(7, 10))

@@ -1,4 +1,4 @@
-"""Quick proofs of mutants: those whose blocks contain a file, and the first one that a mutant makes fail."""
+"""Quick proofs for mutants: those whose blocks contain a file, and the first one that fails on a mutant."""
 
 from __future__ import annotations
 
