@@ -187,12 +187,12 @@ class RetriesExhausted(Exception):  # noqa: N818 - names the event; the link rai
 
 
 class Session:
-    """Sequence of requests of one host.
+    """Session of one host: its requests, one at a time.
 
     Args:
         attempts: largest number of times that a request is sent.
-        grace: seconds from a NAK to the repetition. The NAK may concern noise before the request; then the
-            answer arrives within this time, and no repetition is required.
+        grace: seconds from a NAK to the repetition of the request. If noise before the request caused the
+            NAK, the answer arrives within this time, and no repetition is necessary.
     """
 
     def __init__(self, attempts: int = 4, grace: float = 0.05) -> None:
@@ -221,7 +221,7 @@ class Session:
         return self._deadline if self.busy else None
 
     def restart(self) -> None:
-        """Start again after the link was woken up: SEQ 0, no request, no incomplete frame."""
+        """Start again after a wake-up of the link: SEQ 0, no request, no incomplete frame."""
         self._deframer.reset()
         self._next_seq = 0
         self._request = self._answer = None
@@ -254,7 +254,7 @@ class Session:
         self._request = self._answer = None
 
     def receive(self, data: bytes, now: float) -> bytes | None:
-        """Process received bytes; return the answer without its SEQ if it is complete."""
+        """Process received bytes. If they complete the answer, return it without its SEQ."""
         self._received += len(data)
         for item in self._deframer.feed(data):
             if isinstance(item, Frame):
@@ -263,7 +263,7 @@ class Session:
         return answer
 
     def tick(self, now: float) -> bytes:
-        """Return the request again at its deadline, before it nothing.
+        """Return the request again if its deadline has passed, else no bytes.
 
         Raises RetriesExhausted after the last attempt.
         """

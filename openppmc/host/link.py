@@ -23,7 +23,7 @@ from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity,
 
 DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
-"""Seconds beyond line time and waits until a request is repeated.
+"""Time in s, beyond line time and waits, after which a request without an answer is repeated.
 
 USB adapters and busy computers need this time.
 """
@@ -51,12 +51,12 @@ class LinkProtocol(Protocol):
 
 
 class Link:
-    """Open link to a bridge, with the line rate raised. A context manager.
+    """Open link to a bridge, at the selected line rate. A context manager.
 
     Attributes:
         spec: device path, `sim:…` or `model:…`.
-        baud: line rate to use, one of those of the bridge (115200 to 3000000); a board or adapter that does
-            not support it works at 115200.
+        baud: line rate, one of those of the bridge (115200 to 3000000). If board or adapter does not support
+            it, the link works at 115200.
         part: number that the part must have, `None` for any.
 
     Raises:
@@ -69,7 +69,10 @@ class Link:
         self.port = open_port(spec) if isinstance(spec, str) else spec
         self.baud = BASE_BAUD
         self.refusal: Callable[[Answer], Exception] = lambda answer: command_error(answer.last)
-        """Creates the exception for a rejected command; drivers of parts with other errors replace it."""
+        """Creates the exception for a rejected command.
+
+        Drivers of parts with other errors replace this function.
+        """
         self._session = Session()
         self._closed = False
         try:
@@ -124,12 +127,12 @@ class Link:
         )
 
     def _drain(self) -> int:
-        """Discard received bytes until the line is quiet, for a limited time; return their number."""
+        """Discard received bytes until the line is idle, for a limited time; return their number."""
         received = 0
         end = self.clock() + 10 * _QUIET
         while (data := self.port.read(_QUIET)) and self.clock() < end:
             received += len(data)
-        # Up to two NAKs are the response to the wake-up itself.
+        # The wake-up itself may cause two NAKs, 16 bytes at most. They are not counted.
         return max(0, received - 16)
 
     def _check(self, part: int | None) -> None:
@@ -218,7 +221,7 @@ class Link:
         return self.check_answer(self.attempt(script))
 
     def check_answer(self, answer: Answer) -> Answer:
-        """Return the answer if all operations were done, otherwise raise the exception of `execute`."""
+        """Return the answer if all operations were executed, otherwise raise the exceptions of `execute`."""
         if answer.result is Result.DONE:
             return answer
         if answer.result is Result.REFUSED:
@@ -233,7 +236,7 @@ class Link:
         raise ProtocolError(f"{where}: refused (result {int(answer.result)}): {_MISMATCH}")
 
     def attempt(self, script: Script) -> Answer:
-        """Execute a script and return its answer, regardless of its result. Raises LinkErrors only."""
+        """Execute a script and return its answer for any result. Raises only LinkErrors."""
         if self._closed:
             raise Disconnected(f"{self.name}: the link is closed: open it again")
         try:
@@ -300,7 +303,7 @@ class Link:
 
 
 def _silence(name: str, gone: RetriesExhausted) -> str:
-    """Return the error message after all attempts."""
+    """Return the error message for a request whose attempts have all failed."""
     if gone.naks:
         reason = Nak(gone.naks[-1]).name.lower().replace("_", " ") if gone.naks[-1] in set(Nak) else "unknown"
         return (

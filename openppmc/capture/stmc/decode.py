@@ -16,7 +16,7 @@ def _levels(access: Access, wires: Wires) -> dict[str, int]:
 
 
 def read_map(wires: Wires) -> str:
-    """Return READ_MAP of the part from the pin map."""
+    """Return the parameter READ_MAP of the part from the pin map."""
     return str(wires.params.get("READ_MAP", "FAMILY"))
 
 
