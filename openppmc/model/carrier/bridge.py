@@ -1,8 +1,8 @@
 """Golden model of `ppmc_uart_bridge` at the level of line bytes (docs/uart_bridge.md).
 
 Bit times are not modelled (UB-LIN-03, -04, UB-BUS-01). The caller reports events that depend on time:
-`receive_bad` for a byte with a framing error, `idle` for a silence. Bytes that follow a request in the same
-`receive` call arrive, by definition, while its script runs (UB-FRM-07).
+`receive_bad` for a byte with a framing error, `idle` for a silence. If bytes follow a request in the same
+call of `receive`, the model assumes that they arrive while its script runs (UB-FRM-07).
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from typing import NamedTuple
 
 from .bridge_ops import BUILD_BYTES, Bus, Engine
 
-# Receiver of the bridge's golden model: line bytes to requests and faults (UB-FRM-01..06). It is written
-# from docs/uart_bridge.md, deliberately without the codec of the host package, so that one checks the other.
+# Receiver of the golden model of the bridge: converts line bytes to requests and faults (UB-FRM-01..06). It
+# is written from docs/uart_bridge.md and deliberately does not use the codec of the host package, so that
+# each of the two is a check of the other.
 
 FLAG, ESCAPE = 0x7E, 0x7D
 MAX_LENGTH, MIN_LENGTH = 256, 3
@@ -63,7 +64,10 @@ class Receiver:
 
     @property
     def inside(self) -> bool:
-        """True if a part of a frame has arrived, so that a silence breaks it. A single 7D counts."""
+        """True if an incomplete frame has been received, which a silence would invalidate.
+
+        A single 7D counts.
+        """
         return not self._hunting and (self._escaped or bool(self._content))
 
     @property
@@ -160,10 +164,7 @@ class Bridge:
     # ------------------------------------------------------------------ from the line
 
     def receive(self, data: bytes) -> bytes:
-        """Process bytes without framing error.
-
-        The call returns the line bytes that the bridge sends in response.
-        """
+        """Process bytes without framing error; return the line bytes that the bridge sends in response."""
         sent = b""
         place = 0
         while place < len(data):
@@ -209,7 +210,7 @@ class Bridge:
         """Execute a request, or repeat its answer.
 
         Args:
-            more_bytes: True if bytes arrive before the answer is sent (UB-FRM-07).
+            more_bytes: True if more bytes arrive before the answer is sent (UB-FRM-07).
         """
         code = None
         if request.seq and self._stored and self._stored[0] == request.seq:
@@ -237,9 +238,9 @@ class Bridge:
     # ------------------------------------------------------------------ events
 
     def interrupt(self) -> bytes:
-        """Process a fall of `int_n`; return the event message.
+        """Process a falling edge of `int_n`; return the event message.
 
-        The message is empty if events are disabled or must wait for an answer.
+        The result is empty if events are disabled, or if the message must wait until an answer is sent.
         """
         if not self._engine.events:
             return b""
