@@ -16,7 +16,7 @@ _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), s
 
 
 class Carrier(carrier.Carrier[PpmcBank]):
-    """Carrier wired like ppmc_bank_carrier; each axis has one plant.
+    """Carrier with the connections of ppmc_bank_carrier; each axis has a plant.
 
     Register 3 of the bridge holds the number of the selected axis (from 0; read and write). All other
     registers are those of this axis. PINS returns int_n, and HOLD and switches of this axis. There are no

@@ -329,7 +329,7 @@ class Engine:
         yield from self.poll()
 
     def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> BusSequence[None]:
-        """Read bytes from any address; store(place, byte) is called for each."""
+        """Read bytes from an address on; store(place, byte) is called for each byte."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
         yield from self._bus.start()
