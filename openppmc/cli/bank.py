@@ -12,7 +12,7 @@ from .common.presenter import RampPresenter
 
 
 class BankPresenter(RampPresenter[PpmcBank]):
-    """All axes in one snapshot, one row each; moves of several axes start in the same cycle."""
+    """Presenter of a bank: all axes in one snapshot, a row for each; moves start in the same cycle."""
 
     wide = True
 

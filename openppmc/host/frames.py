@@ -2,8 +2,8 @@
 
 See docs/uart_bridge.md.
 
-A session has one outstanding request at a time, over a line that may lose, corrupt or repeat bytes. This
-module does no I/O and reads no clock. The caller passes the time in seconds (any origin, never decreasing),
+A session has at most one outstanding request. Its line may lose, corrupt or repeat bytes. This module
+performs no I/O and reads no clock: the caller passes the time in seconds (any origin, never decreasing),
 sends the bytes that the methods return, and passes the bytes that arrive. A payload is the content between
 the flags without the CRC: SEQ and the bytes that follow it.
 """
@@ -47,13 +47,13 @@ class Frame:
 
     @property
     def seq(self) -> int:
-        """First byte: SEQ of a request or an answer, 128 and up for messages."""
+        """First byte: SEQ of a request or an answer; 128 or more for a message."""
         return self.payload[0]
 
 
 @dataclass(frozen=True)
 class Broken:
-    """Invalid frame, which was dropped.
+    """Invalid frame that was dropped.
 
     Attributes:
         fault: reason why the frame is invalid.
@@ -92,7 +92,7 @@ def encode(payload: bytes, limit: int = ANSWER_LIMIT) -> bytes:
 
 
 class Deframer:
-    """Receiver that converts line bytes to frames; it keeps an incomplete frame for the next call.
+    """Receiver that converts line bytes to frames. An incomplete frame is kept for the next call.
 
     Bytes before the first flag are ignored (UB-FRM-05).
 
@@ -111,7 +111,7 @@ class Deframer:
         self._content = bytearray()
 
     def feed(self, data: bytes) -> list[Frame | Broken]:
-        """Process line bytes; return the frames that they complete or invalidate, in order."""
+        """Process line bytes; return the complete frames and the invalid frames, in order."""
         found: list[Frame | Broken] = []
         for byte in data:
             item = self._flag() if byte == FLAG else self._byte(byte)
@@ -151,14 +151,14 @@ class Deframer:
 MESSAGE_EVENT, MESSAGE_NAK = 0x80, 0x81
 LAST_SEQ = 127
 WAKE_UP = b"\x00\x00\x7e"
-"""Bytes sent at 115 200 baud to wake up a bridge (UB-LIN-06).
+"""Bytes that wake a bridge up at 115 200 baud (UB-LIN-06).
 
-The bytes return the bridge from any rate and any frame to the idle state.
+At any rate, and within any frame, they return the bridge to the idle state.
 """
 
 
 class Nak(IntEnum):
-    """Reason why the bridge dropped a frame (UB-FRM-06, -07, UB-SEQ-03)."""
+    """Reason for which the bridge dropped a frame (UB-FRM-06, -07, UB-SEQ-03)."""
 
     FRAMING = 1
     CRC = 2

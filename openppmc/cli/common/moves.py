@@ -55,7 +55,7 @@ def override_values(texts: list[str] | None) -> list[Override]:
 
 
 def numbers_of(text: str | None, count: int) -> tuple[int, ...]:
-    """Return the axes of `count` values: those of --axes, else 1 to count. Raise BadParameter."""
+    """Return the axes for `count` values: those of --axes, else 1 to `count`. Raise BadParameter."""
     if text is None:
         return tuple(range(1, count + 1))
     words = text.split(",")

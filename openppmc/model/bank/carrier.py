@@ -11,7 +11,7 @@ from .part import PpmcBank
 SELECT = 0x3
 WINDOW_AXES = 64
 ADDRESS_AHEAD = 2
-"""Cycles from a valid address to the begin of the strobe (BANK-WIN-04)."""
+"""Cycles from a valid address to the start of the strobe (BANK-WIN-04)."""
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 

@@ -21,15 +21,15 @@ class CoreTiming:
         effect: from that edge to the effect.
         after: from the effect to the first edge that may accept another instruction (frame + effect + after
             <= 64).
-        fetch: from the begin of a program instruction to its effect.
-        slot: from the begin of a program instruction to that of the next one (<= 64).
+        fetch: from the start of a program instruction to its effect.
+        slot: from the start of a program instruction to that of the next one (<= 64).
         key_ticks: keys: µs ticks that a filter takes in addition to its time.
         job: EEPROM: from the last tick to the end of a job.
         fact: from the event to the first edge whose tick may begin a restore.
         program_cleared, program_kept: boot: from one cycle after the last tick until the program is cleared,
             or kept.
         fields: check of the parameter fields. Storing the parameters takes the same time again.
-        trigm: from the begin of storing to the store of TRIGM.
+        trigm: from the start of storing to the store of TRIGM.
         gpo: from the register of the outputs to the pins.
         plan: motion: from the rising edge of BUSY to the end of planning.
         step: from a us tick to mon_step.

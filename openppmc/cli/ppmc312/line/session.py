@@ -1,4 +1,4 @@
-"""A line of PPMC-312 during a command."""
+"""Line of PPMC-312 that a command has opened."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ...common.session import Guard
 
 
 def parse_stations(text: str) -> list[int]:
-    """Parse `3`, `0,2,5` or `0-7`, in the order given. Raise BadParameter."""
+    """Parse `3`, `0,2,5` or `0-7`; keep the order. Raise BadParameter."""
     last = STATIONS - 1
     return parse_numbers("--axis", text, range(STATIONS), f"stations have numbers from 0 to {last}", "0-7")
 
@@ -38,7 +38,7 @@ class Session:
     guard: Guard
 
     def selected_axes(self, text: str | None) -> list[Station312]:
-        """Return the stations that --axis names, which must reply; without it, all that reply."""
+        """Return the stations that --axis names, which must reply; without --axis, all that reply."""
         if text is not None:
             numbers = parse_stations(text)
             self.bus.check(numbers)
