@@ -48,7 +48,7 @@ class BankPresenter(RampPresenter[PpmcBank]):
     def halt_all(self, part: PpmcBank) -> list[MotionResult]:
         ends = part.stop_all()
         if not ends:
-            raise NothingToStop(0, "nothing to stop: all axes are at rest")
+            raise NothingToStop(0, "nothing to stop: no axis is moving")
         return list(ends.values())
 
 

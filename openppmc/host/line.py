@@ -288,7 +288,7 @@ class Master(Generic[Answer]):
         while len(received) < len(sent) and (left := end - self.clock()) > 0:
             received += self.port.read(left)
         if not received:
-            raise LineEcho(f"{self.name}: the line does not hear its own bytes: leave the option echo out")
+            raise LineEcho(f"{self.name}: the master does not receive its own bytes: remove the option echo")
         self._early_bytes = received[len(sent) :]
         if received[: len(sent)] != sent:
             self.stray_bytes += 1  # another device sends at the same time; the reply will show the effect

@@ -114,13 +114,12 @@ class Link:
                 received += error.args[1] if len(error.args) > 1 else 0
             except BadAnswer as error:
                 raise WrongDevice(
-                    f"{self.name}: something answers, but no PPMC bridge ({error}): is this the right port?"
+                    f"{self.name}: the device that answers is no PPMC bridge ({error}): check the port"
                 ) from error
         if received:
             raise WrongDevice(
-                f"{self.name}: {received} bytes came, but no answer of a PPMC bridge: is this the right "
-                "port, "
-                f"and does the board's UART begin with {BASE_BAUD} baud?"
+                f"{self.name}: {received} bytes received, but no answer of a PPMC bridge: check the port, "
+                f"and that the board's UART starts at {BASE_BAUD} baud"
             )
         raise NoAnswer(
             f"{self.name}: no answer: is the board powered and its bitstream loaded, are TXD and RXD crossed?"
@@ -312,5 +311,7 @@ def _silence(name: str, gone: RetriesExhausted) -> str:
         )
     if gone.received:
         received, attempts = gone.received, gone.attempts
-        return f"{name}: {received} bytes came, but no answer ({attempts} attempts): wrong rate or device"
+        return (
+            f"{name}: {received} bytes received, but no answer in {attempts} attempts: check rate and device"
+        )
     return f"{name}: no answer in {gone.attempts} attempts: is the board still powered and connected?"

@@ -340,9 +340,8 @@ class Homing:
         end = self._axis.search(direction, self._pps).wait(progress=self._progress)
         if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             raise OriginNotFound(
-                f"{end.message_prefix}a limit switch came before the origin: home in the other direction, "
-                "or check the "
-                "switch",
+                f"{end.message_prefix}a limit switch was reached before the origin: home in the other "
+                "direction, or check the switches",
                 end,
             )
         return self._check_found(end)

@@ -309,5 +309,5 @@ class Chip(ABC):
 
     @property
     def inputs(self) -> Mapping[str, int]:
-        """Input levels as they were set last."""
+        """Input levels that were set last."""
         return MappingProxyType(self._pins)

@@ -109,11 +109,9 @@ class _Table:
         names = heads[1:] if self.timed else heads
         if len(set(names)) < len(names):
             twice = next(name for name in names if names.count(name) > 1)
-            raise CaptureError(
-                f"{self.name}: two channels of the same name ({twice!r}): give each a name of its own"
-            )
+            raise CaptureError(f"{self.name}: two channels have the name {twice!r}: rename one of them")
         if not names:
-            raise CaptureError(f"{self.name}: a column of times and no channel: export digital channels")
+            raise CaptureError(f"{self.name}: a column of times, but no channel: export digital channels")
         return self._rows(names)
 
     def _head(self) -> list[str]:

@@ -54,7 +54,7 @@ class InAlarm(CommandRefused):
 class HeldByRun(CommandRefused):
     """F1 in state WRN: a start waits for RUN."""
 
-    text = "a start waits for RUN: give RUN, switch its monitor off, or reset the part"
+    text = "a start waits for RUN: activate RUN, switch its monitor off, or reset the part"
 
 
 class InvalidBlockLength(CommandRefused):
@@ -141,7 +141,9 @@ def command_error(code: int, parameters: bytes) -> CommandRefused | None:
     """
     first = parameters[0] if parameters else 0
     if code == Answer.PARAMETER:
-        kind, text = _PARAMETERS.get(first, (ParameterRefused, f"the part refuses this (error {first:02X})"))
+        kind, text = _PARAMETERS.get(
+            first, (ParameterRefused, f"the part refuses this instruction (error {first:02X})")
+        )
         error = kind(first, text)
         error.number, error.echo = first, parameters[1:]
         return error

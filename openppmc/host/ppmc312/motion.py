@@ -223,9 +223,9 @@ class Homing(homing.Homing):
     def _check_search(self, end: MotionResult) -> MotionResult:
         if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             raise OriginNotFound(
-                "a limit switch came before the origin"
-                + (" and its index" if self._index else "")
-                + ": home in the other direction, or check the switch",
+                "a limit switch was reached before the origin"
+                + (" with an index" if self._index else "")
+                + ": home in the other direction, or check the switches",
                 end,
             )
         return self._check_found(end)

@@ -88,7 +88,7 @@ class Error(IntEnum):
 _SERIAL_PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
     Code.INITIAL: (
         TableRefused,
-        "the part refuses this table: its speeds are too close, or its ramp too short",
+        "the part refuses this table: the speeds are too close, or the ramp is too short",
     ),
     **dict.fromkeys(
         (Code.RAMP, Code.CONSTANT),
@@ -118,7 +118,9 @@ def serial_command_error(prefix: str, code: int, error: int, state: int | None =
     """
     kind: type[CommandRefused]
     if error == Error.PARAMETER:
-        kind, text = _SERIAL_PARAMETERS.get(code, (ParameterRefused, "the part refuses a value of this"))
+        kind, text = _SERIAL_PARAMETERS.get(
+            code, (ParameterRefused, "the part refuses a value of this instruction")
+        )
     elif error == Error.STATUS:
         if state == State.NOR and code not in _STOPPING:
             kind, text = AxisBusy, "the part was busy with a motion: try again"
@@ -136,7 +138,7 @@ def serial_command_error(prefix: str, code: int, error: int, state: int | None =
             "all places are taken, or the event is in use by an override or buffer",
         )
     else:
-        kind, text = CommandRefused, f"the part refuses this (error {error:02X})"
+        kind, text = CommandRefused, f"the part refuses this instruction (error {error:02X})"
     return kind(error, prefix + (text or kind.text))
 
 
