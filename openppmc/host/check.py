@@ -200,9 +200,9 @@ def _value(bound: BoundMethod, *others: object) -> Any:
 
 
 class BoundMethod:  # noqa: D101 - help() shows the docstring of the function
-    # Method of an object. Its truth value, equality and hash are those of a Python method. It raises an error
-    # if it is used in arithmetic or compared with a number, because the parentheses of the call are missing.
-    # Its help and its names are those of the function.
+    # Method of an object. Its truth value, equality and hash are those of a Python method. If it is used in
+    # arithmetic, if it is compared with a number, or if any other attribute is read, it raises an error,
+    # because the parentheses of the call are missing. Its help and its names are those of the function.
 
     def __init__(self, entry: CheckedMethod, instance: object) -> None:
         self._entry, self.__self__ = entry, instance
