@@ -104,7 +104,7 @@ class Row:
 
     @property
     def folder(self) -> str:
-        """Folder in every layer."""
+        """Name of the folder of the part in every layer."""
         return self.of or self.name
 
     def load(self, column: str) -> Any:

@@ -157,7 +157,7 @@ def capabilities_of(name: str) -> Capabilities:
 
 
 def name_of(number: int) -> str:
-    """Return the name of the part with this number, also for an unknown part."""
+    """Return the name of the part with this number; for an unknown part, it contains the number."""
     row = by_number(number)
     return f"PPMC-{number}" if row is None else row.title
 

@@ -162,7 +162,7 @@ def _sum(motions: Sequence[LineMotion]) -> Progress:
 # Master of a line with several stations, for any frame format. It sends a frame and receives one reply.
 
 PATIENCE = 0.1
-"""Time in s, beyond the line time, after which a missing reply counts as silence.
+"""Time in s, beyond the line time, that the master waits for a reply.
 
 A station needs 4 ms, a USB adapter up to 16 ms.
 """
@@ -192,7 +192,7 @@ class Master(Generic[Answer]):
         port: open port.
         baud: line rate in bit/s.
         echo: True if the master receives its own bytes.
-        patience: time in s, beyond the line time, after which a missing reply counts as silence; at most 60.
+        patience: time in s, beyond the line time, that the master waits for a reply; at most 60.
         counters: counters of each station, by its number.
     """
 
@@ -315,7 +315,7 @@ class Master(Generic[Answer]):
                     return MissingReply(fault, bytes(received) + data[place + 1 :] + self._read_until_idle())
 
     def _missing_reply(self, listener: ReplyReceiver[Answer], received: bytes) -> MissingReply:
-        """Return the MissingReply for silence, or for bytes that do not belong to a reply."""
+        """Return the MissingReply after no bytes, or after bytes that do not belong to a reply."""
         return MissingReply(Fault.NOISE if received else None, received)
 
     def _read_until_idle(self) -> bytes:

@@ -135,7 +135,7 @@ class MissingReply:
     """Missing reply.
 
     Attributes:
-        fault: reason why there is no reply, `None` after silence.
+        fault: reason why there is no reply, `None` if no byte was received.
         received: bytes received instead of the reply.
     """
 

@@ -224,7 +224,7 @@ class Chip(ABC):
         rst_n = 0 is effective immediately; the output edges that it causes have the time t.
 
         Raises:
-            ValueError: edge t was already run, a pin is unknown, or a level is out of range.
+            ValueError: edge t was already simulated, a pin is unknown, or a level is out of range.
         """
         inputs, widths = self.INPUTS, self.WIDTHS
         for pin, level in levels.items():

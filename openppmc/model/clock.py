@@ -197,7 +197,7 @@ class Scheduler:
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
         """Call `action(t)` at edge t in this phase.
 
-        Raises ValueError for an edge that was already run.
+        Raises ValueError for an edge that was already simulated.
         """
         if t <= self.now:
             raise ValueError(f"event for edge {t}, but edge {self.now} is done")

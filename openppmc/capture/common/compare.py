@@ -184,10 +184,10 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 
 
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
-    """Return the beginning of a comparison: two times and a flag.
+    """Return the times at which a comparison begins, and a flag.
 
-    The model runs from the first time on. The second item holds, for each axis, the time from which its edges
-    are compared. The flag is True if the capture contains a reset.
+    The model runs from the first time on. The second item maps each axis to the time from which its edges are
+    compared. The flag is True if the capture contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):

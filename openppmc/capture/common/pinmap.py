@@ -51,7 +51,7 @@ class Pins:
     aliases: Mapping[str, str] = field(default_factory=dict)
 
     def place(self, pin: str) -> tuple[str, int]:
-        """Return port and bit of `s[1]` or `cs_n`. Raises ValueError."""
+        """Return port and bit of `s[1]` or `cs_n`. Raises ValueError for any other text."""
         pin = self.aliases.get(pin, pin)
         match = _PLACE.fullmatch(pin)
         port, number = (match[1], int(match[2])) if match else (pin, -1)

@@ -56,12 +56,12 @@ FROM = {0x0B: "by the event: ", 0x1B: "by override: "}
 
 
 def number(data: bytes) -> int:
-    """Return an unsigned number, most significant byte first."""
+    """Decode an unsigned number; the most significant byte is the first."""
     return int.from_bytes(data, "big")
 
 
 def position(data: bytes) -> int:
-    """Return a signed number, most significant byte first."""
+    """Decode a signed number; the most significant byte is the first."""
     return int.from_bytes(data, "big", signed=True)
 
 

@@ -21,7 +21,7 @@ def read_map(wires: Wires) -> str:
 
 
 def trains(wires: Wires) -> list[PulseTrain]:
-    """Return the steps of the phases."""
+    """Return the steps that the phases output."""
     one = phase_train(wires, 1, "s")
     return [] if one is None else [one]
 

@@ -18,7 +18,9 @@ Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 
 
 def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:
-    """Return the numbers of a list with ranges, in the order of the list. Raise BadParameter.
+    """Return the numbers of a list with ranges, in the order of the list.
+
+    Raise BadParameter if the list is invalid.
 
     Args:
         known: the allowed numbers.
@@ -41,7 +43,9 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
 
 
 def line_options(text: str, known: str) -> dict[str, Any]:
-    """Return arguments for the method `open` of a bus, from the text of --line. Raise BadParameter.
+    """Return arguments for the method `open` of a bus, from the text of --line.
+
+    Raise BadParameter if it is invalid.
 
     `sum_mode` is returned as text.
 

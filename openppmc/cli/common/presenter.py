@@ -44,7 +44,7 @@ class Override:
 
 
 def parse_override(text: str) -> Override:
-    """Parse `2000:stop`, `2000:halt` or `2000:3500`. Raise ValueError."""
+    """Parse `2000:stop`, `2000:halt` or `2000:3500`. Raise ValueError for any other text."""
     place, colon, what = (piece.strip() for piece in text.partition(":"))
     try:
         at = int(place)

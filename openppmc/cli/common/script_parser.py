@@ -95,7 +95,7 @@ MOST_TURNS = 1_000_000
 Values = dict[str, Any]
 """Operands of a line, with the names that `ScriptRunner` uses."""
 Reader = Callable[[list[str]], Values]
-"""Parses and removes the words after the first one. Raises ValueError."""
+"""Parses and removes the words after the first one. Raises ValueError if a word is invalid."""
 
 
 def check_no_more_words(words: list[str]) -> None:
@@ -105,7 +105,7 @@ def check_no_more_words(words: list[str]) -> None:
 
 
 def number(text: str, what: str, low: float, high: float) -> float:
-    """Return the text as a number. Raise ValueError unless it is one from low to high."""
+    """Return the text as a number from low to high. Raise ValueError for any other text."""
     try:
         value = float(text)
     except ValueError:
@@ -116,7 +116,7 @@ def number(text: str, what: str, low: float, high: float) -> float:
 
 
 def whole(text: str, what: str, low: int, high: int) -> int:
-    """Return the text as a whole number. Raise ValueError unless it is one from low to high."""
+    """Return the text as a whole number from low to high. Raise ValueError for any other text."""
     try:
         value = int(text)
     except ValueError:

@@ -34,7 +34,7 @@ Address = Annotated[
 
 
 def parse_addresses(text: str) -> list[int]:
-    """Parse `3`, `1,5` or `1-4`. Raise BadParameter."""
+    """Parse `3`, `1,5` or `1-4`. Raise BadParameter for any other text."""
     span = f"addresses are 1 to {LAST}, factory-new controllers have {FACTORY}"
     return parse_numbers("--address", text, ADDRESSES, span, "1-4")
 

@@ -203,7 +203,7 @@ _DOES = "move PULSES, step cw|ccw, stop, halt, outputs VALUE or delete"
 
 
 def read_at(words: list[str]) -> Values:
-    """Parse `at POSITION stop|halt|PPS`. Raise ValueError."""
+    """Parse `at POSITION stop|halt|PPS`. Raise ValueError for any other text."""
     if len(words) != 2:
         raise ValueError("at needs: at POSITION stop|halt|PPS")
     override = parse_override(":".join(words))
@@ -211,7 +211,7 @@ def read_at(words: list[str]) -> Values:
 
 
 def read_event(words: list[str]) -> Values:
-    """Parse `event 1|2 WHAT`. Raise ValueError."""
+    """Parse `event 1|2 WHAT`. Raise ValueError for any other text."""
     if len(words) < 2:
         raise ValueError(f"event needs: event 1|2 {_DOES}")
     event, what, operands = _event(words[0]), words[1].lower(), words[2:]
@@ -231,13 +231,13 @@ def read_event(words: list[str]) -> Values:
 
 
 def read_pulse(words: list[str]) -> Values:
-    """Parse `pulse 1|2`. Raise ValueError."""
+    """Parse `pulse 1|2`. Raise ValueError for any other text."""
     _count(words, 1)
     return {"event": _event(words[0])}
 
 
 def read_watch(words: list[str]) -> Values:
-    """Parse `watch DISTANCE|off`. Raise ValueError."""
+    """Parse `watch DISTANCE|off`. Raise ValueError for any other text."""
     _count(words, 1)
     distance = None if words[0].lower() == "off" else _whole(words[0])
     if distance is not None and not 1 <= distance <= 0xFFFF:

@@ -270,7 +270,7 @@ class PpmcBank(Part):
     def reset(self) -> None:
         """Reset the part in any state.
 
-        Pulses end immediately, nothing is initialised, and the positions are 0.
+        The pulses end immediately. After the reset no axis is initialised, and all positions are 0.
         """
         self.link.execute(Script().reset())
         self._group = None

@@ -89,7 +89,10 @@ class Axis(Settings):
         return self._stop(False, wait)
 
     def halt(self, wait: bool = True) -> MotionResult | None:
-        """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
+        """Stop immediately; steps may be lost at high speed.
+
+        In all other respects, the method works like `stop`.
+        """
         return self._stop(True, wait)
 
     def _request_stop(self, now: bool = False) -> None:

@@ -27,7 +27,7 @@ from .wire import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags,
 PART = "pmc006"
 BAUD, SLOWEST, FASTEST = 9600, 1200, 115_200
 DROPPED_AFTER = 200
-"""Bit times of silence after which a controller has discarded an incomplete frame.
+"""Bit times without a character after which a controller has discarded an incomplete frame.
 
 The part needs 192 bit times; the other 8 are a reserve.
 """
@@ -43,7 +43,7 @@ class Line(Master[Reply]):
             `model:…`.
         baud: line rate of the controllers, 1200 to 115200; 9600 unless they were built with another rate.
         rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
-        patience: time in s, beyond the line time, after which a missing reply counts as silence.
+        patience: time in s, beyond the line time, that the master waits for a reply.
         unsynchronised: addresses that did not reply to a frame. Their reply may still arrive.
 
     Raises:
@@ -153,7 +153,7 @@ class StationLink(Checked):
 
         Raises:
             StationNotResponding, CorruptReply: no valid reply was received.
-            LostReply: the controller is silent after a risky instruction.
+            LostReply: no reply was received to a risky instruction.
         """
         misses: list[MissingReply] = []
         odd: list[int] = []
@@ -238,7 +238,7 @@ class StationLink(Checked):
     def _is_connected(self) -> bool:
         """Return True if the controller replies to a poll, which is repeated once after noise.
 
-        Raises CorruptReply.
+        Raises CorruptReply if both replies are corrupt.
         """
         misses: list[MissingReply] = []
         while len(misses) < 2:

@@ -296,7 +296,7 @@ class Receiver:
 
     @property
     def fault(self) -> Fault | None:
-        """Fault received instead of the reply, `None` for silence."""
+        """Fault received instead of the reply, `None` if no byte was received."""
         if self._broken or self._open:
             return Fault.BROKEN
         if self._foreign:

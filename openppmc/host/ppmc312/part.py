@@ -267,7 +267,10 @@ class Axis(Overrides[MotionT]):
         return self._stop(False, wait)
 
     def halt(self, wait: bool = True) -> MotionResult | None:
-        """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
+        """Stop immediately; steps may be lost at high speed.
+
+        In all other respects, the method works like `stop`.
+        """
         return self._stop(True, wait)
 
     def _request_stop(self, now: bool = False) -> None:
@@ -374,7 +377,7 @@ class Ppmc312(Axis[Motion], Part):
     def reset(self) -> None:
         """Reset the part with its pin, in any state.
 
-        Pulses end immediately, the table is cleared, and the position is 0.
+        The pulses end immediately. After the reset there is no table, and the position is 0.
         """
         self.link.execute(Script().reset())
         self._on_reset()

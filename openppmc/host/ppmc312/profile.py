@@ -102,7 +102,7 @@ def plan_file(
 ) -> Setup:
     """Return the set-up of a free curve from a file. The clock arguments are those of `choose_clock`.
 
-    Raises OutOfRange.
+    Raises OutOfRange if the file is invalid or the part cannot output the curve.
     """
     return plan_stages(xtal_hz, read_stages(path), base_clock, external_clock)
 

@@ -177,7 +177,7 @@ class Pmc006(Chip):
             byte: the byte, `None` if its stop bit is low.
 
         Raises:
-            ValueError: edge t was already run.
+            ValueError: edge t was already simulated.
         """
         self._queue.at(t, Phase.BUS, lambda now: self.line.on_char(now, byte))
 

@@ -115,7 +115,7 @@ class Windows:
         return passed > 0 and passed % self._period == 0
 
     def next_tick(self, t: int) -> int:
-        """Return the first tick after edge t; a window that opens before this tick would delay it."""
+        """Return the first tick after edge t. If a window opens before this tick, the tick occurs later."""
         origin = self._origin(t + 1)
         return origin + (max(0, t - origin) // self._period + 1) * self._period
 

@@ -91,7 +91,7 @@ class Core:
         return self.operation.state or (State.NOR if self.table else State.INI)
 
     def discard_table(self) -> None:
-        """Change to state INI: no table, no registered instructions."""
+        """Change to state INI, without a table and without registered instructions."""
         self.table = self.transfer = None
         self._clear_buffers()
 

@@ -218,7 +218,7 @@ class Ppmc312(Chip):
             byte: the character, `None` if its stop bit is low.
 
         Raises:
-            ValueError: edge t was already run.
+            ValueError: edge t was already simulated.
         """
         self._queue.at(t, Phase.BUS, lambda now: self.station.on_char(now, byte))
 

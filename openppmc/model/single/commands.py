@@ -95,7 +95,10 @@ class TimedMotion(Motion):
         return not self._context.datasheet
 
     def _datasheet_end(self, t: int, since: int, end_cycles: int, open_cycles: int) -> None:
-        """Schedule the end, and close the mailbox; both times are counted from `since` (P104-DS-06..08)."""
+        """Schedule the end of the command, and close the mailbox.
+
+        Both times start at `since` (P104-DS-06..08).
+        """
         context = self._context
         since += context.latency.ds_motor
         self._port.close_until(since + context.timebase.cyc(open_cycles))

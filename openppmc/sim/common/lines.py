@@ -67,14 +67,14 @@ def one_of(word: str, value: str, known: Sequence[str]) -> str:
 
 
 def whole(word: str, text: str, low: int, high: int) -> int:
-    """Return the text as a whole number. Raise ValueError unless it is one from low to high."""
+    """Return the text as a whole number from low to high. Raise ValueError for any other text."""
     if not text.isdigit() or not low <= int(text) <= high:
         raise ValueError(f"{word}={text}: expected {low} to {high}")
     return int(text)
 
 
 def positive(word: str, text: str) -> float:
-    """Return the text as a number. Raise ValueError unless it is above 0."""
+    """Return the text as a number above 0. Raise ValueError for any other text."""
     try:
         value = float(text)
     except ValueError:

@@ -90,7 +90,10 @@ class Spec:
 
 
 def parse_spec(text: str = "", **options: object) -> Spec:
-    """Parse `word=value,word=value`; options have priority over the text. Raise SpecError."""
+    """Parse `word=value,word=value`; options have priority over the text.
+
+    Raise SpecError if a value is invalid.
+    """
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
         machine = parse_machine(",".join(words), (*OPTIONS, *FILES))

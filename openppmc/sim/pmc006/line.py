@@ -266,7 +266,7 @@ def _position(word: str, text: str) -> int:
 
 
 def _levels(text: str) -> int:
-    """Parse the levels of GPI5 to GPI1. Raise ValueError."""
+    """Parse the levels of GPI5 to GPI1. Raise ValueError for any other text."""
     if len(text) != 5 or set(text) - {"0", "1"}:
         raise ValueError(f"gpi={text}: not five levels; write GPI5 to GPI1, as 11111")
     return int(text, 2)

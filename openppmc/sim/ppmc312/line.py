@@ -143,7 +143,7 @@ def _twin(
 
 
 def _numbers(text: str) -> range:
-    """Parse `4` as 0 to 3, `3..5` as 3 to 5. Raise ValueError."""
+    """Parse `4` as 0 to 3, `3..5` as 3 to 5. Raise ValueError for any other text."""
     first, dots, last = text.partition("..")
     try:
         numbers = range(int(first), int(last) + 1) if dots else range(int(first))

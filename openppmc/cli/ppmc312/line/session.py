@@ -17,13 +17,13 @@ from ...common.session import Guard
 
 
 def parse_stations(text: str) -> list[int]:
-    """Parse `3`, `0,2,5` or `0-7`; keep the order. Raise BadParameter."""
+    """Parse `3`, `0,2,5` or `0-7`; keep the order. Raise BadParameter for any other text."""
     last = STATIONS - 1
     return parse_numbers("--axis", text, range(STATIONS), f"stations have numbers from 0 to {last}", "0-7")
 
 
 def line_options(text: str) -> dict[str, Any]:
-    """Return arguments of `Ppmc312Bus.open` from the text of --line. Raise BadParameter."""
+    """Return arguments of `Ppmc312Bus.open` from the text of --line. Raise BadParameter if it is invalid."""
     options = line_session.line_options(text, LINE_WORDS)
     if "sum_mode" in options:
         options["sum_mode"] = SumMode(options["sum_mode"])

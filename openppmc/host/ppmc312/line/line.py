@@ -163,7 +163,7 @@ class Line(Master[Reply]):
         echo: True if the master receives its own bytes, as with two-wire adapters that do not switch their
             receiver off.
         rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
-        patience: time in s, beyond the line time, after which a missing reply counts as silence.
+        patience: time in s, beyond the line time, that the master waits for a reply.
         xtal_hz: crystal frequency of the stations in Hz; the line rates are proportional to it.
 
     Raises:

@@ -185,7 +185,7 @@ class Station312(Axis[SerialMotion]):
     def reset(self) -> None:
         """Reset the station by instruction, in any state.
 
-        Pulses end immediately, there is no table, and the position is 0.
+        The pulses end immediately. After the reset there is no table, and the position is 0.
         """
         for _ in range(ATTEMPTS):
             sent = self.link.send_instruction(self.number, bytes([Code.RESET]))

@@ -61,8 +61,8 @@ class WaveMetrics(NamedTuple):
     """Results of a measurement.
 
     Attributes:
-        amplitude: fundamental of the reference, A.
-        error: rms of (current - amplitude), relative to the rms of this fundamental.
+        amplitude: amplitude of the fundamental of the reference, A.
+        error: rms of (current - fundamental of the reference), relative to the rms of this fundamental.
         follows: rms of (current - reference), relative to the rms of the reference.
         thd: harmonics 2..40 of the current, relative to its fundamental.
         all: rms of the current without its fundamental, relative to its fundamental.

@@ -144,7 +144,7 @@ _CYCLES = {5: Fraction(2500, 3), 6: Fraction(2500, 6), 7: Fraction(192)}
 def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
     """Return the cycles of a bit.
 
-    The result is `None` if mod selects no documented speed; then the station is silent.
+    The result is `None` if mod selects no documented speed; then the station does not send.
     """
     cycles = _CYCLES.get(mod)
     return None if cycles is None else cycles * clk_hz / xtal_hz

@@ -131,7 +131,7 @@ class Station:
     """Station on a line.
 
     Args:
-        bit: bit time in cycles, `None` for a silent station.
+        bit: bit time in cycles, `None` for a station that does not send.
         address: 0..15.
         mode: SUM_MODE.
         log: log of all frames and characters sent.

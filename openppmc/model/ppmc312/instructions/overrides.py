@@ -55,7 +55,7 @@ class Core(Protocol):
         """Execute a software reset, which sends a response."""
 
     def discard_table(self) -> None:
-        """Change to state INI: no table, no registered instructions."""
+        """Change to state INI, without a table and without registered instructions."""
 
     def set_table(self, table: Table) -> None:
         """Change to state NOR with a new table."""
