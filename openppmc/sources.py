@@ -175,6 +175,6 @@ def walls(listed: Mapping[str, Group]) -> list[str]:
 
 
 def _below(path: Path) -> str:
-    """Return the path in the form of the list."""
+    """Return the path below rtl/, with slashes, as the list of sources contains it."""
     parts = path.parts
     return "/".join(parts[len(parts) - parts[::-1].index("rtl") :])

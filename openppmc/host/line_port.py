@@ -30,7 +30,7 @@ class ModelLine:
         baud: line rate in bit/s.
         part: part of the stations.
 
-        Raises:
+    Raises:
         PortError: text is invalid.
     """
 

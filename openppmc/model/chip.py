@@ -70,7 +70,7 @@ class PinRegister:
     """Output registers that follow internal levels `lag` cycles later.
 
     Args:
-    set_pin: set_pin(t, signal, value) sets a pin of the part.
+        set_pin: set_pin(t, signal, value) sets a pin of the part.
     """
 
     def __init__(self, queue: Scheduler, lag: int, initial: Mapping[str, int], set_pin: SetPin) -> None:
@@ -147,7 +147,7 @@ class Chip(ABC):
         timing: "FAST" or "DATASHEET".
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     XTAL_MAX: ClassVar[int] = 16_000_000

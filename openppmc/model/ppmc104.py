@@ -301,7 +301,7 @@ class Ppmc104(SingleAxis):
         phase_idle: 0 or 1.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS

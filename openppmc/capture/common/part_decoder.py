@@ -98,7 +98,7 @@ class PulseTrain(NamedTuple):
     """Pulses of an axis.
 
     Attributes:
-        times: in ps.
+        times: time of each pulse in ps.
         directions: direction of each pulse (1 = CCW), `None` if it is unknown.
     """
 

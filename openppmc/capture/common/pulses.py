@@ -24,7 +24,7 @@ class Move:
 
     Attributes:
         way: direction; 1 = CW, -1 = CCW, 0 = unknown.
-        begin, end: in ps.
+        begin, end: times in ps.
         first, highest, last: speeds in pps.
     """
 

@@ -231,9 +231,9 @@ class _Head:
     def _add(self, scopes: tuple[str, ...], name: str, code: str) -> None:
         """Add a variable under its name.
 
-        If variables in several scopes have this name, it refers to the one in the outermost scope. If
-        several of these scopes have the same depth, the name refers to the first one, and each of their
-        variables also has the name `scope.name`.
+        If variables in several scopes have this name, the name refers to the variable in the outermost scope.
+        If several of these scopes have the same depth, the name refers to the first variable, and each of
+        these variables also has the name `scope.name`.
         """
         depth, home = len(scopes), ".".join(scopes)
         known = self._depths.get(name)

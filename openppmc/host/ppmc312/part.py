@@ -323,7 +323,7 @@ class Axis(Overrides[MotionT]):
         return motion
 
     def _search_rate(self, pps: speeds.Number | None) -> int:
-        """Return the rate of a constant speed; default: the reached start speed."""
+        """Return the rate of a constant speed; without a speed, that of the reached start speed."""
         if pps is not None:
             return self.rate_of(pps)
         setup = self.known_setup()

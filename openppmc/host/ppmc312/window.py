@@ -35,7 +35,7 @@ class Window:
     """Transport of instructions through the block registers.
 
     Args:
-    arrived: called with each response that is not for an instruction of the host.
+        arrived: called with each response that is not for an instruction of the host.
     """
 
     def __init__(self, link: Link, arrived: Callable[[Response], None]) -> None:

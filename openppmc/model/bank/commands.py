@@ -29,12 +29,12 @@ class Mailbox:
     """Input buffer and output queue.
 
     Args:
-    take: take(t, byte, is_command) passes an accepted byte to the command unit.
-    retry_edge: retry_edge(t, is_command) returns `None` if visit t may accept the byte, else the edge of the
-        next attempt.
+        take: take(t, byte, is_command) passes an accepted byte to the command unit.
+        retry_edge: retry_edge(t, is_command) returns `None` if visit t may accept the byte, else the edge of
+            the next attempt.
 
     Attributes:
-    data_register: next byte that a data read returns.
+        data_register: next byte that a data read returns.
     """
 
     def __init__(

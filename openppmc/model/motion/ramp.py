@@ -92,7 +92,7 @@ def traverse_ramp(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False
     """Return the indices of all intervals, calculated pulse by pulse.
 
     Args:
-    flag: flag(j) returns True if a forced deceleration is requested at pulse j.
+        flag: flag(j) returns True if a forced deceleration is requested at pulse j.
     """
     indices: list[int] = []
     kp, forced = -1, False

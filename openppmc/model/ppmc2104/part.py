@@ -32,7 +32,7 @@ class Ppmc2104(Chip):
         timing: "FAST" or "DATASHEET".
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS

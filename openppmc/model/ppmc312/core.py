@@ -26,7 +26,7 @@ class Core:
     """All blocks of the part.
 
     Args:
-    reset: reset(t, source) executes a software reset of the part, which sends a response.
+        reset: reset(t, source) executes a software reset of the part, which sends a response.
     """
 
     unit: Unit

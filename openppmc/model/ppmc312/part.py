@@ -38,7 +38,7 @@ class Ppmc312(Chip):
         straps: pin levels from the beginning on, for example mode, mod, adr.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
 
     Attributes:
         replies: (edge at which snd rises, whole frame) of all frames that the station has sent.

@@ -117,8 +117,8 @@ class ByteUnit(ABC):
     """Unit that accepts one byte per C-event.
 
     Attributes:
-    error: error number of the last byte, or `None`.
-    setup: settings of the initialisation, `None` in state UNINIT.
+        error: error number of the last byte, or `None`.
+        setup: settings of the initialisation, `None` in state UNINIT.
     """
 
     allowed_while_busy: ClassVar[tuple[Kind, ...]] = (

@@ -30,7 +30,7 @@ class SpeedGate:
     """Gate for DATASHEET timing: above a speed, only stop commands pass (P104-DS-12).
 
     Args:
-    retry: retry(t) is called when the host port must check a waiting byte again.
+        retry: retry(t) is called when the host port must check a waiting byte again.
     """
 
     def __init__(self, retry: Callable[[int], None]) -> None:
@@ -150,7 +150,10 @@ class HostPort:
 
     @property
     def status(self) -> int:
-        """Status register as a read returns it: a byte that is being stored or cleared is considered."""
+        """Status register as a read returns it.
+
+        IBF is already 1 while a byte is being stored, and OBF is already 0 while a byte is being cleared.
+        """
         waiting = self.ibf or self._in_pipe > 0
         return self._state() | (IBF if waiting else 0) | (OBF if self._readable else 0)
 

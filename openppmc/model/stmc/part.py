@@ -51,7 +51,7 @@ class Stmc(SingleAxis):
         chop_off_xt: off-time of the chopper in crystal periods, at least 1.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     XTAL_MAX = 20_000_000

@@ -36,7 +36,7 @@ class J105Stmc:
         ext_hz: 1..clk_hz/4.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     def __init__(

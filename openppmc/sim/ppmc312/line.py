@@ -82,7 +82,7 @@ def at_rate(text: str, rate: int) -> str:
     Raises ValueError if no speed matches the rate.
 
     Args:
-    rate: line rate of the host in bit/s.
+        rate: line rate of the host in bit/s.
 
     >>> at_rate("stations=2,xtal=8000000", 9600)
     'stations=2,xtal=8000000,baud=19200'

@@ -47,7 +47,8 @@ class Chopper:
     """Chopper of one phase.
 
     Args:
-    set_bridge: set_bridge(t, m_plus, m_minus) sets the half-bridge commands (m10, m11 or m20, m21) at edge t.
+        set_bridge: set_bridge(t, m_plus, m_minus) sets the half-bridge commands (m10, m11 or m20, m21) at
+            edge t.
     """
 
     def __init__(self, queue: Scheduler, times: Times, set_bridge: Callable[[int, int, int], None]) -> None:

@@ -148,7 +148,7 @@ class Executor:
     before.
 
     Args:
-    answered: answered(t, data) is called with the data of the reply, which are sampled at edge t.
+        answered: answered(t, data) is called with the data of the reply, which are sampled at edge t.
     """
 
     def __init__(self, context: ExecutionContext, answered: Callable[[int, int], None]) -> None:

@@ -103,8 +103,8 @@ class Mailbox:
     """Parallel registers.
 
     Args:
-    take: take(t, block) is called with a complete instruction block in logical order, at the write event of
-        its header.
+        take: take(t, block) is called with a complete instruction block in logical order, at the write event
+            of its header.
     """
 
     def __init__(

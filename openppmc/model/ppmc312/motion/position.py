@@ -129,9 +129,9 @@ class WindowMonitors:
     """Both monitors, which compare both counters.
 
     Args:
-    at_standstill: at_standstill() returns True if the pulse output is inactive.
-    clamp: clamp() asserts zclmp_n (low).
-    end_low: end_low() returns True if end_n is low.
+        at_standstill: at_standstill() returns True if the pulse output is inactive.
+        clamp: clamp() asserts zclmp_n (low).
+        end_low: end_low() returns True if end_n is low.
     """
 
     def __init__(
