@@ -86,7 +86,7 @@ class SelfTest:
 
     Args:
         folder: folder of the pictures of differences.
-        print_line: called with one line of text for each step.
+        tell: called with one line of text for each step.
     """
 
     def __init__(self, link: Link, plan: Plan, folder: Path, tell: PrintLine = lambda line: None) -> None:
