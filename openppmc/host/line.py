@@ -362,7 +362,7 @@ class LineBus(Device, Generic[LineT, StationT]):
         """Read the unsolicited reports of a station."""
 
     def axis(self, station: int) -> StationT:
-        """Return the station with this number, which need not be connected.
+        """Return the station with this number; it does not have to be connected.
 
         Each call returns the same object.
         """

@@ -178,7 +178,10 @@ class Part(Device):
             raise
 
     def reset(self) -> None:
-        """Reset the part in any state: pulses end immediately, and nothing is initialised."""
+        """Reset the part in any state.
+
+        The pulses end immediately. After the reset no axis is initialised.
+        """
         raise NotImplementedError
 
 
@@ -208,7 +211,10 @@ class OneAxis(Part, Axis):
         return setup
 
     def reset(self) -> None:
-        """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
+        """Reset the part in any state.
+
+        The pulses end immediately. After the reset all coils are off, and the part is not initialised.
+        """
         self.link.execute(Script().reset())
         self._on_reset()
 

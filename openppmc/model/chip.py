@@ -199,7 +199,7 @@ class Chip(ABC):
 
     @property
     def now(self) -> int:
-        """Last edge that was run, -1 before edge 0."""
+        """Last edge that was simulated, -1 before edge 0."""
         return self._queue.now
 
     @property

@@ -187,7 +187,7 @@ class Event:
 
 
 class Scheduler:
-    """Heap of events. `now` is the last edge that was run completely, -1 before the first."""
+    """Heap of events. `now` is the last edge that was simulated completely, -1 before the first."""
 
     def __init__(self) -> None:
         self.now = -1

@@ -160,8 +160,10 @@ def answer_words(block: bytes) -> str:
 class Row:
     """Instruction with its answer, or a report.
 
+    The bytes of a block are in logical order.
+
     Attributes:
-        t: time in cycles; the bytes of a block are in logical order.
+        t: time in cycles.
     """
 
     t: int

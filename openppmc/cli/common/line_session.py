@@ -106,7 +106,7 @@ def ending_after(
 
 @contextmanager
 def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
-    """Open a line with `make`; a signal stops the motors and ends with status 128 + n.
+    """Open a line with `make`; a signal n stops the motors, and the exit status is 128 + n.
 
     The motors are also stopped if stdout is lost.
     """

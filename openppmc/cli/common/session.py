@@ -294,7 +294,7 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the board; a signal stops the motors and ends with status 128 + n.
+    """Open the board; a signal n stops the motors, and the exit status is 128 + n.
 
     The motors are also stopped if stdout is lost.
     """

@@ -237,7 +237,7 @@ class ScanResult:
 class Pmc006Bus(LineBus[Line, Pmc006]):
     """Line (`Line`) with controllers; see `host.line.LineBus`.
 
-    `axis(5)` is the `Pmc006` with address 5, which need not be connected.
+    `axis(5)` is the `Pmc006` with address 5; it does not have to be connected.
     """
 
     kind = CAPABILITIES

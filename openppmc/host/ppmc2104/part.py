@@ -250,7 +250,10 @@ class Ppmc2104(Part):
         return self.link.execute(Script().call(AUX_INPUT).get(1)).byte(1)
 
     def reset(self) -> None:
-        """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
+        """Reset the part in any state.
+
+        The pulses end immediately. After the reset all coils are off, and no axis is initialised.
+        """
         self.link.execute(Script().reset())
         self._run_held.clear()
         self._foreign.clear()

@@ -28,7 +28,7 @@ class Eeprom24C32:
 
     Args:
         clk_hz: cycles per second.
-        content: at most 4096 bytes from address 0; the rest is FF.
+        content: at most 4096 bytes from address 0; all other bytes are FF.
         device: 7-bit address.
         write_us: duration of a write cycle, 0 or more.
         stretch_us: time for which the device holds SCL low after each acknowledge.

@@ -77,7 +77,7 @@ class J105Stmc:
 
     @property
     def now(self) -> int:
-        """Last edge that was run, -1 before edge 0."""
+        """Last edge that was simulated, -1 before edge 0."""
         return self.core.now
 
     @property

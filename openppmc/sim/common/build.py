@@ -48,7 +48,7 @@ def verilator_version() -> str:
 
 
 def seen_from(folder: Path, path: Path | str) -> str:
-    """Return `path` relative to `folder`, with links resolved in both. They need not exist."""
+    """Return `path` relative to `folder`, with links resolved in both. The paths do not have to exist."""
     return os.path.relpath(os.path.realpath(path), os.path.realpath(folder))
 
 

@@ -28,7 +28,7 @@ class Eeprom:
     """Model of an EEPROM.
 
     Args:
-        content: bytes from address 0; the rest is blank.
+        content: bytes from address 0; all other bytes are blank.
         file: the content is stored here after each write.
         missing: True if no EEPROM is connected.
 

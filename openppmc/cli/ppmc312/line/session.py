@@ -59,7 +59,7 @@ class Session:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the line; a signal stops the motors and ends with status 128 + n."""
+    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
     options = line_options(BOARD.line)
     if BOARD.baud is not None:
         options["speed"] = BOARD.baud

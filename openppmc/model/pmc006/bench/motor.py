@@ -28,7 +28,7 @@ class Part(Protocol):
 
     @property
     def now(self) -> int:
-        """Last edge that was run."""
+        """Last edge that was simulated."""
 
     @property
     def next_event(self) -> int | None:

@@ -174,7 +174,7 @@ class Motion:
         ended: ended(t) is called when BUSY has fallen at edge t without a stop.
 
     Attributes:
-        busy, forward, current_comp, lead_angle: levels after the last edge that was run.
+        busy, forward, current_comp, lead_angle: levels after the last edge that was simulated.
         increment: angle units per step.
         at_constant_speed: True if the speed is constant (P006-STL-01).
         tick: number of the us tick at t = 0 of `engine`, `None` before the end of planning.
