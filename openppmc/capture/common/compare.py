@@ -172,7 +172,8 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
 def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
     """Return a line that proposes the other value of TIMING, or an empty text.
 
-    The other value is proposed if most edges differ and it leaves at most a tenth of the differences.
+    The other value is proposed if most edges differ, and if it results in at most a tenth of these
+    differences.
     """
     if len(result.differences) <= result.compared:
         return ""

@@ -154,7 +154,7 @@ class ScriptRunner:
 
 
 def check_steps(steps: Iterable[Step], name: str, kind: Capabilities) -> list[int]:
-    """Return the axes of a program, [1] if it names none. Raise ScriptError if unsupported."""
+    """Return the axes of a program, [1] if it names none. Raise ScriptError for an unsupported step."""
     return sorted(_axes_of(steps, name, kind)) or [1]
 
 

@@ -249,8 +249,8 @@ class PpmcBank(Part):
         """Stop every motion immediately, in the same cycle (STOP, BANK-GRP-04).
 
         Steps may be lost at high speed. It is no error if no axis moves. The result contains the results of
-        all axes that moved, by number, including motions that another program started. Without wait, it is
-        empty.
+        all axes that moved, by number, including motions that another program started. Without `wait`,
+        the result is empty.
         """
         visit(self.link, [(1, Script().write(STOP, 0))])
         ends: dict[int, MotionResult] = {}

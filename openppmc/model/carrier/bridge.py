@@ -1,7 +1,7 @@
 """Golden model of `ppmc_uart_bridge` at the level of line bytes (docs/uart_bridge.md).
 
 Bit times are not modelled (UB-LIN-03, -04, UB-BUS-01). The caller reports events that depend on time:
-`receive_bad` for a byte with a framing error, `idle` for a silence. If bytes follow a request in the same
+`receive_bad` for a byte with a framing error, `idle` for an idle line. If bytes follow a request in the same
 call of `receive`, the model assumes that they arrive while its script runs (UB-FRM-07).
 """
 
@@ -64,9 +64,9 @@ class Receiver:
 
     @property
     def inside(self) -> bool:
-        """True if an incomplete frame has been received, which a silence would invalidate.
+        """True if an incomplete frame has been received, which an idle line would invalidate.
 
-        A single 7D counts.
+        A single 7D is also an incomplete frame.
         """
         return not self._hunting and (self._escaped or bool(self._content))
 
@@ -76,7 +76,7 @@ class Receiver:
         return self._hunting
 
     def drop(self, nak: int) -> int | None:
-        """Discard the frame after a framing error or a silence (UB-FRM-06).
+        """Discard the frame after a framing error or on an idle line (UB-FRM-06).
 
         Before the first flag, no NAK is returned.
         """
@@ -193,7 +193,7 @@ class Bridge:
         return b"" if nak is None else self._nak(nak)
 
     def idle(self, milliseconds: float) -> bytes:
-        """Process a silence of the line (UB-FRM-06 fault 5, UB-LIN-07)."""
+        """Process an idle line (UB-FRM-06 fault 5, UB-LIN-07)."""
         self._silent_ms += milliseconds
         nak = None
         if self._silent_ms >= SILENCE_MS and self._receiver.inside:

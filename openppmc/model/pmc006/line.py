@@ -1,4 +1,4 @@
-"""Serial line of the PMC006B4 with its timing: receiver, silence, replies.
+"""Serial line of the PMC006B4 with its timing: receiver, gaps between characters, replies.
 
 Rules: P006-UART-01..05, P006-FRM-04, -07.
 """

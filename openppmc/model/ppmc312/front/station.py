@@ -40,7 +40,7 @@ from .serial import (
 
 
 class HostSide(Protocol):
-    """Host side."""
+    """Host side of the part: parallel registers or serial station."""
 
     def levels(self) -> dict[str, int]:
         """Return the internal levels of the pins of this side."""
