@@ -23,7 +23,7 @@ def needs(extra: str, what: str, *modules: str) -> None:
     """Check that the libraries of an extra are installed before they are imported.
 
     Args:
-        what: begins the message.
+        what: beginning of the message: the function that requires the libraries.
 
     Raises:
         MissingExtraError: a library is missing.

@@ -1,11 +1,12 @@
-"""Packages that import a name at its first use (PEP 562), and old names that warn.
+"""Import of names at their first use (PEP 562), and old names with a warning.
 
-Such a package has its imports twice: under `TYPE_CHECKING` for type checkers and editors, and as rows for
-this module. `tests/common/test_lazy.py` compares both with `__all__`. The modules of the package import each
-other and never the package, so a name loads only the modules that it needs.
+A package with such names lists its imports twice: under `TYPE_CHECKING` for type checkers and editors, and as
+rows for this module. `tests/common/test_lazy.py` compares both with `__all__`. The modules of the package
+import each other, but not the package. Therefore, a name loads only the modules that it needs.
 
-A public name that was changed stays for one minor version: `renamed` and the argument of `lazy` for names of
-modules, `Renamed` for attributes. Type checkers do not know the old names.
+After a public name is changed, the old name remains available for one minor version: through `renamed` and
+the argument `old` of `lazy` for names of modules, and through `Renamed` for attributes. Type checkers do not
+know the old names.
 """
 
 from __future__ import annotations
@@ -18,13 +19,15 @@ from typing import Any
 
 
 def _warn(old: str, new: str) -> None:
-    """Warn at the line of the caller's caller."""
+    """Emit a DeprecationWarning at the line that uses the old name."""
     message = f"{old} is now {new}; the old name will be removed in the next minor version"
     warnings.warn(message, DeprecationWarning, stacklevel=3)
 
 
 class Renamed:
-    """Old name of an attribute or method; it warns and returns the attribute with the new name.
+    """Old name of an attribute or method.
+
+    Its use emits a warning and returns the attribute with the new name.
 
     Attributes:
         name: new name.
@@ -44,7 +47,7 @@ class Renamed:
 
 
 def renamed(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
-    """Return `__getattr__` of a module.
+    """Return the function `__getattr__` for a module with old names.
 
     Args:
         names: new name by old name.
@@ -62,11 +65,11 @@ def renamed(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
 def lazy(
     package: str, rows: str, old: Mapping[str, str] | None = None
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
-    """Return `__getattr__` and `__dir__` of a package.
+    """Return the functions `__getattr__` and `__dir__` for a package.
 
     Args:
-        rows: lines of a module, relative to the package, and names in it; `PUBLIC=NAME` renames one. Names of
-            the module "." are modules themselves.
+        rows: lines with the name of a module, relative to the package, and names in this module;
+            `PUBLIC=NAME` gives a name another public name. The names of the module "." are modules.
         old: new name by old name.
     """
     places, old = {}, old or {}

@@ -35,11 +35,11 @@ from migen import ClockSignal, Instance, ResetSignal, Signal  # noqa: E402
 
 
 class SourcesError(PpmcError):
-    """The sources are missing, or are plain Verilog with other parameters."""
+    """The sources are missing, or they are plain Verilog with other parameters."""
 
 
 class PadsError(PpmcError):
-    """A pad has a name or width that the part does not have."""
+    """A pad does not match a port of the part in name or width."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Part:
     Attributes:
         address: port with `bits` address lines.
         parameters: parameters with their defaults.
-        inputs: name -> width and the level of all its bits without a pad.
+        inputs: name -> width, and the level of all bits if there is no pad.
         outputs: name -> width.
 
     A width is a number of bits, or `*` and a number of bits per axis.
@@ -92,7 +92,7 @@ PARTS = {
         {"s": "*5", "hold": "*1", "pout_n": "*1", "dir": "*1"},
     ),
 }
-"""Name -> part for `add_part`. PHASE_IDLE: 0 if the drivers switch on a coil with H."""
+"""Parts for `add_part`, by name. PHASE_IDLE must be 0 if a high level switches a coil on."""
 BRIDGE = "ppmc_wishbone"
 _BUILT_IN = re.compile(r"^//   (\w+) += (\S+)", re.M)
 
@@ -113,7 +113,7 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
     """Add the files to the platform, each once.
 
     Returns:
-        Whether their parameters are built in (plain Verilog).
+        True if the parameters are fixed in the files (plain Verilog).
     """
     folder = Path(sources)
     listed = folder / "packages" / f"{part.files}.f"
@@ -149,8 +149,8 @@ class PpmcPart(LiteXModule):  # type: ignore[misc]
 
     Args:
         platform: receives the sources.
-        pads: record whose fields have the names of ports of the part. Inputs without a pad have their idle
-            level; outputs without a pad are open.
+        pads: record whose fields have the names of ports of the part. An input without a pad has its idle
+            level; an output without a pad is not connected.
         parameters: parameters of the part. CLK_HZ is the clock of the SoC, 8 to 200 MHz.
 
     Raises:
@@ -254,7 +254,7 @@ def add_part(
     origin: int | None = None,
     **parameters: Any,
 ) -> PpmcPart:
-    """Add a part to a SoC with a Wishbone bus, with its interrupt if the CPU has interrupts.
+    """Add a part to a SoC with a Wishbone bus. Its interrupt is connected if the CPU has interrupts.
 
     Args:
         name: name of the module, of its region (NAME_BASE in generated/mem.h) and of its interrupt

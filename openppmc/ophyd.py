@@ -33,9 +33,9 @@ from ophyd import SoftPositioner  # noqa: E402
 POLL = 0.03
 """Time between two polls of a motion, in seconds of the board."""
 FREE = 0.01
-"""Pause in seconds after each poll, so that other threads can use the port.
+"""Pause in s after each poll, so that other threads can use the port.
 
-A lock does not serve waiting threads in turn.
+The pause is necessary because a lock does not serve waiting threads in order.
 """
 
 _locks: WeakKeyDictionary[Device, threading.RLock] = WeakKeyDictionary()
@@ -49,11 +49,10 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     and any thread can call them. Other code must not use the device during this time.
 
     Args:
-        device: the opened device with the port, its axis initialised; it must exist as long as the
-            positioner.
+        device: open device whose axis is initialised; it must exist as long as the positioner.
         axis: number of the axis from 1 on, or the station.
-        pulses_per_unit: pulses per `egu`, negative if the position decreases with CW.
-        limits: soft limits in `egu`, (0, 0) for none. Switches of the machine end a motion in any case.
+        pulses_per_unit: pulses per `egu`; negative if the position decreases in direction CW.
+        limits: soft limits in `egu`, (0, 0) for no limits. Limit switches of the machine also end a motion.
         others: arguments of ophyd.
 
     Raises:
@@ -86,7 +85,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     def position(self) -> float:
         """Position of the axis in `egu`, read from the part.
 
-        If the port is lost, it is the last known position.
+        If the port is lost, the value is the last known position.
         """
         try:
             return self._ask()
@@ -96,21 +95,21 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             return float(self._position)
 
     def read(self) -> Any:
-        """Read as ophyd does; the port must be connected."""
+        """Read the values as ophyd defines it; the port must be connected."""
         self._ask()
         return super().read()
 
     @property
     def moving(self) -> bool:
-        """Whether a motion of this positioner is in progress."""
+        """True while a motion of this positioner is in progress."""
         return bool(self._moving)
 
     def check_value(self, pos: float) -> None:
         """Check a position.
 
         Raises:
-            OutOfRange: it is not a finite number.
-            LimitError: it is outside the soft limits (error of ophyd).
+            OutOfRange: the position is not a finite number.
+            LimitError: the position is outside the soft limits (error of ophyd).
         """
         super().check_value(_number(pos, "position"))
 
@@ -130,7 +129,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
         """Decelerate, if a move of this positioner is in progress.
 
         Args:
-            success: True if its Status counts as done.
+            success: True if the Status of the move must succeed.
         """
         self._stopped_well = success
         with self._lock:
@@ -186,7 +185,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     def _over(self, status: Any, error: Exception | None = None) -> None:
         """Finish the move.
 
-        The Status is set last, because the next move may begin immediately.
+        The Status is set last, because its callbacks may begin the next move immediately.
         """
         self._reset_sub(self._SUB_REQ_DONE)
         if error is not None:

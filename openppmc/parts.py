@@ -1,7 +1,7 @@
 """Table of all parts: the places of the modules and files of each part.
 
-Source: docs/architecture.md. This module needs only the standard library and imports nothing of the project,
-so that `make` can read the table before there is an environment:
+Source: docs/architecture.md. This module imports only the standard library, so that `make` can read the table
+before the environment is created:
 
     python3 openppmc/parts.py names                      all parts
     python3 openppmc/parts.py names --with COLUMN …      parts with an entry in each of these columns
@@ -42,7 +42,7 @@ LAYER_OF = {
     "demo": "scripts.demo",
     "bench": "scripts.measure.bench",
 }
-"""Column with places -> package in which each part has its folder."""
+"""Columns that contain places -> package in which each part has its folder."""
 
 
 @dataclass(frozen=True)
@@ -50,14 +50,14 @@ class Row:
     """One part, or a variant of a part (`of`) with the folder of that part.
 
     Attributes:
-        name: `PART=`, `--part`, `part=` and the folder in every layer.
+        name: value of `PART=`, `--part` and `part=`, and name of the folder in every layer.
         title: name in messages, on pages and pictures.
-        of: part whose folder it shares. It also uses the entries of that part where its own are empty, except
-            those in OWN.
+        of: part whose folder this variant shares. Where an entry of the variant is empty, the entry of that
+            part is used, except for the columns in OWN.
         number: number of the part on the UART bridge (IDENT); 0 = not on the bridge.
-        axes: largest number of axes there.
-        rules: prefixes of its rule IDs. The first has subjects (P104-CMD-07); others have only numbers
-            (J105-07).
+        axes: largest number of axes on the bridge.
+        rules: prefixes of its rule IDs. IDs with the first prefix contain a subject (P104-CMD-07); others
+            contain only a number (J105-07).
         rtl: group in rtl/files.yml.
         top: its top module.
         families: FPGA families for which it is built.
@@ -65,11 +65,11 @@ class Row:
         script_commands: its own commands in script files.
         docs: pages of its folder in docs/ in addition to README.md and traceability.md.
         selftest: actions of its board in `openppmc selftest`.
-        carrier: True if there is a <part>_carrier, so there are a virtual board and bitstreams.
+        carrier: True if there is a <part>_carrier, and therefore a virtual board and bitstreams.
         line: True if the part is a station on a serial line with commands of its own.
         decode: decoder of its captures.
-        demo: content of `make demo`, or a function that runs it.
-        bench: function for `make bench`, for parts without a bench on pins.
+        demo: content of `make demo`, or a function that runs the demo.
+        bench: function for `make bench`; only for parts without a test bench at pin level.
         soak: function that runs a seed for `make soak`.
         gates: tests of `make test-gates` and `make test-verilog`.
         crosses: crosses that `make coverage` counts in its golden model.
@@ -104,11 +104,14 @@ class Row:
 
     @property
     def folder(self) -> str:
-        """Folder in every layer."""
+        """Name of the folder of the part in every layer."""
         return self.of or self.name
 
     def load(self, column: str) -> Any:
-        """Return the object at the place in this column. Raises UnknownPartError if the part has none."""
+        """Import and return the object at the place in this column.
+
+        Raises UnknownPartError if there is no place.
+        """
         place: str = getattr(self, column)
         if not place:
             raise UnknownPartError(f"part {self.name} has no {column}")
@@ -280,11 +283,11 @@ OWN = (
     *("name", "of", "number", "rules", "docs", "carrier", "line", "selftest"),
     *("demo", "bench", "soak", "gates", "crosses", "decode"),
 )
-"""Columns that a row does not use from the row in `of`."""
+"""Columns for which a row does not use the entries of the row in `of`."""
 
 
 def _filled(row: Row) -> Row:
-    """Return the row with the entries of the part in `of`.
+    """Return the row, completed with the entries of the part in `of`.
 
     Group and top module have the name of the row by default.
     """
@@ -345,7 +348,7 @@ def _chosen(options: list[str]) -> tuple[Row, ...] | None:
 
 
 def main(arguments: list[str]) -> int:
-    """Run the command line, for make and shell scripts; return the exit code."""
+    """Run the command line for make and shell scripts; return the exit status."""
     try:
         rows = _chosen(arguments[1:]) if arguments[:1] == ["names"] else None
         if rows is not None:

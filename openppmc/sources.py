@@ -1,4 +1,4 @@
-"""Reader of rtl/files.yml, the list of all RTL sources. It needs no YAML package.
+"""Reader of rtl/files.yml, the list of all RTL sources. It does not require a YAML package.
 
 The file has only this form; any other line is an error:
 
@@ -23,7 +23,7 @@ LIST = "rtl/files.yml"
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.S)
 _OWN = re.compile(r"^\s*(?:module|package|interface)\s+(?:automatic\s+|static\s+)?(\w+)", re.M)
 
-# A package before `::`, a module before its parameters or before the name of its instance.
+# A package is followed by `::`, a module by its parameters or by the name of its instance.
 _USED = re.compile(r"\b(\w+)(?=\s*::|\s*#\s*\(|\s+\w+\s*\()")
 
 
@@ -141,10 +141,10 @@ def build_define(build: bytes) -> str:
 
 
 def walls(listed: Mapping[str, Group]) -> list[str]:
-    """Return the errors in `needs`, one line each.
+    """Return the errors in `needs`, a line for each.
 
-    An error is a module or package from a group that is not in `needs`, or a group in `needs` that is not
-    used.
+    It is an error if a file uses a module or package of a group that is not in `needs`, or if a group in
+    `needs` is not used.
     """
     texts = {
         path: _COMMENT.sub(" ", path.read_text(encoding="utf-8"))
@@ -175,6 +175,6 @@ def walls(listed: Mapping[str, Group]) -> list[str]:
 
 
 def _below(path: Path) -> str:
-    """Return the path as in the list."""
+    """Return the path below rtl/, with slashes, as the list of sources contains it."""
     parts = path.parts
     return "/".join(parts[len(parts) - parts[::-1].index("rtl") :])

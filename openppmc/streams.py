@@ -19,9 +19,9 @@ from typing import TextIO
 PIPE_CLOSED = 141
 """Exit status if the reader of stdout has ended: 128 + SIGPIPE, as in shells."""
 NARROW = 80
-"""Columns of a terminal below which a table that is too wide is printed as a list.
+"""Number of columns of a terminal below which a table that is too wide is printed as a list.
 
-Help is then plain text.
+Below this width, help is plain text.
 """
 
 ASCII = {
@@ -39,7 +39,7 @@ ASCII = {
 
 
 class StdoutLost(SystemExit):
-    """Standard output cannot be written. The exit status is PIPE_CLOSED if its reader has ended, else 1."""
+    """Standard output cannot be written. The exit status is PIPE_CLOSED if the reader has ended, else 1."""
 
     def __init__(self, error: OSError) -> None:
         # Windows reports EINVAL for a pipe without a reader.
@@ -99,11 +99,11 @@ def _ascii(character: str) -> str:
 
 
 class _Stream(io.TextIOWrapper):
-    """Standard stream that replaces `stream`.
+    """Text stream that replaces a standard stream.
 
     Args:
         failed: function that is called once if the stream cannot be written; the rest of the text is
-            discarded. Its exceptions must not be OSError, because rich and click catch that.
+            discarded. It must not raise an OSError, because rich and click catch this exception.
     """
 
     def __init__(self, stream: io.TextIOWrapper, failed: Callable[[OSError], None]) -> None:
@@ -133,7 +133,7 @@ class _Stream(io.TextIOWrapper):
     def _drop(self, error: OSError) -> None:
         """Send all further text to the null device.
 
-        Otherwise the interpreter writes this text when it ends, and reports an error.
+        Otherwise, the interpreter would write this text when it ends, and report an error.
         """
         with suppress(OSError):
             nowhere = os.open(os.devnull, os.O_WRONLY)
@@ -156,9 +156,9 @@ class Ended:
 def wrapped() -> Iterator[Ended]:
     """Accept any text on stdout and stderr in the block.
 
-    If stdout cannot be written, StdoutLost ends the block, and one line on stderr states the reason. A status
-    other than 0 that the block has set remains, because that error was reported. Text that stderr cannot
-    write is discarded.
+    If stdout cannot be written, StdoutLost ends the block, and one line on stderr states the reason. An exit
+    status other than 0 that the block has set is kept, because the block has already reported its error. Text
+    that cannot be written to stderr is discarded.
     """
     lost: list[StdoutLost] = []
 
@@ -199,17 +199,17 @@ def guarded(run: Callable[[], int]) -> int:
 
 
 def is_narrow() -> bool:
-    """Return whether this terminal is so narrow that wide tables become lists and help is text."""
+    """Return True if this terminal is so narrow that wide tables are lists and help is plain text."""
     return get_terminal_size().columns < NARROW
 
 
 def _opened(stream: TextIO | None, flags: int, mode: str = "w") -> TextIO:
     """Return a stream, or a replacement for a closed one.
 
-    Without the replacement the next opened port would get the number of the closed stream.
+    Without the replacement, the next file or port that is opened would get the number of the closed stream.
 
     Args:
-        flags: with O_RDONLY a write fails, with O_WRONLY its text is discarded.
+        flags: O_RDONLY: a write fails; O_WRONLY: written text is discarded.
     """
     if stream is not None:
         return stream

@@ -21,11 +21,11 @@ class NotTextError(ValueError):
 
 
 def encoding_of(head: bytes) -> str:
-    """Return the encoding that the first bytes of a file indicate; `utf-8` without a mark."""
+    """Return the encoding that the first bytes of a file indicate; `utf-8` without a byte order mark."""
     for mark, name in _MARKS:
         if head.startswith(mark):
             return name
-    # UTF-16 without a mark: every second byte of plain text is 0.
+    # In UTF-16 without a byte order mark, every second byte of plain text is 0.
     sample = head[: len(head) // 2 * 2]
     for name, zero, text in (("utf-16-le", 1, 0), ("utf-16-be", 0, 1)):
         if len(sample) > 3 and not any(sample[zero::2]) and all(sample[text::2]):
@@ -65,7 +65,7 @@ def chunks(path: Path, size: int = 1 << 19) -> Iterator[bytes]:
 
     Raises:
         OSError: the file cannot be read.
-        NotTextError: a file in UTF-16 or UTF-32 is damaged.
+        NotTextError: the file is in UTF-16 or UTF-32 and damaged.
     """
     with path.open("rb") as file:
         data = file.read(size)

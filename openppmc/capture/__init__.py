@@ -1,7 +1,8 @@
 """Captures of original chips by a logic analyser.
 
-Bus and pins are decoded to text and compared with the golden model.
+The accesses on the bus are decoded to text, and the pins are compared with the golden model.
 
-Folder `common` reads files, pin maps, moves and comparisons, and depends on no part. The folder of a part
-defines how its bus or line is read and what its bytes mean (column `decode` of the table of parts).
+The folder `common` reads files and pin maps, finds the moves and compares them; it depends on no part. The
+folder of a part defines how its bus or line is read and what its bytes mean (column `decode` of the table of
+parts).
 """

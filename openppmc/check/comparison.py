@@ -33,7 +33,7 @@ class Mismatch:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Both sides of a run, for a report or a picture.
+    """Output edges of both sides in a run, for a report or a picture.
 
     Attributes:
         pins: pins of the part.
@@ -70,11 +70,11 @@ def compare_edges(
     end: int,
     resets: Iterable[int] = (),
 ) -> tuple[Waves, Waves, Mismatch | None]:
-    """Compare two edge lists up to edge `end`.
+    """Compare two lists of output edges up to edge `end`.
 
     Args:
         initial: outputs to compare, with their levels before edge 0; other outputs are ignored.
-        resets: stamps of falling edges of `rst_n`.
+        resets: times of the falling edges of `rst_n`.
 
     Returns:
         Both sides as changes per signal, and the first difference or `None`.
@@ -112,9 +112,9 @@ def _first_difference(expected: Waves, actual: Waves) -> Mismatch | None:
 
 
 def differing_spans(comparison: Comparison, name: str) -> list[tuple[int, int]]:
-    """Return the changes (t, level) of the difference of one output.
+    """Return the difference of one output as changes (t, level).
 
-    Level 1 means that the sides differ from t on.
+    At level 1, the two sides differ.
     """
     expected, actual = comparison.expected[name], comparison.actual[name]
     initial, spans, state = comparison.initial[name], [], 0

@@ -1,4 +1,4 @@
-"""PNG of a comparison: signals before and after the first difference."""
+"""PNG of a comparison with the signals near the first difference."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ SHADE = "#f7c9c9"
 
 
 def window(comparison: Comparison) -> tuple[int, int]:
-    """Return the edges (from, to) that the picture shows.
+    """Return the first and last edge of the time window of the picture.
 
-    They include up to five edges of the differing signal before and after the difference.
+    The window includes up to five changes of the differing signal before and after the difference.
     """
     m = comparison.mismatch
     assert m is not None
@@ -26,7 +26,7 @@ def window(comparison: Comparison) -> tuple[int, int]:
     after = [t for t in times if t > m.t][:5]
     ends = [side[0] for side in (m.expected, m.actual) if side is not None]
     start, stop = min([m.t - 12, *before]), max([m.t + 12, *after, *ends])
-    # In a wide window the difference would be invisible, so the window ends within 4000 cycles of it.
+    # In a wide window the difference would be invisible, so the window ends at most 4000 cycles from it.
     start, stop = max(start, m.t - 4000), min(stop, max(m.t + 4000, max(ends) + 12))
     margin = max(2, (stop - start) // 20)
     return start - margin, stop + margin
@@ -36,7 +36,7 @@ def draw_png(comparison: Comparison, path: Path) -> None:
     """Draw both waveforms of every active output near the first difference.
 
     The accesses of the host are above the waveforms. The left side is a wide view. If the difference is only
-    a few pixels wide there, the right side is a zoom.
+    a few pixels wide in this view, the right side shows an enlarged view of it.
 
     Raises:
         MissingExtraError: matplotlib is not installed.
@@ -73,7 +73,7 @@ def draw_png(comparison: Comparison, path: Path) -> None:
 def _panel(
     axes: Any, comparison: Comparison, outputs: list[str], pins: list[str], low: int, high: int, labels: bool
 ) -> None:
-    """Draw all lanes in one time window."""
+    """Draw the waveforms of all signals in one time window."""
     m, recording = comparison.mismatch, comparison.recording
     assert m is not None
     part = comparison.pins
@@ -141,7 +141,10 @@ def _title(figure: Any, comparison: Comparison) -> None:
 
 
 def _outputs_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
-    """Return the differing signals in order of time, then those with an edge in the window."""
+    """Return the signals to draw.
+
+    The differing signals are first, in order of time, followed by those with an edge in the window.
+    """
     m = comparison.mismatch
     assert m is not None
 

@@ -13,8 +13,8 @@ class Pinned(Protocol):
 
     Attributes:
         inputs: idle levels, without `rst_n`.
-        bus_pins: inputs of the host's bus or line.
-        clock: input of the external clock, or "".
+        bus_pins: inputs that are connected to the bus or the line of the host.
+        clock: input of the external clock, "" for a part without one.
     """
 
     @property
@@ -42,7 +42,7 @@ class ModelPins:
     clock: str = ""
 
     def width(self, pin: str) -> int:
-        """Return the same as `Pinned.width`."""
+        """Return the number of bits of an input or output."""
         return self.widths.get(pin, 1)
 
 

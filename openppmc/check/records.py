@@ -1,4 +1,4 @@
-"""Records that bench and comparator share: changes of inputs, edges of outputs."""
+"""Records that test bench and comparison share: changes of inputs, edges of outputs."""
 
 from __future__ import annotations
 
@@ -33,8 +33,9 @@ class Access(NamedTuple):
     """One access of the host.
 
     Attributes:
-        t: edge 0 of P104-BUS-05/06: first edge with RS true, or with WS false again.
-        kind: "read" or "write"; on a bus with more than two registers the text for the report.
+        t: edge 0 of P104-BUS-05/06: for a read, the first edge with RS true; for a write, the first edge at
+            which WS is false again.
+        kind: "read" or "write"; on a bus with more than two registers, the text for the report.
     """
 
     t: int
@@ -54,7 +55,7 @@ class Access(NamedTuple):
 
 @dataclass
 class Recording:
-    """All data of a run that a replay into a model and a comparison need."""
+    """Data of a run for a replay into a model and for a comparison."""
 
     part: str
     params: dict[str, object]
@@ -65,7 +66,7 @@ class Recording:
     accesses: list[Access] = field(default_factory=list)
 
     def to_json(self) -> str:
-        """Return one JSON document; lists of lists, so that it is short."""
+        """Return a JSON document. It consists of lists of lists, so that it is short."""
         return json.dumps({**self.__dict__, "version": 1})
 
     def digest(self) -> str:
@@ -107,9 +108,9 @@ def by_signal(edges: Iterable[Edge], initial: Mapping[str, int]) -> dict[str, li
 
 
 def level_at(changes: list[tuple[int, int]], t: int, initial: int) -> int:
-    """Return the level at t, changes at t included.
+    """Return the level at t, including changes at t.
 
-    The search is a bisection because recordings have a hundred thousand changes.
+    The search is a bisection because a recording may have 100 000 changes.
     """
     place = bisect_right(changes, t, key=lambda change: change[0])
     return changes[place - 1][1] if place else initial
@@ -126,7 +127,7 @@ def bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> lis
 
 
 def steps(changes: list[tuple[int, int]]) -> list[int]:
-    """Return the edges at which phases (positive logic) change to another pattern.
+    """Return the edges at which the phases (positive logic) change to another pattern.
 
     Off-times of a chopper do not count.
     """

@@ -1,12 +1,12 @@
-"""Replay of recorded inputs into a golden model, and the outputs that it expects.
+"""Replay of recorded inputs into a golden model, which returns the expected outputs.
 
     edges = expected_edges("ppmc104", {"CLK_HZ": 24_000_000}, changes, end)
     comparison = compare_recording(Recording("ppmc104", params, end=end, stimulus=changes, edges=seen))
     comparison.mismatch     # None, or the first difference
 
-Time is the index of the rising clock edge; 0 is the first edge after the reset. Edge t is the first one that
-samples an input at t, and an output at t changes with edge t (`model.chip`). A recording that begins in a
-reset has `rst_n` 0 and 1 in its changes.
+A time is the index of a rising clock edge; 0 is the first edge after the reset. Edge t is the first edge that
+samples an input change at t. An output change at t occurs at edge t (`model.chip`). A recording that begins
+in a reset has `rst_n` 0 and 1 in its changes.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def new_model(part: str, params: Mapping[str, object]) -> Any:
 
 
 class ModelRunner:
-    """Model with a stream of inputs.
+    """Model that receives its inputs in pieces.
 
     Args:
         model: any object with `pins(t, **levels)` and `run_until(t)`.
@@ -43,7 +43,7 @@ class ModelRunner:
         self._fed, self._end = 0, -1
 
     def catch_up(self, stimulus: Sequence[Change], end: int) -> Any:
-        """Pass on the new changes in `stimulus` and run the model up to edge `end`.
+        """Pass the new changes of `stimulus` to the model and run it up to edge `end`.
 
         Returns:
             The model.
@@ -61,9 +61,7 @@ class ModelRunner:
 def expected_edges(
     part: str, params: Mapping[str, object], inputs: Iterable[tuple[int, str, int]], end: int
 ) -> list[Edge]:
-    """Return the output edges of a golden model with these inputs.
-
-    The edges are in order of time up to edge `end`.
+    """Return the output edges of a golden model for these inputs, in order of time up to edge `end`.
 
     Args:
         inputs: (edge, pin, level) in order of time, with the pin names of the model.
@@ -89,7 +87,7 @@ def compare_recording(
         initial: outputs to compare, with their levels before edge 0; by default all outputs of the model with
             their levels in reset.
         seen: source of the recording, for reports and pictures.
-        follower: a model that has run with this recording already.
+        follower: model that has already run with this recording.
         pins: pins of the part for reports; by default those of the model.
     """
     follower = follower or ModelRunner(new_model(recording.part, recording.params))

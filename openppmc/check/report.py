@@ -1,6 +1,6 @@
 """A comparison as text.
 
-The text contains the difference, the edges of both sides near it, and the stimulus before it.
+The text contains the first difference, the edges of both sides near it, and the stimulus before it.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
 def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
     """Return the text of a mismatch.
 
-    The text contains the difference, the edges of both sides near it, and the stimulus before it.
+    The text contains the first difference, the edges of both sides near it, and the stimulus before it.
     """
     m, recording = comparison.mismatch, comparison.recording
     if m is None:
@@ -87,7 +87,7 @@ def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
 
 
 def _folded_accesses(accesses: list[Any], history: int) -> list[str]:
-    """Return accesses as text; repeated equal polls of the status are one row."""
+    """Return accesses as text. Repeated reads of the status with the same value are one row."""
     rows: list[tuple[Any, int]] = []
     for access in accesses:
         poll = access.kind == "CSR read" or (access.kind == "read" and access.reg == 1)

@@ -17,7 +17,7 @@ def clk_ps(params: Any) -> int:
 def write_vcd(comparison: Comparison, path: Path) -> None:
     """Write a VCD file with the scopes `expected`, `actual`, `differs` and `pins`.
 
-    A signal in `differs` is 1 where the two levels differ.
+    A signal in the scope `differs` is 1 while the two levels differ.
 
     Raises:
         MissingExtraError: pyvcd is not installed.

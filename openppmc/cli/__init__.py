@@ -1,13 +1,14 @@
 """Command line `openppmc`.
 
-Exit status: 0 success, 1 error, 2 wrong usage, 128 + n after signal n, 141 if the reader of stdout has ended.
+Exit status: 0 = success, 1 = error, 2 = wrong usage, 128 + n = signal n, 141 = the reader of stdout has
+ended.
 
-`app` has the table of commands; a command is imported when it is called. `common` has the commands that the
-parts share, and depends on no part. The folder of a part has the commands of a part on a serial line, and
-the objects that two columns of `openppmc.parts` name. `presenter` defines the output, the forecasts and the
-additional functions of a part; a part without a presenter uses that of the PPMC-104. `script_commands` are
-the additional commands of a part in script files. A part that is accessed through the UART bridge and
-has the ramp and the registers of the PPMC-104 needs no code here.
+`app` contains the table of commands; a command is imported when it is called. `common` contains the commands
+that the parts share, and depends on no part. The folder of a part contains its commands if it is on a serial
+line, and the objects for two columns of `openppmc.parts`: `presenter` defines the output, the forecasts and
+the additional functions of a part; without it, a part uses that of the PPMC-104. `script_commands` are
+additional commands of the part in script files. A part that is accessed through the UART bridge and has the
+ramp and the registers of the PPMC-104 requires no code in this package.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ from ..errors import PpmcError
 def main(arguments: list[str] | None = None) -> int:
     """Run a command line and return its exit status.
 
-    An error prints one line on stderr. With OPENPPMC_DEBUG=1 it is raised, with its traceback.
+    An error prints one line on stderr. With OPENPPMC_DEBUG=1, the exception is raised instead.
     """
     with streams.wrapped() as ended:
         try:
-            # Imported here, so that a signal during the import also prints only one line.
+            # Import here, so that a signal during the import also prints only one line.
             import typer
 
             from ..host.stopping import Signalled, arrived, handled, name_of, print_line
@@ -64,7 +65,7 @@ def _complain(error: Exception) -> int:
     """Print an error as one line and return the exit status."""
     from typer import BadParameter
 
-    usage_error = BadParameter.__bases__[0]  # UsageError of the click that typer uses
+    usage_error = BadParameter.__bases__[0]  # UsageError of the module click that typer uses
     if isinstance(error, usage_error.__bases__[0]):
         context = getattr(error, "ctx", None)
         where = context.command_path if context is not None else "openppmc"

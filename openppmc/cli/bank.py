@@ -12,7 +12,7 @@ from .common.presenter import RampPresenter
 
 
 class BankPresenter(RampPresenter[PpmcBank]):
-    """All axes in one snapshot, one row each; moves of several axes start in the same cycle."""
+    """Presenter of a bank: all axes in one snapshot, a row for each; moves start in the same cycle."""
 
     wide = True
 
@@ -48,7 +48,7 @@ class BankPresenter(RampPresenter[PpmcBank]):
     def halt_all(self, part: PpmcBank) -> list[MotionResult]:
         ends = part.stop_all()
         if not ends:
-            raise NothingToStop(0, "nothing to stop: all axes are at rest")
+            raise NothingToStop(0, "nothing to stop: no axis is moving")
         return list(ends.values())
 
 

@@ -11,7 +11,7 @@ from .common.presenter import RampPresenter
 
 
 class PartPresenter(RampPresenter[Ppmc2104]):
-    """Presenter of a part with one status register for both axes, and a common start."""
+    """Presenter of a part with two axes that have a common status register and can start together."""
 
     def moving(self, status: Status, number: int) -> tuple[bool, int | str | None]:
         return status.busy[number - 1], "unread" if status.error else None

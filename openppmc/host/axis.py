@@ -25,7 +25,7 @@ EXCITATION_OFF = 0xC0
 CW, CCW = 0, 1
 STOP_NOW, STOP_SLOWLY = 0x40, 0x41
 
-# The chopper at standstill of parts that have the chopper of the PPMC-104 (P104-SW-04).
+# Chopper at standstill, for parts that have the chopper of the PPMC-104 (P104-SW-04).
 
 SWITCHING = 0x84
 
@@ -58,14 +58,14 @@ class Axis(Checked):
 
     Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second. Pulses are signed, CW positive. Any
     method may raise a LinkError; commands may raise the CommandRefused errors of the part. The class of each
-    part defines how its straps are set, where its switches are read, and which further functions it has.
+    part defines how the straps are set, how the switches are read, and which further functions the part has.
 
     Attributes:
-        setup: the last initialisation by this object, `None` before it.
+        setup: set-up of the last initialisation by this object, `None` before the first.
         number: number of the axis.
-        bit: bit that its command codes have set.
-        busy: its BUSY bit in the status register.
-        unused: bits of the status register that read as 0.
+        _code_bits: bits that are set in the command codes of this axis.
+        _busy_mask: BUSY bit of this axis in the status register.
+        _zero_mask: bits of the status register that read as 0.
     """
 
     kind: RateCapabilities
@@ -117,7 +117,8 @@ class Axis(Checked):
     ) -> speeds.Setup:
         """Set speeds, ramp and motor of this axis; return the set-up with the speeds that are reached.
 
-        The docstring of each driver states its limits, and which settings stay unchanged until `reset`.
+        The docstring of each driver states the limits of the part, and the settings that stay unchanged until
+        `reset`.
 
         Args:
             start_pps: start speed in pps.
@@ -125,10 +126,11 @@ class Axis(Checked):
             ramp_pulses: pulses from the start speed to the high speed.
             phases: 3, 4 or 5.
             half_step: half steps instead of full steps.
-            positive_logic: True if a high level switches a coil on (the default, where the part has both).
+            positive_logic: True if a high level switches a coil on. This is the default if the part supports
+                both.
             chop: chop the coil currents while the motor is stopped.
-            base_clock: one of the base clocks of the part in Hz, `None` to choose it by start_pps.
-            external_clock: frequency at the clock pin of the part in Hz.
+            base_clock: one of the base clocks of the part in Hz; `None` selects one that reaches start_pps.
+            external_clock: frequency of the external clock at the clock pin in Hz.
             long_intervals: set vsel low, which makes each interval 7.5 us longer.
 
         Raises:
@@ -153,7 +155,7 @@ class Axis(Checked):
     # ------------------------------------------------------------------ implemented by each part
 
     def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
-        """Return the script that sets the strap pins for this base clock; `None` = any level will do."""
+        """Return the script that sets the strap pins for this base clock; `None` accepts any level."""
         raise NotImplementedError
 
     def inputs(self) -> Switches:
@@ -189,15 +191,15 @@ class Axis(Checked):
     # ------------------------------------------------------------------ registers
 
     def outputs(self) -> Outputs:
-        """Read the motor outputs. Raises AxisBusy during a motion."""
+        """Return the motor outputs. Raises AxisBusy during a motion."""
         return Outputs.parse(
             self.link.execute(Script().call(self._read_codes.outputs | self._code_bits).get(1)).byte(1)
         )
 
     def remaining(self) -> int:
-        """Read the remaining-pulse register of the last motion. The call is not allowed during a motion.
+        """Return the remaining-pulse register of the last motion. The call is not allowed during a motion.
 
-        The register holds the remaining pulses - 1, at least 0.
+        The register holds the number of remaining pulses minus 1, or 0.
         """
         return self.link.execute(Script().call(self._read_codes.remaining | self._code_bits).get(3)).number(1)
 
@@ -210,10 +212,7 @@ class Axis(Checked):
         return position
 
     def _add_position_read(self, script: Script) -> Script:
-        """Add a read of the position counter of this axis to a script.
-
-        The call returns one value of 4 bytes.
-        """
+        """Add a read of the position counter of this axis to a script. It returns one value of 4 bytes."""
         return script.count(self.number)
 
     def _position_of(self, count: int) -> int | None:
@@ -227,7 +226,8 @@ class Axis(Checked):
         """Set the current position to 0.
 
         Raises:
-            AxisBusy: a motion of this object is running (its end is compared with the pulse counter).
+            AxisBusy: a motion that this object started is running; at its end, it is compared with the pulse
+                counter.
         """
         motion = self._motion
         if motion is not None and not motion.over and motion.poll() is not None:
@@ -237,7 +237,7 @@ class Axis(Checked):
     def excitation_off(self) -> None:
         """Switch all coils off; the axis must be initialised again.
 
-        During a motion nothing is sent, because the code would have another meaning on a PPMC-104
+        During a motion, no command is sent, because this code has another meaning then on a PPMC-104
         (P104-AUX-05).
 
         Raises:
@@ -267,7 +267,7 @@ class Axis(Checked):
         self.setup = self._motion = None
 
     def _at_rest(self, script: Script) -> None:
-        """Execute a script only if BUSY = 0; the bridge itself checks it."""
+        """Execute a script only if BUSY = 0. The bridge checks this condition."""
         answer = self.link.attempt(
             Script().timeout(0).wait(1, self._busy_mask, 0).timeout(250).extend(script)
         )
@@ -278,7 +278,7 @@ class Axis(Checked):
     # ------------------------------------------------------------------ stop commands
 
     def _on_status(self, status: int) -> None:
-        """Process a status register that was read during a motion of this axis."""
+        """Process a value of the status register that was read during a motion of this axis."""
 
     def _send_stop(self, now: bool) -> None:
         """Send the stop command, immediate or with a ramp. Raises the error that the part reports."""
@@ -320,7 +320,7 @@ class Axis(Checked):
 
         Args:
             speed: constant speed in pps, default: the start speed.
-            high: accelerate with a ramp to the high speed instead.
+            high: True to accelerate with a ramp to the high speed instead.
         """
         if high:
             if speed is not None:
@@ -347,13 +347,13 @@ class Axis(Checked):
         back_off: int = 100,
         progress: OnProgress | None = None,
     ) -> MotionResult:
-        """Find the origin switch, always from the same side, and set its edge to position 0.
+        """Find the edge of the origin switch, always from the same side, and set the position there to 0.
 
         Args:
             direction: direction towards the switch.
             search_pps: speed of the search in pps, default: the start speed.
-            fast: first run at high speed to the slow-down limit.
-            to_limit: continue to the hard limit and search from there.
+            fast: True to run at high speed to the slow-down limit first.
+            to_limit: True to continue to the hard limit, and search from there.
             back_off: pulses of each move away from the switch if it is active at the start of the search.
 
         Raises:
@@ -362,17 +362,21 @@ class Axis(Checked):
         return Homing(self, direction, search_pps, back_off, progress).run(fast, to_limit)
 
     def stop(self, wait: bool = True) -> MotionResult | None:
-        """Stop with a ramp (constant speeds: immediately); return the result, or `None` if wait is False.
+        """Stop with a ramp; return the result, or `None` if wait is False.
 
-        The call is no error if the motor is already decelerating or has just stopped.
+        A motion at constant speed stops immediately. It is no error if the motor is already decelerating or
+        has just stopped.
 
         Raises:
-            NothingToStop: the motor was stopped.
+            NothingToStop: the motor was already stopped.
         """
         return self._stop(False, wait)
 
     def halt(self, wait: bool = True) -> MotionResult | None:
-        """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
+        """Stop immediately; steps may be lost at high speed.
+
+        In all other respects, the method works like `stop`.
+        """
         return self._stop(True, wait)
 
     def _stop(self, now: bool, wait: bool) -> MotionResult | None:
@@ -413,7 +417,7 @@ class Axis(Checked):
     def _move_request(
         self, pulses: int, pps: speeds.Number | None = None, pulse_only: bool = False
     ) -> MotionRequest:
-        """Return the request of a move with ramps, or at constant speed if pps is not `None`.
+        """Return the request of a move: with ramps, or at constant speed if pps is not `None`.
 
         Raises:
             OutOfRange: the part does not support these values.

@@ -2,7 +2,7 @@
 
 This module has the members that all parts share.
 
-The capabilities of each part are `CAPABILITIES` in its folder (`openppmc.parts`, column `capabilities`).
+The capabilities of a part are `CAPABILITIES` in its folder (`openppmc.parts`, column `capabilities`).
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ class SetupRequest:
 
     Attributes:
         ramp_pulses: `None` for the default of the part.
-        positive_logic: `None` for the logic that the part has, positive if it has both.
+        positive_logic: `None` for the only logic of the part, or for positive logic if the part has both.
         axis: number of the axis.
-        curve: file of a free curve, as read by `ppmc312.profile.read_stages`.
+        curve: file of a free curve; see `ppmc312.profile.read_stages`.
     """
 
     start_pps: units.Number = 1000
@@ -58,7 +58,7 @@ class SetupRequest:
 
     @property
     def own_stop(self) -> bool:
-        """True if the deceleration ramp is not the reversed acceleration ramp."""
+        """True if the deceleration ramp is separate, not the reversed acceleration ramp."""
         return self.stop_pps is not None or self.down_pulses is not None
 
 
@@ -66,7 +66,7 @@ class AnySetup(Protocol):
     """Members of the set-ups of all parts.
 
     Attributes:
-        start, high: speeds as requested and as reached.
+        start, high: start speed and high speed, as requested and as reached.
         ramp_pulses: pulses between these speeds.
         clock: base clock of the ramp.
     """
@@ -86,10 +86,10 @@ class Capabilities:
     """Capabilities of one part.
 
     Attributes:
-        row: row in the table of parts.
+        row: row of the part in the table of parts.
         axes: number of axes.
         has: names of capabilities (see above).
-        outputs: highest value of the auxiliary outputs.
+        outputs: highest value of the auxiliary outputs, 0 without outputs.
         alarm: name of the alarm input, and the advice for it.
         origin_between: True if the origin is between the slow-down limits, and a search ends at them.
         usual_ramp: default length of a ramp in pulses.
@@ -108,11 +108,11 @@ class Capabilities:
 
     @property
     def number(self) -> int:
-        """Part number in IDENT of the bridge, 0 for parts that are on no bridge."""
+        """Part number in IDENT of the bridge, 0 for a part that is not accessed through a bridge."""
         return self.row.number
 
     def check_axis(self, axis: int) -> int:
-        """Return the axis number if the part has this axis. Raises OutOfRange otherwise."""
+        """Return the axis number unchanged. Raises OutOfRange if the part does not have this axis."""
         if not 1 <= axis <= self.axes:
             there = "one axis" if self.axes == 1 else f"axes 1 to {self.axes}"
             raise OutOfRange(f"axis {axis}: a {self} has {there}")
@@ -128,7 +128,8 @@ class Capabilities:
     ) -> units.BaseClock:
         """Return the base clock of a constant speed.
 
-        This method returns the clock that an initialisation has chosen; subclasses may choose another one.
+        This method returns the clock that the initialisation has selected; subclasses may select another
+        clock.
 
         Args:
             ramp: base clock of the ramp, `None` if it is unknown.
@@ -142,7 +143,7 @@ class Capabilities:
         return ramp
 
     def plan(self, xtal_hz: int, request: SetupRequest) -> AnySetup:
-        """Return the set-up for an initialisation, with the values that are reached.
+        """Return the set-up of an initialisation, with the values that are reached.
 
         Raises:
             OutOfRange: the part does not support the request.
@@ -156,7 +157,7 @@ def capabilities_of(name: str) -> Capabilities:
 
 
 def name_of(number: int) -> str:
-    """Return the name of the part with this number, also for an unknown part."""
+    """Return the name of the part with this number; for an unknown part, it contains the number."""
     row = by_number(number)
     return f"PPMC-{number}" if row is None else row.title
 
@@ -173,8 +174,8 @@ class RateCapabilities(Capabilities):
 
     Attributes:
         lengths: shortest and longest ramp in pulses.
-        least_rate: lowest rate byte with an internal base clock.
-        rate_gap: least difference of start rate and high rate.
+        least_rate: lowest rate byte that is used with an internal base clock.
+        rate_gap: smallest difference of start rate and high rate.
     """
 
     lengths: tuple[int, int] = (PA_MIN, PA_MAX)

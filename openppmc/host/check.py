@@ -1,4 +1,4 @@
-"""Checks of arguments: numbers, flags, names, missing parentheses. Pure.
+"""Checks of arguments: numbers, flags, names of attributes, missing parentheses of calls. Pure.
 
 Classes of drivers and motions derive from `Checked`: each public method checks its arguments against their
 annotations before it begins.
@@ -76,7 +76,8 @@ def flag(value: Any, what: str) -> bool:
     """Return a flag given as True, False, 1 or 0.
 
     Raises:
-        OutOfRange: another value, such as text, `None` or another number, which Python would accept.
+        OutOfRange: any other value, such as text, `None` or another number, although Python accepts it as a
+            flag.
     """
     try:
         if value in (False, True):
@@ -103,13 +104,13 @@ def _is_index(value: Any) -> bool:
 
 
 def _usual(value: Any, what: str) -> Number:
-    """Return a number unchanged if the package can calculate with its type, else as a fraction."""
+    """Return a number unchanged if the package can calculate with its type, else return it as a fraction."""
     number = exact(value, what)
     return value if isinstance(value, int | float | Fraction) else number
 
 
 def _seconds(value: Any, what: str) -> float:
-    """Return a time in s, which may be infinite."""
+    """Check a time in s, which may be infinite, and return it."""
     return value if isinstance(value, float) and value == inf else float(exact(value, what))
 
 
@@ -134,7 +135,7 @@ _CHECKS = {"int": whole, "Number": _usual, "float": _seconds, "bool": flag}
 def _argument_type(annotation: Any) -> ArgumentType | None:
     """Return the type for an annotation such as `int` or `units.Number | None`.
 
-    For other annotations, which are not checked, it returns None.
+    The result is `None` for any other annotation; such arguments are not checked.
     """
     first, *more = str(getattr(annotation, "__name__", annotation)).split(" | ")
     name = first.removeprefix("units.")
@@ -146,7 +147,7 @@ def _argument_type(annotation: Any) -> ArgumentType | None:
 
 
 class CheckedMethod:
-    """Method of a class that checks its arguments; an instance returns it as a `BoundMethod`.
+    """Method of a class that checks its arguments. Access through an instance returns a `BoundMethod`.
 
     Attributes:
         kinds: type of each parameter that is checked.
@@ -183,7 +184,7 @@ class CheckedMethod:
 def _of_class(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a class method that checks its arguments.
 
-    Python 3.10 binds only functions to the class.
+    The result is a function, because Python 3.10 binds only functions to the class.
     """
     entry = CheckedMethod(function)
 
@@ -199,8 +200,9 @@ def _value(bound: BoundMethod, *others: object) -> Any:
 
 
 class BoundMethod:  # noqa: D101 - help() shows the docstring of the function
-    # A method of an object. Its truth value, equality and hash are those of a Python method. Arithmetic with
-    # it and a comparison with a number raise an error. Its help and its names are those of the function.
+    # Method of an object. Its truth value, equality and hash are those of a Python method. If it is used in
+    # arithmetic, if it is compared with a number, or if any other attribute is read, it raises an error,
+    # because the parentheses of the call are missing. Its help and its names are those of the function.
 
     def __init__(self, entry: CheckedMethod, instance: object) -> None:
         self._entry, self.__self__ = entry, instance
@@ -251,8 +253,8 @@ class BoundMethod:  # noqa: D101 - help() shows the docstring of the function
 class Checked:
     """Base class of all objects that users hold.
 
-    Public methods check their arguments. Only attributes that the class declares (property, class attribute
-    or annotation in its body) and those that begin with _ can be set.
+    Public methods check their arguments. Only these attributes can be set: those that the class declares
+    (property, class attribute or annotation in its body), and those that begin with _.
     """
 
     _declared: frozenset[str] = frozenset()
@@ -283,7 +285,7 @@ class Checked:
 
 
 def _guess(name: str, of: Checked) -> str:
-    """Return a hint with the most similar existing name, or an empty text."""
+    """Return a hint with the existing name that is most similar, or an empty text."""
     names = [
         one
         for one in {*dir(of), *of._declared}

@@ -1,8 +1,8 @@
 """Exceptions for ports, lines and rejected commands. Ends of motions are in `motion_result`.
 
-Each message states what is wrong and what to do. The name of an exception is the event itself, as in `except
-LimitReached`; only the common base class ends in Error. An exception of one part only is in the module or
-folder of that part.
+Each message states what is wrong and what to do. The name of an exception is the event, as in `except
+LimitReached`; only the common base class ends in Error. An exception that only one part raises is in the
+module or folder of that part.
 """
 
 # ruff: noqa: N818
@@ -21,15 +21,15 @@ class OutOfRange(PpmcError, ValueError):
 
 
 class UnknownAttributeError(PpmcError, AttributeError):
-    """An attribute was set that the object does not have, for example because of a typing error."""
+    """An attribute was set that does not exist, for example because of a typing error."""
 
 
 class NotCalledError(PpmcError, TypeError, AttributeError):
-    """A method without its parentheses was used as a number, or as the object that it returns."""
+    """A method was used as a number, or as its result, because the parentheses of the call are missing."""
 
 
 class Timeout(PpmcError, TimeoutError):
-    """A wait exceeded the time limit that the caller gave."""
+    """A wait exceeded the time limit of the caller."""
 
 
 # ---------------------------------------------------------------------- port and line
@@ -66,7 +66,7 @@ class Disconnected(LinkError):
 
 
 class CommandRefused(PpmcError):
-    """The part rejected a byte; each reason has a subclass.
+    """The part rejected a byte. Each reason has a subclass.
 
     Args:
         status: status byte of the part.
@@ -108,7 +108,7 @@ class NotInitialised(CommandRefused):
 
 
 class UnexpectedData(CommandRefused):
-    """Error 3 (PPMC-2104: 2): a data byte that no command requested."""
+    """Error 3 (PPMC-2104: 2): a data byte arrived that no command requested."""
 
     number = Error.UNASKED_DATA
     text = "the part did not ask for this data byte: another program may be using it; send the command again"
@@ -129,7 +129,7 @@ class InvalidRamp(CommandRefused):
 
 
 class UnexpectedDataBusy(CommandRefused):
-    """Error 6: a data byte during a motion that no command requested."""
+    """Error 6: a data byte that no command requested arrived during a motion."""
 
     number = Error.UNASKED_DATA_BUSY
     text = "the part did not ask for this data byte during the motion: another program may be using it"
@@ -151,7 +151,7 @@ class UnknownCommand(CommandRefused):
 class StartRefused(CommandRefused):
     """Error 7 of the PPMC-2104: an active switch prevents the start.
 
-    Other parts have their own reasons.
+    Other parts reject a start for other reasons.
     """
 
     text = (

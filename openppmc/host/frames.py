@@ -2,8 +2,8 @@
 
 See docs/uart_bridge.md.
 
-A session has one outstanding request at a time, over a line that may lose, corrupt or repeat bytes. This
-module does no I/O and reads no clock. The caller passes the time in seconds (any origin, never decreasing),
+A session has at most one outstanding request. Its line may lose, corrupt or repeat bytes. This module
+performs no I/O and reads no clock: the caller passes the time in seconds (any origin, never decreasing),
 sends the bytes that the methods return, and passes the bytes that arrive. A payload is the content between
 the flags without the CRC: SEQ and the bytes that follow it.
 """
@@ -47,13 +47,13 @@ class Frame:
 
     @property
     def seq(self) -> int:
-        """First byte: SEQ of a request or an answer, 128 and up for messages."""
+        """First byte: SEQ of a request or an answer; 128 or more for a message."""
         return self.payload[0]
 
 
 @dataclass(frozen=True)
 class Broken:
-    """Invalid frame, which was dropped.
+    """Invalid frame that was dropped.
 
     Attributes:
         fault: reason why the frame is invalid.
@@ -92,7 +92,7 @@ def encode(payload: bytes, limit: int = ANSWER_LIMIT) -> bytes:
 
 
 class Deframer:
-    """Receiver that converts line bytes to frames; it keeps an incomplete frame for the next call.
+    """Receiver that converts line bytes to frames. An incomplete frame is kept for the next call.
 
     Bytes before the first flag are ignored (UB-FRM-05).
 
@@ -111,7 +111,7 @@ class Deframer:
         self._content = bytearray()
 
     def feed(self, data: bytes) -> list[Frame | Broken]:
-        """Process line bytes; return the frames that they complete or invalidate, in order."""
+        """Process line bytes; return the complete frames and the invalid frames, in order."""
         found: list[Frame | Broken] = []
         for byte in data:
             item = self._flag() if byte == FLAG else self._byte(byte)
@@ -151,14 +151,14 @@ class Deframer:
 MESSAGE_EVENT, MESSAGE_NAK = 0x80, 0x81
 LAST_SEQ = 127
 WAKE_UP = b"\x00\x00\x7e"
-"""Bytes sent at 115 200 baud to wake up a bridge (UB-LIN-06).
+"""Bytes that wake a bridge up at 115 200 baud (UB-LIN-06).
 
-The bytes return the bridge from any rate and any frame to the idle state.
+At any rate, and within any frame, they return the bridge to the idle state.
 """
 
 
 class Nak(IntEnum):
-    """Reason why the bridge dropped a frame (UB-FRM-06, -07, UB-SEQ-03)."""
+    """Reason for which the bridge dropped a frame (UB-FRM-06, -07, UB-SEQ-03)."""
 
     FRAMING = 1
     CRC = 2
@@ -187,12 +187,12 @@ class RetriesExhausted(Exception):  # noqa: N818 - names the event; the link rai
 
 
 class Session:
-    """Sequence of requests of one host.
+    """Session of one host: its requests, one at a time.
 
     Args:
         attempts: largest number of times that a request is sent.
-        grace: seconds from a NAK to the repetition. The NAK may concern noise before the request; then the
-            answer arrives within this time, and no repetition is required.
+        grace: seconds from a NAK to the repetition of the request. If noise before the request caused the
+            NAK, the answer arrives within this time, and no repetition is necessary.
     """
 
     def __init__(self, attempts: int = 4, grace: float = 0.05) -> None:
@@ -221,7 +221,7 @@ class Session:
         return self._deadline if self.busy else None
 
     def restart(self) -> None:
-        """Start again after the link was woken up: SEQ 0, no request, no incomplete frame."""
+        """Start again after a wake-up of the link: SEQ 0, no request, no incomplete frame."""
         self._deframer.reset()
         self._next_seq = 0
         self._request = self._answer = None
@@ -254,7 +254,7 @@ class Session:
         self._request = self._answer = None
 
     def receive(self, data: bytes, now: float) -> bytes | None:
-        """Process received bytes; return the answer without its SEQ if it is complete."""
+        """Process received bytes. If they complete the answer, return it without its SEQ."""
         self._received += len(data)
         for item in self._deframer.feed(data):
             if isinstance(item, Frame):
@@ -263,7 +263,7 @@ class Session:
         return answer
 
     def tick(self, now: float) -> bytes:
-        """Return the request again at its deadline, before it nothing.
+        """Return the request again if its deadline has passed, else no bytes.
 
         Raises RetriesExhausted after the last attempt.
         """

@@ -1,7 +1,4 @@
-"""Lines with several stations: master, motions, waiting, stopping, errors.
-
-The classes are independent of the frame format.
-"""
+"""Lines with several stations: the master, motions and errors of any frame format."""
 
 # ruff: noqa: N818
 
@@ -52,16 +49,16 @@ class LineEcho(LinkError):
 
 
 class LostReply(LinkError):
-    """An instruction that may not be repeated was sent, and it is unknown whether it was executed."""
+    """It is unknown whether an instruction was executed that must not be executed twice."""
 
 
 def unanswered(
     where: str, misses: Sequence[MissingReply], attempts: int, check: str, others: str
 ) -> NoAnswer:
-    """Return the exception after all attempts to reach a station have failed.
+    """Return the exception for a station after all attempts have failed.
 
     Args:
-        check: what the user should check after silence.
+        check: advice for the user if no bytes were received.
         others: possible causes of corrupt replies.
     """
     if not any(miss.received for miss in misses):
@@ -81,13 +78,13 @@ POLL_EVERY = 0.02
 
 
 class LineMotion(AnyMotion, Protocol):
-    """Running motion."""
+    """Motion of a station; see `motion.AnyMotion`."""
 
     @property
     def result_error(self) -> EndUnknown | None:
-        """Reason why the part does not confirm the end.
+        """EndUnknown if the part does not confirm how the motion ended.
 
-        The value is None if the part confirms it, or while the motion is running.
+        The value is `None` while the motion is running, and if the part confirms its end.
         """
 
     @property
@@ -110,17 +107,17 @@ def wait_all(
     timeout: float | None = None,
     progress: Callable[[Progress], None] | None = None,
 ) -> list[MotionResult]:
-    """Poll the stations until their motions are over.
+    """Poll the stations until their motions are over; return the results in the same order.
 
-    The call returns the ends in the same order, for any cause.
+    A motion that ended early is not an error.
 
     Args:
-        timeout: longest wait for all motions in s, `None` for no limit.
+        timeout: longest wait for all motions together in s, `None` for no limit.
         progress: called about ten times a second, with the sum of the pulses of several motions.
 
     Raises:
-        Timeout: the time is over; the other motions continue.
-        EndUnknown: a motion is over without a confirmed end; the other motions continue.
+        Timeout: the time limit is exceeded; the running motions continue.
+        EndUnknown: the end of a motion is not confirmed; the other motions continue.
     """
     if not motions:
         return []
@@ -150,10 +147,7 @@ def wait_all(
 
 
 def _sum(motions: Sequence[LineMotion]) -> Progress:
-    """Return the progress of several motions together.
-
-    Its position is that of the first running motion.
-    """
+    """Return the total progress of several motions; the position is that of the first running motion."""
     known = [(motion, motion._current_progress()) for motion in motions]
     requested = [motion.requested for motion in motions]
     first = next(now for motion, now in known if motion.result is None)
@@ -168,7 +162,7 @@ def _sum(motions: Sequence[LineMotion]) -> Progress:
 # Master of a line with several stations, for any frame format. It sends a frame and receives one reply.
 
 PATIENCE = 0.1
-"""Seconds beyond line time until a station counts as silent.
+"""Time in s, beyond the line time, that the master waits for a reply.
 
 A station needs 4 ms, a USB adapter up to 16 ms.
 """
@@ -183,22 +177,22 @@ class ReplyReceiver(Protocol[Answer]):
     """Receiver for the bytes of one reply."""
 
     def feed(self, byte: int) -> Answer | Fault | None:
-        """Process a byte; return the reply if it is complete.
+        """Process a byte; return the reply if this byte completes it.
 
-        The call returns a Fault if no reply is possible any more.
+        The call returns a Fault if the bytes cannot become a reply any more.
         """
 
 
 class Master(Generic[Answer]):
     """Half-duplex master: it sends a frame and receives the reply.
 
-    It counts faults and repeats nothing.
+    It counts faults, but does not repeat frames.
 
     Attributes:
         port: open port.
         baud: line rate in bit/s.
         echo: True if the master receives its own bytes.
-        patience: seconds beyond line time until a station counts as silent, at most 60.
+        patience: time in s, beyond the line time, that the master waits for a reply; at most 60.
         counters: counters of each station, by its number.
     """
 
@@ -212,13 +206,13 @@ class Master(Generic[Answer]):
 
     @staticmethod
     def check_patience(patience: float) -> None:
-        """Raise OutOfRange if the patience is not more than 0 s and at most 60 s."""
+        """Raise OutOfRange unless the patience is more than 0 s and at most 60 s."""
         if not 0 < exact(patience, "patience") <= 60:
             raise OutOfRange(f"patience {patience:g} s is outside 0 to 60 s")
 
     @property
     def port_patience(self) -> float:
-        """Least patience of the port in s; virtual boards may be slower than real time."""
+        """Smallest patience that the port allows in s; virtual boards may be slower than real time."""
         return getattr(self.port, "patience", 0.0)
 
     @property
@@ -237,7 +231,7 @@ class Master(Generic[Answer]):
             self.stray_bytes += len(self.port.read(left))
 
     def wait_event(self, timeout: float) -> int | None:
-        """Return `None` after `timeout` seconds, because a line has no events; discard received bytes."""
+        """Wait `timeout` seconds and return `None`, because a line has no events; discard received bytes."""
         self.pause(timeout)
         return None
 
@@ -250,7 +244,7 @@ class Master(Generic[Answer]):
         self.port.close()
 
     def seconds(self, count: int) -> float:
-        """Return the line time of this number of bytes in s."""
+        """Return the transmission time of this number of bytes in s."""
         return count * BITS / self.baud
 
     # ------------------------------------------------------------------ frames
@@ -279,7 +273,7 @@ class Master(Generic[Answer]):
         return got
 
     def send(self, station: int, sent: bytes) -> None:
-        """Send a frame and discard its echo, if any. Bytes received earlier are discarded."""
+        """Discard bytes received earlier, send a frame, and discard its echo, if any."""
         if self._closed:
             raise Disconnected(f"{self.name}: the line is closed: open it again")
         self.stray_bytes += len(self.port.read(0))
@@ -294,13 +288,13 @@ class Master(Generic[Answer]):
         while len(received) < len(sent) and (left := end - self.clock()) > 0:
             received += self.port.read(left)
         if not received:
-            raise LineEcho(f"{self.name}: the line does not hear its own bytes: leave the option echo out")
+            raise LineEcho(f"{self.name}: the master does not receive its own bytes: remove the option echo")
         self._early_bytes = received[len(sent) :]
         if received[: len(sent)] != sent:
             self.stray_bytes += 1  # another device sends at the same time; the reply will show the effect
 
     def _await(self, listener: ReplyReceiver[Answer], seconds: float) -> Answer | MissingReply:
-        """Return the reply, or a Miss with the bytes received instead."""
+        """Return the reply, or a MissingReply with the bytes received instead."""
         received = bytearray()
         deadline = self.clock() + seconds + self.patience
         early, self._early_bytes = self._early_bytes, b""
@@ -321,11 +315,11 @@ class Master(Generic[Answer]):
                     return MissingReply(fault, bytes(received) + data[place + 1 :] + self._read_until_idle())
 
     def _missing_reply(self, listener: ReplyReceiver[Answer], received: bytes) -> MissingReply:
-        """Return the Miss for silence, possibly after bytes that were no reply."""
+        """Return the MissingReply after no bytes, or after bytes that do not belong to a reply."""
         return MissingReply(Fault.NOISE if received else None, received)
 
     def _read_until_idle(self) -> bytes:
-        """Return the bytes that arrive until the line is quiet; the time is limited."""
+        """Return the bytes that arrive until the line is idle; the wait is limited."""
         gap = max(_GAP, self.seconds(_GAP_BYTES))
         rest, end = b"", self.clock() + 20 * gap
         while (data := self.port.read(gap)) and self.clock() < end:
@@ -347,7 +341,7 @@ StationT = TypeVar("StationT", bound=Station)
 
 
 class LineBus(Device, Generic[LineT, StationT]):
-    """Line with stations, which `axis` returns; see `part.Device`.
+    """Line with stations; `axis` returns a station. See `part.Device`.
 
     If its `with` block is left by an exception, motions that this object started decelerate.
     """
@@ -368,7 +362,10 @@ class LineBus(Device, Generic[LineT, StationT]):
         """Read the unsolicited reports of a station."""
 
     def axis(self, station: int) -> StationT:
-        """Return the station with this number, connected or not; the object is always the same."""
+        """Return the station with this number; it does not have to be connected.
+
+        Each call returns the same object.
+        """
         driver = self._stations.get(station)
         if driver is None:
             driver = self._make_station(station)
@@ -386,15 +383,15 @@ class LineBus(Device, Generic[LineT, StationT]):
         timeout: float | None = None,
         progress: Callable[[Progress], None] | None = None,
     ) -> list[MotionResult]:
-        """Wait until motions, or the motions of stations, are over; return the ends for any cause.
+        """Wait until motions are over; return their results, also of motions that ended early.
 
         Args:
-            motions: motions or stations; default: all stations in use.
+            motions: motions, or stations whose motions are meant; default: all stations in use.
             timeout: longest wait in s, `None` for no limit.
             progress: called about ten times a second.
 
         Raises:
-            Timeout: the time is over; the other motions continue.
+            Timeout: the time limit is exceeded; the running motions continue.
         """
         waiting = self.axes if motions is None else motions
         chosen = [one.motion if hasattr(one, "motion") else one for one in waiting]
@@ -403,9 +400,10 @@ class LineBus(Device, Generic[LineT, StationT]):
         return wait_all([one for one in chosen if one is not None], timeout, progress)
 
     def stop(self, stations: Iterable[int] | None = None, now: bool = False) -> list[MotionResult]:
-        """Stop stations (default: those in use) and wait.
+        """Stop stations (default: those in use) and wait for the end of their motions.
 
-        All stations receive the stop command before an error is raised. Stopped stations are skipped.
+        All stations receive the stop command before an error is raised. Stations whose motor is stopped are
+        skipped.
         """
         errors: list[PpmcError] = []
         moving = []

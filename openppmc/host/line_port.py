@@ -28,7 +28,10 @@ class ModelLine:
     Attributes:
         text: options of the virtual line of the part.
         baud: line rate in bit/s.
-        part: part of the stations. Raises PortError if text is invalid.
+        part: part of the stations.
+
+    Raises:
+        PortError: text is invalid.
     """
 
     def __init__(self, text: str, baud: int, part: str) -> None:
@@ -74,7 +77,7 @@ class ModelLine:
             raise Disconnected(f"{self.name}: the port went away: plug it in and run the command again")
 
     def _synchronise(self) -> None:
-        """Advance the line by the time that has passed while the program did something else."""
+        """Advance the line by the time that has passed since its last access."""
         if behind := self._pacer.behind(self.line.seconds):
             self._run(behind)
 
@@ -86,7 +89,7 @@ class ModelLine:
 
 
 class Fault(Enum):
-    """Reason why bytes were no reply.
+    """Reason why the received bytes are not a valid reply.
 
     Attributes:
         FOREIGN: another station replied.
@@ -104,12 +107,12 @@ class Counters:
     """Counters of the transfers between the master and a station.
 
     Attributes:
-        sent: frames.
+        sent: frames sent.
         repeated: repeated frames.
-        silent: no reply.
-        garbled: an invalid reply.
-        foreign: another station replied.
-        refused: the station reports that a frame arrived corrupt (41).
+        silent: frames without any byte of a reply.
+        garbled: invalid replies.
+        foreign: replies of another station.
+        refused: frames that arrived corrupt at the station (error code 41 in the reply).
         lost_reports: polls without a complete reply, in which a report may be lost.
     """
 
@@ -132,7 +135,7 @@ class MissingReply:
     """Missing reply.
 
     Attributes:
-        fault: reason why there is no reply, `None` after silence.
+        fault: reason why there is no reply, `None` if no byte was received.
         received: bytes received instead of the reply.
     """
 
@@ -141,7 +144,7 @@ class MissingReply:
 
 
 SIM_PATIENCE = 0.25
-"""Seconds; the reply of the virtual line passes through two processes."""
+"""Patience in s; a reply of the virtual line passes through two processes."""
 _SHORT, _LONGEST = 0.05, 30.0
 
 
@@ -173,7 +176,7 @@ class UrlPort(SerialPort):
 
 
 class SimLinePort(SimPort):
-    """Virtual line; its process is started with the port and stopped with it.
+    """Virtual line; opening the port starts its process, closing the port stops it.
 
     A read with a timeout uses the time of the line, which may be slower than real time.
     """
@@ -192,7 +195,7 @@ class SimLinePort(SimPort):
         return super().read(min(timeout / factor - timeout, _LONGEST)) if 0 < factor < 1 else data
 
     def _pace(self) -> float:
-        """Return line time / wall time; 1 if the line does not run."""
+        """Return the time of the line divided by wall time; 1 if the line does not run."""
         from ..sim import SimError
 
         try:
@@ -208,9 +211,7 @@ class SimLinePort(SimPort):
 
 
 def open_line(spec: str, baud: int, part: str, rs485: RS485Settings | None = None) -> Port:
-    """Open a port of a line.
-
-    Raises PortError.
+    """Open a port of a line. Raises PortError if that fails.
 
     Args:
         part: part of the stations, for virtual lines.

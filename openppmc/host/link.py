@@ -23,7 +23,7 @@ from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity,
 
 DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
-"""Seconds beyond line time and waits until a request is repeated.
+"""Time in s, beyond line time and waits, after which a request without an answer is repeated.
 
 USB adapters and busy computers need this time.
 """
@@ -51,12 +51,12 @@ class LinkProtocol(Protocol):
 
 
 class Link:
-    """Open link to a bridge, with the line rate raised. A context manager.
+    """Open link to a bridge, at the selected line rate. A context manager.
 
     Attributes:
         spec: device path, `sim:…` or `model:…`.
-        baud: line rate to use, one of those of the bridge (115200 to 3000000); a board or adapter that does
-            not support it works at 115200.
+        baud: line rate, one of those of the bridge (115200 to 3000000). If board or adapter does not support
+            it, the link works at 115200.
         part: number that the part must have, `None` for any.
 
     Raises:
@@ -69,7 +69,10 @@ class Link:
         self.port = open_port(spec) if isinstance(spec, str) else spec
         self.baud = BASE_BAUD
         self.refusal: Callable[[Answer], Exception] = lambda answer: command_error(answer.last)
-        """Creates the exception for a rejected command; drivers of parts with other errors replace it."""
+        """Creates the exception for a rejected command.
+
+        Drivers of parts with other errors replace this function.
+        """
         self._session = Session()
         self._closed = False
         try:
@@ -111,25 +114,24 @@ class Link:
                 received += error.args[1] if len(error.args) > 1 else 0
             except BadAnswer as error:
                 raise WrongDevice(
-                    f"{self.name}: something answers, but no PPMC bridge ({error}): is this the right port?"
+                    f"{self.name}: the device that answers is no PPMC bridge ({error}): check the port"
                 ) from error
         if received:
             raise WrongDevice(
-                f"{self.name}: {received} bytes came, but no answer of a PPMC bridge: is this the right "
-                "port, "
-                f"and does the board's UART begin with {BASE_BAUD} baud?"
+                f"{self.name}: {received} bytes received, but no answer of a PPMC bridge: check the port, "
+                f"and that the board's UART starts at {BASE_BAUD} baud"
             )
         raise NoAnswer(
             f"{self.name}: no answer: is the board powered and its bitstream loaded, are TXD and RXD crossed?"
         )
 
     def _drain(self) -> int:
-        """Discard received bytes until the line is quiet, for a limited time; return their number."""
+        """Discard received bytes until the line is idle, for a limited time; return their number."""
         received = 0
         end = self.clock() + 10 * _QUIET
         while (data := self.port.read(_QUIET)) and self.clock() < end:
             received += len(data)
-        # Up to two NAKs are the response to the wake-up itself.
+        # The wake-up itself may cause two NAKs, 16 bytes at most. They are not counted.
         return max(0, received - 16)
 
     def _check(self, part: int | None) -> None:
@@ -218,7 +220,7 @@ class Link:
         return self.check_answer(self.attempt(script))
 
     def check_answer(self, answer: Answer) -> Answer:
-        """Return the answer if all operations were done, otherwise raise the exception of `execute`."""
+        """Return the answer if all operations were executed, otherwise raise the exceptions of `execute`."""
         if answer.result is Result.DONE:
             return answer
         if answer.result is Result.REFUSED:
@@ -233,7 +235,7 @@ class Link:
         raise ProtocolError(f"{where}: refused (result {int(answer.result)}): {_MISMATCH}")
 
     def attempt(self, script: Script) -> Answer:
-        """Execute a script and return its answer, regardless of its result. Raises LinkErrors only."""
+        """Execute a script and return its answer for any result. Raises only LinkErrors."""
         if self._closed:
             raise Disconnected(f"{self.name}: the link is closed: open it again")
         try:
@@ -300,7 +302,7 @@ class Link:
 
 
 def _silence(name: str, gone: RetriesExhausted) -> str:
-    """Return the error message after all attempts."""
+    """Return the error message for a request whose attempts have all failed."""
     if gone.naks:
         reason = Nak(gone.naks[-1]).name.lower().replace("_", " ") if gone.naks[-1] in set(Nak) else "unknown"
         return (
@@ -309,5 +311,7 @@ def _silence(name: str, gone: RetriesExhausted) -> str:
         )
     if gone.received:
         received, attempts = gone.received, gone.attempts
-        return f"{name}: {received} bytes came, but no answer ({attempts} attempts): wrong rate or device"
+        return (
+            f"{name}: {received} bytes received, but no answer in {attempts} attempts: check rate and device"
+        )
     return f"{name}: no answer in {gone.attempts} attempts: is the board still powered and connected?"

@@ -1,7 +1,7 @@
 """Port `model:`: golden bridge, golden part and plant model, in virtual time.
 
-The line is modelled byte by byte. A byte takes its line time. A byte at a wrong rate arrives as a framing
-error or a break.
+The line is modelled byte by byte, including the time of each byte. A byte at a wrong rate arrives as a
+framing error or a break.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, pa
 from ..sources import build_id
 from .errors import Disconnected, PortError
 
-# The pacer keeps the virtual time of a model in step with real time. `whole` completes each call of a model.
+# `Pacer` keeps the virtual time of a model in step with real time. `whole` completes each call of a model.
 
 T = TypeVar("T")
 
@@ -42,11 +42,11 @@ class Pacer:
         self._origin = time.monotonic()
 
     def step(self, left: float) -> float:
-        """Return how much of `left` virtual seconds may pass before the next check."""
+        """Return the virtual seconds, at most `left`, that may pass before the next check."""
         return left if self.speed is None else min(left, SLICE * self.speed)
 
     def wait(self, seconds: float) -> None:
-        """Wait until the wall clock has caught up; discard the lag of a model that is too slow."""
+        """Wait until the wall clock reaches the virtual time; discard the lag of a model that is too slow."""
         if self.speed is None:
             return
         ahead = seconds / self.speed - (time.monotonic() - self._origin)
@@ -56,10 +56,7 @@ class Pacer:
             self._origin -= ahead
 
     def behind(self, seconds: float) -> float:
-        """Return the virtual seconds that passed while the program did something else.
-
-        The call returns 0 if there are few.
-        """
+        """Return the virtual seconds by which the model is late; 0 if they are below SLICE."""
         if self.speed is None:
             return 0.0
         behind = (time.monotonic() - self._origin) * self.speed - seconds
@@ -68,17 +65,15 @@ class Pacer:
 
 _Jobs = SimpleQueue[tuple[Callable[[], Any], SimpleQueue[Any]]]
 _worker: tuple[int, int, _Jobs] | None = None
-"""Process that owns the thread, the thread, and its queue."""
+"""Worker: number of its process, its thread, its queue."""
 
 
 def whole(call: Callable[[], T]) -> T:
     """Call a model and complete the call, even if a signal handler raises an exception.
 
-    The next call waits for the end of this call.
-
-    A model that is interrupted within an edge is unusable. Handlers raise exceptions in the main thread only,
-    so one other thread makes all calls. The queues are implemented in C, because a lock of Python can stay
-    locked when a handler raises an exception.
+    A model that is interrupted within an edge is unusable. Signal handlers raise exceptions in the main
+    thread only, so another thread makes all calls, one after the other. The queues are implemented in C,
+    because a Python lock can remain locked after an exception in a handler.
     """
     global _worker
     if _worker is None or _worker[0] != os.getpid():
@@ -111,10 +106,10 @@ class ModelPort:
     """Board that needs no hardware.
 
     Args:
-        text: options of the machine model (`openppmc.sim.common.machine`), and `speed` (1: real time, 10: ten
-            times as fast, max: as fast as possible), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET,
-            `read_map` (stmc) FAMILY or SHEET, `unplug` (the port disappears after this number of seconds of
-            its time).
+        text: options of the machine model (`openppmc.sim.common.machine`), and these: `speed` (1: real time,
+            10: ten times as fast, max: as fast as possible); `clk` and `xtal` in Hz; `timing` FAST or
+            DATASHEET; `read_map` (stmc) FAMILY or SHEET; `unplug` (the port disappears after this number of
+            virtual seconds).
 
     Raises:
         PortError: text is invalid.
@@ -184,7 +179,7 @@ class ModelPort:
             )
 
     def _advance(self, seconds: float) -> None:
-        """Let time pass without a byte on the line; return early when a message arrives."""
+        """Advance the board without bytes from the host; return early when a message arrives."""
         whole(lambda: self._idle(seconds))
 
     def _idle(self, seconds: float) -> None:
@@ -208,7 +203,7 @@ class ModelPort:
         self.board.run_until(self.board.t + clk)
 
     def _synchronise(self) -> None:
-        """Advance the board by the time that has passed while the program did something else."""
+        """Advance the board by the time that has passed since its last access."""
         end = self.board.seconds + self._pacer.behind(self.board.seconds)
         while (left := end - self.board.seconds) > 0:
             self._advance(left)

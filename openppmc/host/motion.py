@@ -53,7 +53,7 @@ class MotionRequest:
 
     @property
     def ramped(self) -> bool:
-        """True if the motion has ramps, so that a stop may have one as well."""
+        """True if the motion has ramps. Only such a motion can stop with a ramp."""
         return self.operation in RAMP_OPERATIONS
 
 
@@ -130,7 +130,7 @@ class Handle(Checked):
         return self.result is not None or self.result_error is not None
 
     def _confirmed_result(self) -> MotionResult | None:
-        """Return the end, `None` while the motion is running. Raises EndUnknown."""
+        """Return the result, `None` while the motion is running. Raises EndUnknown."""
         if self.result_error is not None:
             raise self.result_error
         return self.result
@@ -144,7 +144,7 @@ class Motion(Handle):
         direction: 0 = CW, 1 = CCW.
         ramped: True if the motion has ramps.
         begin: pulse counter before the motion.
-        ours: False if another program started it.
+        ours: False if another program started the motion.
     """
 
     requested: int | None
@@ -183,10 +183,10 @@ class Motion(Handle):
         )
 
     def _on_status(self, status: int) -> None:
-        """Process a status register that was read; read the end of the motion if BUSY = 0.
+        """Process a value of the status register; if BUSY = 0, read how the motion ended.
 
-        Only `poll` and `wait` raise EndUnknown, so that a poll of one axis does not raise the error of
-        another.
+        This method does not raise EndUnknown, so that a poll of one axis does not raise the error of another
+        axis. Only `poll` and `wait` raise it.
 
         Raises:
             ProtocolError: the status has a bit set that always reads as 0.
@@ -203,7 +203,7 @@ class Motion(Handle):
     def wait(
         self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
     ) -> MotionResult:
-        """Wait for the end and return it, for any cause.
+        """Wait for the end of the motion and return the result, also if it ended early.
 
         Args:
             timeout: longest wait in s, `None` for no limit.
@@ -211,7 +211,7 @@ class Motion(Handle):
                 continues.
 
         Raises:
-            Timeout: the time is over; the motion continues.
+            Timeout: the time limit is exceeded; the motion continues.
             EndUnknown: the part does not confirm how the motion ended.
         """
         self._confirmed_result()
@@ -235,15 +235,15 @@ class Motion(Handle):
     def _finish(self) -> None:
         """Read the finish status, which also releases int_n (P104-RD-04).
 
-        With DATASHEET timing BUSY rises up to 112 us after the command, and the part accepts no byte before
-        that (P104-DS-03). In this case the motion has not ended.
+        With DATASHEET timing, BUSY rises up to 112 us after the command, and the part accepts no byte before
+        (P104-DS-03). A rejection in this time means that the motion has not begun yet.
         """
         bit, remaining = self._axis._code_bits, self._axis._read_codes.remaining
         script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
         try:
             answer = self._link.execute(self._axis._add_position_read(script))
         except AxisBusy:
-            return  # with DATASHEET timing the motion had not begun yet
+            return  # the motion has not begun yet
         count = answer.number(4, signed=True)
         position = self._axis._position_of(count)
         moved = None
@@ -266,7 +266,7 @@ class Motion(Handle):
             self.result = self._axis._annotate(end)
 
 
-# Homing finds the same edge from the same side, regardless of the start position.
+# Homing approaches the same edge from the same side for any start position.
 
 LONGEST_BACK_OFF = 200_000
 
@@ -320,7 +320,11 @@ class Homing:
         self._progress = progress
 
     def run(self, fast: bool, to_limit: bool) -> MotionResult:
-        """Approach the switch, leave it if it is active, search its edge and set the position to 0."""
+        """Find the switch and set the position to 0 at its edge.
+
+        First approach the switch at high speed if requested. If the switch is active then, move away from it.
+        At last search its edge.
+        """
         if (fast or to_limit) and not self._axis.inputs().origin:
             self._approach(to_limit)
             if self._axis.kind.origin_between and not self._axis.inputs().origin:
@@ -336,9 +340,8 @@ class Homing:
         end = self._axis.search(direction, self._pps).wait(progress=self._progress)
         if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             raise OriginNotFound(
-                f"{end.message_prefix}a limit switch came before the origin: home in the other direction, "
-                "or check the "
-                "switch",
+                f"{end.message_prefix}a limit switch was reached before the origin: home in the other "
+                "direction, or check the switches",
                 end,
             )
         return self._check_found(end)
@@ -361,7 +364,7 @@ class Homing:
         )
 
     def _approach(self, to_limit: bool) -> None:
-        """Run at high speed to the slow-down limit, or further to the hard limit."""
+        """Run at high speed to the slow-down limit; if `to_limit`, continue to the hard limit."""
         end = self._axis.jog(self._towards, high=True).wait(progress=self._progress)
         if to_limit and end.cause == Cause.SLOW_LIMIT:
             end = self._axis.jog(self._towards, speed=self._pps).wait(progress=self._progress)

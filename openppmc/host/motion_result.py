@@ -50,18 +50,18 @@ class StoppedByCommand(MotionError):
 
 
 class OriginNotFound(MotionError):
-    """Homing ended without the origin switch."""
+    """Homing did not find the origin."""
 
 
 class EndUnknown(ProtocolError):
     """A motion is over, but the part does not confirm how it ended.
 
-    The part was reset, replaced, or moved by something else. The position is not reliable until the next
-    homing.
+    The part was reset or replaced, or another program moved the motor. The position is not reliable until the
+    next homing.
 
     Attributes:
         finish: finish status that was read, `None` if the part has none or did not report one.
-        pulses: counted since the start of the motion, CW positive, `None` if unknown.
+        pulses: pulses counted since the start of the motion, CW positive, `None` if unknown.
         requested: pulses of the move, `None` for endless motions and for those of another program.
         position: current pulse counter, `None` without one.
     """
@@ -134,7 +134,7 @@ class MotionResult:
 
     Attributes:
         pulses: pulses output, CW positive; `None` for a motion that another program started.
-        remaining: pulses not output (of endless operations: of 2^24).
+        remaining: pulses not output; an endless operation counts as 2^24 pulses.
         position: pulse counter after the motion, `None` if the bridge has none.
         finish: finish status byte.
         message_prefix: prefix of messages, which names the axis if the part has several.
@@ -158,18 +158,18 @@ class MotionResult:
 
     @property
     def complete(self) -> bool:
-        """True if all pulses were output: no other cause, and no pulse is left."""
+        """True if all pulses were output: no other cause ended the motion, and no pulses remain."""
         return self.cause is Cause.COMPLETE and self.remaining == 0
 
     def check(self, requested: int | None = None) -> MotionResult:
-        """Return the end itself if the motion is complete.
+        """Return this result if the motion is complete, else raise an exception.
 
         Args:
             requested: pulses of the move, without a sign.
 
         Raises:
-            LimitReached, AlarmStop, StoppedByCommand: something ended the motion.
-            EndUnknown: nothing ended the motion, but the pulses are not those of the move.
+            LimitReached, AlarmStop, StoppedByCommand: a limit, the alarm or a stop ended the motion.
+            EndUnknown: no cause ended the motion, but the number of pulses is not that of the move.
         """
         if self.cause is Cause.COMPLETE:
             wrong = requested is not None and self.pulses is not None and abs(self.pulses) != requested
@@ -188,7 +188,7 @@ class MotionResult:
         )
 
     def error_and_advice(self) -> tuple[type[MotionError], str]:
-        """Return exception class and advice for an end that is not complete."""
+        """Return exception class and advice for a motion that ended early."""
         if Cause.ALARM in self.cause:
             return AlarmStop, f"{self.alarm[1]}, then home again if steps may be lost"
         if self.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
@@ -206,7 +206,7 @@ def decode_end(
     moved: int | None = None,
     where: str = "",
 ) -> MotionResult:
-    """Decode finish status and remaining pulses if they confirm each other.
+    """Decode finish status and remaining pulses if they are consistent.
 
     Rules: P104-RD-03, P104-END-04..06, P2104-END-04..06, STMC-FIN-01, STMC-REM-01.
 
@@ -221,8 +221,8 @@ def decode_end(
         where: prefix of an error message.
 
     Raises:
-        EndUnknown: bit 7 is 0, the operation does not exist or is another one, or the remaining pulses or the
-            pulse counter contradict the status.
+        EndUnknown: bit 7 of the finish status is 0, its operation is not the expected one, or the remaining
+            pulses or the pulse counter contradict it.
     """
 
     def unknown(reason: str) -> EndUnknown:
@@ -238,8 +238,8 @@ def decode_end(
         raise unknown(f"finish status 0x{finish:02X}")
     cause = Cause(finish & _CAUSE_BITS)
     if not cause and number == ORIGIN:
-        # The origin switch sets no bit. A search through all 2^24 pulses reads the same as one that ended a
-        # pulse earlier.
+        # The origin switch sets no bit. The registers are equal for a search of all 2^24 pulses and for a
+        # search that the switch ended one pulse earlier.
         searched_all = remaining == 0 and moved is not None and abs(moved) == total
         cause = Cause.COMPLETE if searched_all else Cause.ORIGIN
     pulses_left = remaining + 1 if cause else 0

@@ -22,13 +22,13 @@ from .port import Port
 from .registers import Status
 from .script import Script
 
-# The base class of open devices, which closes the port and stops the motions of the device after an error.
+# Base class of open devices. It closes the port, and stops the motions of the device after an error.
 
 DeviceT = TypeVar("DeviceT", bound="Device")
 
 
 class Transport(Protocol):
-    """Transport to the hardware: the link of a bridge or the master end of a line."""
+    """Transport to the hardware: the link of a bridge, or the master of a line."""
 
     @property
     def name(self) -> str: ...
@@ -38,7 +38,7 @@ class Transport(Protocol):
 
 
 class Stoppable(Protocol):
-    """Axis of any part, with the members that are needed to stop it."""
+    """Members of an axis that are needed to stop it."""
 
     @property
     def _message_prefix(self) -> str: ...
@@ -68,7 +68,7 @@ class Device(Checked):
         raise NotImplementedError
 
     def process_reports(self, seconds: float) -> None:
-        """Wait on the clock of the board and process unsolicited reports of the part."""
+        """Wait `seconds` on the clock of the board, and process unsolicited reports of the part."""
         self.link.pause(seconds)
 
     def close(self) -> None:
@@ -110,7 +110,7 @@ class AnyAxis(Stoppable, Protocol):
     def number(self) -> int: ...
     @property
     def _busy_mask(self) -> int:
-        """Mask of the bits in the raw status of the part that are set while this axis moves."""
+        """Mask of the bits that are set in the raw status of the part while this axis moves."""
 
     @property
     def kind(self) -> Capabilities: ...
@@ -170,7 +170,7 @@ class Part(Device):
 
     @classmethod
     def on(cls: type[PartT], link: Link) -> PartT:
-        """Create the driver on an open link; close the link if that fails."""
+        """Create the driver for an open link; close the link if that fails."""
         try:
             return cls(link)
         except BaseException:
@@ -178,7 +178,10 @@ class Part(Device):
             raise
 
     def reset(self) -> None:
-        """Reset the part in any state: pulses end immediately, and nothing is initialised."""
+        """Reset the part in any state.
+
+        The pulses end immediately. After the reset no axis is initialised.
+        """
         raise NotImplementedError
 
 
@@ -208,7 +211,10 @@ class OneAxis(Part, Axis):
         return setup
 
     def reset(self) -> None:
-        """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
+        """Reset the part in any state.
+
+        The pulses end immediately. After the reset all coils are off, and the part is not initialised.
+        """
         self.link.execute(Script().reset())
         self._on_reset()
 

@@ -1,7 +1,7 @@
 """Ports: a serial device, the virtual board (`sim:`) or the model (`model:`).
 
-This is the only module with real I/O. pyserial is imported when a port is opened or listed; everything else
-works without it. Its SerialException is an OSError.
+This is the only module with real I/O. It imports pyserial when a port is opened or listed; all other
+functions work without pyserial. A SerialException of pyserial is an OSError.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class SerialPort:
                 return data
 
     def _guarded(self, action: Callable[[], bytes]) -> bytes:
-        """Return the result of an access to the port. Raises Disconnected."""
+        """Call a function that accesses the port, and return its result. Raises Disconnected."""
         try:
             return action()
         except (OSError, TypeError) as error:
@@ -110,7 +110,7 @@ class SerialPort:
 
 
 class SimPort(SerialPort):
-    """Virtual board; its process is started with the port and stopped with it."""
+    """Virtual board; opening the port starts its process, closing the port stops it."""
 
     def __init__(self, text: str, baud: int = BASE_BAUD) -> None:
         try:
@@ -139,7 +139,7 @@ class SimPort(SerialPort):
 
 
 def serial_ports() -> list[tuple[str, str]]:
-    """Return device and description of the serial ports of this computer, sorted."""
+    """Return device and description of each serial port of this computer, sorted."""
     from serial.tools import list_ports
 
     ports = sorted(list_ports.comports(), key=lambda port: port.device)
@@ -155,7 +155,7 @@ def describe_ports() -> str:
 
 
 def _open_error_reason(path: str, error: Exception) -> str:
-    """Return cause and remedy of a failed open as text."""
+    """Return why a port could not be opened, and what to do, as text."""
     code = getattr(error, "errno", None)
     text = str(error)
     if "://" in path:

@@ -18,9 +18,9 @@ CAPABILITIES = RateCapabilities(
 READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC
 _START_XT = 1792
-"""Crystal cycles from the last byte of an operation until BUSY rises, at most.
+"""Largest number of crystal cycles from the last byte of an operation until BUSY rises.
 
-The cycles last 112 us (P104-DS-03).
+This is 112 us at 16 MHz (P104-DS-03).
 """
 
 
@@ -28,8 +28,8 @@ class Ppmc104(OneAxis):
     """One PPMC-104; see `part.OneAxis`.
 
     Limits of `initialise` for a 16 MHz crystal: speeds 488.3 to 500 000 pps, ramp_pulses 4 to 11 220,
-    base_clock 500 000 or 125 000 Hz. phases, half_step and positive_logic of an initialised part do not
-    change until `excitation_off` or `reset`.
+    base_clock 500 000 or 125 000 Hz. The arguments phases, half_step and positive_logic have no effect on a
+    part that is already initialised; first call `excitation_off` or `reset`.
     """
 
     kind = CAPABILITIES
@@ -44,8 +44,8 @@ class Ppmc104(OneAxis):
     def _at_rest(self, script: Script) -> None:
         identity = self.link.identity
         if identity.datasheet:
-            # A command sent just before may not have started its motion yet. The bridge may wait 1 ms less
-            # than the limit.
+            # The motion of the previous command may not have started yet, so wait until it must have started.
+            # The bridge may wait 1 ms less than the limit.
             limit = 2 + _START_XT * 1000 // identity.xtal_hz
             answer = self.link.attempt(Script().timeout(limit).wait(1, self._busy_mask, self._busy_mask))
             if answer.result is not Result.TIMED_OUT:

@@ -38,8 +38,8 @@ def _within(name: str, value: int, low: int, high: int) -> int:
 class Script:
     """List of operations, built by chaining: `Script().call(0x80).get(1)`.
 
-    Every method raises ValueError for an operand out of range, and if the script becomes longer than 253
-    bytes or would return more than 256 data bytes.
+    Every method raises ValueError in three cases: an operand is out of range, the script would be longer than
+    253 bytes, or it would return more than 256 data bytes.
     """
 
     def __init__(self) -> None:
@@ -58,7 +58,7 @@ class Script:
 
     @property
     def patience(self) -> float:
-        """Longest expected run time in s: its waits, and one time limit for the mailbox."""
+        """Longest expected run time in s: the sum of its waits, and one time limit for the mailbox."""
         return (self._waits_ms + self._mailbox_ms) / 1000
 
     def _add(self, name: str, code: bytes, gives: int = 0, mailbox: bool = False) -> Script:
@@ -84,19 +84,19 @@ class Script:
     # ------------------------------------------------------------------ operations of the bridge
 
     def nop(self) -> Script:
-        """Append an operation without effect."""
+        """Append an operation that has no effect."""
         return self._add("NOP", b"\x00")
 
     def ident(self) -> Script:
-        """Append a read of 16 bytes about the bridge and its part, see `Identity`."""
+        """Append a read of the identity of bridge and part, 16 bytes; see `Identity`."""
         return self._add("IDENT", b"\x01", IDENT_BYTES)
 
     def rate(self, code: int) -> Script:
-        """Append a change of the line rate to RATES[code] after this answer."""
+        """Append a change of the line rate to RATES[code], which takes effect after this answer."""
         return self._add("RATE", bytes([0x02, _within("rate code", code, 0, len(RATES) - 1)]))
 
     def events(self, on: bool) -> Script:
-        """Append a switch of the event messages, which are sent when int_n falls."""
+        """Append an operation that enables or disables the event messages, sent when int_n falls."""
         return self._add("EVENTS", bytes([0x03, int(on)]))
 
     def timeout(self, milliseconds: int) -> Script:
@@ -110,7 +110,7 @@ class Script:
         return self._add("RESET", b"\x05")
 
     def pins(self) -> Script:
-        """Append a read of the levels of the part's pins, 1 byte."""
+        """Append a read of the pin levels of the part, 1 byte."""
         return self._add("PINS", b"\x06", 1)
 
     def straps(self, levels: int) -> Script:
@@ -126,21 +126,21 @@ class Script:
         return self._add("ZERO", bytes([0x07 + 2 * _within("axis", axis, 1, 2)]))
 
     def version(self) -> Script:
-        """Append a read of 16 bytes about the build of the bitstream, see `Build`."""
+        """Append a read of the build of the bitstream, 16 bytes; see `Build`."""
         return self._add("VERSION", b"\x0c", VERSION_BYTES)
 
     # ------------------------------------------------------------------ operations of the recorder
 
     def record(self, on: bool) -> Script:
-        """Append a start or an end of the recording."""
+        """Append an operation that starts or ends the recording."""
         return self._add("RECORD", bytes([0x0D, int(on)]))
 
     def rewind(self) -> Script:
-        """Append a rewind: reading begins with the first record again."""
+        """Append a rewind. The next read of records begins with the first record."""
         return self._add("RECORD", b"\x0d\x02")
 
     def recorded(self) -> Script:
-        """Append a read of 16 bytes about the records, see `Recorded`."""
+        """Append a read of the state of the recorder, 16 bytes; see `Recorded`."""
         return self._add("RECORDED", b"\x0e", RECORDED_BYTES)
 
     def fetch(self, n: int) -> Script:
@@ -162,19 +162,19 @@ class Script:
         return self._add("READN", bytes([0x30 | _register(a), _within("count", n, 1, 255)]), n)
 
     def read_number(self, a: int, n: int) -> Script:
-        """Append a read access to each of n = 1 to 4 registers from a on, n bytes."""
+        """Append a read access to each of n = 1 to 4 registers that begin at register a, n bytes."""
         _within("count", n, 1, 4)
         return self._add("READ", bytes(0x20 | _register(place) for place in range(a, a + n)), n)
 
     def post(self, a: int, data: bytes) -> Script:
-        """Append 1 to 255 bytes, each written when the part accepts it (IBF = 0)."""
+        """Append writes of 1 to 255 bytes. Each byte is written when the part accepts it (IBF = 0)."""
         _within("number of bytes", len(data), 1, 255)
         return self._add("POST", bytes([0x40 | _register(a), len(data)]) + data, mailbox=True)
 
     def call(self, command: int, *data: int) -> Script:
-        """Append a command byte with up to 14 data bytes, each checked.
+        """Append a command byte with up to 14 data bytes. The bridge checks for an error after each byte.
 
-        The call returns 1 byte, the last status.
+        The operation returns 1 byte, the last status.
         """
         _within("number of command bytes", 1 + len(data), 1, 15)
         for byte in (command, *data):
@@ -182,11 +182,11 @@ class Script:
         return self._add("CALL", bytes([0x50 | 1 + len(data), command, *data]), 1, mailbox=True)
 
     def get(self, n: int) -> Script:
-        """Append a read of n = 1 to 15 bytes from the part, each when it is valid (OBF = 1)."""
+        """Append a read of n = 1 to 15 bytes from the part. Each byte is read when it is valid (OBF = 1)."""
         return self._add("GET", bytes([0x60 | _within("count", n, 1, 15)]), n, mailbox=True)
 
     def wait(self, a: int, mask: int, value: int) -> Script:
-        """Append a wait until register a AND mask = value; it returns the byte."""
+        """Append a wait until (register a AND mask) = value; it returns the byte of the register."""
         _within("mask", mask, 0, 255)
         _within("value", value, 0, 255)
         self._waits_ms += self._wait_ms
@@ -221,13 +221,13 @@ class Result(IntEnum):
 class Answer:
     """Answer to a script.
 
-    With result DONE it is complete.
+    It is complete if its result is DONE.
 
     Attributes:
-        values: data of each operation that returns data, in order. Data of a failed operation are the last
-            entry.
-        failed: operation that ended the script, `None` if the position fits no operation.
-        last: byte last read from the part.
+        values: data of each operation that returns data, in order. If an operation failed, its data are the
+            last entry.
+        failed: operation that ended the script; `None` if POS is not the position of an operation.
+        last: last byte that was read from the part.
     """
 
     result: Result
@@ -246,11 +246,11 @@ class Answer:
 
 
 class BadAnswer(ValueError):  # noqa: N818 - names the invalid object
-    """Answer that does not fit the script: the other device violates the protocol."""
+    """The answer does not match the script, because the other device violates the protocol."""
 
 
 def parse_answer(script: Script, body: bytes) -> Answer:
-    """Split an answer without its SEQ. Raises BadAnswer if it does not fit the script."""
+    """Decode an answer without its SEQ. Raises BadAnswer if it does not match the script."""
     if not body:
         raise BadAnswer("an answer without a result")
     try:
@@ -284,7 +284,7 @@ def _split(ops: list[Op], data: bytes) -> tuple[tuple[bytes, ...], bytes]:
 
 
 def _op_at(ops: list[Op], position: int) -> tuple[list[Op], Op | None]:
-    """Return the operations before the position, and the operation at it."""
+    """Return the operations before this position in the script, and the operation at the position."""
     start = 0
     for place, op in enumerate(ops):
         if start == position:
@@ -295,7 +295,7 @@ def _op_at(ops: list[Op], position: int) -> tuple[list[Op], Op | None]:
 
 @dataclass(frozen=True)
 class Identity:
-    """Answer to IDENT. Frequencies in Hz; `best_rate` is an index of RATES."""
+    """Answer to IDENT. Frequencies are in Hz; `best_rate` is an index of RATES."""
 
     version: int
     part: int
@@ -329,7 +329,7 @@ class Build:
 
     Attributes:
         version: for example "0.3.1".
-        changed: True if the sources differed from the commit.
+        changed: True if the sources differed from those of the commit.
         source, commit: hexadecimal, "" if unknown.
         board: 4 letters, or "".
     """

@@ -31,17 +31,17 @@ def nearby(speed: Fraction | float | int) -> str:
 
 @dataclass(frozen=True)
 class BaseClock:
-    """Clock that the intervals are counted in.
+    """Base clock, in whose periods the intervals are counted.
 
     Attributes:
         period: period of the base clock in s.
-        extra: addition to every interval in s (vsel low).
-        csel, vsel: levels of the strap pins that select it.
-        external: True if the clock is input at the `clock` pin.
-        least_rate: lowest rate byte that the driver uses with it.
-        beyond: base clocks of an interval minus its rate byte.
+        extra: time in s that is added to every interval (vsel low).
+        csel, vsel: levels of the strap pins that select this clock.
+        external: True for the clock at the pin `clock`.
+        least_rate: lowest rate byte that the driver uses with this clock.
+        beyond: number of base clocks of an interval minus its rate byte.
         slowest_rate: highest rate.
-        clk: number of the clock on parts that number their clocks.
+        clk: number of the clock, on parts that number their clocks.
     """
 
     period: Fraction
@@ -61,7 +61,8 @@ class BaseClock:
     def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1, least_rate: int = 0) -> BaseClock:
         """Return an internal base clock.
 
-        At a 16 MHz crystal it has 500 kHz (csel 1) or 125 kHz (csel 0); vsel 0 adds 7.5 us to each interval.
+        At a 16 MHz crystal, its frequency is 500 kHz (csel 1) or 125 kHz (csel 0); vsel 0 adds 7.5 us to each
+        interval.
         """
         quantum = Fraction(4, xtal_hz)
         quanta = QUANTA_FAST if csel else QUANTA_SLOW
@@ -70,7 +71,7 @@ class BaseClock:
 
     @classmethod
     def external_pin(cls, hertz: Number) -> BaseClock:
-        """Return the base clock for a stable clock on the `clock` pin; vsel is kept high.
+        """Return the base clock for a clock of constant frequency at the pin `clock`; vsel stays high.
 
         Raises:
             OutOfRange: hertz is not in 0 < hertz <= 1e6.
@@ -172,14 +173,17 @@ class Setup:
 
     @property
     def flat(self) -> bool:
-        """True if only one speed exists, the high one.
+        """True if the set-up has only one speed, the high speed.
 
-        On an STMC this is also true with 0 ramp pulses (STMC-MOV-04).
+        On an STMC, this is also the case with 0 ramp pulses (STMC-MOV-04).
         """
         return not self.ramp_pulses or self.start.rate == self.high.rate
 
     def ramp(self) -> Ramp:
-        """Return the ramp to predict moves with; its rates are the base clocks of an interval minus 1."""
+        """Return the ramp for predictions of moves.
+
+        Its rates are the number of base clocks of an interval minus 1.
+        """
         beyond = self.clock.beyond - 1
         slow, fast = self.start.rate + beyond, self.high.rate + beyond
         return Ramp(slow, fast, self.ramp_pulses) if self.ramp_pulses else Ramp(fast, fast, 0)
@@ -192,7 +196,7 @@ class Setup:
 
     @property
     def ramp_seconds(self) -> float:
-        """Acceleration time in s, calculated for constant acceleration."""
+        """Duration of the acceleration in s, calculated for constant acceleration."""
         return float(2 * self.ramp_pulses / (self.start.reached + self.high.reached))
 
 
@@ -206,9 +210,9 @@ def motor_bits(phases: int, half_step: bool) -> int:
 def choose_clock(
     xtal_hz: int, start_pps: Number, base_clock: Number | None, vsel: int = 1, least_rate: int = 0
 ) -> BaseClock:
-    """Return the internal base clock: the requested one, or one that reaches start_pps.
+    """Return the requested internal base clock, or one that reaches start_pps.
 
-    The fast base clock is preferred, because its speeds are closer together.
+    The fast base clock is preferred because of its finer speed resolution.
 
     Args:
         base_clock: 500 000 or 125 000 Hz at a 16 MHz crystal, `None` to choose.
@@ -255,7 +259,7 @@ def plan_setup(
     """Return the set-up of a ramp.
 
     Args:
-        rate_gap: least difference of start rate and high rate.
+        rate_gap: smallest difference of start rate and high rate.
         lengths: shortest and longest ramp in pulses.
 
     Raises:

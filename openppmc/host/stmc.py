@@ -26,7 +26,7 @@ _TEXTS = {
 
 
 def command_error(status: int) -> CommandRefused:
-    """Return the exception for a status byte of an STMC with ERR = 1."""
+    """Return the exception for a status byte with ERR = 1."""
     number = status >> 4 & 7
     return BY_NUMBER[number](status, _TEXTS.get(Error(number), ""))
 
@@ -48,11 +48,14 @@ class Inputs(Switches):
 # ---------------------------------------------------------------------- step clocks
 
 LEAST_DIVISOR = 5
-"""The data sheet advises against lower divisors; the part would accept them."""
+"""Lowest divisor that the driver uses.
+
+The data sheet advises against lower ones, which the part would accept.
+"""
 
 
 def divided_clock(hertz: Number, external: bool = True) -> BaseClock:
-    """Return a step clock. A speed is the clock / divisor, with divisors up to 255 (STMC-INI-01).
+    """Return a step clock. A speed is its frequency / divisor, with divisors up to 255 (STMC-INI-01).
 
     Args:
         hertz: frequency, 0 < hertz <= 1e6.
@@ -123,19 +126,19 @@ CAPABILITIES = StmcCapabilities(
 
 
 READ_MAPS = {"FAMILY": FAMILY, "SHEET": ReadCodes(outputs=0x83, remaining=0x84)}
-"""Codes of the read commands by name, the default first (ruling R-01)."""
+"""Sets of codes of the read commands, by name; the default is first (ruling R-01)."""
 
 
 class Stmc(OneAxis):
     """One STMC; see `part.OneAxis`.
 
-    It has no pulse output: the board counts the steps of the phases.
+    The part has no pulse output, so the board counts the steps of the phases.
 
     Arguments of `initialise`: a speed is step clock / divisor, with divisors 5 to 255. base_clock: 12 500 Hz
     (internal, at a 16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s);
-    `None`: the second one if it reaches start_pps, otherwise the first one. external_clock: frequency in Hz
-    if another clock is connected. ramp_pulses: steps from start to high speed, 0 to 65 535; with 0 there is
-    no ramp, and the motor starts at high_pps. long_intervals is not supported. phases, half_step and
+    `None`: 48 675 Hz if this clock reaches start_pps, otherwise 12 500 Hz. external_clock: frequency in Hz if
+    another clock is connected. ramp_pulses: steps from start to high speed, 0 to 65 535; with 0, there is no
+    ramp, and the motor starts at high_pps. long_intervals is not supported. phases, half_step and
     positive_logic do not change until `reset` (STMC-INI-04). Constant speeds also use the step clock of the
     last initialisation.
 
@@ -153,11 +156,11 @@ class Stmc(OneAxis):
     def read_map(self) -> str:
         """Name of the read codes that the part has, a key of READ_MAPS.
 
-        The first access tests it, in any state.
+        The first use of this property determines it with a read, which is possible in any state.
         """
         if not self._read_map:
-            # 81h reads the inputs, or is undefined (error 0). Any other error is an error of a defined
-            # command.
+            # 81h is either the read of the inputs, or undefined (error 0). Any other error shows that it is
+            # defined.
             answer = self.link.attempt(Script().call(0x81).get(1))
             if answer.result is Result.REFUSED:
                 self._read_map = "FAMILY" if answer.last >> 4 & 7 else "SHEET"

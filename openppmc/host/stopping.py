@@ -1,4 +1,4 @@
-"""Signals that end a program after its motors have stopped."""
+"""Handling of signals: they end a program after its motors have stopped."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .motion import Progress
     from .part import Device, Stoppable
 
-# The command line imports this module first. To keep that fast, functions import what they need.
+# The command line imports this module first. To keep this import fast, functions import other modules.
 
 LONGEST_WAIT = 10.0
 """Seconds allowed for motors to decelerate.
@@ -27,11 +27,11 @@ SIGNALS = tuple(
 )
 """Signals of this system that `stop_on_signals` handles."""
 NO_MOTION = "nothing was moving"
-"""First words of the result of `stop_motors` in this case."""
+"""Beginning of the result of `stop_motors` if motors still move after this time."""
 arrived: list[int] = []
 """Signals that the command line received before it opened a board.
 
-The signals are stored, because an exception of a signal handler can get lost.
+They are stored, because Python may ignore an exception that a signal handler raises.
 """
 
 
@@ -48,7 +48,7 @@ class Signalled(SystemExit):
 
 
 def name_of(number: int) -> str:
-    """Return the usual name of a signal.
+    """Return the usual name of the signal with this number.
 
     >>> name_of(2), name_of(15)
     ('interrupted', 'SIGTERM')
@@ -58,9 +58,11 @@ def name_of(number: int) -> str:
 
 @contextmanager
 def handled(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
-    """Handle SIGNALS with a function inside the block, except ignored SIGTERM and SIGHUP (nohup).
+    """Handle SIGNALS with a function inside the block.
 
-    Outside the main thread it has no effect.
+    SIGTERM and SIGHUP that are ignored (nohup) stay ignored.
+
+    Outside the main thread, it has no effect.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -84,11 +86,11 @@ def stop_motors(
 ) -> str:
     """Decelerate the motors of devices, wait until they stop, and return one line for the user.
 
-    Errors are part of the line.
+    This line also reports errors.
 
     Args:
         seconds: longest wait; motors that still move then are stopped immediately.
-        stop_now: called about ten times a second; True stops the motors immediately.
+        stop_now: called about ten times a second; if it returns True, the motors are stopped immediately.
         every: also stop motions that these objects did not start.
     """
     from .errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
@@ -154,10 +156,10 @@ def print_line(line: str) -> None:
 def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator[None]:
     """Stop the motors when SIGINT, SIGTERM or SIGHUP ends the program inside the block.
 
-    The first signal raises Signalled, a SystemExit, at the current place of the program. At the end of the
-    block the motors decelerate; a motor that still moves after `seconds` is stopped immediately. One line is
-    printed on stderr, and the program exits with 128 + the number of the signal. The second signal stops the
-    motors immediately, the third one exits without waiting. A signal that was ignored (nohup) stays ignored.
+    The first signal raises Signalled, a SystemExit, which leaves the block. Then the motors decelerate; a
+    motor that still moves after `seconds` is stopped immediately. One line is printed on stderr, and the
+    program exits with status 128 + the number of the signal. The second signal stops the motors immediately;
+    the third signal ends the program without waiting. A signal that was ignored before (nohup) stays ignored.
 
         with Ppmc104.open("/dev/ttyUSB0") as axis, stop_on_signals(axis):
             axis.move(100_000)
@@ -167,7 +169,7 @@ def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator
         seconds: longest deceleration, more than 0.
 
     Raises:
-        OutOfRange: the caller is not in the main thread, or seconds is not more than 0.
+        OutOfRange: the caller is not in the main thread, or `seconds` is not positive.
     """
     from .check import exact
     from .errors import OutOfRange

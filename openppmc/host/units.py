@@ -1,6 +1,7 @@
 """Speeds, rates and set-ups as numbers, under one public name. Pure.
 
-The functions are defined in `speeds`; times that only one part has are defined in the folder of that part.
+The functions are defined in `speeds`. Functions for times of a single part are defined in the folder of that
+part.
 """
 
 from .axis import chop_byte

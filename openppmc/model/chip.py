@@ -1,8 +1,8 @@
 """Part at pin level: time, input pins, output edges, reset. Subclasses define the part itself.
 
-Time is the index of rising edges of `clk`. A pin change at t is first sampled by edge t; an output edge at t
-is a register that changes at edge t. Edge 0 is the first one with rst_n = 1. The cost of a run is
-proportional to the number of events, not to the number of cycles.
+A time is the index of a rising edge of `clk`. Edge t is the first edge that samples a pin change at t. An
+output edge at t is the change of a register at edge t. Edge 0 is the first edge with rst_n = 1. The cost of a
+run is proportional to the number of events, not to the number of cycles.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import ClassVar
 
 from .clock import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase
 
-# Common parts of the models' blocks: phases of an edge of `clk`, set-up, input levels, output registers. At
-# one edge the blocks run in the order of `Phase`, so that each block sees the state of the others that a
-# register would hold just before the edge.
+# Shared elements of the blocks of a model: phases of an edge of `clk`, set-up, input levels, output
+# registers. At an edge, the blocks run in the order of `Phase`. Thus each block reads the state that the
+# registers of the other blocks hold just before the edge.
 
 SetPin = Callable[[int, str, int], None]
 
@@ -49,7 +49,8 @@ class Context:
     """Set-up and services of every block.
 
     Attributes:
-        levels: synchronised input levels that decisions use; on a part with several axes those of one axis.
+        levels: synchronised input levels that decisions use. On a part with several axes, they are those of
+            one axis.
     """
 
     timebase: Timebase
@@ -61,14 +62,15 @@ class Context:
     levels: dict[str, int]
 
     def drive(self, t: int, signal: str, value: int) -> None:
-        """Drive a host-side output: it changes `host_pins` cycles after the internal edge t."""
+        """Drive a host-side output, which changes `host_pins` cycles after the internal edge t."""
         self.queue.at(t + self.latency.host_pins, Phase.PIN, lambda at: self.log.set(at, signal, value))
 
 
 class PinRegister:
     """Output registers that follow internal levels `lag` cycles later.
 
-    set_pin(t, signal, value): sets a pin of the part.
+    Args:
+        set_pin: set_pin(t, signal, value) sets a pin of the part.
     """
 
     def __init__(self, queue: Scheduler, lag: int, initial: Mapping[str, int], set_pin: SetPin) -> None:
@@ -88,7 +90,8 @@ class PinRegister:
         return lambda now: self._set_pin(now, signal, value)
 
 
-# Square wave of a phase accumulator, which adds twice its frequency every cycle and toggles on each wrap.
+# Square wave of a phase accumulator. The accumulator adds twice the frequency every cycle; the wave toggles
+# at each overflow.
 
 
 class Square:
@@ -121,7 +124,7 @@ class Square:
         return self._n & 1
 
     def advance(self) -> None:
-        """Advance to the following toggle."""
+        """Advance to the toggle after the next one."""
         self._n += 1
 
     def restart(self, origin: int) -> None:
@@ -135,8 +138,8 @@ DATA, STATUS, COMMAND = 0, 1, 1
 class Chip(ABC):
     """One part. The model starts just after the release of reset, before edge 0.
 
-    Subclasses define their pins in INPUTS (idle levels), WIDTHS (bits, if not 1) and HOST_PINS (bus). If
-    these depend on a parameter, they are set before `__init__` is called.
+    Subclasses define their pins in INPUTS (idle levels), WIDTHS (numbers of bits that are not 1) and
+    HOST_PINS (bus). If these depend on a parameter, the subclass sets them before it calls `__init__`.
 
     Args:
         clk_hz: 8e6..200e6.
@@ -144,7 +147,7 @@ class Chip(ABC):
         timing: "FAST" or "DATASHEET".
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     XTAL_MAX: ClassVar[int] = 16_000_000
@@ -178,7 +181,7 @@ class Chip(ABC):
 
     @abstractmethod
     def _released(self, t: int) -> None:
-        """Process edge t, the first one after a reset."""
+        """Process edge t, the first edge after a reset."""
 
     @abstractmethod
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
@@ -190,18 +193,18 @@ class Chip(ABC):
 
     @abstractmethod
     def _strobe(self, write: bool, reg: int) -> dict[str, int]:
-        """Return the bus pin levels of an access, without d_i."""
+        """Return the levels of the bus pins for an access, without d_i."""
 
     # ------------------------------------------------------------------ time
 
     @property
     def now(self) -> int:
-        """Last edge that was run, -1 before edge 0."""
+        """Last edge that was simulated, -1 before edge 0."""
         return self._queue.now
 
     @property
     def next_event(self) -> int | None:
-        """Next edge with an event that needs no input change; `None` if no event is scheduled."""
+        """Edge of the next event that does not depend on an input change, `None` if there is none."""
         return self._queue.next_edge()
 
     def run_until(self, t: int) -> None:
@@ -214,12 +217,14 @@ class Chip(ABC):
     # ------------------------------------------------------------------ pins
 
     def pins(self, t: int, **levels: int) -> None:
-        """Set input levels that rising edge t samples first; later calls for the same t override them.
+        """Set input levels.
 
-        rst_n = 0 acts immediately; its output edges have the time t.
+        Edge t is the first edge that samples them; later calls for the same t override them.
+
+        rst_n = 0 is effective immediately; the output edges that it causes have the time t.
 
         Raises:
-            ValueError: edge t was already run, a pin is unknown, or a level is out of range.
+            ValueError: edge t was already simulated, a pin is unknown, or a level is out of range.
         """
         inputs, widths = self.INPUTS, self.WIDTHS
         for pin, level in levels.items():
@@ -243,7 +248,7 @@ class Chip(ABC):
             self._sample(t, changed)
 
     def _sample(self, t: int, changed: Iterable[str]) -> None:
-        """Sample pins at edge t; the blocks receive the levels `input_sync` cycles later."""
+        """Sample pins at edge t; the blocks receive these levels `input_sync` cycles later."""
         names = set(changed)
         if not names.isdisjoint(self.HOST_PINS):
             self._queue.at(t, Phase.PINS, lambda now: self._sample_bus(now, self._pins))
@@ -267,7 +272,8 @@ class Chip(ABC):
         """Write a data byte (reg 0) or command byte (reg 1) with a strobe from edge t.
 
         Returns:
-            Edge 0 of P104-BUS-06 = t + strobe. The pins are set up to it; it is not run yet.
+            Edge 0 of P104-BUS-06 = t + strobe. The levels of the pins are set up to this edge, but it is not
+            run yet.
         """
         levels = self._strobe(True, reg)
         self.pins(t, **levels, d_i=byte)
@@ -275,7 +281,7 @@ class Chip(ABC):
         return t + strobe
 
     def read(self, t: int, reg: int, strobe: int = 4) -> int:
-        """Read a register with a strobe from edge t; return d_o at its end.
+        """Read a register with a strobe from edge t; return d_o at the end of the strobe.
 
         The next access may begin at t + strobe + 2.
         """
@@ -303,5 +309,5 @@ class Chip(ABC):
 
     @property
     def inputs(self) -> Mapping[str, int]:
-        """Input levels as last set."""
+        """Input levels that were set last."""
         return MappingProxyType(self._pins)

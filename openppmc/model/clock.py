@@ -21,21 +21,21 @@ class Latency:
     """Constants of one core, in cycles. The defaults are those of the RTL of this project.
 
     Attributes:
-        c_event: write event to C-event when the mailbox is open (P104-HSK-03, 0..8).
-        window_open: end of a closed window to the C-event of a byte that waited.
-        host_pins: internal change to int_n, aux_n, auxo (0..2).
-        int_pin: interrupt latch to int_n on parts with several latches (P2104-INT-03, -05, 0..2).
-        motor_pins: internal change to s, pout_n, hold, dir (0..2).
-        start_extra: start edge to internal pulse 1, in addition to W (P104-TIM-02, 0..2).
-        end_extra: rise of pout_n to the fall of BUSY (P104-END-01, 0..4).
-        imm_end: deciding edge to the fall of BUSY when pout_n is high (P104-END-02, 0..4).
-        input_sync: edge that samples a pin to the internal level (2).
-        flag_lead: least time from a forced-deceleration flag to a pulse event for which it still counts
+        c_event: from the write event to the C-event if the mailbox is open (P104-HSK-03, 0..8).
+        window_open: from the end of a closed window to the C-event of a byte that waited.
+        host_pins: from an internal change to int_n, aux_n, auxo (0..2).
+        int_pin: from an interrupt latch to int_n on parts with several latches (P2104-INT-03, -05, 0..2).
+        motor_pins: from an internal change to s, pout_n, hold, dir (0..2).
+        start_extra: from the start edge to the internal pulse 1, in addition to W (P104-TIM-02, 0..2).
+        end_extra: from the rising edge of pout_n to the falling edge of BUSY (P104-END-01, 0..4).
+        imm_end: from the deciding edge to the falling edge of BUSY if pout_n is high (P104-END-02, 0..4).
+        input_sync: from the edge that samples a pin to the internal level (2).
+        flag_lead: shortest time from a forced-deceleration flag to a pulse event that the flag affects
             (P104-FDC-06, 0..4).
-        queue_next: fall of OBF to the next byte of a longer answer (P104-HSK-05, 0..4).
+        queue_next: from the falling edge of OBF to the next byte of a longer answer (P104-HSK-05, 0..4).
         reset_tick: origin of the quantum counter relative to the first edge with rst_n = 1.
-        build_base, build_per_rate: ramp-table build, base + per_rate * (RL - RH) (P104-HSK-04, <= 40000). It
-            takes 3 for RL = RH, which needs no table.
+        build_base, build_per_rate: a ramp-table build takes base + per_rate * (RL - RH) cycles (P104-HSK-04,
+            <= 40000). For RL = RH, which requires no table, it takes 3 cycles.
         build_clk: function of (RL, RH, PA) that replaces build_base and build_per_rate.
         build_queue: addition to a build where two axes share the builder.
         ds_host: addition to times measured from a write event (P104-DS, -0/+16).
@@ -43,11 +43,12 @@ class Latency:
         ds_motor: addition to times measured from a pulse, a deciding edge or an input level (P104-DS,
             -0/+16).
         ds_window: addition to the windows of P2104-DS-01..14, which count from the C-event.
-        ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12.
-        lookup_start, lookup_per_rate: look-up of the rate of an interval that is slower than the previous
-            one. The core looks the rate up while it runs, and the mailbox opens when the look-up has passed
-            the limit. It takes lookup_start, and lookup_per_rate for each rate.
-        lookup_first: look-up of the first such interval, whose rate is known.
+        ds12_lag: from a pulse event to the edge at which the length of its interval is compared for
+            P104-DS-12.
+        lookup_start, lookup_per_rate: the core looks up the rate of an interval that is slower than the
+            previous one while the previous interval runs. The look-up takes lookup_start, plus
+            lookup_per_rate for each rate. The mailbox opens when the look-up has passed the limit.
+        lookup_first: look-up for the first such interval, whose rate is already known.
     """
 
     c_event: int = 2
@@ -123,7 +124,8 @@ class Timebase:
     def quantum(self) -> int:
         """Crystal cycles of a quantum.
 
-        They are 4, or 5 if 4 would last less than 2 cycles of `clk` (8 MHz and a fast crystal).
+        The number is 4. It is 5 if 4 crystal cycles would be shorter than 2 cycles of `clk` (8 MHz and a fast
+        crystal).
         """
         return 4 if 2 * self.clk_hz >= self.xtal_hz else 5
 
@@ -132,9 +134,9 @@ class Timebase:
         return self.cyc(self.quantum * n)
 
     def ticks_in(self, clk: int) -> int:
-        """Return the number of the last tick at or before a cycle after the restart.
+        """Return the number of the last tick at or before this cycle after the restart.
 
-        For clk < 0 it returns 0.
+        The result is 0 if clk < 0.
         """
         return max(0, clk * self.xtal_hz // (self.quantum * self.clk_hz))
 
@@ -144,7 +146,7 @@ class Timebase:
 
 
 class QuantumCounter:
-    """Quantum counter of a part, restarted at an edge; it never stops (P104-BCK-03)."""
+    """Quantum counter of a part. It can be restarted at an edge, but it never stops (P104-BCK-03)."""
 
     def __init__(self, timebase: Timebase, origin: int) -> None:
         self._timebase = timebase
@@ -163,9 +165,10 @@ class QuantumCounter:
         return self._timebase.ticks_in(t - self.origin)
 
 
-# Event queue of the models: callbacks ordered by edge of `clk`, then by phase within the edge. A phase is a
-# small integer. It defines which register of the part reads which other one before both change; each part has
-# its own list. Callbacks of one edge and phase run in the order in which they were scheduled.
+# Event queue of the models: callbacks are ordered by edge of `clk`, then by phase within the edge. A phase is
+# a small integer; each part has a list of its phases. Their order defines which callback reads the state of
+# another block before that block changes it. Callbacks of the same edge and phase run in the order in which
+# they were scheduled.
 
 Callback = Callable[[int], None]
 
@@ -184,7 +187,7 @@ class Event:
 
 
 class Scheduler:
-    """Heap of events. `now` is the last edge that was run completely, -1 before the first."""
+    """Heap of events. `now` is the last edge that was simulated completely, -1 before the first."""
 
     def __init__(self) -> None:
         self.now = -1
@@ -194,7 +197,7 @@ class Scheduler:
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
         """Call `action(t)` at edge t in this phase.
 
-        Raises ValueError for an edge that was already run.
+        Raises ValueError for an edge that was already simulated.
         """
         if t <= self.now:
             raise ValueError(f"event for edge {t}, but edge {self.now} is done")
@@ -229,7 +232,7 @@ class Scheduler:
                 action(t)
 
     def run_until(self, t: int, after: Callback) -> None:
-        """Run every event up to edge t, including those that are added during the run.
+        """Run every event up to edge t, including events that are added during the run.
 
         `after` is called after the events of each edge, and may add events to this edge.
         """
@@ -254,7 +257,7 @@ class Scheduler:
         self.now = t
 
 
-# Output edges: the record, and the log that a model writes and a comparison reads.
+# Output edges, and the log of them that a model writes and a comparison reads.
 
 
 class Edge(NamedTuple):
@@ -262,8 +265,8 @@ class Edge(NamedTuple):
 
     The new value is visible just after that edge.
 
-    Only an asynchronous reset changes outputs between edges. Its edges have the time of the next edge, so on
-    the pins they may occur up to one cycle earlier.
+    An asynchronous reset may change outputs between two edges. Such a change has the time of the next edge,
+    although the pin changes up to one cycle earlier.
     """
 
     t: int
@@ -274,8 +277,8 @@ class Edge(NamedTuple):
 class EdgeLog:
     """Current levels of all outputs and the list of their changes, in order of time.
 
-    `initial` and `levels` map each output to its first and its current level. `edges` never holds a change to
-    the same level, and at most one entry per signal and edge of `clk`.
+    `initial` and `levels` map each output to its first level and to its current level. Each entry of `edges`
+    changes the level, and there is at most one entry per signal and edge of `clk`.
     """
 
     def __init__(self, initial: Mapping[str, int]) -> None:
@@ -294,7 +297,8 @@ class EdgeLog:
             if edge.t != t:
                 break
             if edge.signal == signal:
-                # An asynchronous reset coincides with a change at this edge: only the final level counts.
+                # An asynchronous reset coincides with a change at this edge, so only the final level is
+                # recorded.
                 del self.edges[place]
                 if self.level_before(signal, place) == value:
                     return
@@ -313,16 +317,16 @@ class EdgeLog:
         return [(e.t, e.value) for e in self.edges if e.signal == signal and e.t >= since]
 
     def falls(self, signal: str, since: int = 0) -> list[int]:
-        """Return the edges at which a one-bit signal fell."""
+        """Return the falling edges of a one-bit signal."""
         return [t for t, value in self.of(signal, since) if value == 0]
 
     def rises(self, signal: str, since: int = 0) -> list[int]:
-        """Return the edges at which a one-bit signal rose."""
+        """Return the rising edges of a one-bit signal."""
         return [t for t, value in self.of(signal, since) if value == 1]
 
 
 def low_times(changes: list[tuple[int, int]]) -> list[int]:
-    """Return the lengths of the complete low phases of an active-low signal, in cycles.
+    """Return the lengths of the complete low phases of a signal, in cycles.
 
     Args:
         changes: list of (t, value).

@@ -1,6 +1,6 @@
 """Golden model of the PPMC-104 at pin level, event driven and cycle-accurate.
 
-Rules by module: this module pins, reset and parameters (P104-PORT-01..03, P104-PAR-01). Bus:
+Rules by module: pins, reset and parameters are in this module (P104-PORT-01..03, P104-PAR-01). Bus:
 `single.hostport` (P104-BUS, -HSK). Commands: this module and `single.commands` (P104-CMD, -ERR, -INI, -RD,
 -AUX). Motion: this module, `motion.motion` and `single.commands` (P104-OPR, -BCK, -PRO, -FDC, -TIM, -END).
 Limits: `motion.codes` (P104-LIM). Phases and chopper: `motion.excitation` (P104-PHS, -SW). Ramp:
@@ -70,18 +70,21 @@ DEFAULT_QUANTA = (260, 435)
 
 
 class ChopperTimes:
-    """Chopper times: the defaults until the first 0x84, then its two values; longer with vsel = L."""
+    """Chopper times: the defaults until the first 0x84, then its two values.
+
+    They are longer if vsel is low.
+    """
 
     def __init__(self, context: Context) -> None:
         self._context = context
         self._parameters: tuple[int, int] | None = None
 
     def set(self, p_on: int, p_off: int) -> None:
-        """Process 0x84: both values, 0..255, are used from the next phase boundary on (P104-AUX-03)."""
+        """Execute 0x84. Both values, 0..255, are used from the next phase boundary on (P104-AUX-03)."""
         self._parameters = (p_on, p_off)
 
     def quanta(self, on: bool) -> int:
-        """Return the length in quanta of a phase that begins now (P104-SW-04, -05)."""
+        """Return the length of a phase that begins now, in quanta (P104-SW-04, -05)."""
         if self._parameters is None:
             return DEFAULT_QUANTA[0 if on else 1]
         plain = self._context.levels["vsel"]
@@ -91,7 +94,8 @@ class ChopperTimes:
         return 12 * p_off + (132 if plain else 115)
 
 
-# Motion of the PPMC-104, where it differs: P104-OPR, P104-STP, P104-DS-03 (triangles), -10, -12.
+# Motion of the PPMC-104, where it differs from related parts: P104-OPR, P104-STP, P104-DS-03 (triangular
+# profiles), -10, -12.
 
 DS_FLAG_COMMAND, DS_FLAG_LIMIT, DS_FLAG_LIMIT_HIGH = 272, 192, 272
 DS_FAST_PULSE, DS_FAST_PHASE = 100, 148
@@ -123,7 +127,7 @@ class Motion(TimedMotion):
     def slow_stop(self, t: int, reference: int) -> None:
         """Process a deceleration stop (P104-STP-03, P104-DS-10).
 
-        The stop was accepted in START, ACC or HIGH of 011/110.
+        The stop was accepted in state START, ACC or HIGH of operation 011 or 110.
         """
         at = t
         if self._context.datasheet:
@@ -154,10 +158,7 @@ class Motion(TimedMotion):
         return DS_FAST_PULSE if self._command.pulse_only else DS_FAST_PHASE
 
     def _fast_decision_delay(self, rate: int, limit: int) -> int:
-        """Return the cycles from a pulse event to the decision about P104-DS-12.
-
-        See Latency.ds12_lag.
-        """
+        """Return the cycles from a pulse event to the decision of P104-DS-12; see Latency.ds12_lag."""
         latency, quanta = self._context.latency, self._clock.quanta
         before = self.intervals[-2].rate if len(self.intervals) > 1 else rate
         passed = 0
@@ -180,9 +181,9 @@ class Motion(TimedMotion):
         self._gate.set(t, False)
 
 
-# Command processor of the PPMC-104 model: the effect of each command. `single.commands` processes the bytes
-# before that. Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary:
-# P104-AUX-01..06, P104-DS-11.
+# Command processor of the PPMC-104 model: the effect of each command. `single.commands` converts bytes to
+# commands. Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary: P104-AUX-01..06,
+# P104-DS-11.
 
 _DS_AUX, _DS_EXCITATION_OFF = 224, 288
 
@@ -229,7 +230,7 @@ class CommandUnit(ByteUnit):
         return None
 
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
-        """Execute an action now, or with DATASHEET timing after a time (P104-DS-11).
+        """Execute an action immediately, or, with DATASHEET timing, after its processing time (P104-DS-11).
 
         The mailbox is closed during this time.
 
@@ -276,9 +277,9 @@ class CommandUnit(ByteUnit):
     # ------------------------------------------------------------------ initialisation
 
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
-        """Process the fourth byte of an initialisation (P104-INI-05..08).
+        """Check and store an initialisation after its fourth byte, and begin the table build.
 
-        The initialisation is checked and stored, and the table build begins.
+        Rules: P104-INI-05..08.
         """
         rl, rh = data[0], data[1]
         pa = data[2] | data[3] << 8
@@ -300,7 +301,7 @@ class Ppmc104(SingleAxis):
         phase_idle: 0 or 1.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -332,17 +333,17 @@ class Ppmc104(SingleAxis):
 
     @property
     def pulses(self) -> list[int]:
-        """Edges of all pulses: falls of pout_n (P104-GEN-05)."""
+        """Edges of all pulses: falling edges of pout_n (P104-GEN-05)."""
         return self.log.falls("pout_n")
 
 
-# Modelled carrier with a PPMC-104.
+# Carrier model with a PPMC-104.
 
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 
 class Carrier(carrier.Carrier[Ppmc104]):
-    """Carrier wired like ppmc104_carrier: straps bit 0 is csel, bit 1 vsel."""
+    """Carrier with the connections of ppmc104_carrier: bit 0 of the straps is csel, bit 1 is vsel."""
 
     def __init__(
         self,

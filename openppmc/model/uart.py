@@ -1,4 +1,4 @@
-"""UART in time: bit times are exact fractions of a cycle (P312-SER-01, -15, -18)."""
+"""UART with exact timing: a bit time may be a fraction of a cycle (P312-SER-01, -15, -18)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ BITS = 10
 
 
 class Queued(Protocol):
-    """Object that has the queue of a part."""
+    """Object with the event queue of a part."""
 
     @property
     def queue(self) -> Scheduler:
@@ -29,8 +29,8 @@ class Receiver:
 
     Args:
         bit: bit time in cycles.
-        on_char: on_char(t, byte) is called with a character whose stop bit edge t samples; `None` means that
-            the stop bit was low.
+        on_char: on_char(t, byte) is called at edge t, which samples the stop bit of a character; byte is
+            `None` if the stop bit is low.
     """
 
     def __init__(self, context: Queued, bit: Fraction, on_char: Callable[[int, int | None], None]) -> None:
@@ -42,7 +42,7 @@ class Receiver:
         self._event: Event | None = None
 
     def abort(self) -> None:
-        """Discard the character being received and ignore the line until it is high."""
+        """Discard an incomplete character, and ignore the line until it is high."""
         if self._event:
             self._event.cancel()
         self._start, self._wait_for_high = None, True
@@ -64,7 +64,7 @@ class Receiver:
         return self._start + ceil((number + Fraction(1, 2)) * self._bit) - 1
 
     def _verify(self, t: int) -> None:
-        """Check the start bit in its middle, when a glitch is over."""
+        """Sample the start bit in its middle; a shorter low level is a glitch."""
         if self._level:
             self._start = None
         else:
@@ -77,7 +77,7 @@ class Receiver:
     def _stop(self, t: int) -> None:
         """Process the middle of the stop bit.
 
-        The levels in the middles of all earlier bits are known now.
+        At this time, the levels of all earlier bits are known.
         """
         byte = sum(self._at(self._middle(number + 1)) << number for number in range(8))
         self._start, self._wait_for_high = None, not self._level
@@ -90,7 +90,7 @@ class Transmitter:
     Attributes:
         bit: cycles of a bit.
         sent: list for (edge in the middle of the stop bit, character).
-        lead: bits from the rise of snd to the first start bit.
+        lead: number of bits from the rising edge of snd to the first start bit.
     """
 
     def __init__(self, context: Context, bit: Fraction, sent: list[tuple[int, int]], lead: int = 1) -> None:
@@ -100,7 +100,7 @@ class Transmitter:
     def send(self, t: int, message: bytes, ended: Callable[[int], None]) -> None:
         """Send characters without gaps.
 
-        snd rises at edge t, and the first start bit begins `lead` bits later. ended(t): called when snd has
+        snd rises at edge t, and the first start bit begins `lead` bits later. ended(t) is called when snd has
         fallen.
         """
         self._log.set(t, "snd", 1)

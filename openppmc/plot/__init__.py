@@ -1,1 +1,1 @@
-"""Plots of the outputs of a part: pictures of edge lists, with matplotlib."""
+"""Plots of the outputs of a part from lists of edges, with matplotlib."""

@@ -1,7 +1,7 @@
 """Picture of a run: speed profile and pins over time, an overview above and close-ups below.
 
-The input is plain data: for each signal the level before the first edge and the changes (edge, level). The
-picture shows only recorded pins; nothing is computed from the commands of the host.
+The input is plain data: for each signal, the level before the first edge and the changes (edge, level). The
+picture shows only recorded pins, and no values that are computed from the commands of the host.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from matplotlib.figure import Figure
 
 from .signals import Run, Section, Trace, speeds
 
-# Longest interval of a motion in s. Pulses with a longer interval belong to different motions (rate 255 at
-# 125 kHz is 2.048 ms).
+# Longest interval between two pulses of a motion in s. Pulses with a longer interval belong to different
+# motions (rate 255 at 125 kHz is 2.048 ms).
 SLOWEST = 2.1e-3
 
 INK, GREY, PALE = "#1b2733", "#6b7785", "#dfe4ea"
@@ -43,7 +43,7 @@ COLOURS = {
 
 
 def bare(axes: Axes) -> None:
-    """Remove the frame and all ticks except those of x."""
+    """Remove the frame and all ticks except those of the x axis."""
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
     axes.spines["bottom"].set_color(PALE)
@@ -88,7 +88,7 @@ def draw_traces(
 
 
 def draw_speed(axes: Axes, run: Run, begin: int, end: int, scale: float) -> None:
-    """Draw the speed over time, filled; with a legend if the curves have names."""
+    """Draw the speed over time as filled curves, with a legend if the curves have names."""
     for curve in run.speeds:
         label = curve.name
         for times, values in speeds(curve.pulses, run.clk_hz, gap=round(SLOWEST * run.clk_hz)):
@@ -110,7 +110,7 @@ def draw_speed(axes: Axes, run: Run, begin: int, end: int, scale: float) -> None
 
 
 def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
-    """Draw the complete run: speed above, pins below, chapters as numbered bands."""
+    """Draw the complete run: the speed above, the pins below it, and the chapters as numbered bands."""
     scale = run.clk_hz / 1000
     speed, pins = rows
     draw_speed(speed, run, 0, run.end, scale)
@@ -155,7 +155,7 @@ def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
 
 
 def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
-    """Draw one zoom: all pins, times in µs from its beginning, marked edges with their text."""
+    """Draw a close-up of all pins, with times in µs from its beginning, and marked edges with their text."""
     scale = run.clk_hz / 1e6
     lift = 9 / (len(run.traces) * run.row_scale)  # constant distance of the titles from the axes
     title, note, marks = 1 + 0.115 * lift, 1 + 0.05 * lift, 1.5 / run.row_scale
@@ -200,9 +200,10 @@ def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
 
 
 def draw(run: Run, path: Path) -> None:
-    """Draw the run into a PNG."""
+    """Draw the picture of the run into a PNG file."""
     plt.rcParams["font.family"] = "DejaVu Sans"
-    # Heights in inches depend on the rows of pins, above and in the close-ups; nine rows give 11.6.
+    # The height in inches depends on the number of rows of pins in the overview and the close-ups; it is 11.6
+    # for nine rows.
     rows = len(run.traces) / 9 * run.row_scale
     speed, pins, lower, gap, margins = 2.10531, 2.63163 * rows, 3.78955 * rows, 1.4495, (1.102, 0.522)
     height = round(speed + pins + lower + gap + sum(margins), 4)

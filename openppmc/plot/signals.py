@@ -19,7 +19,7 @@ class Trace:
         name: name in the picture (* = active low).
         initial: level before the first change.
         changes: (edge, level).
-        colour: colour instead of that for the name.
+        colour: colour of the waveform, instead of the colour that follows from the name.
     """
 
     name: str
@@ -63,10 +63,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Speed:
-    """Curve of the speed.
-
-    It has a name (empty: no legend), a colour, and the edges of the pulses in cycles.
-    """
+    """Curve of the speed: name (empty: no legend), colour, and edges of the pulses in cycles."""
 
     name: str
     colour: str
@@ -78,7 +75,7 @@ class Run:
     """Content of the picture.
 
     Attributes:
-        row_scale: height of the rows of pins, 1 = normal.
+        row_scale: relative height of the rows of pins; 1 = normal.
         unit: unit of the speed, thousands per second.
     """
 
@@ -97,7 +94,7 @@ class Run:
 def speeds(pulses: Sequence[int], clk_hz: int, gap: int) -> list[tuple[list[int], list[float]]]:
     """Return the speed in pulses per second as step curves.
 
-    Pulses with an interval of up to `gap` cycles form one curve.
+    Successive pulses belong to the same curve if their interval is at most `gap` cycles.
     """
     curves: list[tuple[list[int], list[float]]] = []
     times: list[int] = []

@@ -54,7 +54,7 @@ def motor(axis: AxisStatus, alarm: str) -> str:
 def show(board: SimBoard | SimLine) -> None:
     """Print the status until the board ends.
 
-    A terminal has one line that is updated; other outputs receive a line every PLAIN seconds.
+    On a terminal, one line is updated; any other output receives a line every PLAIN seconds.
     """
     live = sys.stdout.isatty()
     while True:
@@ -72,7 +72,7 @@ def show(board: SimBoard | SimLine) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Run a board until Ctrl-C and return the exit status: 1 after an error."""
+    """Run a board until Ctrl-C, and return the exit status, which is 1 after an error."""
     if any(word in ("-h", "--help") for word in arguments):
         print(USAGE)
         return 0

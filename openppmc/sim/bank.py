@@ -1,4 +1,4 @@
-"""Machine model of a bank: equal plants, except for words with the number of an axis."""
+"""Machine model of a bank. All plants are equal, except for words with the number of an axis."""
 
 from __future__ import annotations
 

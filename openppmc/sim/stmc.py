@@ -1,6 +1,7 @@
 """Machine model of an STMC; the word `read_map` selects the read codes of the device.
 
-The reference point is between the deceleration limits of a J105 STMC; the search for it ends at either limit.
+The reference point is between the deceleration limits of a J105 STMC. A search for it also ends at each of
+these limits.
 """
 
 from __future__ import annotations

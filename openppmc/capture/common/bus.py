@@ -9,7 +9,7 @@ from .part_decoder import Accesses, Wires
 from .signals import Channel, numpy, slices
 
 Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]
-"""Function that tests whether levels are a write strobe, and a read strobe."""
+"""Returns two flags for the levels of the pins: they form a write strobe; they form a read strobe."""
 
 
 def accesses(
@@ -17,17 +17,17 @@ def accesses(
 ) -> Accesses:
     """Return all strobes of a capture in order.
 
-    A strobe at the beginning or end of the capture that is incomplete is omitted.
+    An incomplete strobe at the beginning or the end of the capture is omitted.
 
     Args:
-        pins: pins that make a strobe.
+        pins: pins that form a strobe.
         idle: levels of pins that were not captured.
         bus: name of the data bus.
     """
     np = numpy()
     data, where = _bus(wires, bus), wires.ports.get(address)
     channels = {pin: wires.ports[pin] for pin in pins if pin in wires.ports}
-    # Each combination of levels is decoded once: it is a number that consists of the levels of all pins.
+    # `number` holds the levels of all pins. Each of its values is decoded only once.
     places: dict[str, int] = {}
     width = start = 0
     for pin, channel in channels.items():
@@ -56,14 +56,14 @@ def accesses(
         turn = np.empty(len(kinds), bool)
         turn[:1], turn[1:] = kinds[:1] != last, kinds[1:] != kinds[:-1]
         last = int(kinds[-1]) if len(kinds) else last
-        # The lowest bits of the time contain the strobe.
+        # The two lowest bits hold the kind of the strobe, the bits above them hold the time.
         turned = np.concatenate((before, times[turn] << 2 | kinds[turn]))
         before = turned[-1:]
         whole = np.flatnonzero(turned[:-1] & 3)
         begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1 == 1
-        # Sample the bus while the strobe is still active. Sampled wires that change together may be a
-        # sample apart. Therefore use the value before the last sample of the strobe, or in its middle if it
-        # is that short.
+        # Sample the bus while the strobe is still active. Wires that change together may differ by one
+        # sample. Therefore, use the value before the last sample of the strobe, or the value in its middle if
+        # that is later.
         seen = np.maximum((begin + end) // 2, end - wires.sample - 1)
         place = where.at_all(seen) if where else seen & 0
         byte = np.where(write, data[True].at_all(seen), data[False].at_all(seen))
@@ -75,7 +75,7 @@ def accesses(
 
 
 def _bus(wires: Wires, bus: str) -> dict[bool, Channel]:
-    """Return the data bus by direction, True = write: one bus of the chip, or two of the core."""
+    """Return the data bus for writes (True) and for reads (False). The chip has one bus, the core has two."""
     if bus in wires.ports:
         return {True: wires.ports[bus], False: wires.ports[bus]}
     nothing = Channel()

@@ -1,4 +1,4 @@
-"""Parts with the registers A0 = 0 (data) and 1 (command, status): their shared capture code."""
+"""Shared capture code of the parts with the registers 0 (data) and 1 (command and status), selected by A0."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .pinmap import Pins
 from .registers import DecodedAccess, cycle, decoded_byte_lines
 
 SHORTEST = 250_000
-"""Shortest strobe of an old host, which an analyser must sample, ps."""
+"""Shortest strobe of an old host in ps; the analyser must be able to sample it."""
 STEADY = ("busc", "aen")
-"""Pins of strobes that may be missing in a capture, because they do not change."""
+"""Strobe pins that may be missing in a capture, because their levels do not change."""
 
 
 def byte_part(
@@ -37,10 +37,10 @@ def byte_part(
 
     Args:
         model: inputs, outputs, widths of the golden model.
-        strobe_pins: pins that make a strobe.
-        decoder: meaning of bytes; a function returns it for a capture.
+        strobe_pins: pins that form a strobe.
+        decoder: decodes bytes to text; or a function that returns the decoder of a capture.
         code: decodes a command byte.
-        levels: returns the levels of these pins and the address during an access.
+        levels: returns the levels of the strobe pins and of the address during an access.
         address: port whose bit 0 selects the register.
         bus: name of the data bus.
         aliases: other names of pins.

@@ -2,9 +2,9 @@
 
 The inputs of the capture drive the model, and each output edge is compared.
 
-Sampling, the phase of the original chip's base clock and its processing times shift edges slightly. Within
-`tolerance` two edges count as the same edge. The crystals of chip and analyser differ by some ppm; this
-difference is measured in the moves and compensated.
+Three effects shift the edges slightly: the sampling, the phase of the base clock of the original chip, and
+its processing times. Two edges count as the same edge if their distance is at most `tolerance`. The crystals
+of chip and analyser differ by some ppm. This difference is measured in the moves and compensated.
 """
 
 from __future__ import annotations
@@ -29,26 +29,26 @@ if TYPE_CHECKING:
     from .signals import Column
 
 SETTLED = 100 * US
-"""Longest time from the end of an initialisation to the first pattern, ps."""
+"""Longest time from the end of an initialisation to the first phase pattern, in ps."""
 LEAD_S = 0.2
-"""Time that the model runs before the capture begins, s."""
+"""Time in s for which the model runs before the capture begins."""
 MOST_PPM = 1000
 MOST_EDGES = 10_000
-"""Number of edges of the model that are stored as objects."""
+"""Largest number of edges that the model stores as objects."""
 STEP = 1_000_000
-"""Number of cycles that the model runs per call."""
+"""Number of cycles for which one call runs the model."""
 CLK_HZ = 16_000_000
 WINDOW = 256
-"""Number of edges that are matched one by one after a difference."""
+"""Largest number of edges per side that are matched one by one after a difference."""
 
 
 @dataclass(frozen=True)
 class Difference:
-    """Edge that only the chip or only the model has, or that occurs too late or too early.
+    """Edge of one side (chip or model) that has no edge of the other side within the tolerance.
 
     Attributes:
-        t: ps of the capture.
-        steady: True if this is not an edge, but a stable level of the chip that the model does not have.
+        t: time in ps from the beginning of the capture.
+        steady: True for a stable level, instead of an edge, that differs from the level of the model.
     """
 
     pin: str
@@ -70,7 +70,7 @@ class Difference:
 
 
 class Differences(Sequence[Difference]):
-    """Differences, stored in columns; in order of time after `sort`."""
+    """Differences, stored in columns. They are in order of time after `sort`."""
 
     def __init__(self) -> None:
         self._times, self._forms = array("q"), array("q")
@@ -111,10 +111,11 @@ class Result:
     """Result of a comparison.
 
     Attributes:
-        compared: number of pairs of edges.
+        compared: number of matched pairs of edges.
         worst: largest distance of a pair in ps, on the pin `worst_pin`.
-        begin: ps from which edges count.
-        ppm: how much faster the chip's crystal ran, measured with the analyser's clock.
+        begin: time in ps from which edges are compared.
+        ppm: difference of the chip's crystal from its nominal frequency, measured with the analyser's clock;
+            positive if the crystal is faster.
         skipped: outputs that could not be compared, with the reason.
         pins: outputs that were compared.
         total: sum of the distances of all pairs in ps.
@@ -136,7 +137,7 @@ class Result:
         return self.total / max(1, self.compared)
 
     def add_pairs(self, pin: str, apart: Column) -> None:
-        """Count pairs.
+        """Add matched pairs of edges to the sums.
 
         Args:
             apart: distance of each pair in ps.
@@ -154,7 +155,7 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
         tolerance: largest distance of a pair in ps.
 
     Raises:
-        CaptureError: the capture contains no defined beginning.
+        CaptureError: the capture contains neither a reset nor an initialisation.
     """
     begin, starts, reset = _begin(decoded)
     first = _run(decoded, begin, 1.0)
@@ -169,9 +170,10 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
 
 
 def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
-    """Return a line that proposes the other TIMING, or an empty text.
+    """Return a line that proposes the other value of TIMING, or an empty text.
 
-    The other TIMING is proposed if most edges differ and the other TIMING matches.
+    The other value is proposed if most edges differ, and if it results in at most a tenth of these
+    differences.
     """
     if len(result.differences) <= result.compared:
         return ""
@@ -183,10 +185,10 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 
 
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
-    """Return the beginning of a comparison.
+    """Return the times at which a comparison begins, and a flag.
 
-    The beginning consists of the time from which the model can follow, the times from which the edges of each
-    axis count, and whether the capture contains a reset.
+    The model runs from the first time on. The second item maps each axis to the time from which its edges are
+    compared. The flag is True if the capture contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
@@ -212,13 +214,13 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
 
 @dataclass
 class _ModelEdges:
-    """Outputs of the model in ps of the capture."""
+    """Outputs of the model; times in ps of the capture."""
 
     outputs: dict[str, Channel]
 
 
 def _run(decoded: Decoded, begin: int, ratio: float) -> _ModelEdges:
-    """Drive a new model with the inputs.
+    """Drive a new model with the inputs, and return its outputs.
 
     Args:
         ratio: time of the model divided by time of the capture.
@@ -266,7 +268,7 @@ def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]
 
 
 class _Outputs:
-    """Outputs of a model in columns; the list of the model is cleared when they are fetched."""
+    """Outputs of a model in columns. Fetching them clears the list of edges in the model."""
 
     def __init__(self, model: Any, decoder: PartDecoder, lead: int, stamp: Callable[[int], int]) -> None:
         self.model, self.decoder, self.lead, self.stamp = model, decoder, lead, stamp
@@ -282,7 +284,7 @@ class _Outputs:
                 self.take()
 
     def take(self, rest: int = 1000) -> None:
-        """Fetch all edges except the last ones, which the model may still change."""
+        """Fetch the edges of the model, except the newest ones, which the model may still change."""
         log = self.model.log
         ready = log.edges[: max(0, len(log.edges) - rest)]
         for one in ready:
@@ -314,8 +316,8 @@ class _Outputs:
 def _clk_hz(decoded: Decoded) -> int:
     """Return the clock frequency of the model.
 
-    The frequency is that of the map, that of a captured clk (then our own captures are exact), or a high
-    default.
+    The frequency is that of the map, else that of a captured `clk`, else a high default. With a captured
+    `clk`, captures of our own cores match exactly.
     """
     if "CLK_HZ" in decoded.wires.params:
         return int(str(decoded.wires.params["CLK_HZ"]))
@@ -350,12 +352,12 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
 def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    The ratio is measured in long moves that both have in common; without such moves it is 1.
+    The ratio is measured with long moves that both sides contain. Without such moves, it is 1.
     """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
     theirs = decoded.decoder.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
-    # Both ends of a move may be a sample off, so a smaller difference has no meaning.
+    # Each end of a move may be wrong by one sample, so a smaller difference is ignored.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
     for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
@@ -368,15 +370,15 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
 def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    The ratio is that of the lengths (in ps) of moves that both contain; 1 if these lengths do not define it.
+    The ratio is computed from the moves that both sides contain. It is 1 if it cannot be computed from them.
 
     Args:
+        alike: lengths of each such move in ps, in the capture and in the model.
         slack: possible error of a length in ps.
     """
     if not alike:
         return 1.0
-    # If a switch or a stop ended a move before its pulses were output, its length does not fit those of the
-    # other moves.
+    # Omit moves that a switch or a stop ended early: their ratio differs from that of the other moves.
     middle = _middle([(other / mine, mine) for mine, other in alike])
     alike = [(mine, other) for mine, other in alike if abs(other - middle * mine) <= 2 * slack]
     chip, model = (sum(times) for times in zip(*alike, strict=True)) if alike else (0, 0)
@@ -472,23 +474,23 @@ def match_edges(
     known: bool,
     result: Result,
 ) -> None:
-    """Add pairs of edges, and edges without a partner.
+    """Match the edges of both sides, and add the pairs and the edges without a partner to `result`.
 
     Args:
-        known: True if both sides have the same first level; otherwise edges count from the first time at
-            which they agree.
+        known: True if the levels at `start` must be equal. Otherwise, if they differ, edges are compared from
+            the first time at which the levels are equal.
     """
     np = numpy()
     mine, levels = chip.since(start)
     other, theirs = model.since(start)
     if not known and level_at(chip, start) != level_at(model, start):
-        # From this time on, the side that changes first agrees with the other one.
+        # The levels are equal after the earlier of the two first edges, so that edge is skipped.
         if int(mine[0] if len(mine) else end + 1) < int(other[0] if len(other) else end + 1):
             mine, levels = mine[1:], levels[1:]
         else:
             other, theirs = other[1:], theirs[1:]
     while len(mine) or len(other):
-        # Most edges have their partner at the same place of the columns of both sides.
+        # Most edges have the same index as their partner, so compare whole columns first.
         least = min(len(mine), len(other), BLOCK)
         apart = np.abs(mine[:least] - other[:least])
         same = (apart <= tolerance) & (levels[:least] == theirs[:least])
@@ -511,12 +513,10 @@ def _differs(
     tolerance: int,
     result: Result,
 ) -> tuple[int, int]:
-    """Match edges one by one where the sides differ.
-
-    The call returns the number of matched edges of each side.
+    """Match edges one by one where the sides differ; return the number of processed edges of each side.
 
     Args:
-        more: whether a side has further edges.
+        more: True for a side that has further edges after these.
     """
     mine, levels, other, theirs = sides
     pairs: list[int] = []
@@ -545,7 +545,7 @@ def _differs(
 def _constant(
     name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int, result: Result
 ) -> None:
-    """Add the first of these times at which both sides are stable at different levels."""
+    """Add a difference at the first of these times at which both sides are stable with different levels."""
     np = numpy()
     at = np.array(points, np.int64)
     steady = np.ones(len(at), bool)

@@ -27,9 +27,7 @@ _ISO = re.compile(
 _CLOCK = re.compile(r"(?P<second>\d+:\d\d:\d\d)(?:[.,](?P<part>\d+))?(?P<zone>)")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\W\d]*)", re.I)
 _SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
-"""ps (as 10**n) of the unit in which sigrok writes times, by sample rate.
-
-A unit is valid up to this number of Hz.
+"""Unit in which sigrok writes times: highest sample rate in Hz -> n, where the unit is 10**n ps.
 """
 
 
@@ -50,7 +48,7 @@ def cells_of(line: str, separator: str) -> list[str]:
 
 
 def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
-    """Return a time or sample number, and whether it is in ps; `None` for other text."""
+    """Return a time or sample number, and True if it is in ps. The result is `None` for other text."""
     text = text.strip().strip('"')
     if separator != ",":
         text = text.replace(",", ".")
@@ -89,7 +87,7 @@ def _second(text: str) -> int | None:
 
 
 def level_of(text: str) -> int | None:
-    """Return 0, 1, or 2 for an unknown level; `None` for other text."""
+    """Return a level: 0, 1, or 2 if it is unknown. The result is `None` for other text."""
     text = text.strip().strip('"')
     found = LEVELS.get(text)
     if found is None and (found := LEVELS.get(text.lower())) is None:
@@ -99,7 +97,7 @@ def level_of(text: str) -> int | None:
 
 
 def is_time(head: str) -> bool:
-    """Return whether this is the heading of a column of times."""
+    """Return True for the heading of a column of times."""
     text = head.strip().strip('"')
     match = _TIME.fullmatch(text)
     if match is None:
@@ -108,12 +106,12 @@ def is_time(head: str) -> bool:
 
 
 def is_samples(head: str) -> bool:
-    """Return whether this is the heading of a column of sample numbers."""
+    """Return True for the heading of a column of sample numbers."""
     return bool(_SAMPLES.fullmatch(head.strip().strip('"')))
 
 
 def unit_of(head: str) -> Fraction | None:
-    """Return ps of the unit in `Time [s]`, `Time (ms)`, `nanoseconds`.
+    """Return the unit in a heading such as `Time [s]`, `Time (ms)` or `nanoseconds`, in ps.
 
     The value is None without a unit, and 0 for an unknown unit.
     """
@@ -127,8 +125,8 @@ def unit_of(head: str) -> Fraction | None:
 
 
 def sigrok_unit(rate: Fraction) -> int:
-    """Return ps (as 10**n) of the unit in which sigrok writes times at this rate.
+    """Return n for a sample rate; sigrok then writes times in units of 10**n ps.
 
-    Whole times of other programs have the same unit.
+    Other programs that write whole times use the same unit.
     """
     return next((ps for hz, ps in _SIGROK.items() if rate <= hz), 0)

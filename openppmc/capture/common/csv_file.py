@@ -31,7 +31,7 @@ PREAMBLE = 100
 
 
 def read_csv(path: Path) -> Capture:
-    """Read a capture. Raises CaptureError for another or incomplete file."""
+    """Read a capture. Raises CaptureError if the file has another format or is incomplete."""
     needs("decode", f"{path.name}: a capture in CSV", "numpy")
     try:
         return _Table(path.name, _Lines(path)).read()
@@ -42,7 +42,7 @@ def read_csv(path: Path) -> Capture:
 
 
 class _Lines:
-    """Lines of a file one by one, then the rest in blocks of whole lines."""
+    """Iterator over the lines of a file; `rest` yields the remaining lines in blocks."""
 
     def __init__(self, path: Path) -> None:
         self._blocks = _blocks(path)
@@ -66,7 +66,10 @@ class _Lines:
 
 
 def _blocks(path: Path) -> Iterator[bytes]:
-    """Yield whole lines that end in a line feed; only the last one of a file may have none."""
+    """Yield blocks of whole lines.
+
+    Each line ends in a line feed, except possibly the last line of the file.
+    """
     rest = b""
     for piece in chunks(path):
         if b"\0" in piece:
@@ -106,15 +109,13 @@ class _Table:
         names = heads[1:] if self.timed else heads
         if len(set(names)) < len(names):
             twice = next(name for name in names if names.count(name) > 1)
-            raise CaptureError(
-                f"{self.name}: two channels of the same name ({twice!r}): give each a name of its own"
-            )
+            raise CaptureError(f"{self.name}: two channels have the name {twice!r}: rename one of them")
         if not names:
-            raise CaptureError(f"{self.name}: a column of times and no channel: export digital channels")
+            raise CaptureError(f"{self.name}: a column of times, but no channel: export digital channels")
         return self._rows(names)
 
     def _head(self) -> list[str]:
-        """Return the names of all columns. The line that was read last is the first row."""
+        """Return the names of all columns. On return, the line that was read last is the first row."""
         before: list[tuple[str, int]] = []
         for line in self.lines:
             self.line += 1
@@ -139,7 +140,7 @@ class _Table:
         )
 
     def _explain(self, before: list[tuple[str, int]]) -> None:
-        """Raise a CaptureError that states why there is no table, if that is known."""
+        """Raise a CaptureError with the reason why there is no table; return if the reason is unknown."""
         for (head, _), (row, number) in zip(before, [*before[1:], ("", 0)], strict=True):
             for separator in "\t;,":
                 heads = cells_of(head, separator)
@@ -161,10 +162,10 @@ class _Table:
             self.column_names = [name.strip() for name in match[1].split(",")]
 
     def _shape(self, head: str, row: str) -> list[str] | None:
-        """Return the names if these two lines are the heading and the first row of a table."""
+        """Return the names of the columns if these two lines are the heading and first row of a table."""
         for separator in "\t;,":
             heads, cells = cells_of(head, separator), cells_of(row, separator)
-            # A row with a comma is not a level with a decimal comma.
+            # A comma in the row separates cells; it is not a decimal comma.
             if len(heads) < 2 and (not self.rate or separator != ","):
                 continue
             if len(cells) != len(heads) or all(one in LEVELS for one in heads if one):
@@ -195,13 +196,13 @@ class _Table:
         return None
 
     def _names(self, count: int) -> list[str]:
-        """Return the names of the comment, or numbers."""
+        """Return the names of the channels from the comment; without them, use numbers."""
         if len(self.column_names) in (count, count - 1):
             return [*self.column_names, "Trigger"][:count]
         return [f"logic{place}" for place in range(count)]
 
     def _headless(self, row: str) -> list[str] | None:
-        """Return the names if this is a row of a sigrok table without a line of names."""
+        """Return the names of the columns if this is a row of a sigrok table without a heading."""
         for separator in "\t;,":
             cells = cells_of(row, separator)
             if len(cells) < 2 and separator != ",":
@@ -265,7 +266,7 @@ class _Table:
         return Capture(self.name, channels, end, 0 if self.rate is None else round(SECOND / self.rate))
 
     def _unit_of_times(self, rows: Rows) -> Fraction:
-        """Return ps of 1 in the columns. Raises CaptureError if it is unknown."""
+        """Return the unit of the times in the columns, in ps. Raises CaptureError if it is unknown."""
         if not self.timed or self.counted:
             if not rows.whole:
                 raise CaptureError(f"{self.name}: numbers of samples that are not whole: export it again")
@@ -291,15 +292,15 @@ class _Table:
         return unit / Fraction(10**rows.decimals)
 
     def _sampled(self, rows: Rows, scale: _Scale) -> _Scale:
-        """Return the scale of sample numbers if the times are rounded.
+        """Return a scale with the exact times of the samples if the table has rounded times.
 
-        This requires a sample rate in the header.
+        This requires a sample rate in the header. In other cases, the scale is returned unchanged.
         """
         if self.rate is None or not self.timed or self.counted:
             return scale
         period, part = SECOND / self.rate, 10**rows.decimals
         unit = scale.unit * part
-        # sigrok counts in periods that are truncated to a whole number of units.
+        # sigrok truncates the sample period to a whole number of units, and writes multiples of this period.
         cut = int(period / unit)
         if rows.whole and cut and period != cut * unit:
             offset = (rows.base or 0) % cut * part
@@ -316,7 +317,7 @@ class _Scale:
 
     Args:
         unit: length of one unit of the table in ps.
-        period: ps of a sample if the times are rounded times of samples.
+        period: sample period in ps if the times are rounded times of samples.
     """
 
     def __init__(self, first: int, unit: Fraction, period: Fraction | None = None) -> None:
@@ -330,7 +331,7 @@ class _Scale:
         return found
 
     def column(self, times: array[int]) -> Column:
-        """Return a whole column in ps; it replaces `times`."""
+        """Convert a whole column to ps in place, and return it."""
         found: Column = numpy().frombuffer(times, "i8")
         for at in range(0, len(found), BLOCK):
             found[at : at + BLOCK] = self.of(found[at : at + BLOCK])
@@ -338,7 +339,7 @@ class _Scale:
 
 
 def _multiplied(values: Column, factor: Fraction) -> Column:
-    """Return rounded products.
+    """Return the values multiplied by a factor, rounded.
 
     Args:
         values: numbers in ascending order.

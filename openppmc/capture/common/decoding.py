@@ -1,4 +1,4 @@
-"""Capture with the pins of a part: pin map, clean-up, and checks."""
+"""Decoding of a capture of a part: assignment of the pins, clean-up, and checks."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .pulses import Move, moves
 from .signals import US, Bits, Capture, Channel, joined, without_glitches
 
 GLITCH = 30_000
-"""Shortest pulse in ps; shorter ones are ignored.
+"""Shortest pulse in ps that is not ignored.
 
 No strobe, bit or pulse of these chips is that short.
 """
@@ -26,8 +26,8 @@ class Decoded:
     Attributes:
         glitches: number of pulses that were ignored, by pin.
         missing: pins that were not captured.
-        crystal, timing: parameters of the model.
-        notes: remarks on the file, each once.
+        crystal, timing: crystal in Hz and TIMING of the model.
+        notes: remarks on the file, without repetitions.
     """
 
     part: str
@@ -50,12 +50,12 @@ class Decoded:
 
     @property
     def invalid_lines(self) -> int:
-        """Number of lines that are invalid for this part."""
+        """Number of lines of text that are invalid for this part."""
         return sum(line.invalid for line in self.lines)
 
     @property
     def complaint(self) -> str:
-        """Message if this cannot be a capture of this part; otherwise empty."""
+        """Message if more than half of the lines are invalid for this part; otherwise empty."""
         rows = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
         if len(rows) < 3 or 2 * self.invalid_lines <= len(rows):
             return ""
@@ -78,9 +78,10 @@ def part_decoder(part: str) -> PartDecoder:
 
 
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
-    """Return "; it has the pins of …" if the capture lacks a required pin and matches other parts.
+    """Return "; it has the pins of …" with the parts whose required pins the capture contains.
 
-    The capture matches a part if the channels have the names of its pins. In other cases the text is empty.
+    The result is empty in three cases: a pin map names the channels, the capture has all required pins of
+    `without`, or it matches no other part.
 
     Args:
         without: the requested part, which is not named.
@@ -110,7 +111,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     """Decode a capture: pins, text, moves.
 
     Args:
-        part: part, overrides that of the map.
+        part: name of the part; it overrides the part of the map.
         glitch: shortest pulse in ps.
 
     Raises:
@@ -142,7 +143,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     timing = chosen.timing or str(told.pop("TIMING", "DATASHEET"))
     crystal = chosen.crystal or int(str(told.get("XTAL_HZ", 16_000_000)))
     params = {**told, "XTAL_HZ": crystal, **chosen.parameters}
-    # In our own files each edge has the time of its edge of `clk`, so nothing is sampled.
+    # In our own files, each edge has the exact time of an edge of `clk`, not the time of a sample.
     sample = 0 if told else capture.finest
     wires = Wires(ports, bits, capture.end, sample, params)
     try:
@@ -181,7 +182,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
 
 
 def _remarks(doubtful: Sequence[str], blank: Sequence[str]) -> list[str]:
-    """Return one line on pins with unknown levels."""
+    """Return a remark about the pins with unknown levels, or no remark."""
     if not doubtful and not blank:
         return []
     return [f"unknown levels (x, z, none), assumed inactive: {', '.join([*blank, *doubtful])}"]
@@ -201,7 +202,7 @@ def _clean(
     doubtful: list[str] = []
     blank: list[str] = []
     for port, places in bits.items():
-        # A clock may be faster than the limit.
+        # The half period of a clock may be shorter than the limit.
         shortest = 0 if port == "clk" else glitch
         idle = {"rst_n": 1, **decoder.reset_levels, **decoder.inputs}.get(port, 0)
         own: dict[int, Channel] = {}

@@ -1,4 +1,4 @@
-"""Bytes of a host as text: shared code of all parts, and grouping of accesses."""
+"""Bytes of a host as text: code that all parts share. The accesses are grouped into commands."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ END_STATUS, INPUTS, OUTPUTS, REMAINING = 0x80, 0x81, 0x82, 0x83
 
 
 class CommandDecoder:
-    """Meaning of the bytes of a part.
+    """Decoder for the bytes of a part.
 
-    Subclasses define status, setting, the other codes, and pins.
+    Subclasses decode the status register, the initialisation, further codes and the pins.
     """
 
     operations = OPERATIONS
@@ -38,7 +38,7 @@ class CommandDecoder:
         return f"{pulses} {self.unit}{'s' if pulses != 1 else ''}"
 
     def exchanges(self, accesses: Iterable[Any]) -> Sequence[Any]:
-        """Return the accesses of a host as rows of the table; see `Exchange` for the members of a row."""
+        """Return the accesses of a host as rows. `Exchange` describes the members of a row."""
         return exchanges(self, accesses)
 
     def axis(self, code: int) -> int:
@@ -54,7 +54,7 @@ class CommandDecoder:
         raise NotImplementedError
 
     def other(self, code: int, data: Sequence[int]) -> str:
-        """Return a code that is neither initialisation, read nor operation as text."""
+        """Return as text a code that is neither an initialisation, nor a read, nor an operation."""
         return {0x40: "immediate stop", 0x41: "decelerating stop"}.get(code, f"command {code:02X}")
 
     def phases(self, byte: int) -> str:
@@ -63,7 +63,7 @@ class CommandDecoder:
         return f"{' '.join(high) or 'no phase'} high"
 
     def end(self, byte: int) -> str:
-        """Return the finish or end status as text: the end of the last operation."""
+        """Return the finish status or end status as text: how the last operation ended."""
         name = self.operations.get(byte & 7, ("no operation yet", 0))[0]
         if not byte & 7:
             return name
@@ -81,7 +81,7 @@ class CommandDecoder:
         return f"{self.phases(byte)}, HOLD {hold}, {direction}"
 
     def ramp(self, data: Sequence[int]) -> str:
-        """Return the data of an initialisation as text if they are complete."""
+        """Return the data of an initialisation as text, or an empty text if they are incomplete."""
         if len(data) < 4:
             return ""
         return f"; RL {data[0]}, RH {data[1]}, PA {data[2] | data[3] << 8}"
@@ -127,7 +127,7 @@ class CommandDecoder:
 class OneAxisDecoder(CommandDecoder):
     """Decoder for a part with one axis.
 
-    Its status register has an error number, or a number of expected bytes.
+    Its status register holds an error number or the number of expected bytes.
 
     Attributes:
         errors: texts of the errors.
@@ -138,7 +138,10 @@ class OneAxisDecoder(CommandDecoder):
     clock = "CLOCK pin"
 
     def status(self, byte: int) -> str:
-        """Return the set flags, and the error or the number of expected bytes, as text."""
+        """Return the status register as text.
+
+        The text contains the flags that are set, and the error or the number of expected bytes.
+        """
         flags = [name for bit, name in ((4, "BUSY"), (2, "IBF"), (1, "OBF")) if byte & bit]
         number = byte >> 4 & 7
         if byte & 0x80:
@@ -173,7 +176,7 @@ class Exchange:
 
     @property
     def read(self) -> int:
-        """Code without its axis; -1 without a code."""
+        """Code without the bits of the axis; -1 if there is no code."""
         return self.sent[0] & ~self.decoder.axis(self.sent[0]) if self.sent else -1
 
     @property
@@ -183,14 +186,14 @@ class Exchange:
 
     @property
     def reply(self) -> str:
-        """Response as text; without one, the last status."""
+        """Response as text; if there is no response, the last status."""
         if self.sent and self.answer:
             return self.decoder.answer(self.read, self.answer, self.stopped)
         return self.decoder.status(self.polls[-1]) if self.polls else ""
 
     @property
     def statuses(self) -> list[int]:
-        """Status bytes with IBF = 0 in order, without repetitions.
+        """Status bytes with IBF = 0, in order of time, without repetitions.
 
         They show the reaction of the chip to each byte.
         """

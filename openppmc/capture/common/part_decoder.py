@@ -1,4 +1,4 @@
-"""Capture functions of a part, and the content of a decoded capture."""
+"""Interface of the capture functions of a part, and the types of a decoded capture."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Access(NamedTuple):
 
 
 class Accesses:
-    """Strobes in order, a column for each field of `Access`. mask: as in numpy."""
+    """Strobes in order of time, with a column for each field of `Access`. A numpy mask selects strobes."""
 
     __slots__ = ("begin", "byte", "end", "reg", "write")
 
@@ -47,7 +47,10 @@ class Accesses:
             yield from map(Access._make, zip(*piece, strict=True))
 
     def without_polls(self, register: int) -> Accesses:
-        """Return the strobes without reads of this register that repeat the previous read."""
+        """Return the strobes without repeated polls.
+
+        A repeated poll is a read of this register that directly follows a read of it with the same byte.
+        """
         polls = ~self.write & (self.reg == register)
         polls[1:] &= polls[:-1] & (self.byte[1:] == self.byte[:-1])
         polls[:1] = False
@@ -61,8 +64,8 @@ class Line(NamedTuple):
         t: ps of its beginning.
         data: bytes as they were on the bus or line.
         invalid: True if the line is invalid for the part.
-        initialises: True if the state of the part, or of this axis, is known from the end of the line on.
-        end: ps at which the last of its bytes was over.
+        initialises: True if the state of the part (or of the axis) is known after this line.
+        end: ps of the end of its last byte.
     """
 
     t: int
@@ -76,10 +79,10 @@ class Line(NamedTuple):
 
 @dataclass
 class Wires:
-    """Capture by the names of the pins.
+    """Channels of a capture by the names of the pins.
 
     Attributes:
-        ports: complete ports, as numbers.
+        ports: ports whose bits were all captured, as numbers.
         bits: single bits, by port and bit.
         end, sample: end and sample period of the capture, ps.
     """
@@ -95,7 +98,7 @@ class PulseTrain(NamedTuple):
     """Pulses of an axis.
 
     Attributes:
-        times: in ps.
+        times: time of each pulse in ps.
         directions: direction of each pulse (1 = CCW), `None` if it is unknown.
     """
 
@@ -105,7 +108,7 @@ class PulseTrain(NamedTuple):
 
 
 class Needs(NamedTuple):
-    """Required pins, and the shortest strobe or bit on them in ps."""
+    """Required pins, and the shortest strobe or bit on these pins in ps."""
 
     pins: tuple[str, ...]
     shortest: int
@@ -117,7 +120,7 @@ class PartDecoder:
 
     Attributes:
         title: name of the part in messages.
-        pins: names for the map; the data bus is `d` if it is one bus.
+        pins: names for the pin map; a bidirectional data bus is `d`.
         inputs: inputs of the model with their idle levels.
         needs: returns the required pins.
         lines: returns the content as text.
@@ -125,15 +128,15 @@ class PartDecoder:
         trains: returns the pulses per axis.
         host_pins: inputs of the model that `stimulus` and `straps` set.
         outputs: outputs that are compared.
-        phases: those outputs whose place in the ring is unknown if the capture begins during operation.
-        straps: returns levels that the model has from the beginning.
-        parameters: returns parameters of the model that the capture contains.
-        prelude: brings a new model to the beginning of a capture.
-        axis_of: returns the axis of a bit of a port, 0: all axes.
-        reset_levels: levels of the outputs in a reset.
-        initialised: True if nothing can be compared without a reset or an initialisation.
-        pause: ps at a 16 MHz crystal between two moves; more if the pulses are that slow. The slowest rate of
-            a byte makes 2.05 ms.
+        phases: outputs whose first pattern is unknown if the capture begins during operation.
+        straps: returns the levels of strap pins, which the model has from the beginning.
+        parameters: returns the parameters of the model that follow from the capture.
+        prelude: brings a new model to the state at the beginning of the capture.
+        axis_of: returns the axis of a bit of a port; 0 = all axes.
+        reset_levels: levels of the outputs during a reset.
+        initialised: True if a comparison requires a reset or an initialisation in the capture.
+        pause: shortest time between two moves in ps with a 16 MHz crystal; slower pulses extend it. The
+            longest interval of a rate byte is 2.05 ms.
     """
 
     title: str

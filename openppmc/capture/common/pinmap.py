@@ -1,6 +1,6 @@
 """Assignment of the channels of a capture to pins.
 
-Source is a YAML or TOML file, or the channels' own names.
+A YAML or TOML file contains the assignment. Without a file, the names of the channels are those of the pins.
 
 part: ppmc104            # or --part
 crystal: 16000000        # of the original chip, Hz
@@ -51,7 +51,7 @@ class Pins:
     aliases: Mapping[str, str] = field(default_factory=dict)
 
     def place(self, pin: str) -> tuple[str, int]:
-        """Return port and bit of `s[1]` or `cs_n`. Raises ValueError."""
+        """Return port and bit of `s[1]` or `cs_n`. Raises ValueError for any other text."""
         pin = self.aliases.get(pin, pin)
         match = _PLACE.fullmatch(pin)
         port, number = (match[1], int(match[2])) if match else (pin, -1)
@@ -83,8 +83,8 @@ class PinMap:
     """Pin map from a file.
 
     Attributes:
-        pins: text of the channel by pin, as written; `None`: the channels' own names are used.
-        scope: scope of a VCD, whose channels have priority over others of the same name.
+        pins: channel of each pin as written in the file; `None` if the names of the channels are used.
+        scope: scope of a VCD; its channels have priority over channels of the same name in other scopes.
     """
 
     name: str = "the channels' names"
@@ -97,7 +97,7 @@ class PinMap:
 
 
 def _yaml(text: str, name: str) -> Any:
-    """Parse YAML. Raises ValueError for other text."""
+    """Parse YAML. Raises ValueError if the text is not YAML."""
     needs("decode", f"{name}: a pin map in YAML", "yaml")
     import yaml
 
@@ -108,7 +108,7 @@ def _yaml(text: str, name: str) -> Any:
 
 
 def read_map(path: Path) -> PinMap:
-    """Read a map. Raises CaptureError for another file."""
+    """Read a pin map. Raises CaptureError for any other file."""
     try:
         text = read_text(path)
         values = _toml(text) if path.suffix.lower() == ".toml" else _yaml(text, path.name)
@@ -156,9 +156,9 @@ def _toml(text: str) -> Any:
 
 
 def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int, Channel]]:
-    """Return channels by port and bit.
+    """Return the channels by port and bit.
 
-    Raises CaptureError for a map that does not match capture or part.
+    Raises CaptureError if the map does not match the capture or the part.
     """
     found: dict[str, Mapping[int, Channel]] = {}
     used: dict[str, str] = {}
@@ -193,7 +193,7 @@ def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int
 
 
 def _scoped(capture: Capture, scope: str) -> Capture:
-    """Return the capture with the channels of a scope by their plain names.
+    """Return the capture; the channels of this scope have names without the scope.
 
     Raises:
         CaptureError: the capture has no such scope.
@@ -213,7 +213,7 @@ def _scoped(capture: Capture, scope: str) -> Capture:
 
 
 def _channel(capture: Capture, what: object) -> tuple[str, Channel]:
-    """Return a channel by name or place; `!` before it inverts it."""
+    """Return a channel by its name or its place in the file; a leading `!` inverts the channel."""
     names = list(capture.channels)
     if isinstance(what, int) and not isinstance(what, bool):
         if not 0 <= what < len(names):
@@ -239,7 +239,7 @@ def _channel(capture: Capture, what: object) -> tuple[str, Channel]:
 
 
 def _indexed(capture: Capture, name: str, index: int) -> Channel:
-    """Return a bit of a vector by its declared index. Raises ValueError."""
+    """Return a bit of a vector by its declared index. Raises ValueError if there is no such bit."""
     ranges = []
     for key, channel in capture.channels.items():
         piece = _PIECE.fullmatch(key)
@@ -257,7 +257,7 @@ def _indexed(capture: Capture, name: str, index: int) -> Channel:
 
 
 def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel]]) -> None:
-    """Add the channels that have the names of pins."""
+    """Add each channel that has the name of a pin."""
     used: dict[tuple[str, int], str] = {}
     for name, channel in capture.channels.items():
         plain = name.strip().lower()
@@ -267,8 +267,8 @@ def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel
                 port = piece[1] if piece else plain
                 width = pins.widths.get(port, 0)
                 if channel.width == width and not piece:
-                    # The lowest index is the lowest bit of the port: [8:1] of a bus that the manual numbers 7
-                    # to 0.
+                    # The lowest declared index is the lowest bit of the port. For example, [8:1] matches a
+                    # bus that the manual numbers from 7 to 0.
                     found[port] = Bits(channel)
                 elif width and piece:
                     own = found.setdefault(port, {})
@@ -301,13 +301,13 @@ def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel
 
 
 def _pieces(capture: Capture, port: str) -> list[tuple[str, Channel]]:
-    """Return the vectors that are parts of a port."""
+    """Return the vectors that each hold some bits of a port."""
     rows = [(_PIECE.fullmatch(name.strip().lower()), name) for name in capture.channels]
     return [(name, capture.channels[name]) for piece, name in rows if piece and piece[1] == port]
 
 
 def _numbered(name: str, pins: Pins) -> str:
-    """Return `s[1]` for `s1`, `d[0]` for `d0`, `pout_n[1]` for `pout1_n`."""
+    """Return the name with its index in brackets: `s[1]` for `s1`, `pout_n[1]` for `pout1_n`."""
     match = re.fullmatch(r"([a-z]+?)_?(\d+)(_n)?", name)
     if match is None:
         match = re.fullmatch(r"([a-z]+\d*)\s*\[(\d+)\]()", name) or re.fullmatch(r"([a-z]+) (\d+)(_n)?", name)

@@ -1,4 +1,4 @@
-"""Pulses in a capture: pulses of an axis, and the moves that they form."""
+"""Pulses of an axis in a capture, and the moves that they form."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ if TYPE_CHECKING:
     from .signals import Column
 
 CHOPPED = 20 * 10**9
-"""Time in ps that is longer than any off-time of a chopper."""
+"""Longest off-time of a chopper, rounded up, in ps."""
 
 
 @dataclass(frozen=True)
 class Move:
-    """Pulses without a pause.
+    """Move: pulses without a pause.
 
     Attributes:
-        way: 1 = CW, -1 = CCW, 0 = unknown.
-        begin, end: in ps.
+        way: direction; 1 = CW, -1 = CCW, 0 = unknown.
+        begin, end: times in ps.
         first, highest, last: speeds in pps.
     """
 
@@ -39,7 +39,7 @@ class Move:
 
 
 def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
-    """Return groups of pulses without a pause (ps) in one direction."""
+    """Return groups of pulses; each group has one direction and no pause (in ps)."""
     np = numpy()
     times = train.times
     if not len(times):
@@ -48,7 +48,8 @@ def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
     split = gaps > pause
     if train.directions is not None:
         split |= train.directions[1:] != train.directions[:-1]
-    # Slow pulses may have longer intervals than a pause: up to 2.5 times the previous interval.
+    # The intervals of slow pulses may exceed the pause. An interval up to 2.5 times the previous one is no
+    # pause.
     last_split = -1
     for place in np.flatnonzero(split).tolist():
         turned = train.directions is not None and train.directions[place] != train.directions[place + 1]
@@ -65,7 +66,7 @@ def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
 
 
 def moves(trains: list[PulseTrain], pause: int) -> list[Move]:
-    """Return the moves in the order of their beginnings.
+    """Return the moves in the order in which they begin.
 
     Args:
         pause: shortest time between two moves in ps.
@@ -81,7 +82,8 @@ def _move(axis: int, times: Column, way: int | None) -> Move:
     gaps = np.diff(times)
     if not len(gaps):
         return Move(axis, begin, end, sign, len(times), 0.0, 0.0, 0.0)
-    # A single interval may be too short by a sample. Therefore the highest speed uses medians of three.
+    # Sampling may shorten an interval by one sample. Therefore, the highest speed is that of the shortest
+    # interval, where each interval is the median of three.
     least = min(gaps[:2].min(), gaps[-2:].min())
     if len(gaps) > 2:
         a, b, c = gaps[:-2], gaps[1:-1], gaps[2:]
@@ -97,12 +99,12 @@ def edges_of(channel: Channel, level: int) -> Column:
 
 
 def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) -> PulseTrain | None:
-    """Return pulses that begin with `level` on a bit of a port.
+    """Return the pulses on a bit of a port; each pulse begins with a change to `level`.
 
     The result is `None` if that pin was not captured.
 
     Args:
-        way: pin of the direction, 1 = CCW.
+        way: pin of the direction; its level 1 = CCW.
     """
     pulses = wires.bits.get(port, {}).get(bit)
     if pulses is None:
@@ -113,10 +115,10 @@ def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) ->
 
 
 def phase_train(wires: Wires, axis: int, port: str) -> PulseTrain | None:
-    """Return the steps of phases that were captured completely.
+    """Return the steps of an axis whose phases were all captured.
 
-    Wires change one after the other within a few samples, so the pattern is the levels 1 µs after a change.
-    All off or all on is the chopper.
+    Wires change one after the other within a few samples, so the levels 1 µs after a change are the pattern.
+    All phases off or all on is not a step, but the chopper.
     """
     phases = wires.ports.get(port)
     if phases is None:
@@ -136,7 +138,7 @@ def phase_train(wires: Wires, axis: int, port: str) -> PulseTrain | None:
 def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[int, Channel]:
     """Return phases without the off-times of a chopper.
 
-    An off-time is all phases off for a while, then the previous pattern.
+    During an off-time, all phases are off for a while; then the previous pattern returns.
 
     Wires change one after the other within `window` ps. If a wire is missing, the phases are returned
     unchanged.
@@ -162,7 +164,7 @@ def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[i
 
 
 def _settled(whole: Channel, window: int) -> Iterator[tuple[int, int]]:
-    """Yield the changes; changes within `window` ps from the first of them are combined."""
+    """Yield the changes. All changes within `window` ps after a change are combined with it."""
     begin, last = None, 0
     for t, level in whole:
         if begin is not None and t - begin > window:

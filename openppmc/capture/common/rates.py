@@ -16,11 +16,11 @@ UNITS = {
     **{"ps": 1, "picosecond": 1, "picoseconds": 1},
 }
 FINE = {"fs": 3, "femtosecond": 3, "femtoseconds": 3, "as": 6, "attosecond": 6, "attoseconds": 6}
-"""Units below 1 ps -> n, where the unit is 10**-n ps."""
+"""Names of the units below 1 ps -> n, where the unit is 10**-n ps."""
 
 
 def unit(name: str) -> Fraction | None:
-    """Return the ps of a unit of time, `None` for other text."""
+    """Return a unit of time in ps, `None` for other text."""
     name = name.strip().lower()
     if name in FINE:
         return Fraction(1, 10 ** FINE[name])
@@ -28,7 +28,7 @@ def unit(name: str) -> Fraction | None:
 
 
 def rate_in(line: str) -> Fraction | None:
-    """Return the sample rate in Hz in a line of a header, `None` without one.
+    """Return the sample rate in Hz from a line of a header; `None` if it contains no rate.
 
     >>> rate_in("; Samplerate: 24 MHz"), rate_in("#Sample rate: 1e+08Hz"), rate_in("; Channels: 3")
     (Fraction(24000000, 1), Fraction(100000000, 1), None)

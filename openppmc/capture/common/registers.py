@@ -1,4 +1,4 @@
-"""Accesses to registers as text: rows of `CommandDecoder` with their times and a check."""
+"""Accesses to registers as text: the rows of a `CommandDecoder`, checked, with their times."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def decoded_lines(
 ) -> list[Line]:
     """Return all accesses as text, one row per command with its response.
 
-    A row that the part's decoder cannot describe is invalid.
+    A row is invalid if the decoder of the part cannot describe it.
     """
     rows = decoder.exchanges(map(said, accesses))
     begin, end = accesses.begin[accesses.write], accesses.end[accesses.write]
@@ -62,9 +62,8 @@ def decoded_byte_lines(
 ) -> list[Line]:
     """Return all accesses as text, from columns.
 
-    The function is for parts with commands and status in register 1 and data in register 0.
-
-    The result is that of `exchanges`, computed from columns instead of single accesses.
+    This function supports parts with commands and status in register 1 and data in register 0. It returns the
+    same rows as `exchanges`, but computes them from columns.
     """
     np = numpy()
     accesses = accesses.without_polls(1)
@@ -72,7 +71,7 @@ def decoded_byte_lines(
         return []
     row = np.cumsum(accesses.write & (accesses.reg == 1))
     row -= row[0]
-    # The bytes of each row: bytes sent, status, responses.
+    # Columns with the bytes of each row: bytes sent, status bytes, responses.
     sort = 3 * row + np.where(accesses.write, 0, 2 - accesses.reg)
     content = accesses.byte.astype(np.uint8)[np.argsort(sort, kind="stable")].tobytes()
     bounds = [0, *np.cumsum(np.bincount(sort, minlength=3 * int(row[-1]) + 3)).tolist()]
@@ -119,7 +118,7 @@ def _hex(data: Sequence[int]) -> str:
 
 
 def cycle(access: Access, levels: dict[str, int], data: str = "d_i") -> list[tuple[int, dict[str, int]]]:
-    """Return a clean strobe for the golden model: the levels at its start and at its end."""
+    """Return an access as a clean strobe for the golden model: the levels at its start and at its end."""
     begin = {**levels, data: access.byte} if access.write else levels
     idle = {pin: 1 for pin, level in levels.items() if pin.endswith("_n") and not level and pin != "rst_n"}
     return [(access.begin, begin), (access.end, idle)]

@@ -21,7 +21,7 @@ US = 1_000_000
 """Picoseconds of a microsecond."""
 SECOND = 10**12
 BLOCK = 1 << 16
-"""Number of rows of a column that are processed together, so that temporary columns are short."""
+"""Number of rows of a column that are processed together. The limit keeps temporary columns short."""
 
 
 def numpy(what: str = "a capture") -> Any:
@@ -43,14 +43,14 @@ def level_code(width: int) -> str:
 
 
 class Channel:
-    """Wire, or up to 64 wires as one number, in columns.
+    """Changes of one wire, or of up to 64 wires as one number, in columns.
 
     Attributes:
-        times: ps, int64, rising.
-        levels: levels from each of these times on.
+        times: times of the changes in ps, int64, rising.
+        levels: level after each change.
         initial: level before the first change.
         width: number of bits.
-        unknown: per change the bits that are unknown, or `None`.
+        unknown: bits that are unknown after each change; `None` if all are known.
         unknown_first: unknown bits of `initial`.
         indices: declared indices of the bits, lowest bit first.
     """
@@ -83,7 +83,10 @@ class Channel:
         unknown_first: int = 0,
         indices: range | None = None,
     ) -> Channel:
-        """Return a channel of columns; levels may repeat, and of equal times the last one counts."""
+        """Return a channel from columns.
+
+        Levels may repeat. Of several rows with the same time, the last one counts.
+        """
         np = numpy()
         one = cls(initial, (), width, indices)
         levels = levels.astype(level_type(width), copy=False)
@@ -135,7 +138,7 @@ class Channel:
         )
 
     def bit(self, place: int) -> Channel:
-        """Return one bit, 0 the lowest."""
+        """Return one bit as a channel; 0 is the lowest bit."""
         if self.width == 1 and place == 0:
             return self
         levels = (self.levels >> self.levels.dtype.type(place)) & self.levels.dtype.type(1)
@@ -153,7 +156,7 @@ class Channel:
         return Channel.of(1 - self.initial, self.times, flip, 1, self.unknown, self.unknown_first)
 
     def settled(self, idle: int, hold: bool) -> Channel:
-        """Return a channel whose unknown levels are `idle`; with hold, the last known level."""
+        """Return a channel with `idle` instead of unknown levels; with `hold`, with the last known level."""
         if not self.doubtful:
             return self
         np = numpy()
@@ -170,12 +173,12 @@ class Channel:
         return Channel.of(first, self.times, levels, self.width)
 
     def at(self, t: int) -> int:
-        """Return the level at a time, changes at that time included."""
+        """Return the level immediately after the changes at this time."""
         place = int(self.times.searchsorted(t, "right"))
         return int(self.levels[place - 1]) if place else self.initial
 
     def at_all(self, times: Column) -> Column:
-        """Return the levels at many times."""
+        """Return the levels at several times."""
         np = numpy()
         if not len(self):
             one: Column = np.full(len(times), self.initial, self.levels.dtype)
@@ -201,8 +204,8 @@ class Capture:
     Attributes:
         name: name of the file.
         end: time of the last sample.
-        sample: distance of two samples if the file states it, else 0.
-        part, parameters: of the core, if the file states them (our own files do).
+        sample: sample period in ps if the file states it, else 0.
+        part, parameters: part and parameters of the core; only our own files contain them.
         doubled: names that several channels have.
         notes: remarks on the file for the user.
     """
@@ -218,11 +221,10 @@ class Capture:
 
     @property
     def finest(self) -> int:
-        """Distance of two samples in ps.
+        """Sample period in ps.
 
-        The value is the distance that the file states, or a divisor of the times of all changes.
-
-        It is 0 without changes.
+        The value is the period that the file states, or else a divisor of the times of all changes.
+        It is 0 if there are no changes.
         """
         if self.sample:
             return self.sample
@@ -240,7 +242,7 @@ class Capture:
 
 
 def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
-    """Return a single wire without pulses shorter than `shortest` ps, and the number of these.
+    """Return a wire without its pulses shorter than `shortest` ps, and the number of removed pulses.
 
     >>> wire, count = without_glitches(Channel(1, [(100, 0), (103, 1), (200, 0)]), 10)
     >>> wire.initial, wire.changes, count
@@ -249,7 +251,7 @@ def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
     np = numpy()
     if len(channel) < 2 or not (short := np.diff(channel.times) < shortest).any():
         return channel, 0
-    # Only groups of short intervals are processed; all other changes stay.
+    # Only groups of short intervals are processed; all other changes are kept.
     keep = np.ones(len(channel), bool)
     times, dropped = channel.times, 0
     for place in np.flatnonzero(short & ~np.concatenate(([False], short[:-1]))).tolist():
@@ -288,7 +290,7 @@ def joined(bits: Sequence[Channel]) -> Channel:
 
 
 def slices(columns: Sequence[Column]) -> Iterator[Column]:
-    """Yield all times of these columns, each once, in order, in short pieces."""
+    """Yield all times of these columns in short sorted pieces without duplicates."""
     longest = max(columns, key=len)
     places = [0] * len(columns)
     for at in range(BLOCK, len(longest) + BLOCK, BLOCK):
@@ -301,7 +303,7 @@ def slices(columns: Sequence[Column]) -> Iterator[Column]:
 
 
 def moments(columns: Sequence[Column]) -> Column:
-    """Return all times of these columns, each once, in order."""
+    """Return all times of these columns, sorted, without duplicates."""
     np = numpy()
     times: Column = np.concatenate([np.zeros(0, np.int64), *columns])
     times.sort(kind="stable")
@@ -312,9 +314,9 @@ def moments(columns: Sequence[Column]) -> Column:
 
 
 class Bits(Mapping[int, Channel]):
-    """Single wires of a port that the file contains as one number.
+    """Single bits of a port that the file contains as one number.
 
-    Each wire is created when it is used.
+    Each bit is extracted when it is used.
     """
 
     def __init__(self, whole: Channel) -> None:
@@ -333,14 +335,14 @@ class Bits(Mapping[int, Channel]):
 
 
 def level_at(channel: Channel, t: int) -> int:
-    """Return the level at a time, changes at that time included."""
+    """Return the level immediately after the changes at this time."""
     return channel.at(t)
 
 
 def merged(parts: Iterable[tuple[str, Channel]]) -> tuple[Column, Column, list[str]]:
     """Return the changes of all channels in order of time.
 
-    The result is the times, the number of the channel of each change, and the channels' names.
+    The result consists of the times, the number of the channel of each change, and the names of the channels.
     """
     np = numpy()
     rows = list(parts)

@@ -19,7 +19,7 @@ _PIECE = 1 << 20
 
 
 def read_sr(path: Path) -> Capture:
-    """Read a capture. Raises CaptureError for a damaged file or one without logic channels."""
+    """Read a capture. Raises CaptureError if the file is damaged or has no logic channels."""
     needs("decode", f"{path.name}: a capture of sigrok", "numpy")
     try:
         with zipfile.ZipFile(path) as archive:

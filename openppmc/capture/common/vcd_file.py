@@ -1,4 +1,4 @@
-"""Captures in VCD: of sigrok, PulseView, GTKWave, and our own simulations.
+"""Captures in VCD, written by sigrok, PulseView, GTKWave or our own simulations.
 
 Our own files state the core in a comment, so that the golden model has the same clock and parameters:
 
@@ -44,7 +44,7 @@ def core_comment(part: str, parameters: Mapping[str, object]) -> str:
 
 
 def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
-    """Return the content of `core_comment`; empty for any other comment. Raises CaptureError."""
+    """Return the content of a comment of `core_comment`; empty for any other comment. Raises CaptureError."""
     text = comment.strip()
     if not text.startswith(_MARK):
         return "", {}
@@ -63,7 +63,7 @@ def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
 
 
 class _Variable:
-    """Declared variable with its changes so far, in growing columns."""
+    """Declared variable and its changes, in columns that grow while the file is read."""
 
     def __init__(self, width: int, indices: range) -> None:
         self.width, self.indices = width, indices
@@ -97,7 +97,7 @@ class _Variable:
         self.times = self.levels = self.unknown = array("q")
         if start:
             times = times - start
-        # Levels at the first time stamp are the levels at the beginning of the capture.
+        # The levels at the first time stamp are those at the beginning of the capture.
         first = int(times.searchsorted(0, "right"))
         initial, hidden = (0, full) if not first else (int(levels[first - 1]), 0)
         if first and unknown is not None:
@@ -116,7 +116,7 @@ class _Variable:
 
 
 class _Head:
-    """Declarations of a file."""
+    """Declarations of a VCD file."""
 
     def __init__(self, text: str, name: str) -> None:
         self.name = name
@@ -125,7 +125,7 @@ class _Head:
         self.notes: list[str] = []
         self.variables: dict[str, _Variable] = {}
         self.named: dict[str, str] = {}
-        """Code of the variable by name, as the user may write it."""
+        """Code of each variable, by the names that the user may write."""
         self.doubled: set[str] = set()
         self._depths: dict[str, tuple[int, str, str]] = {}
         declared = self._sections(text)
@@ -133,12 +133,12 @@ class _Head:
             self.scale = Fraction(1000)
             self.notes.append("no $timescale in it, 1 ns is assumed")
         if self.part:
-            # Our own files contain curves of the speed for a viewer.
+            # Our own files contain analogue curves of the speed for a viewer.
             self.notes = [note for note in self.notes if not note.endswith(_LEFT_OUT)]
         self._name(declared)
 
     def _sections(self, text: str) -> list[tuple[tuple[str, ...], str, int, list[str]]]:
-        """Read all sections; return variables as (scopes, code, width, words of the name)."""
+        """Read the header; return its variables as (scopes, code, width, words of the name)."""
         scopes: list[str] = []
         declared = []
         tokens = [(one[0], one.start()) for one in re.finditer(r"\S+", text)]
@@ -229,10 +229,11 @@ class _Head:
             self._add(scopes, name, code)
 
     def _add(self, scopes: tuple[str, ...], name: str, code: str) -> None:
-        """Add a name, which refers to the variable in its outermost scope.
+        """Add a variable under its name.
 
-        If several scopes have the same depth, it refers to the first one, and each variable has the name
-        `scope.name`.
+        If variables in several scopes have this name, the name refers to the variable in the outermost scope.
+        If several of these scopes have the same depth, the name refers to the first variable, and each of
+        these variables also has the name `scope.name`.
         """
         depth, home = len(scopes), ".".join(scopes)
         known = self._depths.get(name)
@@ -256,8 +257,9 @@ class _Head:
 def read_vcd(path: Path) -> Capture:
     """Read all variables of a VCD.
 
-    The name of a variable in several scopes refers to that in the outermost scope. If several scopes have the
-    same depth, it refers to the first one, and each variable has the name `scope.name`.
+    If variables in several scopes have the same name, it refers to the one in the outermost scope. If several
+    of these scopes have the same depth, the name refers to the first one, and each of their variables also
+    has the name `scope.name`.
 
     Raises:
         CaptureError: the file is invalid.
@@ -354,7 +356,7 @@ class _Body:
         return CaptureError(f"{self.head.name}: cut off or damaged at line {line}: {what}; export it again")
 
     def _piece(self, data: bytes, final: bool) -> bytes:
-        """Read all whole tokens; return the rest, which belongs to the next piece."""
+        """Process all complete tokens; return the rest, which belongs to the next piece."""
         np = self.np
         if any(word in data for word in _TEXTS):
             data = _SECTION.sub(lambda match: b"\n" * match[0].count(b"\n") + b" ", data)
@@ -372,7 +374,7 @@ class _Body:
         if len(buf) and not space[0]:
             edge = np.concatenate(([0], edge))
         if len(edge) % 2:
-            # The last token may continue in the next piece.
+            # The last token may be incomplete.
             cut = int(edge[-1])
             edge = edge[:-1]
         else:
@@ -396,7 +398,7 @@ class _Body:
         other = ~(stamp | plain | code_of | pair)
         self._words(data, starts[other], ends[other])
         times = self._times(data, buf, starts[stamp], ends[stamp])
-        # Number of time stamps so far, for each token.
+        # Number of time stamps before each token.
         at = np.cumsum(stamp, dtype=np.int32)
         if self.start is None and (len(times) or plain.any() or pair.any()):
             early = plain | pair
@@ -418,18 +420,19 @@ class _Body:
         return data[cut:]
 
     def _pairs(self, first: Any, size: Any) -> Any:
-        """Return the tokens whose variable is the next token.
+        """Return a mask of the tokens after which the code of the variable is a separate token.
 
-        These are vectors, numbers, texts, and a level as a separate token.
+        These tokens are vectors, real numbers, texts, and levels that are not directly followed by
+        the code.
         """
         np = self.np
         pair = np.isin(first, np.frombuffer(b"bBrR", np.uint8)) & (size > 1)
-        # A text may be empty, as in our own recordings.
+        # The value of a text may be empty, as in our own recordings.
         pair |= np.isin(first, np.frombuffer(b"sS", np.uint8))
         pair |= (self.level[first] != 255) & (size == 1)
         if not pair.any():
             return pair
-        # The code after a value may look like a value: in a sequence of them, every second one is a code.
+        # A code may look like a value. In a sequence of such tokens, every second token is a code.
         which = np.flatnonzero(pair)
         begins = np.concatenate(([True], np.diff(which) > 1))
         origin = np.maximum.accumulate(np.where(begins, np.arange(len(which)), 0))
@@ -526,7 +529,7 @@ class _Body:
     def _vectors(
         self, data: bytes, buf: Any, starts: Any, ends: Any, which: Any, stamps: Any, at: Any
     ) -> None:
-        """Add changes of vectors, extended to the left as the format requires."""
+        """Add changes of vectors; missing bits on the left are extended as the format requires."""
         np = self.np
         variables = self._lookup(data, buf, starts[which + 1], ends[which + 1])
         first = buf[starts[which]]
@@ -552,7 +555,7 @@ class _Body:
             for place in range(one.width):
                 live = place < size
                 value = self.level[buf[np.where(live, end - 1 - place, 0)]]
-                # Bits that are not written are 0, or unknown if the leftmost bit is unknown.
+                # Bits that are not written are 0; they are unknown if the leftmost written bit is unknown.
                 value = np.where(live, value, left & 2)
                 if (value == 255).any():
                     bad = int(begin[np.flatnonzero(value == 255)[0]])

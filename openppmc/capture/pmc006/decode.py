@@ -1,6 +1,6 @@
 """Line of PMC006B4 as text: frames of host and controllers.
 
-The motor has no pulses that can be captured.
+The PMC006B4 drives the motor directly, so there are no pulses to capture.
 """
 
 from __future__ import annotations
@@ -90,7 +90,8 @@ def _trains(wires: Wires) -> list[PulseTrain]:
 def _named(model: Pmc006, wires: Wires) -> None:
     """Set the address of a new model.
 
-    The address is that of the controller that replies, or else of the controller that receives frames.
+    The address is that of the controller that replies. Without a reply, it is that of the controller that
+    receives frames.
     """
     found = [line.data.split() for line in _lines(wires) if not line.invalid]
     replies = [words[3] for words in found if words[0] == "→"]

@@ -78,7 +78,7 @@ def status(data: int) -> str:
 
 @dataclass
 class Exchange006:
-    """Frame and its reply; repeated polls of the status are one row with the last reply."""
+    """Frame and its reply. Repeated polls of the status are one row, which contains the last reply."""
 
     t: int
     letter: str
@@ -109,14 +109,14 @@ class Exchange006:
 
 
 class Pmc006Decoder(CommandDecoder):
-    """Decoder for the bytes of a PMC006B4, with steps and pps."""
+    """Decoder for the bytes of a PMC006B4; units are steps and pps."""
 
     unit, speed, rate = "step", "thousand pps", "pps"
 
     def exchanges(self, accesses: Iterable[Any]) -> list[Exchange006]:
-        """Return frames and replies, as the script host records them, one row each.
+        """Return one row for each frame with its reply, as the script host records them.
 
-        Polls of a moving motor are one row, and so are the words of a program.
+        Consecutive polls of a moving motor are one row. The words of a program are also one row.
         """
         rows: list[Exchange006] = []
         for access in accesses:

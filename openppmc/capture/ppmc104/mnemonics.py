@@ -17,7 +17,7 @@ ERRORS = (
 
 
 class Ppmc104Decoder(OneAxisDecoder):
-    """Decoder for the bytes of a PPMC-104: one axis, error numbers in the status register."""
+    """Decoder for the bytes of a PPMC-104, which has one axis and error numbers in the status register."""
 
     errors = ERRORS
     reads = {

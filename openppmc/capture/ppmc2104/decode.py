@@ -1,4 +1,4 @@
-"""Bus and pins of a PPMC-2104 as text. Ports of both axes: bit 1 is axis 1."""
+"""Bus and pins of a PPMC-2104 as text. In ports that both axes share, bit 1 belongs to axis 1."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _trains(wires: Wires) -> list[PulseTrain]:
 
 
 def _axis_of(port: str, bit: int) -> int:
-    """Return 0, or the axis from 1 on."""
+    """Return the axis of a bit, counted from 1; 0 for a port without an axis."""
     return bit + 1 if port in AXIS_OUTPUTS else {"s1_n": 1, "s2_n": 2}.get(port, 0)
 
 

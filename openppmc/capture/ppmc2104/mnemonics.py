@@ -17,7 +17,7 @@ FLAGS = (
 
 
 class Ppmc2104Decoder(CommandDecoder):
-    """Decoder for the bytes of a PPMC-2104: two axes, error numbers in a separate register."""
+    """Decoder for the bytes of a PPMC-2104, which has two axes and a separate register for error numbers."""
 
     reads = {
         0x80: ("read end status", 1),
@@ -30,7 +30,7 @@ class Ppmc2104Decoder(CommandDecoder):
     switches = ((0x80, "ORG"), (0x40, "ALM"), (8, "FL"), (4, "FHL"), (2, "BL"), (1, "BHL"))
 
     def axis(self, code: int) -> int:
-        """Return bit 5, except for auxiliary codes, which have no axis."""
+        """Return bit 5 of a code, which selects the axis; 0 for auxiliary codes, which have no axis."""
         return 0 if code & 0xCF == 0xC1 or code == 0xC2 else code & 0x20
 
     def status(self, byte: int) -> str:
@@ -48,7 +48,7 @@ class Ppmc2104Decoder(CommandDecoder):
         return f"initial setting: {(code & 3) + 2} phases, {step} step, {clock}, {chop}{self.ramp(data)}"
 
     def other(self, code: int, data: Sequence[int]) -> str:
-        """Return auxiliary codes, or those of the base class, as text."""
+        """Return an auxiliary code as text; the base class decodes all other codes."""
         if code & 0xCF == 0xC1:
             return f"AUXO1 {'HL'[code >> 5 & 1]}, AUXO0 {'HL'[code >> 4 & 1]}"
         if code & 0xDF == 0xC0:
@@ -67,7 +67,7 @@ class Ppmc2104Decoder(CommandDecoder):
         return text if code & 0xCF == 0xC1 or code == 0xC2 else f"axis {number}: {text}"
 
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
-        """Return the text of the base class, or the error number."""
+        """Return the error number as text; the base class decodes all other responses."""
         if code == 0x86:
             return f"error {data[0]}" if data[0] else "no error"
         return super().answer(code, data, stopped)

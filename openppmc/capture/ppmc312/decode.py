@@ -1,4 +1,4 @@
-"""Parallel bus and pins of a PPMC-312 as text: blocks through its windows."""
+"""Parallel bus and pins of a PPMC-312 as text: the blocks that pass through its bus registers."""
 
 from __future__ import annotations
 

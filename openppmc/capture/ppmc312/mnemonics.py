@@ -50,18 +50,18 @@ REFUSALS = {
     0xF9: "override interrupted",
 }
 STATES = {1: "INI", 2: "NOR", 4: "ACC", 8: "FIX", 16: "ABN", 32: "WRN"}
-REPORT_BITS = 0x38  # of a header: no answer to an instruction of the host
+REPORT_BITS = 0x38  # bit of a header: the block is not an answer to an instruction of the host
 CUT = "cut short"
 FROM = {0x0B: "by the event: ", 0x1B: "by override: "}
 
 
 def number(data: bytes) -> int:
-    """Return an unsigned number, most significant byte first."""
+    """Decode an unsigned number; the most significant byte is the first."""
     return int.from_bytes(data, "big")
 
 
 def position(data: bytes) -> int:
-    """Return a signed number, most significant byte first."""
+    """Decode a signed number; the most significant byte is the first."""
     return int.from_bytes(data, "big", signed=True)
 
 
@@ -71,7 +71,7 @@ def way(flags: int) -> str:
 
 
 def when(flags: int, rest: bytes) -> str:
-    """Return the condition that a registered instruction waits for as text."""
+    """Return as text the condition for which a registered instruction waits."""
     if not flags & OV:
         return ""
     trigger = TRIGGERS[flags & 3]
@@ -160,8 +160,10 @@ def answer_words(block: bytes) -> str:
 class Row:
     """Instruction with its answer, or a report.
 
+    The bytes of a block are in logical order.
+
     Attributes:
-        t: in cycles; blocks are in logical order.
+        t: time in cycles.
     """
 
     t: int
@@ -177,7 +179,7 @@ class Row:
 
     @property
     def statuses(self) -> list[int]:
-        """CSR values in order, without repetitions."""
+        """CSR values in order of time, without repetitions."""
         return [byte for index, byte in enumerate(self.polls) if index == 0 or byte != self.polls[index - 1]]
 
 

@@ -14,7 +14,7 @@ from .mnemonics import StmcDecoder
 BASE = 0x3B0
 """Address of the data register.
 
-For a board at another address, the map decides which channels are `sa`.
+For a board at another address, the pin map assigns suitable channels to `sa`.
 """
 
 

@@ -16,12 +16,12 @@ def _levels(access: Access, wires: Wires) -> dict[str, int]:
 
 
 def read_map(wires: Wires) -> str:
-    """Return READ_MAP of the part from the pin map."""
+    """Return the parameter READ_MAP of the part from the pin map."""
     return str(wires.params.get("READ_MAP", "FAMILY"))
 
 
 def trains(wires: Wires) -> list[PulseTrain]:
-    """Return the steps of the phases."""
+    """Return the steps that the phases output."""
     one = phase_train(wires, 1, "s")
     return [] if one is None else [one]
 

@@ -60,7 +60,7 @@ class StmcDecoder(OneAxisDecoder):
         self.read_codes = {code: kinds[name] for code, name in registers.items()}
 
     def ramp(self, data: Sequence[int]) -> str:
-        """Return the divisors and the length of the ramp as text, if they are complete."""
+        """Return the divisors and the length of the ramp as text; an empty text if they are incomplete."""
         if len(data) < 4:
             return ""
         return f"; slow {data[0]}, fast {data[1]}, {data[2] | data[3] << 8} steps of acceleration"
@@ -70,7 +70,7 @@ class StmcDecoder(OneAxisDecoder):
         return super().command(code & ~0x20 if code & 0xC0 == 0x40 else code, data)
 
     def end(self, byte: int) -> str:
-        """Return the end of the last motion as text; the reference point has no bit of its own."""
+        """Return how the last motion ended as text; no bit indicates the reference point."""
         return f"{self.operations[7][0]}: found" if byte & 0x7F == 7 else super().end(byte)
 
     def inputs(self, byte: int) -> str:

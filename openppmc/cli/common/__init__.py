@@ -1,1 +1,1 @@
-"""Commands that all parts share, and the functions that commands use."""
+"""Commands that all parts share, and functions that commands use."""

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from ...host.capabilities import Capabilities
 
 USUAL = "ppmc104"
-"""Part of plans and of virtual boards if the user names no part."""
+"""Part of a plan or of a virtual board if the user names no part."""
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
-"""All words of --line; each line supports some of them."""
+"""All words of --line. Each kind of line supports some of them."""
 
 
 class PartName(str, Enum):
@@ -36,7 +36,7 @@ class Board:
 
     Attributes:
         baud: line rate in bit/s; None: the default.
-        part: its name in the table; None without --part.
+        part: name of the part in the table; None without --part.
         line: options of a serial line.
     """
 
@@ -47,14 +47,14 @@ class Board:
 
     @property
     def virtual(self) -> bool:
-        """Whether the port is a virtual board."""
+        """True if the port is a virtual board."""
         from ...host.port import MODEL, SIM
 
         return self.port.startswith((MODEL, SIM))
 
     @property
     def spec(self) -> str:
-        """The port; for a virtual board with the part that --part names."""
+        """Port. For a virtual board, it includes the part that --part names."""
         if self.part is None or not self.virtual:
             return self.port
         comma = "" if self.port.endswith(":") else ","
@@ -62,7 +62,7 @@ class Board:
 
     @property
     def planned(self) -> Capabilities:
-        """Part of a plan, which opens no board: from --part, else from a virtual port, else USUAL."""
+        """Part of a plan, for which no board is opened: from --part, else from a virtual port, else USUAL."""
         from ...host.capabilities import capabilities_of
 
         if self.part is not None:

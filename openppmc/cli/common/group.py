@@ -20,7 +20,7 @@ from ...streams import is_narrow
 
 
 def fitted(command: Any) -> Any:
-    """Return the command, changed to print its help without tables."""
+    """Change a command so that it prints its help without tables, and return it."""
     command.format_help = partial(write, command)
     for one in getattr(command, "commands", {}).values():
         fitted(one)
@@ -39,7 +39,7 @@ def write(command: Any, ctx: Any, formatter: Any) -> None:
     formatter.width, formatter.write_dl = get_terminal_size().columns, write_rows
     command.rich_markup_mode = None
     for one in getattr(command, "commands", {}).values():
-        one.short_help = one.help  # the list of commands has the complete sentences
+        one.short_help = one.help  # the list of commands contains the complete sentences
     mode = TyperGroup if isinstance(command, TyperGroup) else TyperCommand
     mode.format_help(command, ctx, formatter)
     # click would write UTF-8 to an ASCII stdout.
@@ -49,7 +49,7 @@ def write(command: Any, ctx: Any, formatter: Any) -> None:
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
 BRIDGE = ""
-"""Represents all parts with the UART bridge; they have the same commands."""
+"""Represents all parts with the UART bridge, which have the same commands."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Command:
 
     Attributes:
         place: "module:function" below `openppmc.cli`; a Typer is a group of commands.
-        help: docstring of the function, only in the first row of a name; `--help` lists it.
+        help: docstring of the function for `--help`; only in the first row of a name.
         parts: the parts that have this command.
         numbers: True if arguments such as -200 are numbers, not options.
     """
@@ -75,7 +75,7 @@ class Command:
         return getattr(import_module(f"openppmc.cli.{module}"), name)
 
     def build(self) -> Any:
-        """Return the command in the form that the parser needs."""
+        """Return the command in the form that the parser uses."""
         group, found = typer.Typer(add_completion=False), self.load()
         if isinstance(found, typer.Typer):
             group.add_typer(found, name=self.name)
@@ -93,7 +93,7 @@ class PartGroup(TyperGroup):
     """Commands of all parts.
 
     Attributes:
-        rows: a row for BRIDGE precedes the other rows of its name.
+        rows: rows of the table; a row for BRIDGE precedes the other rows with its name.
     """
 
     rows: ClassVar[tuple[Command, ...]] = ()
@@ -111,7 +111,7 @@ class PartGroup(TyperGroup):
         return list(dict.fromkeys(row.name for row in self.rows))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """Return the command of a command line. Raise UsageError if the part does not have it."""
+        """Return the command of a command line. Raise UsageError if the part does not have this command."""
         name, _, rest = super().resolve_command(ctx, args)
         rows = [row for row in self.rows if row.name == name]
         others = list(dict.fromkeys(part for row in rows for part in row.parts))
@@ -136,9 +136,10 @@ class PartGroup(TyperGroup):
 
 
 def _import_formatter() -> None:
-    """Import typer's formatter without two modules of rich.
+    """Import the formatter of typer without two modules of rich.
 
-    The modules for Markdown and for coloured tracebacks take 0.1 s to import and are not used here.
+    The import of the modules for Markdown and for coloured tracebacks would take 0.1 s; they are not used
+    here.
     """
     unused = {"rich.markdown": "Markdown", "rich.traceback": "Traceback"}
     missing = [name for name in unused if name not in sys.modules and "typer.rich_utils" not in sys.modules]

@@ -1,4 +1,4 @@
-"""A serial line with stations during a command, and the options of the line."""
+"""Serial line with stations that a command has opened, and options of the line."""
 
 from __future__ import annotations
 
@@ -18,11 +18,13 @@ Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 
 
 def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:
-    """Return the numbers of a list with ranges, in the order given. Raise BadParameter.
+    """Return the numbers of a list with ranges, in the order of the list.
+
+    Raise BadParameter if the list is invalid.
 
     Args:
         known: the allowed numbers.
-        span: text about them for messages; its first word names the numbered things.
+        span: text about the allowed numbers for messages. Its first word is the name of the numbered objects.
     """
     numbers: list[int] = []
     for piece in text.split(","):
@@ -41,7 +43,9 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
 
 
 def line_options(text: str, known: str) -> dict[str, Any]:
-    """Return the arguments of a bus's `open` from the text of --line. Raise BadParameter.
+    """Return arguments for the method `open` of a bus, from the text of --line.
+
+    Raise BadParameter if it is invalid.
 
     `sum_mode` is returned as text.
 
@@ -80,10 +84,10 @@ def _number(word: str, value: str) -> float | int:
 def ending_after(
     seconds: float | None, bus: LineBus[Any, Any], guard: Guard, stations: Sequence[Stoppable]
 ) -> Callable[[Progress], None]:
-    """Return a progress callback that shows a bar and decelerates the stations after a time.
+    """Return a progress callback. It shows a bar, and decelerates the stations after a time.
 
     Args:
-        seconds: time on the line's clock; None: no limit.
+        seconds: time on the clock of the line; None: no limit.
     """
     clock = bus.line.clock
     end_at = None if seconds is None else clock() + seconds
@@ -102,9 +106,9 @@ def ending_after(
 
 @contextmanager
 def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
-    """Open a line with `make`; a signal stops the motors and ends with status 128 + n.
+    """Open a line with `make`; a signal n stops the motors, and the exit status is 128 + n.
 
-    A lost stdout also stops the motors.
+    The motors are also stopped if stdout is lost.
     """
     with make() as bus, Guard() as guard, guard.stop_motors_on_exit(bus):
         yield bus, guard

@@ -47,7 +47,7 @@ EncoderRange = Annotated[
 
 
 def override_values(texts: list[str] | None) -> list[Override]:
-    """Return the values of --at. Raise BadParameter."""
+    """Return the values of --at. Raise BadParameter if a value is invalid."""
     try:
         return [parse_override(text) for text in texts or ()]
     except ValueError as error:
@@ -55,7 +55,10 @@ def override_values(texts: list[str] | None) -> list[Override]:
 
 
 def numbers_of(text: str | None, count: int) -> tuple[int, ...]:
-    """Return the axes of `count` values: those of --axes, else 1 to count. Raise BadParameter."""
+    """Return the axes for `count` values: those of --axes, else 1 to `count`.
+
+    Raise BadParameter if the list is invalid or its length is not `count`.
+    """
     if text is None:
         return tuple(range(1, count + 1))
     words = text.split(",")

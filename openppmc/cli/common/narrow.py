@@ -15,7 +15,7 @@ from ...streams import NARROW
 
 
 class Console(rich.console.Console):
-    """Console that prints a table that does not fit as a list, one line for each cell."""
+    """Console that prints a table as a list, with a line for each cell, if the table does not fit."""
 
     def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
         options = options or self.options
@@ -40,8 +40,8 @@ def two_columns(rows: Iterable[tuple[str, str]]) -> Table:
 def listed(heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> Group:
     """Return the rows of a table as lists, one below the other.
 
-    A cell follows its heading on the same line. Empty cells are omitted. A cell without a heading names its
-    row.
+    Each line contains the heading of a column and its cell. Empty cells are omitted. A cell of a column
+    without a heading is the name of its row.
     """
     tables: list[RenderableType] = []
     for row in rows:

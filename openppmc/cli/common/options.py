@@ -49,7 +49,7 @@ class Direction(str, Enum):
 
 @dataclass(frozen=True)
 class SetupValues:
-    """Values of the set-up options; speeds in pps, clocks in Hz. ramp None: the default."""
+    """Values of the set-up options: speeds in pps, clocks in Hz. If ramp is None, the default is used."""
 
     start: float = 1000
     high: float = 5000
@@ -152,7 +152,7 @@ _OPTIONS: dict[str, Any] = {
 
 
 def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the set-up options to a command, which receives the typed ones as the dict `typed`."""
+    """Add the set-up options to a command. It receives the options that were typed as the dict `typed`."""
 
     @functools.wraps(command)
     def wrapper(**arguments: Any) -> Any:
@@ -165,7 +165,8 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
             typed["curve"] = os.path.abspath(typed["curve"])
         return command(**arguments, typed=typed)
 
-    # get_type_hints is not used: on Python 3.10 it hides the Annotated of an option with the default None.
+    # get_type_hints is not used, because in Python 3.10 it removes Annotated from an option with default
+    # None.
     own = [
         parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
         for name, parameter in inspect.signature(command, eval_str=True).parameters.items()
@@ -175,7 +176,7 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
         for name, annotation in _OPTIONS.items()
     ]
-    seen: Any = wrapper  # typer reads its signature
+    seen: Any = wrapper  # typer reads this signature
     del seen.__wrapped__
     seen.__signature__ = inspect.Signature([*own, *added])
     seen.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}

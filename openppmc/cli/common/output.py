@@ -49,8 +49,8 @@ def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
     """Print a table whose lines may be longer than those of the terminal.
 
     Args:
-        rows: the first one has the headings.
-        sides: < or > for each column, aligned left or right.
+        rows: rows of cells; the first row contains the headings.
+        sides: alignment of each column, < = left, > = right.
     """
     if is_narrow():
         from .narrow import listed
@@ -64,7 +64,7 @@ def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
 
 
 def grid(rows: dict[str, dict[str, str]]) -> Table:
-    """Return a table without a frame; the names of the rows are its first column."""
+    """Return a table without a frame. The first column contains the names of the rows."""
     from rich.table import Table
 
     columns = list(next(iter(rows.values())))

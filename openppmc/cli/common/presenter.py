@@ -1,8 +1,8 @@
 """Output of a device on the command line, and functions that only some devices support.
 
-The table of parts names the presenter of a part (column `presenter`); a part without one has `RampPresenter`,
-that of the PPMC-104. A forecast is computed from the golden model's ramp before the move. `--at
-POSITION:WHAT` sets an override, an action of the device when it passes a position.
+The column `presenter` of the table of parts names the presenter of a part; other parts use `RampPresenter`,
+that of the PPMC-104. A forecast is computed from the ramp of the golden model before the move. `--at
+POSITION:WHAT` sets an override: an action that the device executes when it passes a position.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ FARTHEST = 1 << 31
 
 @dataclass(frozen=True)
 class Override:
-    """Action at a position: a speed in pps, reached with a ramp, or a stop.
+    """Action at a position: a change with a ramp to a speed in pps, or a stop.
 
     Attributes:
         now: stop without a ramp.
@@ -44,7 +44,7 @@ class Override:
 
 
 def parse_override(text: str) -> Override:
-    """Parse `2000:stop`, `2000:halt` or `2000:3500`. Raise ValueError."""
+    """Parse `2000:stop`, `2000:halt` or `2000:3500`. Raise ValueError for any other text."""
     place, colon, what = (piece.strip() for piece in text.partition(":"))
     try:
         at = int(place)
@@ -67,8 +67,7 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
     """Return the figures of an undisturbed move.
 
     Times are in s, from the first to the last pulse; speeds are in pps. The ramps are computed interval by
-    interval, the plateau in closed form. Raises OutOfRange for a number of pulses that the part does not
-    support.
+    interval, the plateau in closed form. Raises OutOfRange if the part does not support the number of pulses.
     """
     n = abs(pulses)
     if not 1 <= n <= ENDLESS:
@@ -100,14 +99,14 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Move to draw: times of its pulses in s, speed of each interval in pps."""
+    """Move to draw: times of the pulses in s, and speed of each interval in pps."""
 
     seconds: list[float]
     speeds: list[float]
 
     @classmethod
     def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Trajectory:
-        """Compute the trajectory, with the ramp of the set-up or at `speed`.
+        """Compute the trajectory of a move with the ramp of the set-up, or at constant `speed`.
 
         Args:
             pulses: 1 or more.
@@ -127,11 +126,11 @@ class Trajectory:
 def plot_move(trajectory: Callable[[int], Trajectory], pulses: int, path: Path) -> None:
     """Write a plot of the speed over time as PNG, SVG or PDF.
 
-    Raises OutOfRange for a move that is too long to draw and for a file suffix that the plotter does not
-    support.
+    Raises OutOfRange if the move is too long to draw, or if the plotter does not support the suffix of the
+    file.
 
     Args:
-        trajectory: computes the trajectory of a number of pulses.
+        trajectory: function that computes the trajectory of a number of pulses.
     """
     needs("plot", "a plot", "matplotlib")
     from ...plot.profile import FORMATS, draw_profile
@@ -148,18 +147,18 @@ class Status(Protocol):
 
     @property
     def raw(self) -> int:
-        """Value as read from the part."""
+        """Value that was read from the part."""
 
 
 class WithStatus(Protocol):
-    """Part with a status."""
+    """Part with a status register."""
 
     @property
     def kind(self) -> Capabilities: ...
     @property
     def link(self) -> Link: ...
     def status(self) -> Status:
-        """Read the status; this changes nothing in the part."""
+        """Read the status, without side effects in the part."""
 
 
 PartT = TypeVar("PartT", bound=WithStatus)
@@ -169,11 +168,11 @@ SetupT = TypeVar("SetupT")
 class Presenter(ABC, Generic[PartT, SetupT]):
     """Output and additional functions of a part.
 
-    PartT: driver of the part. SetupT: plan of its kind. Speeds are in pps, times in s. An optional method
-    raises OutOfRange or does nothing if the part does not have the function.
+    PartT is the driver of the part, SetupT the type of its plans. Speeds are in pps, times in s. If the part
+    does not have the function of an optional method, the method raises OutOfRange or does nothing.
 
     Attributes:
-        wide: several axes are the rows of a table.
+        wide: True if several axes are printed as the rows of one table.
     """
 
     wide = False
@@ -182,7 +181,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
 
     @abstractmethod
     def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
-        """Return all values that may be read at any time: position, moving, error, status, inputs."""
+        """Return the values that may be read at any time: position, moving, error, status, inputs."""
 
     def status_of(self, part: PartT, axes: Sequence[AnyAxis]) -> dict[int, dict[str, Any]]:
         """Return the `status_values` of these axes, by axis number."""
@@ -217,10 +216,10 @@ class Presenter(ABC, Generic[PartT, SetupT]):
 
     @abstractmethod
     def figures(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-        """Return the figures of a move in advance, see `key_figures`.
+        """Return the predicted figures of a move; see `key_figures`.
 
         Args:
-            speed: constant, or None.
+            speed: constant speed, None for a move with ramps.
         """
 
     @abstractmethod
@@ -248,15 +247,15 @@ class Presenter(ABC, Generic[PartT, SetupT]):
         progress: OnProgress,
         pulse_only: bool = False,
     ) -> Sequence[MotionResult]:
-        """Move several axes, which start at the same time, and wait.
+        """Move several axes, with a common start, and wait.
 
         Args:
-            pulses: by axis number.
+            pulses: pulses of each axis, by its number.
         """
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
 
     def halt_all(self, part: PartT) -> list[MotionResult] | None:
-        """Stop all axes immediately, at the same time, and return their ends.
+        """Stop all axes immediately, at the same time, and return the results.
 
         Returns None if the part does not support this.
         """
@@ -283,7 +282,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
         axis.home(direction, pps, fast, to_limit, progress=progress)
 
     def table_lines(self, part: PartT) -> list[str]:
-        """Return the ramps in the part as the lines of a CSV file for --curve."""
+        """Return the ramps that are stored in the part, as the lines of a CSV file for --curve."""
         raise OutOfRange(f"table: a {part.kind} does not have that")
 
 
@@ -302,7 +301,7 @@ class RampPresenter(Presenter[PartT, speeds.Setup]):
         }
 
     def moving(self, status: Any, number: int) -> tuple[bool, int | str | None]:
-        """Return from a status whether the axis moves, and the error code."""
+        """Return two values from a status: True if the axis moves, and the error code."""
         return status.busy, None if status.error is None else int(status.error)
 
     def setup_rows(self, setup: speeds.Setup) -> dict[str, str]:
@@ -319,7 +318,7 @@ class RampPresenter(Presenter[PartT, speeds.Setup]):
 
 
 AnyPresenter = Presenter[Any, Any]
-"""Presenter of a part of any type."""
+"""Presenter for a part of any type."""
 _USUAL: AnyPresenter = RampPresenter[WithStatus]()
 
 

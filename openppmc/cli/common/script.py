@@ -35,7 +35,7 @@ def positions(axes: Iterable[AnyAxis]) -> str:
 
 
 class ScriptTarget(Protocol):
-    """Open board or line, with the members that a script needs."""
+    """Open board or line: the members that a script uses."""
 
     guard: Guard
 
@@ -57,10 +57,10 @@ def number_of(step: Step) -> int:
 
 
 def execute_steps(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step], None]) -> None:
-    """Execute all steps with `do`; `repeat` executes its body the given number of times.
+    """Execute all steps with `do`. The step `repeat` executes its body several times.
 
-    The progress bar of a step ends with the step. Raises ScriptError with file:line if the part rejects a
-    step.
+    The progress bar of a step is removed at the end of the step. If the part rejects a step, ScriptError with
+    file:line is raised.
     """
     for step in steps:
         guard.check()
@@ -154,7 +154,7 @@ class ScriptRunner:
 
 
 def check_steps(steps: Iterable[Step], name: str, kind: Capabilities) -> list[int]:
-    """Return the axes of a program, [1] if it names none. Raise ScriptError if unsupported."""
+    """Return the axes of a program, [1] if it names none. Raise ScriptError for an unsupported step."""
     return sorted(_axes_of(steps, name, kind)) or [1]
 
 
@@ -175,7 +175,7 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Capabilities) -> set[int]:
 
 
 def _unsupported_reason(step: Step, kind: Capabilities) -> str:
-    """Return why the part does not support this step; empty if it does."""
+    """Return the reason why the part does not support this step; empty if it supports the step."""
     if own := part_commands().get(step.word):
         return own.unsupported_reason(kind, step.values)
     if step.word == "off" and COILS_OFF not in kind.has:
@@ -205,16 +205,16 @@ DEEPEST = 20
 
 
 class ScriptError(PpmcError):
-    """A line cannot be parsed or executed; the message begins with file:line."""
+    """A line of a script cannot be parsed or executed; the message begins with file:line."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One line.
+    """One line of a script.
 
     Attributes:
         body: steps of a repeat.
-        axis: as written; None if the line names no axis.
+        axis: number as written in the line; None if the line names no axis.
     """
 
     line: int
@@ -254,9 +254,9 @@ def read_program(
     """Return all steps of a script file. Raise ScriptError for the first invalid line.
 
     Args:
-        readers: the known words; None: those of parts with the UART bridge.
+        readers: known words with their parsers; None: those of parts with the UART bridge.
         of_axes: words that may end with axis=N.
-        numbered: name and range of this number.
+        numbered: name and range of the number at the end of a line.
     """
     if readers is None:
         readers = READERS | {word: own.parse for word, own in part_commands().items()}

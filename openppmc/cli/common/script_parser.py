@@ -1,4 +1,4 @@
-"""Parser for lines of script files: common commands and those of parts (column `script_commands`)."""
+"""Parser for lines of script files: common commands, and commands of parts (column `script_commands`)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ class PartCommand:
     """Command of script files that only some parts support.
 
     Attributes:
-        unsupported_reason: returns why a part does not support the word with these values; empty if it does.
+        unsupported_reason: returns the reason why a part does not support the word with these values; empty
+            if it supports the word.
         execute: executes the command; it is called only if `unsupported_reason` returns an empty text.
     """
 
@@ -92,9 +93,9 @@ def part_commands() -> dict[str, PartCommand]:
 
 MOST_TURNS = 1_000_000
 Values = dict[str, Any]
-"""Operands of a line, by the names that `ScriptRunner` uses."""
+"""Operands of a line, with the names that `ScriptRunner` uses."""
 Reader = Callable[[list[str]], Values]
-"""Parses and consumes the words after the first one. Raises ValueError."""
+"""Parses and removes the words after the first one. Raises ValueError if a word is invalid."""
 
 
 def check_no_more_words(words: list[str]) -> None:
@@ -104,7 +105,7 @@ def check_no_more_words(words: list[str]) -> None:
 
 
 def number(text: str, what: str, low: float, high: float) -> float:
-    """Return the text as a number. Raise ValueError unless it is one from low to high."""
+    """Return the text as a number from low to high. Raise ValueError for any other text."""
     try:
         value = float(text)
     except ValueError:
@@ -115,7 +116,7 @@ def number(text: str, what: str, low: float, high: float) -> float:
 
 
 def whole(text: str, what: str, low: int, high: int) -> int:
-    """Return the text as a whole number. Raise ValueError unless it is one from low to high."""
+    """Return the text as a whole number from low to high. Raise ValueError for any other text."""
     try:
         value = int(text)
     except ValueError:

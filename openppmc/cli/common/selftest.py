@@ -79,7 +79,7 @@ def selftest(
 def _spec() -> str:
     """Return the port; a virtual board gets a recorder.
 
-    Raises PpmcError for `model:`: the golden model cannot be compared with itself.
+    Raises PpmcError for `model:`, because the golden model cannot be compared with itself.
     """
     spec = BOARD.spec
     if spec.startswith(MODEL):

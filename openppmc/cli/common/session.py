@@ -1,4 +1,4 @@
-"""The board that a command uses: versions, stored set-up, signals and progress bars.
+"""Board that a command uses: versions, stored set-up, signals and progress bars.
 
 `init` stores the values of the set-up options of each port in a small JSON file. The first signal decelerates
 the motor, the second one stops it immediately, the third one ends the program.
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 
 def state_folder() -> Path:
-    """Return $OPENPPMC_STATE, else `openppmc` in the user's folder for program state."""
+    """Return $OPENPPMC_STATE, else the folder `openppmc` in the user's folder for program state."""
     own = os.environ.get("OPENPPMC_STATE")
     if own:
         return Path(own)
@@ -51,7 +51,7 @@ def state_folder() -> Path:
 
 
 def stores_setup(port: str) -> bool:
-    """Return whether set-ups are stored for this port; a virtual board is new each time."""
+    """Return True if set-ups are stored for this port. A virtual board is new each time."""
     return bool(port) and not f"{port}:".startswith((MODEL, SIM))
 
 
@@ -96,11 +96,14 @@ BAR_AFTER = 0.6
 
 
 class Interrupted(Exception):  # noqa: N818 - the user did it
-    """A signal has arrived; raised where the program checks for it, never within a frame."""
+    """A signal has arrived.
+
+    The exception is raised where the program checks for signals, never within a frame.
+    """
 
 
 class Guard:
-    """Context manager that counts signals, so that none interrupts an exchange with a board.
+    """Context manager that counts signals, so that no signal interrupts an exchange with a board.
 
     Attributes:
         number: number of the first signal.
@@ -132,18 +135,18 @@ class Guard:
             os._exit(128 + number)
 
     def check(self) -> None:
-        """Raise Interrupted if a signal has arrived, StdoutLost if stdout rejects the output."""
+        """Raise Interrupted if a signal has arrived, StdoutLost if stdout cannot be written."""
         if self.count:
             raise Interrupted
         sys.stdout.flush()
 
     def progress(self, now: Progress) -> None:
-        """Check for signals and show the bar; progress callback of motions."""
+        """Check for signals and show the bar. This is the progress callback of motions."""
         self.check()
         self.bar(now)
 
     def pause(self, part: Device, seconds: float) -> None:
-        """Wait for a time in s, measured by the clock of the board."""
+        """Wait for a time in s, measured with the clock of the board."""
         link = part.link
         end = link.clock() + seconds
         while (left := end - link.clock()) > 0:
@@ -154,7 +157,7 @@ class Guard:
     # ------------------------------------------------------------------ bar
 
     def bar(self, now: Progress) -> None:
-        """Show or update the bar of the running motion; only on a terminal."""
+        """Show or update the bar of the running motion if stderr is a terminal."""
         if not sys.stderr.isatty() or now.seconds < BAR_AFTER:
             return
         self._draw("moving", "position {task.fields[at]}", now.requested, now.done, at=now.position)
@@ -186,7 +189,7 @@ class Guard:
 
     @contextmanager
     def stop_motors_on_exit(self, part: Device) -> Iterator[None]:
-        """Stop the motors if the block ends by a signal or because stdout is lost."""
+        """Stop the motors if the block ends because of a signal or a lost stdout."""
         try:
             self.check()
             yield
@@ -206,9 +209,9 @@ class Guard:
         return 128 + self.number
 
     def stop_motors(self, part: Device) -> str:
-        """Decelerate all axes and wait; the next signal stops them immediately.
+        """Decelerate all axes, wait, and return one line for the user.
 
-        Returns one line for the user.
+        The next signal stops the axes immediately.
         """
         self.bar_off()
         return f"{name_of(self.number)}: {stop_motors([part], stop_now=lambda: self.count > 1)}"
@@ -217,10 +220,10 @@ class Guard:
 def mismatch(build: Build | None, number: int) -> str:
     """Return one line if bitstream and package do not match: the difference, and what to do.
 
-    The line is empty if they match or if this cannot be checked.
+    The result is empty if they match, or if this cannot be checked.
 
     Args:
-        number: number of the part.
+        number: number of the part in IDENT.
     """
     if build is None:
         return ""
@@ -236,7 +239,7 @@ def mismatch(build: Build | None, number: int) -> str:
     try:
         own = sources.digest(find_root(), f"{row.rtl}_carrier").hex()
     except (PpmcError, RuntimeError, OSError):
-        return ""  # the package is not in a checkout
+        return ""  # the package is not part of a checkout
     if own and build.source != own:
         return (
             f"the bitstream was built from other sources ({build.source}) than those of this checkout "
@@ -263,7 +266,7 @@ class Session:
 
     @property
     def presenter(self) -> AnyPresenter:
-        """Output of the part, and its additional functions."""
+        """Presenter: output of the part, and its additional functions."""
         return presenter_of(self.kind)
 
     @property
@@ -276,23 +279,24 @@ class Session:
         return self.part.axes[self.kind.check_axis(number) - 1]
 
     def selected_axes(self, number: int | None) -> Sequence[AnyAxis]:
-        """Return the axis with this number; for None all axes."""
+        """Return the axis with this number, all axes for None."""
         return self.part.axes if number is None else (self.axis(number),)
 
 
 def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
     """Return the set-up of an axis.
 
-    Typed values have priority over values that `init` stored for this port and axis, these over the defaults.
+    A typed value has the highest priority, followed by the value that `init` stored for this port and axis,
+    and the default.
     """
     return SetupValues().merged(load_setup(BOARD.port, axis)).merged(typed)
 
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the board; a signal stops the motors and ends with status 128 + n.
+    """Open the board; a signal n stops the motors, and the exit status is 128 + n.
 
-    A lost stdout also stops the motors.
+    The motors are also stopped if stdout is lost.
     """
     number = None if BOARD.part is None else parts.part(BOARD.part).number
     with (
@@ -314,7 +318,7 @@ def ready(typed: dict[str, Any], axes: Iterable[int]) -> Iterator[Session]:
 
 
 def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
-    """Make all plans, then initialise the axes; return the reached set-ups."""
+    """Make the plans of all axes, then initialise the axes; return the reached set-ups."""
     plans = {
         axis: table.plan(session.xtal_hz, session.kind, session.kind.check_axis(axis))
         for axis, table in values.items()
@@ -325,8 +329,8 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
 def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[MotionResult]:
     """Stop motions, including those of other programs, and wait for their ends.
 
-    All axes are stopped before an error is raised. An axis that is already at standstill is an error only if
-    no axis could be stopped.
+    All axes are stopped before an error is raised. An axis at standstill is an error only if no axis could be
+    stopped.
     """
     errors: list[PpmcError] = []
     moving = []

@@ -1,4 +1,4 @@
-"""Output of the shared commands: rows of text, or JSON for programs; `monitor` repeats it."""
+"""Output of the shared commands as rows of text, or as JSON for programs; `monitor` repeats the output."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def identity_values(link: Link) -> dict[str, Any]:
-    """Return the values that IDENT reported."""
+    """Return the values of the answer to IDENT."""
     identity = link.identity
     return {
         "port": link.name,
@@ -36,12 +36,12 @@ def identity_values(link: Link) -> dict[str, Any]:
 
 
 def prefix(axis: AnyAxis) -> str:
-    """Return the beginning of lines about an axis; empty if the part has one axis."""
+    """Return the prefix of lines about an axis; empty if the part has one axis."""
     return f"axis {axis.number}: " if axis.kind.axes > 1 else ""
 
 
 def end_line(end: MotionResult) -> str:
-    """Return one line: position, pulses, and why the motion has ended."""
+    """Return one line with position, pulses, and the cause of the end of the motion."""
     pulses = "" if end.pulses is None else f", {abs(end.pulses)} pulses {'CCW' if end.pulses < 0 else 'CW'}"
     return f"{end.message_prefix}position {end.position}{pulses}: {end.cause_text}"
 
@@ -52,7 +52,7 @@ def switches(axis_inputs: dict[str, bool]) -> str:
 
 
 def speed(value: speeds.Speed, byte_name: str = "rate") -> str:
-    """Return the reached speed, its rate or divisor, and a different requested speed."""
+    """Return the reached speed and its rate or divisor; also the requested speed if it differs."""
     text = f"{speeds.nearby(value.reached)} pps ({byte_name} {value.rate})"
     return (
         text
@@ -104,10 +104,10 @@ def watch(
     lines: Callable[[], Iterable[str]],
     table: Callable[[], Table],
 ) -> None:
-    """Update a table on a terminal; elsewhere print the `lines` of each reading.
+    """On a terminal, show a table and update it. Otherwise, print the `lines` of each reading.
 
     Args:
-        pause: called between two readings.
+        pause: function that is called between two readings.
     """
     turns = count or 10**9
     if not output.console.is_terminal:

@@ -83,10 +83,10 @@ def jog(
 
 
 def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgress | None = None) -> None:
-    """Wait for all motions and print their ends.
+    """Wait for all motions and print their results.
 
     Args:
-        judge: raise an error for the first motion that ended early.
+        judge: True to raise an error for the first motion that ended early.
     """
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()
@@ -114,7 +114,7 @@ def speed(
 
 
 def _goes(part: Pmc006, pps: int) -> bool:
-    """If the motor already runs in this direction, change its speed and return True."""
+    """If the motor already runs in this direction, change its speed and return True, else return False."""
     modes = part.modes()
     if not modes.running or modes.forward != (pps > 0):
         return False

@@ -278,11 +278,11 @@ class ScriptRunner:
         self._first: Pmc006 | None = None
 
     def run(self, steps: Iterable[Step]) -> None:
-        """Execute all steps. Raise ScriptError with file:line if a controller rejects one."""
+        """Execute all steps. Raise ScriptError with file:line if a controller rejects a step."""
         execute_steps(steps, self._name, self._session.guard, self._execute)
 
     def controller(self, address: int | None) -> Pmc006:
-        """Return the controller with this address; for None, the first that replies."""
+        """Return the controller with this address; for None, the first controller that replies."""
         if address is not None:
             return self._session.bus.axis(address)
         if self._first is None:
@@ -328,7 +328,7 @@ class ScriptRunner:
 
 
 def addresses(steps: Iterable[Step]) -> set[int | None]:
-    """Return the addresses in a script; None is the first controller that replies."""
+    """Return the addresses in a script; None represents the first controller that replies."""
     found: set[int | None] = set()
     for step in steps:
         found |= addresses(step.body)

@@ -1,4 +1,4 @@
-"""A line of PMC006B4 during a command, and the output of its commands."""
+"""Line of PMC006B4 that a command has opened, and output of the commands."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ Address = Annotated[
 
 
 def parse_addresses(text: str) -> list[int]:
-    """Parse `3`, `1,5` or `1-4`. Raise BadParameter."""
+    """Parse `3`, `1,5` or `1-4`. Raise BadParameter for any other text."""
     span = f"addresses are 1 to {LAST}, factory-new controllers have {FACTORY}"
     return parse_numbers("--address", text, ADDRESSES, span, "1-4")
 
@@ -47,7 +47,7 @@ class Session:
     guard: Guard
 
     def selected_axes(self, text: str | None) -> list[Pmc006]:
-        """Return the controllers that --address names; without it, the first that replies."""
+        """Return the controllers that --address names; without --address, the first that replies."""
         if text is None:
             numbers = [find(self.bus.line, self._on_scan_progress)]
             self.guard.bar_off()
@@ -60,7 +60,7 @@ class Session:
         return parts
 
     def one(self, text: str | None) -> Pmc006:
-        """Return the only controller. Raise BadParameter for several."""
+        """Return the controller. Raise BadParameter if --address names several."""
         if text is not None and len(parse_addresses(text)) > 1:
             raise typer.BadParameter(f"--address {text!r}: the command is for one controller; name only one")
         return self.selected_axes(text)[0]
@@ -76,14 +76,14 @@ class Session:
         self.guard.count_bar("looking for controllers", ADDRESSES.index(address), len(ADDRESSES))
 
     def on_word_progress(self, done: int, of: int) -> None:
-        """Check for signals and show the bar; progress callback of a download."""
+        """Check for signals and show the bar. This is the progress callback of a download."""
         self.guard.check()
         self.guard.count_bar("words of the program", done, of)
 
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the line; a signal stops the motors and ends with status 128 + n."""
+    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
     options = line_options(BOARD.line, LINE_WORDS)
     if BOARD.baud is not None:
         options["baud"] = BOARD.baud
@@ -95,7 +95,7 @@ _HEADS = ("address", "version", "state", "position", "line faults")
 
 
 def state(flags: Flags | None, modes: Modes | None) -> str:
-    """Return as text whether the motor moves, and each condition that prevents a start."""
+    """Return the state of the motor, and each condition that prevents a start, as text."""
     if flags is None or modes is None:
         return "-"
     words = ["running" if modes.running else "moving"] if flags.busy else []
@@ -106,7 +106,7 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
 
 
 def prefix(part: Pmc006) -> str:
-    """Return the beginning of lines about a controller; empty if it is the only one."""
+    """Return the prefix of lines about a controller; empty if it is the only one."""
     return "" if part.alone else f"controller {part.address}: "
 
 
@@ -144,7 +144,7 @@ def found_values(found: Iterable[ScanResult]) -> list[dict[str, Any]]:
 
 
 def end_line(end: MotionResult) -> str:
-    """Return one line: position, steps, and why the motion has ended."""
+    """Return one line with position, steps, and the cause of the end of the motion."""
     steps = ""
     if end.pulses is not None:
         steps = f", {abs(end.pulses)} steps {'backward' if end.pulses < 0 else 'forward'}"
@@ -216,7 +216,7 @@ def settings_rows(values: dict[str, int]) -> list[tuple[str, ...]]:
 
 
 def _meaning(name: str, value: int, text: str) -> str:
-    """Return the meaning of a setting, for some settings with the resulting figure."""
+    """Return the meaning of a setting; for some settings, with a value that follows from it."""
     if name == "current":
         return f"{text}: drives {drive_current(value)} mA"
     if name in ("acceleration", "deceleration"):

@@ -1,7 +1,7 @@
 """Forecasts, overrides, output and script words of the PPMC-312 on the command line.
 
-A forecast is computed from the golden model's tables. Only a PPMC-312 has the script words at, event, pulse
-and watch.
+A forecast is computed from the tables of the golden model. Only a PPMC-312 has the script words at, event,
+pulse and watch.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, 
 
 
 def trajectory(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
-    """Compute the trajectory, with the ramps of the table or at `speed`.
+    """Compute the trajectory of a move with the ramps of the table, or at constant `speed`.
 
     Args:
         pulses: 1 or more.
@@ -96,7 +96,7 @@ MOST = 8
 
 
 def register(part: Ppmc312, overrides: Sequence[Override]) -> None:
-    """Set the overrides in this order. Raise OutOfRange if the part does not support one."""
+    """Set the overrides in this order. Raise OutOfRange if the part does not support one of them."""
     if len(overrides) > MOST:
         raise OutOfRange(f"{len(overrides)} overrides: too many; a {part.kind} stores {MOST}")
     for one in overrides:
@@ -130,7 +130,7 @@ def axis_values(part: Axis[Any]) -> dict[str, Any]:
 
 
 def state_rows(values: dict[str, Any]) -> dict[str, str]:
-    """Return the rows that other parts do not have."""
+    """Return additional rows, which other parts do not have."""
     return {
         "encoder": str(values["encoder"]),
         "state": values["state"],
@@ -203,7 +203,7 @@ _DOES = "move PULSES, step cw|ccw, stop, halt, outputs VALUE or delete"
 
 
 def read_at(words: list[str]) -> Values:
-    """Parse `at POSITION stop|halt|PPS`. Raise ValueError."""
+    """Parse `at POSITION stop|halt|PPS`. Raise ValueError for any other text."""
     if len(words) != 2:
         raise ValueError("at needs: at POSITION stop|halt|PPS")
     override = parse_override(":".join(words))
@@ -211,7 +211,7 @@ def read_at(words: list[str]) -> Values:
 
 
 def read_event(words: list[str]) -> Values:
-    """Parse `event 1|2 WHAT`. Raise ValueError."""
+    """Parse `event 1|2 WHAT`. Raise ValueError for any other text."""
     if len(words) < 2:
         raise ValueError(f"event needs: event 1|2 {_DOES}")
     event, what, operands = _event(words[0]), words[1].lower(), words[2:]
@@ -231,13 +231,13 @@ def read_event(words: list[str]) -> Values:
 
 
 def read_pulse(words: list[str]) -> Values:
-    """Parse `pulse 1|2`. Raise ValueError."""
+    """Parse `pulse 1|2`. Raise ValueError for any other text."""
     _count(words, 1)
     return {"event": _event(words[0])}
 
 
 def read_watch(words: list[str]) -> Values:
-    """Parse `watch DISTANCE|off`. Raise ValueError."""
+    """Parse `watch DISTANCE|off`. Raise ValueError for any other text."""
     _count(words, 1)
     distance = None if words[0].lower() == "off" else _whole(words[0])
     if distance is not None and not 1 <= distance <= 0xFFFF:
@@ -264,7 +264,7 @@ def _count(words: list[str], expected: int) -> None:
 
 
 def _unsupported_reason(kind: Capabilities, values: Values) -> str:
-    """Return why another part does not support the word; empty for a PPMC-312."""
+    """Return the reason why another part does not support the word; empty for a PPMC-312."""
     return "" if kind is CAPABILITIES else f"a {kind} has neither overrides nor events"
 
 

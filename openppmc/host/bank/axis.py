@@ -47,7 +47,7 @@ class BankMotion(Motion):
         """Wait as `Motion.wait` does.
 
         Raises:
-            NotCalledError: the group that holds the motion is still open, so the motion would never end.
+            NotCalledError: the motion belongs to a group that is still open, so it would never end.
         """
         if not self.over and self._bank_axis._in_open_group:
             raise NotCalledError(
@@ -59,10 +59,10 @@ class BankMotion(Motion):
 
 
 class BankAxis(Axis):
-    """Axis of a bank; axis 1 is axis 0 of the window. See `axis.Axis` for the motions.
+    """Axis of a bank. Axis 1 is axis 0 of the window. See `axis.Axis` for the motions.
 
     `initialise` accepts the values of the PPMC-104, without external_clock. The bank itself counts the
-    position, from 0 at its reset. `zero` and `home` store an offset in this object only, because the counter
+    position; a reset sets it to 0. `zero` and `home` only store an offset in this object, because the counter
     is read-only (BANK-WIN-07).
     """
 
@@ -96,7 +96,7 @@ class BankAxis(Axis):
         return self._motion
 
     def _foreign_result(self) -> MotionResult:
-        """Return the end of a motion of another program, whose interrupt is pending."""
+        """Return the result of a motion of another program. The interrupt of its end is pending."""
         motion = Motion(self, MotionRequest(CONTINUOUS, CW), 0, ours=False)
         motion._on_status(0)
         if not motion.over:
@@ -107,8 +107,8 @@ class BankAxis(Axis):
         return motion.wait()
 
     def _on_status(self, status: int) -> None:
-        # If the end of another axis's motion stays unread, int_n stays low, and the end of this motion sends
-        # no message.
+        # While the end of a motion of another axis is unread, int_n stays low. Then the end of this motion
+        # sends no message. Therefore, read the ends of other axes first.
         self._bank._resolve_others(self.number)
 
     def _add_position_read(self, script: Script) -> Script:
@@ -141,7 +141,7 @@ class BankAxis(Axis):
     def configure(self, csel: int = 1, vsel: int = 1) -> None:
         """Write CONFIG; csel and vsel are 0 or 1. The next operation uses it (BANK-GEN-04).
 
-        `initialise` and motions with a known speed write the values that they need.
+        `initialise`, and motions with a known speed, write the values that they require.
         """
         csel, vsel = within(csel, "csel", 0, 1), within(vsel, "vsel", 0, 1)
         self.link.execute(Script().write(CONFIG, vsel << 1 | csel))

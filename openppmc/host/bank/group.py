@@ -57,7 +57,7 @@ def numbers_of(kind: RateCapabilities, axes: Iterable[int]) -> tuple[int, ...]:
 def write_mask(kind: RateCapabilities, numbers: tuple[int, ...]) -> list[tuple[int, Script]]:
     """Return the scripts that write MASK.
 
-    Byte k is written at axis k + 1; every bank with this number of MASK bytes has this axis.
+    Byte k is written at axis k + 1. Every bank with this number of MASK bytes has this axis.
     """
     raw = bit_bytes(numbers, kind.axes)
     return [(k + 1, Script().write(MASK, byte)) for k, byte in enumerate(raw)]
@@ -68,13 +68,13 @@ class Group(Checked):
 
     Motions of these axes that are started inside the block wait at their first pulse.
 
-    At the end of the block all of them start in the same cycle. If the block is left by an exception, the
-    waiting motions are stopped, and nothing moves. A group is created with the numbers of its axes.
+    At the end of the block, all of them start in the same cycle. If an exception leaves the block, the
+    waiting motions are stopped, and no axis moves. A group is created with the numbers of its axes.
 
     Raises:
-        AxisBusy: at the start of the block, an axis moves.
-        GroupRefused: at the end of the block, axes did not start. A motion that a switch ended while it was
-            waiting does not count; its result holds the cause.
+        AxisBusy: an axis moves at the start of the block.
+        GroupRefused: an axis did not start at the end of the block. This does not include a motion that a
+            switch ended while it was waiting; its result holds the cause.
     """
 
     numbers: tuple[int, ...]
@@ -146,7 +146,7 @@ class Group(Checked):
         return motion.over and not (motion.result and motion.result.complete)
 
     def _cancel(self) -> None:
-        """Cancel all motions of this group. All of its axes were stopped before."""
+        """Cancel all motions of this group. Before the group, all its axes were stopped."""
         link, kind = self._bank.link, self._bank.kind
         try:
             for number in self.numbers:

@@ -51,9 +51,9 @@ class Axes(dict[int, BankAxis]):
 class PpmcBank(Part):
     """Bank of axes, which is a context manager; see `part.Part`.
 
-    `axis[1]` to `axis[N]` are axes 0 to N − 1 of the window. Opening the bank reads INFO (WrongDevice), reads
-    the ends of motions that other programs left unread, and clears MASK; running motions continue. All axes
-    share the bridge, so only one call at a time is allowed for all of them.
+    `axis[1]` to `axis[N]` are axes 0 to N − 1 of the window. Opening the bank reads and checks INFO
+    (WrongDevice), reads the ends of motions that other programs left unread, and clears MASK. Running motions
+    continue. All axes share the bridge, so only one call at a time is allowed for all of them.
     """
 
     kind: BankCapabilities = CAPABILITIES
@@ -121,7 +121,7 @@ class PpmcBank(Part):
 
         The call is allowed at any time.
 
-        The motion of such an axis has ended, and no program has read its end.
+        The motion of each of these axes has ended, and no program has read its end.
         """
         count = (self._info.axes + 7) // 8
         seen = visit(self.link, [(k + 1, Script().read(PENDING)) for k in range(count)])
@@ -143,7 +143,7 @@ class PpmcBank(Part):
         pps: speeds.Number | None = None,
         pulse_only: bool = False,
     ) -> dict[int, Motion]:
-        """Start moves in the same cycle.
+        """Start moves of several axes in the same cycle.
 
         Args:
             moves: pulses by number of the axis, as in `Axis.start_move`.
@@ -177,12 +177,12 @@ class PpmcBank(Part):
         progress: OnProgress | None = None,
         pulse_only: bool = False,
     ) -> dict[int, MotionResult]:
-        """Start moves in the same cycle and wait for all of them; an axis with 0 pulses does not move.
+        """Start moves in the same cycle, and wait for all of them. An axis with 0 pulses does not move.
 
         If an axis ends early, the others are stopped with a ramp.
 
         Raises:
-            LimitReached, AlarmStop, StoppedByCommand: end of the axis that ended first.
+            LimitReached, AlarmStop, StoppedByCommand: cause of the first early end.
         """
         _table(moves)
         still = {number: pulses for number, pulses in moves.items() if whole(pulses, "pulses") == 0}
@@ -216,7 +216,7 @@ class PpmcBank(Part):
     def _wait(self, motions: Mapping[int, Motion], progress: OnProgress | None) -> Motion | None:
         """Wait until all motions have ended; return the first one that ended early, if any.
 
-        Its end stops the others.
+        If a motion ends early, the others are stopped.
         """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
@@ -248,8 +248,9 @@ class PpmcBank(Part):
     def stop_all(self, wait: bool = True) -> dict[int, MotionResult]:
         """Stop every motion immediately, in the same cycle (STOP, BANK-GRP-04).
 
-        Steps may be lost at high speed. It is no error if nothing moves. The result holds the ends of the
-        axes that moved, by number, also if another program started them; without wait it is empty.
+        Steps may be lost at high speed. It is no error if no axis moves. The result contains the results of
+        all axes that moved, by number, including motions that another program started. Without `wait`,
+        the result is empty.
         """
         visit(self.link, [(1, Script().write(STOP, 0))])
         ends: dict[int, MotionResult] = {}
@@ -269,7 +270,7 @@ class PpmcBank(Part):
     def reset(self) -> None:
         """Reset the part in any state.
 
-        Pulses end immediately, nothing is initialised, and the positions are 0.
+        The pulses end immediately. After the reset no axis is initialised, and all positions are 0.
         """
         self.link.execute(Script().reset())
         self._group = None
@@ -296,9 +297,9 @@ class PpmcBank(Part):
             self._group.started.add(number)
 
     def _resolve_others(self, number: int) -> None:
-        """Read the ends of other axes after the status of this axis was read.
+        """After the status of this axis was read, read the ends of motions of other axes.
 
-        Otherwise int_n would stay low.
+        Otherwise, int_n would stay low.
         """
         motions = (axis.motion for axis in self.axes if axis.number != number)
         if not any(motion is not None and not motion.over for motion in motions):

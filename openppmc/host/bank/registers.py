@@ -32,7 +32,7 @@ def go_error(status: int, number: int) -> CommandRefused:
 
 
 class GroupRefused(PpmcError):
-    """Some axes of a group did not start; the others run.
+    """Some axes of a group did not start; the other axes run.
 
     Args:
         refusals: exception of each axis, by number.
@@ -46,7 +46,7 @@ class GroupRefused(PpmcError):
 STATUS, CONFIG, SELECT, POSITION = 0x1, 0x2, 0x3, 0x4
 """Registers of an axis.
 
-SELECT is a register of the bridge; it selects the axis of all other registers.
+SELECT is a register of the bridge. It selects the axis whose registers the other addresses access.
 """
 MASK, PENDING, GO, STOP, INFO = 0x8, 0x9, 0xA, 0xB, 0xC
 """Registers of the bank."""

@@ -1,8 +1,8 @@
-"""Window of a bank as seen through the UART bridge: the registers of one axis at a time.
+"""Window of a bank through the UART bridge, which gives access to the registers of one axis at a time.
 
-A write to register 3 selects the axis. Every script selects its axis again, so a lost response, a reset or
-another program cannot leave the wrong axis selected. Inside a script, only a change of the axis writes
-register 3.
+A write to register 3 selects the axis. Every script selects its axis again, because a lost response, a reset
+or another program may have changed the selection. Within a script, register 3 is written only if the axis
+changes.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, command_error
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]
-"""Number of an axis (from 1) and the script to execute there."""
+"""Number of an axis (from 1), and script to execute at this axis."""
 
 
 class AxisLink:
@@ -65,13 +65,13 @@ class AxisLink:
         return self.check_answer(self.attempt(script))
 
     def attempt(self, script: Script) -> Answer:
-        """Execute a script at this axis and return its answer, regardless of its result."""
+        """Execute a script at this axis and return its answer for any result."""
         return self._link.attempt(Script().write(SELECT, self._number - 1).extend(script))
 
     def check_answer(self, answer: Answer) -> Answer:
-        """Return the answer if all operations were done, otherwise raise its error.
+        """Return the answer if all operations were executed, else raise its error.
 
-        The error names the axis.
+        The error of a rejected command names the axis.
         """
         if answer.result is Result.REFUSED:
             raise command_error(answer.last, self._number)
@@ -79,9 +79,7 @@ class AxisLink:
 
 
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
-    """Execute scripts at several axes in as few frames as possible.
-
-    The call returns the values of each script.
+    """Execute scripts at several axes in as few frames as possible; return the values of each script.
 
     The call raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
     following scripts are not executed.
@@ -130,7 +128,7 @@ def read_info(link: Link) -> Info:
     Raises:
         WrongDevice: this is no bank, or a bank of an unknown version or size.
     """
-    # The register bytes of the bank are selected by the axis. Every bank has at least four axes.
+    # The selected axis determines which bytes of INFO are read. Every bank has at least four axes.
     mark, version, axes = (
         value[0][0] for value in visit(link, [(k, Script().read(INFO)) for k in (1, 2, 3)])
     )

@@ -1,1 +1,1 @@
-"""Driver of the PMC006B4, alone and with others on a line."""
+"""Driver of the PMC006B4, for one controller or several on a line."""

@@ -47,7 +47,7 @@ class Axis(Settings):
         """Move and wait for the end.
 
         Raises:
-            LimitReached, AlarmStop, StoppedByCommand: EXT, a stall or a stop ended the move.
+            LimitReached, AlarmStop, StoppedByCommand: an EXT stop, a stall or a stop command ended the move.
         """
         if steps == 0:
             return MotionResult(Cause.COMPLETE, 0, 0, self.position, 0, self._message_prefix)
@@ -62,7 +62,7 @@ class Axis(Settings):
         return self.move(position - self.position, speed, progress)
 
     def jog(self, direction: int, speed: int | None = None) -> Motion:
-        """Run in speed mode until a stop, EXT or a stall.
+        """Run in speed mode until a stop command, an EXT stop or a stall.
 
         Args:
             direction: FORWARD or BACKWARD.
@@ -73,14 +73,15 @@ class Axis(Settings):
         return self._start(Code.RUN, 1, (_RUNNING,), direction, speed)
 
     def change_speed(self, speed: int) -> None:
-        """Set the maximum speed; a running motion reaches it with its ramps."""
+        """Set the maximum speed; a running motion changes to it with its ramps."""
         self.max_speed = speed
 
     def stop(self, wait: bool = True) -> MotionResult | None:
         """Stop with a ramp; return the result, or `None` if wait is False.
 
-        A free run receives a stop instruction. The part has no such instruction for moves. A move of 256
-        steps or more first gets a low maximum speed, and is aborted when it has decelerated to this speed.
+        A free run receives a stop instruction. For moves, the part has no stop with a ramp. The driver
+        therefore lowers the maximum speed of a move of 256 steps or more, and aborts the move when it has
+        decelerated to this speed.
 
         Raises:
             NothingToStop: the motor is stopped.
@@ -88,7 +89,10 @@ class Axis(Settings):
         return self._stop(False, wait)
 
     def halt(self, wait: bool = True) -> MotionResult | None:
-        """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
+        """Stop immediately; steps may be lost at high speed.
+
+        In all other respects, the method works like `stop`.
+        """
         return self._stop(True, wait)
 
     def _request_stop(self, now: bool = False) -> None:
@@ -112,7 +116,10 @@ class Axis(Settings):
         self.stops = int(ext1) | int(ext2) << 1
 
     def clear_stops(self, numbers: Iterable[int] = (1, 2)) -> None:
-        """Clear EXT flags, so that the motor may start again. It does not start the motor."""
+        """Clear EXT flags, so that the motor may be started again.
+
+        The call itself does not start the motor.
+        """
         for number in numbers:
             code = Code.CLEAR_EXT2 if _ext(number) == 2 else Code.CLEAR_EXT1
             self.execute(code, good=lambda value: value == 0)
@@ -142,7 +149,7 @@ class Axis(Settings):
         """Set the current position to 0. The motor must be stopped."""
         self.set_position(0)
 
-    # ------------------------------------------------------------------ inside
+    # ------------------------------------------------------------------ internal
 
     def _start(
         self, code: Code, data: int, replies: tuple[int, ...], direction: int, speed: int | None
@@ -153,7 +160,7 @@ class Axis(Settings):
         self.direction = int(direction == FORWARD)
         begin = self.position
         if begin < 0 < direction:
-            self.remember("max_speed")  # detects a reset in a motion that ends at 0
+            self.remember("max_speed")  # detects a reset during a motion to position 0
         motion = Motion(self, data if code is Code.STEP else None, direction, begin)
         got = self.execute(
             code,
@@ -168,9 +175,9 @@ class Axis(Settings):
         return motion
 
     def _start_executed(self, begin: int, reply: int) -> int | None:
-        """Return whether the motor moves or has moved, after the reply to a start was lost.
+        """After the reply to a start was lost, return this reply if the start was executed, else `None`.
 
-        The motor was stopped before the start.
+        Before the start, the motor was stopped. The start was executed if the motor moves or has moved.
         """
         try:
             return reply if self.flags().busy or self.position != begin else None
@@ -231,7 +238,7 @@ class Axis(Settings):
         self.execute(Code.RUN, 0, good=lambda value: value == 0)
 
     def _slow_move(self, motion: Motion) -> None:
-        """Decelerate a move to its stop speed; `Motion._update` ends it then."""
+        """Decelerate a move to its stop speed; then `Motion._update` aborts it."""
         top, low = self.max_speed, self.stop_speed
         if top <= low:
             motion._abort_after(0, top)
@@ -251,7 +258,7 @@ def _ext(number: int) -> int:
     return number
 
 
-# Homing of a PMC006B4. Its EXT switches are its only switches.
+# Homing of a PMC006B4. It has no switches except EXT1 and EXT2.
 
 LONGEST_WAY_OFF = 200_000
 SLOWEST, FASTEST = 65, 3000
@@ -282,9 +289,8 @@ class Homing:
     def run(self) -> MotionResult:
         """Find the edge of the switch and set the position to 0.
 
-        The motor leaves the switch if it is active, otherwise it approaches the switch and leaves it. Then it
-        approaches the switch slowly and leaves it again. Speeds, direction and enabled stops are restored
-        afterwards.
+        If the switch is inactive, the motor approaches it. Then the motor leaves the switch, approaches it
+        slowly, and leaves it again. Afterwards, speeds, direction and enabled stops are restored.
         """
         axis = self._axis
         before = {name: getattr(axis, name) for name in _KEPT}
@@ -306,7 +312,7 @@ class Homing:
                     setattr(axis, name, value)
 
     def _set_constant_speed(self, speed: int) -> None:
-        """Switch ramps off, so that the motor always stops at the same distance from the switch edge."""
+        """Switch the ramps off, so that the motor always stops at the same distance from the switch edge."""
         self._axis.start_speed = self._axis.stop_speed = self._axis.max_speed = speed
 
     def _approach(self, speed: int) -> None:

@@ -13,9 +13,9 @@ from .wire import Code, ProgramRuns, ProgramVerifyFailed, Storage, StorageBusy, 
 OnCount = Callable[[int, int], None]
 """Called with the number of words done and the total number."""
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
-"""Seconds that the EEPROM is busy, with some reserve."""
+"""Time in s for which the EEPROM is busy, with some reserve."""
 _LOOKS = 10
-"""Longest wait as a multiple of these times, for a slow I2C clock."""
+"""Longest wait as a multiple of these times; it allows for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
@@ -97,7 +97,8 @@ class Memory(Axis):
         got = self.execute(code, good=_yes_or_no)
         if not got and self.counters.repeated == repeated:
             raise StorageBusy(0, f"{self._message_prefix}{StorageBusy.text}")
-        # A rejection after a lost reply means that the first instruction is being executed.
+        # If the reply was lost, a rejection of the repetition means that the first instruction is being
+        # executed.
         for _ in range(_LOOKS):
             self.line.pause(seconds)
             state = self.execute(Code.STORED, good=lambda value: value in set(Storage))
@@ -157,11 +158,11 @@ class Memory(Axis):
     def program_runs(self) -> bool:
         """Return True if a program runs, waits or is paused.
 
-        No read-out reports it. Therefore this method requests the execution of an instruction of the buffer
-        that has no effect; the part rejects the request while a program runs.
+        No read-out reports this state. Therefore, this method requests the execution of a buffer instruction
+        that has no effect. The part rejects this request while a program runs.
 
         Raises:
-            ProgramRuns: the buffer contains no such instruction.
+            ProgramRuns: the buffer contains no instruction without an effect.
         """
         for place in range(WORDS // 2 - 1, -1, -1):
             self._point(2 * place)
@@ -171,7 +172,7 @@ class Memory(Axis):
                 return not self.execute(Code.TRY, good=_yes_or_no, resolve=again)
         raise ProgramRuns(0, f"{self._message_prefix}the buffer holds no END: halt the program first")
 
-    # ------------------------------------------------------------------ inside
+    # ------------------------------------------------------------------ internal
 
     def _execute_risky(self, code: Code, resolve: Callable[[], int | None]) -> int:
         return self.execute(code, good=_yes_or_no, resolve=resolve, risky=True)
@@ -182,7 +183,7 @@ class Memory(Axis):
         self.execute(Code.POINTER, word, good=lambda value: value == word)
 
     def _seek(self, word: int) -> None:
-        """Set the word pointer of the part unless it has this value."""
+        """Set the word pointer of the part unless it already has this value."""
         if self._here != word:
             self._point(word)
 

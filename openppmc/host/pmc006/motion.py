@@ -1,4 +1,4 @@
-"""Motion of a PMC006B4, whose end is detected from the status."""
+"""Motion of a PMC006B4. The driver detects its end from the status."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class MotionResult(motion_result.MotionResult):
     unit = "steps"
 
     def with_position(self, position: int) -> MotionResult:
-        """Return the same end with this position."""
+        """Return the same result with another position."""
         return replace(self, position=position)
 
     @property
@@ -75,9 +75,9 @@ class Motion(Handle):
         return self._part.address
 
     def _abort_after(self, seconds: float, top: int) -> None:
-        """Abort the motion after this number of seconds, and then restore the maximum speed to `top`.
+        """Abort the motion after this number of seconds, and then set the maximum speed to `top` again.
 
-        The caller has lowered the maximum speed.
+        The caller has lowered the maximum speed, so that the motor decelerates.
         """
         self._abort = self.line.clock() + seconds, top
 
@@ -137,7 +137,7 @@ class Motion(Handle):
     def wait(
         self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
     ) -> MotionResult:
-        """Wait for the end and return it, for any cause; see `host.line.wait_all`."""
+        """Wait for the end of the motion and return the result; see `host.line.wait_all`."""
         wait_all([self], timeout, progress)
         assert self.result is not None
         return self.result

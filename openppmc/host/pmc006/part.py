@@ -45,12 +45,13 @@ OUTPUTS = 5
 
 
 class Pmc006(Memory, Device):
-    """One controller with its line; `Pmc006Bus` is a line with several.
+    """One controller with its line; `Pmc006Bus` is a line with several controllers.
 
     Settings are properties (listed in `settings.SETTINGS`). After a lost reply, an instruction is repeated
-    only if that has no side effect. A start is first checked in status and position, so nothing moves twice.
-    LostReply is raised where the driver cannot know whether the instruction was executed. If a `with` block
-    is left by an exception, a motion that this object started is stopped.
+    only if the repetition has no side effect. After a lost reply to a start, the driver reads status and
+    position, so that no motion is executed twice. It raises LostReply if it cannot determine whether the
+    instruction was executed. If a `with` block is left by an exception, a motion that this object started is
+    stopped.
     """
 
     kind = CAPABILITIES
@@ -101,16 +102,16 @@ class Pmc006(Memory, Device):
         off: int = 100,
         progress: OnProgress | None = None,
     ) -> MotionResult:
-        """Find the edge of EXT1 or EXT2 and set the position to 0 `off` steps away from it.
+        """Find the edge of EXT1 or EXT2, and set the position to 0 at a distance of `off` steps from it.
 
-        It works with any start position, also on the switch. Both stops are enabled during homing, and EXT
-        flags are cleared. Afterwards speeds, direction and enabled stops are restored.
+        The start position is arbitrary; the switch may be active. Both stops are enabled during homing, and
+        EXT flags are cleared. Afterwards speeds, direction and enabled stops are restored.
 
         Args:
             switch: 1 (EXT1) or 2 (EXT2).
             direction: direction towards the switch.
-            speed: speed until the switch stops the motor, 65 to 3000 steps/s. It must be so low that the
-                motor may stop immediately.
+            speed: speed until the switch stops the motor, 65 to 3000 steps/s. At this speed, the motor must
+                be able to stop immediately.
             slow: speed of the second, exact approach, with the same limits.
             off: distance of position 0 from the switch in steps.
 
@@ -145,8 +146,8 @@ class Pmc006(Memory, Device):
         """Detect stalls at constant speed.
 
         Args:
-            level: a back-EMF below this level counts, 0 to 511.
-            length: number of such samples in a row, 0 to 63.
+            level: a sample of the back-EMF below this level indicates a stall, 0 to 511.
+            length: number of consecutive samples that are required for a stall, 0 to 63.
             stop: True if a stall stops the motor.
             output: True if a stall sets GPO5 high.
         """
@@ -219,7 +220,7 @@ class ScanResult:
 
     Attributes:
         version, flags, modes, position: `None` if the replies are corrupt.
-        problem: the problem in this case.
+        problem: the problem if the replies are corrupt.
         counters: counters of the master.
     """
 
@@ -236,7 +237,7 @@ class ScanResult:
 class Pmc006Bus(LineBus[Line, Pmc006]):
     """Line (`Line`) with controllers; see `host.line.LineBus`.
 
-    `axis(5)` is the `Pmc006` with that address, whether it is connected or not.
+    `axis(5)` is the `Pmc006` with address 5; it does not have to be connected.
     """
 
     kind = CAPABILITIES
@@ -249,7 +250,7 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
         rs485: RS485Settings | None = None,
         patience: float = PATIENCE,
     ) -> Pmc006Bus:
-        """Open a port; the arguments are those of `Line`. It sends nothing."""
+        """Open a port without sending anything; the arguments are those of `Line`."""
         return cls(Line(spec, baud, rs485, patience))
 
     def _make_station(self, station: int) -> Pmc006:
@@ -265,7 +266,7 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
     ) -> list[ScanResult]:
         """Return the controllers of the line.
 
-        An address without a controller takes the time `patience`.
+        For each address without a controller, the scan waits for the time `patience`.
 
         Args:
             progress: called with each address before it is polled.
@@ -273,7 +274,7 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
         return [self._probe(self.axis(address)) for address in scan(self.line, addresses, progress)]
 
     def _probe(self, axis: Pmc006) -> ScanResult:
-        """Return the state of a controller that replies."""
+        """Read the state of a controller that replies."""
         try:
             seen = axis.version(), axis.flags(), axis.modes(), axis.position
         except (CorruptReply, StationNotResponding) as error:

@@ -19,11 +19,11 @@ MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)
 DRIVE_FIRST, DRIVE_STEP = 400, 150
 LEAST_ACCELERATION = 1700
 NO_WRITE = 1 << 30
-"""No setting accepts this value, so an instruction with it only returns the active value."""
+"""Value that no setting accepts. An instruction with this value only returns the active value."""
 
 
 def mean_acceleration(coefficient: int) -> int:
-    """Return the mean acceleration in steps/s² of a coefficient 0 to 5.
+    """Return the mean acceleration in steps/s² for a ramp coefficient from 0 to 5.
 
     >>> mean_acceleration(3)
     13600
@@ -32,7 +32,7 @@ def mean_acceleration(coefficient: int) -> int:
 
 
 def drive_current(milliamperes: int) -> int:
-    """Return the current of the drive for a setting, in mA: the nearest of 400, 550, …, 4000.
+    """Return the motor current for a setting in mA: the nearest of the levels 400, 550, …, 4000.
 
     >>> drive_current(800), drive_current(1500)
     (850, 1450)
@@ -42,14 +42,14 @@ def drive_current(milliamperes: int) -> int:
 
 @dataclass(frozen=True)
 class Setting:
-    """Register, and the property that reads and writes it.
+    """Setting of the part, as a property that reads and writes it.
 
     Attributes:
-        write: instruction that writes it.
-        read: instruction that reads it, `None` if a rejected write returns the value.
+        write: instruction that writes the setting.
+        read: instruction that reads the setting; `None` if a rejected write reads it.
         accepts: valid values, as users specify them.
         span: valid values as text.
-        text: purpose.
+        text: purpose of the setting.
         unit: unit of the value.
         saved: True if `save` stores it.
         shift: lowest bit in the word that is read.
@@ -104,7 +104,7 @@ class Setting:
             node.unsaved[self.name] = value
 
     def _plausible(self, data: int) -> bool:
-        """Return True if a reply can be this setting, or the word that contains it."""
+        """Return True if a reply can have this value: a value of the setting, or a word that contains one."""
         return data == 0 or (data in self.accepts if self.word == 32 else 0 < data < 1 << self.word)
 
     def data(self, value: int) -> int:
@@ -117,7 +117,7 @@ class Setting:
 
 
 class FullSteps(Setting):
-    """Microstepping; full step is 0 in the part and 1 for users."""
+    """Number of microsteps; full step is 0 in the part and 1 for users."""
 
     hint = "; 1 is the full step"
 
@@ -132,7 +132,7 @@ _InStatus1 = partial(Setting, word=STATUS_1_BITS, bits=1)
 _InStatus2 = partial(Setting, word=STATUS_2_BITS, saved=False)
 _SPEED = (range(65, 3001), "65 to 3000")
 _SHOW_A_RESET = ("direction", "stops", "max_speed")
-"""Settings that `save` does not store and that one short instruction reads."""
+"""Settings that `save` does not store. One instruction reads each of them."""
 
 
 class Settings(StationLink):
@@ -143,14 +143,14 @@ class Settings(StationLink):
     """
 
     def remember(self, name: str) -> None:
-        """Read a setting that `was_reset` compares, unless it was written before."""
+        """Read a setting and record its value for `was_reset`, unless a value is recorded already."""
         if name not in self.unsaved:
             self.unsaved[name] = getattr(self, name)
 
     def was_reset(self) -> bool:
-        """Return True if a setting that a reset changes differs from the value written.
+        """Return True if a setting that a reset changes differs from its recorded value.
 
-        A reset is not detected if these settings had their factory values.
+        A reset is not detected if these settings had their factory values before.
         """
         return any(getattr(self, name) != value for name, value in self.unsaved.items())
 

@@ -27,22 +27,24 @@ from .wire import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags,
 PART = "pmc006"
 BAUD, SLOWEST, FASTEST = 9600, 1200, 115_200
 DROPPED_AFTER = 200
-"""Bit times of silence after which a controller has discarded an incomplete frame.
+"""Bit times without a character after which a controller has discarded an incomplete frame.
 
 The part needs 192 bit times; the other 8 are a reserve.
 """
 
 
 class Line(Master[Reply]):
-    """Master of a line, RS-232 or RS-485. An adapter that receives its own bytes needs no option.
+    """Master of an RS-232 or RS-485 line.
+
+    Adapters that receive their own bytes are supported without an option.
 
     Attributes:
-        spec: port that pyserial knows (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, …), `sim:…` or
+        spec: port that pyserial supports (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, …), `sim:…` or
             `model:…`.
-        baud: 9600 unless the controllers were built with another rate, 1200 to 115200.
-        rs485: settings of pyserial for adapters whose driver is switched by RTS.
-        patience: seconds beyond line time until a controller counts as silent.
-        doubtful: addresses that did not reply to a frame, so that a late reply may still arrive.
+        baud: line rate of the controllers, 1200 to 115200; 9600 unless they were built with another rate.
+        rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
+        patience: time in s, beyond the line time, that the master waits for a reply.
+        unsynchronised: addresses that did not reply to a frame. Their reply may still arrive.
 
     Raises:
         PortError: the port cannot be opened.
@@ -68,7 +70,7 @@ class Line(Master[Reply]):
         """Send a frame and return its reply. Raises Disconnected.
 
         Args:
-            answers: address of the reply, `None` if it is the same.
+            answers: address in the reply, `None` if it is that of the frame.
         """
         sent = command(address_number(address), code, data)
         got = self.request(address, sent, Receiver(address if answers is None else answers, sent))
@@ -96,7 +98,7 @@ class StationLink(Checked):
 
     Attributes:
         address: 1 to 120, or 255.
-        alone: True if this program uses one controller only, so that messages do not name it.
+        alone: True if this program uses only one controller. Then messages do not name the controller.
         unsaved: last known values of settings that a reset changes.
     """
 
@@ -115,7 +117,7 @@ class StationLink(Checked):
 
     @property
     def _message_prefix(self) -> str:
-        """Prefix of messages about this controller; empty if it is the only one."""
+        """Prefix of messages about this controller; empty if `alone`."""
         return "" if self.alone else f"controller {self.address}: "
 
     @property
@@ -142,16 +144,16 @@ class StationLink(Checked):
         """Send an instruction and return the data of its reply, signed.
 
         Args:
-            good: returns True for data that a reply can have. Other data mean a damaged reply, or the reply
-                to another instruction.
+            good: returns True for data that a reply can have. Any other data mean that the reply is damaged
+                or belongs to another instruction.
             resolve: called after each attempt without a reply. It returns the reply if the instruction was
                 executed, or `None` if it was not executed and may be repeated. It may raise an exception.
             sure: if False, data that are not good are returned after they were received twice.
-            risky: True if it matters whether the instruction was executed.
+            risky: True if the caller must know whether the instruction was executed.
 
         Raises:
             StationNotResponding, CorruptReply: no valid reply was received.
-            LostReply: the controller is silent after a risky instruction.
+            LostReply: no reply was received to a risky instruction.
         """
         misses: list[MissingReply] = []
         odd: list[int] = []
@@ -179,11 +181,11 @@ class StationLink(Checked):
         raise unanswered(self._location, misses, len(misses), _CHECK, _OTHERS)
 
     def _synchronise(self, misses: list[MissingReply]) -> bool:
-        """Restore the order of replies after a silence; return False if that fails.
+        """Synchronise instructions and replies after a missing reply; return False if that fails.
 
-        A reply does not identify its instruction, so a late reply would be mistaken for the reply to the next
-        instruction. Set the word pointer, whose value is not used, until the reply returns the same value.
-        Silences are added to `misses`.
+        A reply does not identify its instruction. A late reply would therefore be accepted as the reply to
+        the next instruction. The method sets the word pointer, whose value is not used, until a reply
+        contains this value. Missing replies are appended to `misses`.
         """
         if self.address not in self.line.unsynchronised:
             return True
@@ -202,7 +204,7 @@ class StationLink(Checked):
         return self.execute(code, good=lambda value: 0 <= value < 1 << bits)
 
     def _lost_reply(self, reason: str) -> LostReply:
-        """Return the exception for an instruction that may or may not have been executed."""
+        """Return the exception for an instruction that may have been executed."""
         return LostReply(
             f"{self._message_prefix}the reply to an instruction was lost, it may have been carried out; "
             f"{reason}: check "
@@ -234,7 +236,10 @@ class StationLink(Checked):
         return f"V{value >> 16}.{value >> 8 & 0xFF}.{value & 0xFF}"
 
     def _is_connected(self) -> bool:
-        """Return True if the controller replies; poll once, or twice after noise. Raises CorruptReply."""
+        """Return True if the controller replies to a poll, which is repeated once after noise.
+
+        Raises CorruptReply if both replies are corrupt.
+        """
         misses: list[MissingReply] = []
         while len(misses) < 2:
             got = self.line.exchange(self.address, Code.STATUS_1)

@@ -24,7 +24,7 @@ from ..line_port import Fault
 
 
 class Code(IntEnum):
-    """Instruction codes; the character is the name of the instruction in manuals."""
+    """Instruction codes. The character of a code is the name of the instruction in manuals."""
 
     POINTER = ord("A")
     BURN = ord("B")
@@ -112,7 +112,7 @@ class Modes:
     """Status 2.
 
     Attributes:
-        free: True if the motor is off-line.
+        free: True if the motor is switched off (FREE).
         running: True in speed mode.
         forward: True if the next motion is forward.
         offline: True if the program starts automatically after power-up.
@@ -163,7 +163,7 @@ class Ports:
 class Storage(IntEnum):
     """Result of the last save, burn or restore of the EEPROM, read with `V`.
 
-    Only this replacement has the instruction V, the original part does not.
+    Only this replacement has the instruction V; the original part does not have it.
     """
 
     KEPT = 0
@@ -236,7 +236,7 @@ def locked(numbers: tuple[int, ...], prefix: str = "") -> ExtStopActive:
 HEAD, ANSWER, SIZE = 0xA5, 0x7A, 8
 FACTORY, LAST = 255, 120
 ADDRESSES = (FACTORY, *range(1, LAST + 1))
-"""All valid addresses, in the order in which a host searches them."""
+"""All valid addresses, in the order in which a host polls them during a search."""
 
 
 class Reply(NamedTuple):
@@ -251,7 +251,7 @@ class Reply(NamedTuple):
 
 
 def address_number(address: int) -> int:
-    """Return the address if a controller can have it. Raises OutOfRange otherwise."""
+    """Return the address unchanged. Raises OutOfRange if no controller can have it."""
     number = whole(address, "address")
     if number not in ADDRESSES:
         raise OutOfRange(f"address {number}: controllers have 1 to {LAST}, factory-new ones {FACTORY}")
@@ -279,11 +279,11 @@ def _sealed(body: bytes) -> bytes:
 class Receiver:
     """Receiver for the bytes after a frame to `address`; see `host.line.ReplyReceiver`.
 
-    Replies of other controllers and damaged replies are skipped, because the expected one may follow; `fault`
-    reports them.
+    Replies of other controllers and damaged replies are skipped, because the expected reply may follow.
+    `fault` reports them.
 
     Args:
-        sent: the frame that was sent, for masters that receive their own bytes; it is skipped.
+        sent: the frame that was sent. It is skipped if the master receives its own bytes.
     """
 
     def __init__(self, address: int, sent: bytes = b"") -> None:
@@ -296,7 +296,7 @@ class Receiver:
 
     @property
     def fault(self) -> Fault | None:
-        """Fault received instead of the reply, `None` for silence."""
+        """Fault received instead of the reply, `None` if no byte was received."""
         if self._broken or self._open:
             return Fault.BROKEN
         if self._foreign:
@@ -315,7 +315,7 @@ class Receiver:
         return self._match_frame()
 
     def _match_frame(self) -> Reply | None:
-        """Return the reply in the bytes received so far, `None` if they contain no complete one."""
+        """Return the reply in the bytes received so far, `None` if they contain no complete reply."""
         while self._open:
             start = next((at for at in range(len(self._open)) if _begins(self._open[at:])), len(self._open))
             self._noise |= start > 0
@@ -335,7 +335,7 @@ class Receiver:
 
 
 def _begins(data: bytes) -> bool:
-    """Return True if a reply can begin with these bytes."""
+    """Return True if these bytes can be the beginning of a reply."""
     return data[0] == HEAD and data[1:2] in (b"", bytes([ANSWER]))
 
 

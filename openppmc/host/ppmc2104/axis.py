@@ -28,7 +28,7 @@ A part needs 0.15 s for both axes, but a virtual board may be slow.
 
 
 class PeerAxis(Protocol):
-    """Members of the other axis that an axis needs."""
+    """Members of an axis that the other axis needs."""
 
     def _resolve(self, status: int) -> None: ...
 
@@ -49,12 +49,12 @@ class TwoAxisPart(Protocol):
 class Axis2104(Axis):
     """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions.
 
-    `part` has the members of both axes.
+    `part` has the functions that concern both axes.
 
     Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, its rate at
     least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz. positive_logic
-    and long_intervals are not supported. phases, half_step, chop and the choice of an external clock do not
-    change until `excitation_off` or `reset` (P2104-INI-05).
+    and long_intervals are not supported. On an initialised axis, phases, half_step, chop and the choice of an
+    external clock are unchanged until `excitation_off` or `reset` (P2104-INI-05).
     """
 
     kind = CAPABILITIES
@@ -92,28 +92,28 @@ class Axis2104(Axis):
         return super()._motion_started(request, begin)
 
     def _on_status(self, status: int) -> None:
-        # If the end of the other axis's motion stays unread, int_n stays low, and the end of this motion
-        # sends no message.
+        # While the end of a motion of the other axis is unread, int_n stays low. Then the end of this motion
+        # sends no message. Therefore, read the end of the other axis first.
         self.part._other_axis(self.number)._resolve(status)
 
     def _resolve(self, status: int) -> None:
-        """Process a status register that was read; read the end of a motion that is over."""
+        """Process a value of the status register; if BUSY = 0, read how the motion ended."""
         if self._motion is not None and not self._motion.over:
             self._motion._on_status(status)
         elif not status & self._busy_mask:
             self.part._resolve_foreign(self.number)
 
     def _start_motion(self, request: MotionRequest) -> Motion:
-        """Start a motion; return a motion without pulses if the part rejects it because of a switch."""
+        """Start a motion. If the part rejects it because of a switch, return a motion without pulses."""
         try:
             return super()._start_motion(request)
         except StartRefused as refused:
             return self._refused_start_motion(request, refused)
 
     def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
-        """Return a motion that ended where it began.
+        """Return a motion that ended without a pulse.
 
-        Raises the rejection itself if no switch is active any more.
+        If no switch is active any more, raise the rejection.
         """
         inputs = self.inputs()
         cause = Cause.COMPLETE
@@ -139,15 +139,15 @@ class Axis2104(Axis):
                 error.status, f"{self._message_prefix}nothing to stop: it is not initialised"
             ) from None
         except IncompleteCommand:
-            # An unfinished command, which waited for data, ended; the stop is effective nevertheless
+            # An unfinished command waited for data, and the stop has ended it. The stop itself is effective
             # (P2104-STP-07).
             pass
 
     def _request_stop(self, now: bool = False) -> None:
-        """Stop the motion that this object started, without waiting.
+        """Request a stop of the motion that this object started, without waiting.
 
-        The part rejects a stop with a ramp at constant speed and while it waits for RUN (P2104-STP-03). In
-        both cases an immediate stop is possible.
+        In a motion at constant speed, and while the part waits for RUN, it rejects a stop with a ramp
+        (P2104-STP-03). In both cases, it accepts an immediate stop.
         """
         motion = self._motion
         try:
@@ -166,7 +166,7 @@ class Axis2104(Axis):
     def switching(self, on_us: speeds.Number, off_us: speeds.Number) -> tuple[Fraction, Fraction]:
         """Set the chopper times at standstill in us; return the times that are reached.
 
-        The range of each is 32 to 127.5 us at 16 MHz.
+        The range of each time is 32 to 127.5 us at 16 MHz.
 
         The call is not allowed during a motion.
         """

@@ -37,7 +37,7 @@ class Ppmc2104(Part):
     """PPMC-2104, which is a context manager; see `part.Part`.
 
     `x` is axis 1, `y` axis 2; `axis[1]` and `axis[2]` are the same objects. Opening the part reads and clears
-    the errors of other programs, and ends their unfinished commands; a running motion continues.
+    the errors that other programs caused, and ends their unfinished commands. A running motion continues.
     """
 
     kind = CAPABILITIES
@@ -55,8 +55,8 @@ class Ppmc2104(Part):
         self._levels = ALL_HIGH
         self._clear_errors()
         busy = self.status().busy
-        # Motions of another program. Such an axis may have waited for RUN since that program aborted; it must
-        # not start now.
+        # Motions of another program. If that program was aborted, such an axis may still wait for RUN. It
+        # must not start now.
         self._foreign = {number for number in self.axis if busy[number - 1]}
         self._run_held = set(self._foreign)
         for number in set(self.axis) - self._foreign:
@@ -81,7 +81,7 @@ class Ppmc2104(Part):
         progress: OnProgress | None = None,
         pulse_only: bool = False,
     ) -> tuple[MotionResult, MotionResult]:
-        """Move both axes, starting in the same cycle, and wait for both.
+        """Start moves of both axes in the same cycle, and wait for both.
 
         If one axis ends early, the other is stopped with a ramp.
 
@@ -92,7 +92,7 @@ class Ppmc2104(Part):
             y_pps: constant speed of axis 2, `None` for a move with ramps.
 
         Raises:
-            LimitReached, AlarmStop, StoppedByCommand: end of the axis that ended first.
+            LimitReached, AlarmStop, StoppedByCommand: cause of the first early end.
         """
         if not (x and y):
             ends = [
@@ -118,7 +118,7 @@ class Ppmc2104(Part):
         y_pps: speeds.Number | None = None,
         pulse_only: bool = False,
     ) -> tuple[Motion, Motion]:
-        """Start two moves in the same cycle: both commands wait for RUN, then RUN rises for both.
+        """Start two moves in the same cycle: both commands wait until RUN of both axes rises.
 
         If one command is rejected, neither axis moves.
 
@@ -127,7 +127,7 @@ class Ppmc2104(Part):
         """
         requests = (self.x._move_request(x, x_pps, pulse_only), self.y._move_request(y, y_pps, pulse_only))
         for number in self.axis:
-            self._read_finish(number)  # rejected while an axis moves; its motion continues
+            self._read_finish(number)  # while this axis moves, the part rejects it
         script = Script()
         waiting = self._levels & ~(RUN[0] | RUN[1])
         for axis, request in zip(self.axis.values(), requests, strict=True):
@@ -135,7 +135,7 @@ class Ppmc2104(Part):
         script.straps(waiting).count(1).count(2)
         for axis, request in zip(self.axis.values(), requests, strict=True):
             script.call(request.code | axis._code_bits, *request.data)
-        # With DATASHEET timing RUN is not sampled before the processing windows have closed (P2104-DS-14).
+        # With DATASHEET timing, the part samples RUN only after its processing time (P2104-DS-14).
         script.wait(1, CMND[0] | CMND[1], 0).straps(waiting | RUN[0] | RUN[1])
         self.link.forget_events()
         try:
@@ -148,9 +148,9 @@ class Ppmc2104(Part):
         return self.x._motion_started(requests[0], begins[0]), self.y._motion_started(requests[1], begins[1])
 
     def _cancel_start(self) -> None:
-        """Cancel a coordinated start that failed: an axis that waits for RUN must not start any more.
+        """Cancel a common start that failed, so that no axis waits for RUN any more.
 
-        An axis that already runs, because only the answer was lost, stops with its ramp.
+        If only the answer was lost, the axes are already running; they stop with a ramp.
         """
         try:
             for axis in self.axis.values():
@@ -168,9 +168,9 @@ class Ppmc2104(Part):
             self._run_held = set(self.axis)
 
     def _wait(self, motions: tuple[Motion, Motion], progress: OnProgress | None) -> Motion | None:
-        """Wait until both have ended; return the motion that ended early, if any.
+        """Wait until both motions have ended; return the motion that ended early, if any.
 
-        The end of this motion stops the other motion.
+        If a motion ends early, the other motion is stopped.
         """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
@@ -190,9 +190,9 @@ class Ppmc2104(Part):
 
     @staticmethod
     def _poll(motion: Motion) -> Progress | None:
-        """Poll a motion as `Motion.poll` does.
+        """Poll a motion as `Motion.poll` does, but do not raise EndUnknown.
 
-        An unconfirmed end raises its error later, when both have stopped.
+        EndUnknown is raised later, when both motors have stopped.
         """
         try:
             return motion.poll()
@@ -202,9 +202,9 @@ class Ppmc2104(Part):
     # ------------------------------------------------------------------ straps
 
     def _strap_script(self, number: int, clock: speeds.BaseClock | None) -> Script:
-        """Return the straps for a motion of one axis with this base clock.
+        """Return a script that sets the straps for a motion of one axis with this base clock.
 
-        RUN of an axis that may be waiting stays low.
+        If the other axis may be waiting for RUN, its RUN stays low.
         """
         self._levels = _with_csel(self._levels, number, clock)
         return Script().straps(self._run_low(self._run_held - {number}))
@@ -215,9 +215,9 @@ class Ppmc2104(Part):
         self._foreign.discard(number)
 
     def _resolve_foreign(self, number: int) -> None:
-        """Read the end of a motion of another program once, because int_n stays low until then.
+        """Read the end of a motion of another program, once, because int_n stays low until then.
 
-        The axis with this number has stopped.
+        This axis has stopped.
         """
         if number in self._foreign:
             self._foreign.discard(number)
@@ -231,7 +231,7 @@ class Ppmc2104(Part):
         return self._levels & ~sum(RUN[axis - 1] for axis in axes)
 
     def _select_pins(self, number: int) -> Script:
-        """Return the straps that select the axis whose pins a following PINS returns."""
+        """Return a script that selects this axis for the next PINS operation."""
         self._levels = self._levels | PINS_OF_1 if number == 1 else self._levels & ~PINS_OF_1
         return Script().straps(self._run_low(self._run_held))
 
@@ -250,7 +250,10 @@ class Ppmc2104(Part):
         return self.link.execute(Script().call(AUX_INPUT).get(1)).byte(1)
 
     def reset(self) -> None:
-        """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
+        """Reset the part in any state.
+
+        The pulses end immediately. After the reset all coils are off, and no axis is initialised.
+        """
         self.link.execute(Script().reset())
         self._run_held.clear()
         self._foreign.clear()
@@ -262,7 +265,7 @@ class Ppmc2104(Part):
     def _error_reads(self) -> Script:
         """Return a script that reads and clears both error registers.
 
-        CALL would stop at the error of the other axis.
+        It does not use CALL, because an error of the other axis ends CALL.
         """
         script = Script()
         for bit in (0, AXIS_BIT):
@@ -272,7 +275,8 @@ class Ppmc2104(Part):
     def _clear_errors(self) -> None:
         """Clear errors, unfinished commands and unread answers of another program.
 
-        The first code ends a wait for data, and the part may discard it; the second code is executed.
+        The code is written twice. If a command waits for data, the part discards the first code and ends the
+        command. The second code is executed.
         """
         self.link.execute(
             Script()
@@ -284,7 +288,7 @@ class Ppmc2104(Part):
         self.link.execute(self._error_reads())
 
     def _refusal(self, answer: Answer) -> Exception:
-        """Return the exception for a rejected command, from the error register of its axis."""
+        """Read the error registers, and return the exception for a rejected command."""
         errors = self.link.execute(self._error_reads())
         numbers = errors.byte(1), errors.byte(3)
         code = answer.failed.code[1] if answer.failed is not None and answer.failed.name == "CALL" else 0
@@ -297,7 +301,7 @@ class Ppmc2104(Part):
 
 
 def _with_csel(levels: int, number: int, clock: speeds.BaseClock | None) -> int:
-    """Return the straps with the base clock of one axis."""
+    """Return the straps with CSEL of one axis set for this base clock."""
     if clock is None:
         return levels
     bit = CSEL[number - 1]

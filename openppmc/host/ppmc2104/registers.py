@@ -36,7 +36,7 @@ from ..speeds import Number, exact, nearby
 
 
 class IncompleteCommand(CommandRefused):
-    """Error 3 of the PPMC-2104: a command while the part waits for the data of another one."""
+    """Error 3 of the PPMC-2104: a command arrived while the part waits for the data of another command."""
 
     text = (
         "the part was still waiting for the data of another command, and both are dropped: another program "
@@ -107,8 +107,8 @@ class Status:
     """Status register (P2104-STA-01).
 
     Attributes:
-        busy, working: of axis 1 and 2.
-        working: data are required, or a command is in progress.
+        busy: BUSY of axis 1 and of axis 2.
+        working: for axis 1 and axis 2, True if data are required or a command is in progress.
         error: True if an error register is not 0.
     """
 

@@ -27,12 +27,12 @@ class Status:
     Attributes:
         raw: its condition byte.
         run_monitored: starts wait for RUN.
-        interlock: True if the interlock control is running.
+        interlock: True if the interlock control is active.
         encoder_watched, position_watched: True if this monitor is on.
         encoder_outside, position_outside: True if this monitor reports a deviation.
         overrides: number of registered overrides, 0 to 8.
-        override_events: event inputs (1, 2) that some of them wait for.
-        events: event buffers that are not empty.
+        override_events: event inputs (1, 2) for which at least one of them waits.
+        events: numbers (1, 2) of the event buffers that are not empty.
     """
 
     raw: int
@@ -50,7 +50,7 @@ class Status:
 
     @classmethod
     def parse(cls, data: bytes) -> Status:
-        """Decode operation, condition and buffer byte.
+        """Decode the operation byte, the condition byte and the buffer byte.
 
         >>> Status.parse(bytes.fromhex("00 02 00")).state.name
         'NOR'
@@ -104,7 +104,7 @@ class Inputs:
 
     @classmethod
     def parse(cls, data: bytes) -> Inputs:
-        """Decode the two bytes of 27, which hold levels.
+        """Decode the two bytes of the response to 27, which contain pin levels.
 
         >>> Inputs.parse(bytes.fromhex("FD E0")).active
         ['limit cw', 'run']
@@ -166,7 +166,7 @@ def signed(position: int) -> int:
 
 @dataclass(frozen=True)
 class Stopped:
-    """E0: the pulses have ended.
+    """E0: the motion has ended.
 
     Attributes:
         position: signed position in pulses.
@@ -188,14 +188,14 @@ class HoldExecuted:
 
 @dataclass(frozen=True)
 class EncoderChange:
-    """E3: the encoder has left its range (outside is True) or has returned."""
+    """E3: the encoder has left the permitted range (outside is True) or has returned to it."""
 
     outside: bool
 
 
 @dataclass(frozen=True)
 class InPositionChange:
-    """E4: the in-position monitor has left its range (outside is True) or has returned."""
+    """E4: the deviation has left the in-position range (outside is True) or has returned to it."""
 
     outside: bool
 
@@ -214,13 +214,13 @@ class InputChange:
 
 @dataclass(frozen=True)
 class Alarm:
-    """F4: 0 = alarm input, 1 to 3 = reports that were not read in time."""
+    """F4: alarm. 0 = alarm input, 1 to 3 = a report was not read in time."""
 
     status: int
 
     @property
     def error(self) -> CommandRefused:
-        """The alarm as an exception."""
+        """Exception for the alarm."""
         error = command_error(Answer.ALARM, bytes([self.status]))
         assert error is not None
         return error
@@ -242,9 +242,9 @@ class Executed:
 
 @dataclass(frozen=True)
 class Failed:
-    """F8, F9 or an error with the header of an event.
+    """An override or an event did not execute its instruction.
 
-    An override or an event did not execute its instruction.
+    The response is F8, F9, or an error with the header of an event.
     """
 
     by: Source
@@ -270,7 +270,7 @@ class BadResponse(ValueError):  # noqa: N818 - names the invalid object
 
 @dataclass(frozen=True)
 class Response:
-    """Block in logical order with at least header, length and one byte. Raises BadResponse."""
+    """Response block in logical order: header, length and at least one byte. Raises BadResponse."""
 
     raw: bytes
 
@@ -280,12 +280,12 @@ class Response:
 
     @property
     def spontaneous(self) -> bool:
-        """True if the block is no response to an instruction."""
+        """True for an unsolicited report: the block is no response to an instruction."""
         return bool(self.raw[0] & _SPONTANEOUS)
 
     @property
     def by(self) -> Source:
-        """Source of the instruction that this is a response to."""
+        """Source of the instruction to which this is the response."""
         return Source(self.raw[0] & _WHO | 0x03)
 
     @property
@@ -295,7 +295,7 @@ class Response:
 
     @property
     def last(self) -> bool:
-        """True if no more blocks follow."""
+        """True if this is the last block of a response."""
         return bool(self.raw[0] & _LAST)
 
     @property
@@ -305,16 +305,16 @@ class Response:
 
     @property
     def data(self) -> bytes:
-        """Data after the code; all bytes of a block of data."""
+        """Data after the code. A data block has no code, so all its bytes are data."""
         return self.raw[3:] if self.raw[0] & _HAS_CODE else self.raw[2:]
 
     @property
     def error(self) -> CommandRefused | None:
-        """Exception for an error response, `None` for others."""
+        """Exception for an error response; `None` for any other response."""
         return command_error(self.code, self.data) if self.raw[0] & _HAS_CODE else None
 
     def report(self) -> Report:
-        """Return the content of a response that is no response to the host. Raises BadResponse."""
+        """Return the content of an unsolicited report. Raises BadResponse."""
         data = self.data
         try:
             if not self.spontaneous:

@@ -23,7 +23,8 @@ CW, CCW = 0, 1
 WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02
 """Headers of blocks.
 
-Complete instruction, last data block, data block before other data blocks, code block before data blocks.
+In this order: complete instruction; last data block; data block that is followed by others; code block that
+is followed by data blocks.
 """
 LONGEST = 32
 WINDOW = 0x20
@@ -32,7 +33,7 @@ _DIRECTION, _OVERRIDE, _INDEX, _SEPARATE, _SIGMOID = 0x40, 0x04, 0x10, 0x10, 0x0
 
 
 class Trigger(Enum):
-    """Condition that starts a registered instruction. The value is OV with TRG in the flag byte."""
+    """Condition that starts a registered instruction. The value is that of OV and TRG in the flag byte."""
 
     NOW = 0x00
     POSITION = _OVERRIDE
@@ -58,7 +59,7 @@ def bus_order(logical: bytes) -> bytes:
 
 
 def start_address(logical: bytes) -> int:
-    """Return the value of WAR for a block.
+    """Return the value of the register WAR for a block.
 
     >>> f"{start_address(acceleration(CW, 5000)):02X}"
     '16'
@@ -75,7 +76,7 @@ def number(value: int, width: int, what: str, least: int = 0) -> bytes:
 def position_bytes(position: int) -> bytes:
     """Return the bytes of a position.
 
-    The position is -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
+    The position is -2^31 to 2^31 - 1, or 0 to 2^32 - 1 as the part counts it.
 
     >>> position_bytes(-7).hex(" ")
     'ff ff ff f9'
@@ -117,9 +118,9 @@ def initial_setting(
 
 
 def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None = None) -> list[bytes]:
-    """Return instruction 01: the blocks of a free curve. Lists begin with the fastest stage.
+    """Return the blocks of instruction 01, which loads a free curve. The lists begin with the fastest stage.
 
-    `down` is only required if the deceleration differs from `up`.
+    `down` is required only if the deceleration is not the reversed acceleration.
 
     >>> for part in free_curve(1, [100, 200, 400], [5, 4, 3]):
     ...     print(part.hex(" "))
@@ -139,9 +140,10 @@ def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None
 
 
 def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = False) -> bytes:
-    """Return instruction 02: report when encoder and pulses agree within `distance`, and when not.
+    """Return instruction 02: report when the deviation of the encoder enters or leaves a range.
 
-    The distance is 1 to 65 535.
+    The part reports only while the motor is stopped. Within the range, encoder and pulses differ by at most
+    `distance`, which is 1 to 65 535 pulses.
 
     >>> in_position(True, 10).hex(" ")
     '03 04 02 03 00 0a'
@@ -151,7 +153,7 @@ def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = F
 
 
 def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
-    """Return instruction 03: the same report as 02, also during motions.
+    """Return instruction 03: report as for instruction 02, but also during motions.
 
     >>> encoder_watch(True, 20).hex(" ")
     '03 04 03 03 00 14'
@@ -170,7 +172,7 @@ def interlock_position(position: int) -> bytes:
 
 
 def speed_limit(rate: int) -> bytes:
-    """Return instruction 05: at the slow-down limits, the motor must be slower than this rate.
+    """Return instruction 05: set the speed limit at the slow-down limits as a rate.
 
     >>> speed_limit(300).hex(" ")
     '03 03 05 01 2c'
@@ -179,12 +181,12 @@ def speed_limit(rate: int) -> bytes:
 
 
 def end_terminal(monitored: bool) -> bytes:
-    """Return instruction 06: set whether the end of a motion needs the input END."""
+    """Return instruction 06: set whether a motion ends only when the input END is active."""
     return block(Code.END_TERMINAL, bytes([monitored]))
 
 
 def input_mask(mask: int, auto: bool = True) -> bytes:
-    """Return instruction 28: report changes of the general inputs in the mask.
+    """Return instruction 28: report changes of the general inputs that the mask selects.
 
     >>> input_mask(0x24).hex(" ")
     '03 03 28 01 24'
@@ -193,17 +195,17 @@ def input_mask(mask: int, auto: bool = True) -> bytes:
 
 
 def outputs(value: int) -> bytes:
-    """Return instruction 26: set six outputs, a 1 sets the pin low."""
+    """Return instruction 26: set the six general outputs; a 1 sets a pin low."""
     return block(Code.OUTPUT, bytes([within(value, "outputs", 0, 63)]))
 
 
 def read_position(encoder: bool = False) -> bytes:
-    """Return instruction 42: read the position of pulses or encoder."""
+    """Return instruction 42: read the position of the pulses or of the encoder."""
     return block(Code.POSITION_READ, bytes([encoder]))
 
 
 def set_position(position: int, encoder: bool = False) -> bytes:
-    """Return instruction 43: set the position of pulses or encoder.
+    """Return instruction 43: set the position of the pulses or of the encoder.
 
     >>> set_position(-1, encoder=True).hex(" ")
     '03 06 43 01 ff ff ff ff'
@@ -221,7 +223,7 @@ def _flags(direction: int, trigger: Trigger) -> bytes:
 
 
 def acceleration(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trigger.NOW) -> bytes:
-    """Return instruction 82: move by a number of pulses with ramps up to `rate`, 0 = the high speed."""
+    """Return instruction 82: move by a number of pulses, with ramps up to `rate`; rate 0 = the high speed."""
     data = number(rate, 2, "rate") + number(pulses, 4, "pulses", 1)
     return block(Code.RAMP, _flags(direction, trigger) + data)
 
@@ -242,7 +244,7 @@ def single_step(direction: int) -> bytes:
 
 
 def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = Trigger.NOW) -> bytes:
-    """Return instruction 86, or 85 with a ramp: run until something stops the motor.
+    """Return instruction 86 (constant speed) or 85 (with a ramp): run until a stop, a limit or the alarm.
 
     >>> run(CW, ramped=True).hex(" "), run(CCW, 400).hex(" ")
     ('03 04 85 00 00 00', '03 04 86 40 01 90')
@@ -252,7 +254,7 @@ def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = 
 
 
 def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
-    """Return instruction 10: run at constant speed to the origin, or to the first index on it.
+    """Return instruction 10: run at constant speed to the origin, or to the first index pulse on it.
 
     >>> origin_search(CCW, 500, index=True).hex(" ")
     '03 04 10 50 01 f4'

@@ -35,7 +35,7 @@ class Instructions(Protocol):
     def answers(self) -> int:
         """Number of responses so far.
 
-        A report after a response is later than the instruction of this response.
+        A report that arrives after a response was sent after the execution of its instruction.
         """
 
     def open(self) -> None:
@@ -59,9 +59,9 @@ class Core(Checked, Generic[MotionT]):
 
     Attributes:
         setup: last table of this object, `None` before it.
-        reports: unsolicited reports of the part that the caller has not fetched yet, oldest first. Ends of
-            this object's own motions are in their `result` instead. Beyond 1000 reports the oldest are
-            dropped.
+        reports: unsolicited reports that the caller has not fetched yet, oldest first. Ends of motions that
+            this object started are in their `result` instead. If there are more than 1000 reports, the oldest
+            are dropped.
     """
 
     kind: TableCapabilities
@@ -103,11 +103,9 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ instructions
 
     def instruct(self, block: bytes, gives: int = 3, milliseconds: int = ANSWER_MS) -> bytes:
-        """Execute any instruction block in logical order (`blocks`).
+        """Execute any instruction block in logical order (`blocks`); return the parameters of the response.
 
-        The call returns the parameters of the response.
-
-        Raises the error of the part.
+        Raises the error that the part reports.
         """
         response = self.window.execute(block, gives, milliseconds)
         if response.code != block[2]:
@@ -149,7 +147,7 @@ class Core(Checked, Generic[MotionT]):
     def next_report(self, timeout: float = 0) -> Report | None:
         """Return the oldest report that was not fetched yet.
 
-        If no report arrives within `timeout` seconds, it returns None.
+        If no report arrives within `timeout` seconds, the call returns `None`.
         """
         end = self.link.clock() + timeout
         if not self.reports:
@@ -160,7 +158,7 @@ class Core(Checked, Generic[MotionT]):
         return self.reports.popleft() if self.reports else None
 
     def process_reports(self, seconds: float) -> None:
-        """Wait on the clock of the board and process unsolicited reports of the part."""
+        """Wait `seconds` on the clock of the board, and process unsolicited reports of the part."""
         end = self.link.clock() + seconds
         while (left := end - self.link.clock()) > 0:
             if self.link.wait_event(left) is not None:
@@ -195,7 +193,7 @@ class Core(Checked, Generic[MotionT]):
         return signed(int.from_bytes(data[1:5], "big"))
 
     def _position_of(self, count: int) -> int | None:
-        """Return a position unchanged; other parts may have no position."""
+        """Return a position unchanged. On other parts, the result may be `None`."""
         return count
 
     def set_position(self, position: int, encoder: bool = False) -> None:
@@ -247,7 +245,7 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ reset
 
     def software_reset(self) -> None:
-        """Execute the reset instruction of the part, which has the effect of the reset pin."""
+        """Execute the reset instruction, which has the same effect as the reset pin."""
         self._plain(Code.RESET)
         self._on_reset()
 
@@ -269,9 +267,9 @@ class TableRead:
     """Table as stored in the part, fastest stage first.
 
     Attributes:
-        rates: in base clocks.
-        up: pulses of each stage.
-        down: the same for the deceleration, empty if it is the reversed acceleration.
+        rates: pulse intervals in base clock cycles.
+        up: pulses of each stage of the acceleration.
+        down: pulses of each stage of the deceleration; empty if it is the reversed acceleration.
     """
 
     rates: tuple[int, ...]
@@ -297,18 +295,18 @@ class Settings(Core[MotionT]):
     ) -> Setup:
         """Set speeds and ramps; return the set-up with the values that are reached.
 
-        Overrides and event buffers are cleared.
+        The call clears overrides and event buffers.
 
         Args:
-            start_pps: start speed, 0.24 pps to 4 Mpps depending on the base clock (original part: up to 2
-                Mpps).
+            start_pps: start speed, 0.24 pps to 4 Mpps; the range depends on the base clock (original part: up
+                to 2 Mpps).
             high_pps: high speed in the same range.
             ramp_pulses: pulses from start to high speed, 24 bits.
             stop_pps: final speed of a separate deceleration ramp.
             down_pulses: pulses of a separate deceleration ramp.
             sigmoid: S-shaped ramps.
             base_clock: 8e6, 1e6, 500e3, 250e3, 62.5e3 or 15.625e3 Hz at a 16 MHz crystal; `None`: the fastest
-                one that reaches start and stop speed.
+                clock that reaches the start speed and the stop speed.
             external_clock: frequency at the pin EXTCK in Hz.
 
         Raises:
@@ -375,14 +373,14 @@ class Settings(Core[MotionT]):
         )
 
     def rate_of(self, pps: speeds.Number, what: str = "speed") -> int:
-        """Return the rate of a speed of the table.
+        """Return the rate of a speed within the table.
 
-        Raises OutOfRange, also if this object made no table.
+        Raises OutOfRange if the table does not contain the speed, or if this object has loaded no table.
         """
         return self.known_setup().rate_of(pps, what)
 
     def known_setup(self) -> Setup:
-        """Return the table that this object made. Raises OutOfRange if there is none."""
+        """Return the table that this object has loaded. Raises OutOfRange if there is no such table."""
         if self.setup is None:
             raise OutOfRange("a speed needs a base clock, which an initialisation chooses: initialise first")
         return self.setup
@@ -393,10 +391,10 @@ class Settings(Core[MotionT]):
         """Set the in-position monitor, which reports at standstill (`InPositionChange`).
 
         Args:
-            distance: report when pulses and encoder differ by more than this, 1 to 65 535, and when they
-                agree again; `None`: monitor off.
-            auto: send more than one report.
-            clamp: True if ZCLMP is active while they agree.
+            distance: report when the difference of pulses and encoder exceeds this number (1 to 65 535), and
+                when it no longer does; `None`: monitor off.
+            auto: True for a report of each change, False for one report.
+            clamp: True if ZCLMP is active while the difference does not exceed `distance`.
         """
         self.instruct(blocks.in_position(distance is not None, distance or 0, auto, clamp))
 
@@ -408,9 +406,9 @@ class Settings(Core[MotionT]):
         self.instruct(blocks.encoder_watch(distance is not None, distance or 0, auto))
 
     def limit_speed(self, pps: speeds.Number) -> None:
-        """Set the speed limit at an active slow-down limit.
+        """Set the speed limit that applies while a slow-down limit is active.
 
-        The motor runs slower than this speed. Default: the high speed.
+        The motor runs below this speed. Default: the high speed.
         """
         rate = self.known_setup().clock.choose(pps).rate
         self.instruct(blocks.speed_limit(rate))
@@ -425,9 +423,9 @@ class Settings(Core[MotionT]):
             self._plain(Code.RUN_MONITOR, 1)
 
     def interlock(self, position: int | None) -> None:
-        """Activate the output INTLK until the pulses reach this position.
+        """Activate the output INTLK until the pulse position reaches this value.
 
-        The part then reports `InterlockEnded`. None deactivates the output now.
+        Then the part reports `InterlockEnded`. `None` deactivates the output immediately.
         """
         running = self.status().interlock
         if running:
@@ -437,11 +435,11 @@ class Settings(Core[MotionT]):
             self._plain(Code.INTERLOCK, 1)
 
     def watch_inputs(self, mask: int, auto: bool = True) -> None:
-        """Set which changes of general inputs are reported (`InputChange`).
+        """Select the general inputs whose changes are reported (`InputChange`).
 
         Args:
             mask: bits of the inputs, 0 for no reports.
-            auto: send more than one report.
+            auto: True for a report of each change, False for one report.
         """
         self.instruct(blocks.input_mask(mask, auto))
 

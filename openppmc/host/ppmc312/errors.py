@@ -32,15 +32,15 @@ class RateRefused(ParameterRefused):
 
 
 class TableRefused(ParameterRefused):
-    """F0 02 to 05: the speeds are too close together, or there are too few pulses for the stages."""
+    """F0 02 to 05: the speeds are too close or in the wrong order, or the ramp has too few pulses."""
 
 
 class CurveRefused(ParameterRefused):
-    """F0 10 to 1A: a free curve is invalid. The part has no table now."""
+    """F0 10 to 1A: a free curve is invalid. The part has no table afterwards."""
 
 
 class UnexpectedInstruction(CommandRefused):
-    """F1 01, 02: a data block without a free curve, or an instruction in the middle of one."""
+    """F1 01, 02: a data block outside a free curve, or an instruction within a free curve."""
 
     text = "the part did not expect this block: another program may be using it; send the command again"
 
@@ -54,11 +54,11 @@ class InAlarm(CommandRefused):
 class HeldByRun(CommandRefused):
     """F1 in state WRN: a start waits for RUN."""
 
-    text = "a start waits for RUN: give RUN, switch its monitor off, or reset the part"
+    text = "a start waits for RUN: activate RUN, switch its monitor off, or reset the part"
 
 
 class InvalidBlockLength(CommandRefused):
-    """F6: the length byte does not fit the block."""
+    """F6: the length byte does not match the block."""
 
     text = "the part could not make sense of the block (its length): send the command again"
 
@@ -68,11 +68,11 @@ class RegistrationRefused(CommandRefused):
 
 
 class OverrideFailed(CommandRefused):
-    """F9: a registered override was not executed, and the others are discarded."""
+    """F9: a registered override was not executed. All other overrides are discarded."""
 
 
 class EventFailed(CommandRefused):
-    """F8: an instruction of an event buffer was not executed, and the buffer is empty now."""
+    """F8: an instruction of an event buffer was not executed. The buffer is now empty."""
 
 
 class AlarmRaised(CommandRefused):
@@ -130,9 +130,7 @@ _FAILURES = {
 
 
 def command_error(code: int, parameters: bytes) -> CommandRefused | None:
-    """Return the exception for a response, `None` if it is no error.
-
-    parameters: parameters of the response.
+    """Return the exception for an error response; `None` for any other response.
 
     >>> str(command_error(0xF1, bytes([0, 0x10])))
     'the part is in alarm: remove the cause, then clear the alarm (or reset)'
@@ -143,7 +141,9 @@ def command_error(code: int, parameters: bytes) -> CommandRefused | None:
     """
     first = parameters[0] if parameters else 0
     if code == Answer.PARAMETER:
-        kind, text = _PARAMETERS.get(first, (ParameterRefused, f"the part refuses this (error {first:02X})"))
+        kind, text = _PARAMETERS.get(
+            first, (ParameterRefused, f"the part refuses this instruction (error {first:02X})")
+        )
         error = kind(first, text)
         error.number, error.echo = first, parameters[1:]
         return error

@@ -1,4 +1,4 @@
-"""Motion of a PPMC-312, whose end the part reports without a request."""
+"""Motion of a PPMC-312. The part reports the end without a request."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: 
 
 
 class Transport(device.Transport, Protocol):
-    """Transport to the part: the link of a bridge, or a line."""
+    """Transport to the part: the link of a bridge, or the master of a line."""
 
     @property
     def identity(self) -> Identity: ...
@@ -38,7 +38,7 @@ class Transport(device.Transport, Protocol):
 
 
 class ReportSource(Protocol):
-    """Transport of reports to the object of the part."""
+    """Transport of reports from the part to its driver."""
 
     def collect(self) -> None: ...
 
@@ -67,7 +67,8 @@ class Motion(Handle):
         begin: position before the motion, `None` if another program started it.
         waited_for_run: the motion waited for RUN when it was started.
         shape: shape that the part reported for a move with ramps.
-        stop_ordered: a stop was sent, so it is the cause of an end below the stop speed.
+        stop_ordered: a stop was sent. Then this stop, not a slow-down limit, is the cause if the part reports
+            the end of a deceleration.
     """
 
     requested: int | None
@@ -95,9 +96,9 @@ class Motion(Handle):
             self.waited_for_run, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
 
     def _on_stop_report(self, report: Stopped) -> None:
-        """Process the report that the pulses have ended.
+        """Process the report that the motion has ended.
 
-        The end is confirmed if the pulses are those of the request.
+        The end is confirmed if the position matches the requested pulses.
         """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:
@@ -106,7 +107,7 @@ class Motion(Handle):
         if self.begin is not None:
             done = signed((report.position - self.begin) % COUNTS)
         if done is not None and self.requested:
-            ahead = (-done if self.direction else done) % COUNTS  # up to the whole counter range
+            ahead = (-done if self.direction else done) % COUNTS  # 0 to 2^32 - 1
             remaining = self.requested - ahead
             if remaining < 0 or (remaining and cause is Cause.COMPLETE):
                 self._not_confirmed(
@@ -156,7 +157,7 @@ class Motion(Handle):
     def wait(
         self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
     ) -> MotionResult:
-        """Wait for the end and return it, for any cause.
+        """Wait for the end of the motion and return the result, also if it ended early.
 
         Args:
             timeout: longest wait in s, `None` for no limit.
@@ -164,7 +165,7 @@ class Motion(Handle):
                 continues.
 
         Raises:
-            Timeout: the time is over; the motion continues.
+            Timeout: the time limit is exceeded; the motion continues.
             EndUnknown: the part does not confirm how the motion ended.
         """
         limit = None if timeout is None else self._link.clock() + timeout
@@ -184,12 +185,12 @@ class Motion(Handle):
         return end
 
 
-# Homing with a PPMC-312. An optional zero return is followed by a search for the same edge from the same
-# side.
+# Homing with a PPMC-312: an optional zero return, and then a search that always approaches the same edge from
+# the same side.
 
 
 class HomingAxis(homing.HomingAxis, Protocol):
-    """Members of an axis that homing needs, including those of a PPMC-312 only."""
+    """Members of an axis that homing with a PPMC-312 needs."""
 
     def search(self, direction: int, pps: Number | None = None, index: bool = False) -> AnyMotion: ...
     def zero_return(self, direction: int, pps: Number | None = None, index: bool = False) -> AnyMotion: ...
@@ -222,9 +223,9 @@ class Homing(homing.Homing):
     def _check_search(self, end: MotionResult) -> MotionResult:
         if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             raise OriginNotFound(
-                "a limit switch came before the origin"
-                + (" and its index" if self._index else "")
-                + ": home in the other direction, or check the switch",
+                "a limit switch was reached before the origin"
+                + (" with an index" if self._index else "")
+                + ": home in the other direction, or check the switches",
                 end,
             )
         return self._check_found(end)

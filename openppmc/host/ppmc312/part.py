@@ -31,15 +31,18 @@ class Overrides(Settings[MotionT]):
 
     Overrides are executed in the order of their registration, up to eight of them. Each waits for a position
     (`at`) or for event input 1 or 2 (`event`). They remain registered after the end of a motion; the next
-    table clears them. A report contains the result of an override (`Executed`, `Failed`). Read it before the
-    next override is executed; otherwise the part enters the alarm state. All methods may raise
+    table clears them. A report contains the result of an override (`Executed`, `Failed`). Read this report
+    before the next override is executed; otherwise the part enters the alarm state. All methods may raise
     RegistrationRefused.
     """
 
     # ------------------------------------------------------------------ overrides
 
     def override_stop(self, at: int | None = None, event: int | None = None, slow: bool = True) -> None:
-        """Register a stop, with a ramp or immediate (then pulse `at` is the last one)."""
+        """Register a stop with a ramp, or an immediate stop.
+
+        After an immediate stop, pulse `at` is the last one.
+        """
         make = blocks.slow_stop if slow else blocks.immediate_stop
         self._register(make(_trigger(at, event), at))
 
@@ -49,7 +52,8 @@ class Overrides(Settings[MotionT]):
         """Register a change to another speed of the table.
 
         Args:
-            ramped: change with a ramp, which requires a constant speed before; False: immediately.
+            ramped: True: change with a ramp, which is possible only at constant speed; False: change
+                immediately.
         """
         self._register(blocks.change(self.rate_of(pps), ramped, _trigger(at, event), at))
 
@@ -99,10 +103,10 @@ class Overrides(Settings[MotionT]):
     def event_add(self, event: int, block: bytes) -> None:
         """Append an instruction (`move_block`, `blocks`) to event buffer 1 or 2.
 
-        A buffer holds four instructions.
+        A buffer holds four instructions. Each falling edge of the event input executes the next instruction,
+        cyclically.
 
-        A falling edge of the event input executes the next one; after the last one the first one follows.
-        The motor must be stopped.
+        During this call, the motor must be stopped.
         """
         status = self.instruct(blocks.event_register(event, block), 4)[0]
         if status == IN_USE:
@@ -130,7 +134,7 @@ def _trigger(at: int | None, event: int | None) -> Trigger:
     return _EVENTS[event]
 
 
-# Motions of a PPMC-312, for any transport of its instructions.
+# Motions of a PPMC-312 on a bridge or on a line.
 
 
 class Axis(Overrides[MotionT]):
@@ -181,7 +185,7 @@ class Axis(Overrides[MotionT]):
         high: bool = False,
         pulse_only: bool = False,
     ) -> MotionT:
-        """Run until a stop, a limit or the alarm.
+        """Run until a stop command, a limit or the alarm.
 
         Args:
             speed: constant speed in pps, default: the start speed.
@@ -200,13 +204,13 @@ class Axis(Overrides[MotionT]):
         return self._start(blocks.single_step(direction), direction, 1).wait().check(1)
 
     def search(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at constant speed (default: start speed) to the origin, or to the index on it."""
+        """Run at constant speed (default: start speed) to the origin, or to the first index on it."""
         return self._start(blocks.origin_search(direction, self._search_rate(pps), index), direction)
 
     def zero_return(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at high speed (or pps) past the origin, decelerate, and return to it at the start speed.
+        """Run at high speed (or `pps`) past the origin, decelerate, and return to it at the start speed.
 
-        The origin switch must be active over a short distance only.
+        The switch must be active only over a short distance.
         """
         rate = 0 if pps is None else self.rate_of(pps)
         return self._start(blocks.zero_return(direction, rate, index), direction)
@@ -227,7 +231,7 @@ class Axis(Overrides[MotionT]):
             direction: direction towards the switch.
             search_pps: speed of the search in pps, default: the start speed.
             fast: first make a zero return at high speed.
-            to_limit: first run to the slow-down limit at high speed, and continue to the hard limit.
+            to_limit: first run at high speed to the slow-down limit, and then continue to the hard limit.
             back_off: pulses of each move away from the switch if it is active at the start of the search.
             index: True if the origin is the first index of the encoder on the switch.
 
@@ -242,7 +246,8 @@ class Axis(Overrides[MotionT]):
         """Change the running motion to another speed of the table.
 
         Args:
-            ramped: change with a ramp, which requires a constant speed before; False: immediately.
+            ramped: True: change with a ramp, which is possible only at constant speed; False: change
+                immediately.
 
         Raises:
             NothingToStop: the motor is stopped.
@@ -262,7 +267,10 @@ class Axis(Overrides[MotionT]):
         return self._stop(False, wait)
 
     def halt(self, wait: bool = True) -> MotionResult | None:
-        """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
+        """Stop immediately; steps may be lost at high speed.
+
+        In all other respects, the method works like `stop`.
+        """
         return self._stop(True, wait)
 
     def _request_stop(self, now: bool = False) -> None:
@@ -280,7 +288,7 @@ class Axis(Overrides[MotionT]):
             if self._motion is not None:
                 self._motion.stop_ordered = True
 
-    # ------------------------------------------------------------------ inside
+    # ------------------------------------------------------------------ internal
 
     def _stop(self, now: bool, wait: bool) -> MotionResult | None:
         motion = self._motion
@@ -301,7 +309,7 @@ class Axis(Overrides[MotionT]):
         return motion.wait() if wait else None
 
     def _start(self, block: bytes, direction: int, requested: int | None = None) -> MotionT:
-        """Start a motion; its end may be reported in the same message as the response."""
+        """Start a motion. One message may contain both the response and the report of its end."""
         before, begin = self._motion, self.position
         self._mark = self.window.answers
         self._motion = motion = self._make_motion(requested, direction, begin)
@@ -315,7 +323,7 @@ class Axis(Overrides[MotionT]):
         return motion
 
     def _search_rate(self, pps: speeds.Number | None) -> int:
-        """Return the rate of a constant speed; default: the start speed that is reached."""
+        """Return the rate of a constant speed; without a speed, that of the reached start speed."""
         if pps is not None:
             return self.rate_of(pps)
         setup = self.known_setup()
@@ -326,7 +334,7 @@ class Axis(Overrides[MotionT]):
         """Default speed of searches and jogs in pps.
 
         Raises:
-            OutOfRange: this object made no table.
+            OutOfRange: this object has loaded no table.
         """
         setup = self.known_setup()
         return setup.clock.speed(setup.table.rates[setup.table.sa])
@@ -337,7 +345,7 @@ def _side(pulses: int) -> int:
 
 
 RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
-"""Strap bits of the board: RUN, and the event inputs (0 = active)."""
+"""Strap bits of the board: RUN, and the event inputs, which are active at 0."""
 
 
 class Ppmc312(Axis[Motion], Part):
@@ -367,16 +375,22 @@ class Ppmc312(Axis[Motion], Part):
         return (self,)
 
     def reset(self) -> None:
-        """Reset the part with its pin, in any state: pulses end immediately, no table, position 0."""
+        """Reset the part with its pin, in any state.
+
+        The pulses end immediately. After the reset there is no table, and the position is 0.
+        """
         self.link.execute(Script().reset())
         self._on_reset()
 
     def allow_run(self, on: bool) -> None:
-        """Set the RUN input of the part with the board's strap; a switch at the pin can still hold it."""
+        """Set the RUN input of the part with a strap of the board.
+
+        A switch at the pin can keep RUN inactive nevertheless.
+        """
         self._strap(RUN, on)
 
     def pulse_event(self, event: int) -> None:
-        """Output a pulse on event input 1 or 2 with the board's strap.
+        """Pulse event input 1 or 2 with a strap of the board.
 
         The pulse is 30 ms long, so that a part with DATASHEET timing accepts it.
         """

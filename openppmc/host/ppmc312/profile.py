@@ -1,6 +1,6 @@
 """Acceleration tables of the PPMC-312 from speeds in pulses/s: linear and sigmoid. Pure.
 
-A speed is base clock / rate with 16-bit rates. A table has 127 stages, or up to 127 for a free curve. Only
+A speed is base clock / rate; a rate has 16 bits. A table has 127 stages, a free curve has 2 to 127. Only
 `read_stages` does I/O: it reads the file of a free curve.
 """
 
@@ -29,7 +29,7 @@ from .errors import command_error
 # Free curves of the PPMC-312: 2 to 127 stages from a list or a CSV file.
 
 LEAST_TICKS = 256
-"""Least duration of a stage in base clocks (pulses times rate), which the data sheet requires."""
+"""Shortest duration of a stage in base clock cycles (pulses times rate) that the data sheet permits."""
 
 
 class Stage(NamedTuple):
@@ -38,7 +38,7 @@ class Stage(NamedTuple):
     Attributes:
         pps: speed.
         up: pulses at this speed while accelerating.
-        down: pulses while decelerating. `None`: this ramp begins with a faster stage.
+        down: pulses at this speed while decelerating; `None` if the stage is not part of the deceleration.
     """
 
     pps: float
@@ -49,7 +49,7 @@ class Stage(NamedTuple):
 def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | None]]) -> Setup:
     """Return the set-up of a free curve.
 
-    Without pulses down in any stage, the deceleration is the reversed acceleration.
+    If no stage has pulses down, the deceleration is the reversed acceleration.
 
     Args:
         stages: (pps, pulses) or (pps, pulses up, pulses down), slowest first.
@@ -100,9 +100,9 @@ def plan_file(
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
 ) -> Setup:
-    """Return the set-up of a free curve from a file; clocks as for `choose_clock`.
+    """Return the set-up of a free curve from a file. The clock arguments are those of `choose_clock`.
 
-    Raises OutOfRange.
+    Raises OutOfRange if the file is invalid or the part cannot output the curve.
     """
     return plan_stages(xtal_hz, read_stages(path), base_clock, external_clock)
 
@@ -120,7 +120,7 @@ def plan_stages(
 
 
 def _side(values: Sequence[int | None], name: str) -> list[int]:
-    """Return the pulses, beginning with the first stage that has pulses."""
+    """Return the pulses from the first stage on that has pulses."""
     given = [place for place, pulses in enumerate(values) if pulses is not None]
     if not given:
         return []
@@ -167,7 +167,7 @@ def read_stages(path: Path) -> list[Stage]:
 
 
 def _is_names(cells: Sequence[str]) -> bool:
-    """Return True if this is a first line of names without a number."""
+    """Return True if this line is a heading: names without a number."""
     return not any(cell[:1].isdigit() or cell[:1] in ".-+" for cell in cells if cell)
 
 
@@ -177,8 +177,8 @@ def _is_names(cells: Sequence[str]) -> bool:
 class TableCapabilities(Capabilities):
     """Capabilities of a part with 16-bit rates.
 
-    A speed is base clock / rate, and the base clock is a part of the table. The part has neither phase
-    outputs nor straps that select anything.
+    A speed is base clock / rate, and the base clock is a part of the table. The part has no phase outputs,
+    and no straps that select a function.
     """
 
     def plan(self, xtal_hz: int, request: SetupRequest) -> Setup:
@@ -250,8 +250,8 @@ def choose_clock(
 
     Args:
         slowest_pps: slowest speed of the table.
-        base_clock: frequency in Hz; `None`: the fastest clock that reaches the slowest speed, because its
-            speeds are closest together.
+        base_clock: frequency in Hz; `None`: the fastest clock that reaches the slowest speed. It has the
+            finest speed resolution.
         external_clock: frequency at the pin extck in Hz, up to 2 MHz.
 
     Raises:
@@ -277,7 +277,7 @@ class Setup:
     """Table and its instruction blocks.
 
     Attributes:
-        start, stop, high: speeds at its ends, as requested and as reached.
+        start, stop, high: speeds of the table, as requested and as reached.
     """
 
     clock: units.BaseClock = field(repr=False)
@@ -314,7 +314,7 @@ class Setup:
         return self.table.na
 
     def seconds(self, pulses: Sequence[int]) -> float:
-        """Return the time of an acceleration or deceleration (table.pa or table.pd) in s."""
+        """Return the duration of a ramp in s: table.pa is the acceleration, table.pd the deceleration."""
         ticks = sum(n * rate for n, rate in zip(pulses, self.table.rates, strict=True))
         return float(ticks * self.clock.period)
 
@@ -380,11 +380,10 @@ pulses: 762 or more
 
 
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:
-    """Return the least pulses of acceleration and deceleration.
+    """Return the smallest numbers of pulses of acceleration and deceleration.
 
-    They are 127 * (1 + Rs / RH) for all 127 stages.
-
-    The slowest stage of a ramp has the smallest share, so it defines the limit (P312-TBL-04, P312-TBL-05).
+    The slowest stage of a ramp has the fewest pulses, so it defines the limit: 127 * (1 + Rs / RH) pulses for
+    all 127 stages (P312-TBL-04, P312-TBL-05).
     """
     start, stop, high = numbers
     speeds = tables.speeds(max(start, stop), high, sigmoid)

@@ -2,10 +2,10 @@
 
 An instruction needs one message to the bridge and one from the bridge.
 
-The message contains these steps: wait until an instruction may be written, write it, wait for a response,
-read it. WAIT on RAR returns the number of bytes of a response that are left. With a time limit of 0, WAIT
-ends the script if no byte is left. Therefore no byte is read twice or lost, regardless of the order in which
-the response and a pending report arrive.
+The message to the bridge contains these steps: wait until an instruction may be written, write it, wait for a
+response, read it. WAIT on RAR returns how many bytes of a response are left. With a time limit of 0, WAIT
+ends the script if no byte is left. Therefore, no byte is read twice or lost, in any order of the response and
+a pending report.
 """
 
 from __future__ import annotations
@@ -21,9 +21,12 @@ from .blocks import WINDOW, bus_order, start_address
 CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
 INTERRUPT_ON_RESPONSE, NOT_WRITABLE = 0x10, 0x08
 EMPTY = 0x40
-"""RAR without a response. With a response, RAR is this value minus the bytes left, 1 to 32."""
+"""Value of RAR without a response.
+
+With a response, RAR is this value minus the number of bytes left, 1 to 32.
+"""
 MASK, LEFT = 0x60, 0x20
-"""Mask and value of RAR if bytes are left, and only then."""
+"""Mask of RAR, and the masked value that indicates that bytes are left."""
 SHORTEST, MOST_REPORTS = 3, 64
 ANSWER_MS, READY_MS = 250, 50
 
@@ -31,7 +34,8 @@ ANSWER_MS, READY_MS = 250, 50
 class Window:
     """Transport of instructions through the block registers.
 
-    arrived(response): called with every response, except those to instructions of the host.
+    Args:
+        arrived: called with each response that is not for an instruction of the host.
     """
 
     def __init__(self, link: Link, arrived: Callable[[Response], None]) -> None:
@@ -42,17 +46,17 @@ class Window:
         self._state_unknown = True
         self._count = 0
         self.answers = 0
-        """Number of responses so far. A report after a response is later than its instruction."""
+        """Number of responses so far; see `core.Instructions.answers`."""
 
     def open(self) -> None:
         """Prepare the registers after a reset, or after another program used them.
 
-        Responses cause an interrupt, no response is partly read, and none is pending.
+        Afterwards, responses cause an interrupt, and no response is pending or partly read.
         """
         self._bytes.clear()
         self._bytes_left = 0
-        # With DATASHEET timing the part accepts no byte for 1.6 ms after a reset. A faulty part is detected
-        # later.
+        # With DATASHEET timing, the part accepts no byte for 1.6 ms after a reset. If the wait fails, the
+        # next access raises the error.
         self._link.attempt(Script().timeout(READY_MS).wait(CSR, NOT_WRITABLE, 0))
         self._link.execute(Script().write(CSR, INTERRUPT_ON_RESPONSE).read(CONTROL))
         self._state_unknown = False
@@ -64,7 +68,7 @@ class Window:
         """Execute an instruction; return its response, or the first block of it.
 
         Args:
-            gives: expected size of the response, for speed only.
+            gives: expected size of the response; it only affects the speed.
             milliseconds: longest execution time.
 
         Raises:
@@ -87,14 +91,17 @@ class Window:
         return self._await(ANSWER_MS)
 
     def _await(self, milliseconds: int) -> Response:
-        """Return the response to the host; other responses may arrive before it."""
+        """Wait for the response to the host and return it; other responses may arrive before it."""
         for _ in range(MOST_REPORTS):
             if (found := self._exchange(self._append_read(Script().timeout(milliseconds), 8))) is not None:
                 return found
         raise ProtocolError(f"{self._link.name}: reports without end instead of an answer: reset the part")
 
     def collect(self) -> None:
-        """Read the pending responses. An unexpected response to the host is discarded."""
+        """Read the pending responses.
+
+        A response to the host is discarded, because no instruction waits for it.
+        """
         if self._state_unknown:
             self.open()
         for _ in range(MOST_REPORTS):
@@ -104,13 +111,13 @@ class Window:
                 return
         raise ProtocolError(f"{self._link.name}: reports without end: reset the part")
 
-    # ------------------------------------------------------------------ inside
+    # ------------------------------------------------------------------ internal
 
     @staticmethod
     def _append_read(script: Script, gives: int) -> Script:
         """Append the operations that read a response.
 
-        The first SHORTEST bytes are always present; each following byte is read only if one is left.
+        Each response has the first SHORTEST bytes. Each following byte is read only if a byte is left.
         """
         script.wait(ADDRESS, MASK, LEFT).read_many(READ, SHORTEST).timeout(0)
         for _ in range(gives - SHORTEST):
@@ -118,7 +125,7 @@ class Window:
         return script
 
     def _exchange(self, script: Script, patient: bool = True) -> Response | None:
-        """Execute the script of an instruction, then read the other bytes of a response.
+        """Execute a script, and then read the bytes of the response that are left.
 
         Args:
             patient: True if a missing response is an error.
@@ -136,7 +143,7 @@ class Window:
         return found
 
     def _assemble(self, script: Script, answer: Answer, patient: bool) -> Response | None:
-        """Assemble responses from the values of a script."""
+        """Assemble responses from the values that a script returned."""
         found, left, received = None, None, False
         giving = [op for op in script.ops if op.response_size]
         for op, value in zip(giving, answer.values, strict=False):
@@ -162,7 +169,7 @@ class Window:
         """Process bytes of a response.
 
         Args:
-            left: number of bytes left before the first of them.
+            left: number of bytes of the response that were left before these bytes were read.
         """
         found = None
         for byte in data:

@@ -1,4 +1,4 @@
-"""Self-test of a board with a bank: all of axis 1, then several axes together."""
+"""Self-test of a board with a bank: all functions of axis 1, then several axes together."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire
 
 ONCE, AN_AXIS = 32, 14
-"""Number of levels of a record: of the bus and the shared pins, and of each axis."""
+"""Number of levels in a record: those of the bus and the shared pins, and those of each axis."""
 SHOWN = 3
-"""Number of axes that are started together; more would need a large recorder."""
+"""Number of axes that are started together. More axes would require a large recorder."""
 
 
 def axis(number: int) -> ByteBus:

@@ -20,7 +20,7 @@ HALF = 0x04
 TABLE_S = 0.006
 """Longest build time of a ramp table in s, with FAST timing at 8 MHz."""
 RECORDS_A_CODE, RECORDS_A_SLOW_CODE = 96, 512
-"""Records per code; with DATASHEET timing the chopper runs longer."""
+"""Number of records that one code requires, with FAST and with DATASHEET timing (the chopper runs longer)."""
 MOST_LOOKS = 100
 LONGEST_MOVE_S = 2.0
 
@@ -34,7 +34,7 @@ class Rates:
         high: high rate.
         ramp: pulses of the ramp, two bytes.
         slow: rate of constant speeds.
-        table: seconds until the table may be used with DATASHEET timing.
+        table: time in s after which the table may be used with DATASHEET timing.
     """
 
     start: int = 249
@@ -45,7 +45,7 @@ class Rates:
 
     @property
     def data(self) -> tuple[int, int, int, int]:
-        """Data bytes as they follow the code."""
+        """Data bytes in the order in which they follow the code."""
         return self.start, self.high, *self.ramp
 
 
@@ -55,9 +55,10 @@ class ByteBus:
 
     Attributes:
         before: script that precedes each access.
-        axis: axis bits of its codes.
-        building: status bits while a table is built, 0 if the part does not report it.
-        positive, chopped: bits of the initialisation, 0 if it has no such bit.
+        axis: bits of the axis in its command codes.
+        building: status bits that are set while a table is built; 0 if the part does not report it.
+        positive, chopped: bits of the initialisation code for positive logic and for the chopper; 0 if it has
+            no such bit.
     """
 
     decode: Callable[[int], Command]
@@ -76,7 +77,7 @@ class ByteBus:
             access.run(self.before)
         access.write(COMMAND, [code])
         if data:
-            self._until(access, IBF)  # a data byte written too early would replace the command
+            self._until(access, IBF)  # a data byte that is written too early would replace the command
             access.write(DATA, data)
         access.read(COMMAND, 2)
 
@@ -113,7 +114,7 @@ class ByteBus:
     # ------------------------------------------------------------------ every code
 
     def one(self, access: PartAccess, code: int) -> None:
-        """Play one code with its data; stop any motion and undo any change that it causes."""
+        """Play one code with its data; stop a motion that it starts, and restore a set-up that it changes."""
         command = self.decode(code)
         kind, axis = command.kind, code & AXIS_2 if self.axis or command.axis else 0
         data = {
@@ -164,7 +165,7 @@ class ByteBus:
     def motion(
         self, *steps: Callable[[PartAccess], None], code: int | None = None
     ) -> Callable[[PartAccess], None]:
-        """Return a function that initialises the axis and plays these steps."""
+        """Return a function that initialises the axis and then plays these steps."""
 
         def play(access: PartAccess) -> None:
             self.initialise(access, code)
@@ -179,7 +180,7 @@ class ByteBus:
         """Return a function that plays a motion to its end.
 
         Args:
-            stop: command that stops the motion; `None`: the motion ends without it.
+            stop: command that stops the motion; `None` if the motion ends without a command.
             after: seconds from the start to this command.
         """
 
@@ -196,7 +197,7 @@ class ByteBus:
         """Return sections with moves of each kind in both directions.
 
         Args:
-            pulse_only: also play pulses without phases.
+            pulse_only: also play moves that output pulses without changing the phases.
         """
         go, slow = self.go, self.rates.slow
         kinds: list[tuple[str, Callable[[PartAccess], None]]] = [

@@ -34,7 +34,7 @@ def board_name(build: Build | None) -> str:
 
 
 def verdict(found: SelfTestResult) -> str:
-    """Return the last line."""
+    """Return the last line of the page, which states the result."""
     count = found.differences
     board = board_name(found.build)
     return f"{found.edges} edges compared on your {board}, {count} difference{'' if count == 1 else 's'}"
@@ -64,7 +64,7 @@ def _section(outcome: SectionResult) -> dict[str, Any]:
 
 
 def values(link: Link, found: SelfTestResult, notes: list[str]) -> dict[str, Any]:
-    """Return all results for programs.
+    """Return all results as values for JSON.
 
     Args:
         notes: further messages, one per line.
@@ -97,7 +97,7 @@ def values(link: Link, found: SelfTestResult, notes: list[str]) -> dict[str, Any
 
 
 def text(page: dict[str, Any], build: Build | None) -> str:
-    """Return all results as text for people."""
+    """Return all results as text."""
 
     def line_rate(rate: str, repeats: int | None) -> str:
         if repeats is None:

@@ -1,6 +1,6 @@
 """Sections of a self-test, and the accesses of a section to the part.
 
-Everything that a section does is recorded, cycle by cycle. Therefore it does not poll: a section writes,
+Every access of a section is recorded, cycle by cycle. To save records, a section does not poll: it writes,
 waits on the PC, and reads.
 """
 
@@ -16,11 +16,11 @@ from ..script import Identity, Script
 
 REGISTERS, COMMANDS, MOVES, SWITCHES = "registers", "commands", "moves", "switches"
 _GAP = 4
-"""NOPs between two bytes; with FAST timing the part has accepted the first byte by then."""
+"""NOPs between two bytes. With FAST timing, the part accepts the first byte within their time."""
 _SLOW_BYTE = 0.003
 """Seconds between two bytes with DATASHEET timing.
 
-The time is above all processing times, except that of a table.
+It exceeds all processing times, except that of a table.
 """
 
 
@@ -49,7 +49,7 @@ class PartAccess:
             self.run(script)
 
     def read(self, register: int, count: int = 1) -> bytes:
-        """Read a register a number of times, with the gap of two writes."""
+        """Read a register `count` times, with the same gap as between two writes."""
         script = Script()
         for _ in range(count):
             script.read(register)
@@ -58,7 +58,7 @@ class PartAccess:
         return b"".join(self.run(script))
 
     def run(self, script: Script) -> tuple[bytes, ...]:
-        """Execute a script unchanged; return its values."""
+        """Execute a script and return its values."""
         return self.link.execute(script).values
 
     def pause(self, seconds: float) -> None:
@@ -87,7 +87,7 @@ class Section:
 
     @property
     def folder(self) -> str:
-        """Title as the name of a folder."""
+        """Title in a form that can be the name of a folder."""
         return "-".join(re.findall(r"\w+", self.title))
 
 
@@ -96,7 +96,7 @@ class Wire:
     """Jumper wire for the sections about switches.
 
     Attributes:
-        output, input: ports of the carrier, with their bit.
+        output, input: ports of the carrier with bit numbers.
         what: purpose of the wire.
     """
 
@@ -109,7 +109,7 @@ class Wire:
 
 
 def timed(identity: Identity) -> dict[str, Any]:
-    """Return clock, crystal and TIMING of the golden model, as the board reports them."""
+    """Return clock, crystal and TIMING for the golden model, as the board reports them."""
     timing = "DATASHEET" if identity.datasheet else "FAST"
     return {"CLK_HZ": identity.clk_hz, "XTAL_HZ": identity.xtal_hz, "TIMING": timing}
 
@@ -117,12 +117,12 @@ def timed(identity: Identity) -> dict[str, Any]:
 def recorded(
     inputs: Iterable[str], outputs: Iterable[str], widths: Mapping[str, int]
 ) -> tuple[tuple[str, int], ...]:
-    """Return pins and widths in a record, lowest bit first: the inputs and outputs of a golden model."""
+    """Return pins and widths of a record, lowest bit first, from the inputs and outputs of a golden model."""
     return tuple((pin, widths.get(pin, 1)) for pin in (*inputs, *outputs))
 
 
 class Plan(Protocol):
-    """Members that the `selftest` module of a part has."""
+    """Members of the `selftest` module of a part."""
 
     part: str
     """Name of the part in the table, and of its golden model."""
@@ -133,9 +133,10 @@ class Plan(Protocol):
         """Return pins and widths of the golden model in a record of `width` levels, lowest bit first."""
 
     def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
-        """Return parameters of the golden model for the levels of its outputs in reset.
+        """Return parameters of the golden model that match the levels of the outputs in reset.
 
-        Several candidates are returned if the levels do not decide; the candidate that matches is correct.
+        If several sets of parameters match, all of them are returned. The comparison then determines the
+        correct one.
         """
 
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:

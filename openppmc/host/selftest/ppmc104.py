@@ -13,7 +13,7 @@ from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 AUX_ON, AUX_OFF, AUX_OUTPUT = 0xC1, 0xC2, 0x86
 SLOW_CLOCK, LONG_INTERVALS = 0xFE, 0xFD
-"""Straps with csel low, and with vsel low."""
+"""Strap levels with csel low, and strap levels with vsel low."""
 LAYOUT = recorded(INPUTS, OUTPUTS, WIDTHS)
 BUS = ByteBus(decode)
 
@@ -48,7 +48,7 @@ class Plan104:
             access.pause(0.005)
             BUS.command(access, AUX_ON)
             BUS.read_end(access)
-            BUS.go(RAMP, 9, 0, 0)(access)  # towards the active limit, so no pulse is output
+            BUS.go(RAMP, 9, 0, 0)(access)  # towards the active limit, so the part outputs no pulse
             BUS.go(RAMP | CCW, 9, 0, 0)(access)
 
         def origin(access: PartAccess) -> None:

@@ -1,4 +1,4 @@
-"""Self-test of a board with a PPMC-2104: each axis, then both on one edge of RUN."""
+"""Self-test of a board with a PPMC-2104: each axis, then a start of both axes with one edge of RUN."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Plan2104:
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
         def errors(access: PartAccess) -> None:
             for bus in (FIRST, SECOND):
-                bus.command(access, 0x43 | bus.axis)  # before the initialisation, so it is rejected
+                bus.command(access, 0x43 | bus.axis)  # rejected, because the axis is not initialised yet
                 bus.command(access, 0x86 | bus.axis)
                 access.read(DATA)
 

@@ -21,7 +21,7 @@ LAYOUT = (
     *(("aclr_n", 1), ("zclmp_n", 1), ("cd_n", 1), ("pout", 1), ("dir", 1), ("intlk_n", 1), ("out_oe", 1)),
 )
 SETTING = blocks.free_curve(3, [200, 300, 400], [6, 5, 4])
-"""Free curve of 2500 to 5000 pps in 15 pulses; a linear ramp needs several hundred pulses."""
+"""Free curve from 2500 to 5000 pps in 15 pulses; a linear ramp would require several hundred pulses."""
 LINEAR = [blocks.initial_setting(0, 2000, 800, 1000)]
 PULSES = 40
 END_S = 3.0
@@ -40,20 +40,20 @@ def execute(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> No
 
 
 def read_responses(access: PartAccess, seconds: float) -> None:
-    """Wait for a response, read it and the following ones."""
+    """Wait for a response; read it and all that follow."""
     access.until_interrupt(seconds)
     for _ in range(MOST_RESPONSES):
         access.read(CSR)
         left = EMPTY - access.read(ADDRESS)[0]
         if not 0 < left <= WINDOW:
             return
-        access.link.forget_events()  # discard the event of this response; the next response has its own
+        access.link.forget_events()  # discard the event of this response; the next response has another one
         access.read(READ, left)
         access.pause(0.001)
 
 
 def prepare(access: PartAccess, setting: Sequence[bytes] = SETTING) -> None:
-    """Switch the interrupt on responses on, and load the ramps."""
+    """Enable the interrupt on responses, and load the ramps."""
     access.pause(0.005)
     access.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
     for instruction in setting:

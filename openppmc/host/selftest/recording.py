@@ -22,8 +22,8 @@ class Recorded:
         record_bytes: bytes of one record.
         time_bits: bits of a record that count cycles.
         most: number of records that fit.
-        running: True if the recording continues.
-        full: True if a record did not fit.
+        running: True if the recorder is recording.
+        full: True if a record was dropped because the recorder was full.
         count: records so far.
     """
 
@@ -48,7 +48,7 @@ class Recorded:
         return cls(data[0], data[1], 1 << data[2], bool(data[3] & 1), bool(data[3] & 2), count)
 
     def samples(self, data: bytes) -> Iterator[tuple[int, int]]:
-        """Yield (cycles since the first record, levels) of each complete record in these bytes."""
+        """Yield (cycles since the first record, levels) for each complete record in these bytes."""
         now = 0
         for start in range(0, len(data) - self.record_bytes + 1, self.record_bytes):
             word = int.from_bytes(data[start : start + self.record_bytes], "little")
@@ -62,11 +62,11 @@ SETTLE = 2
 
 
 class NoReset(ValueError):  # noqa: N818 - names the missing object
-    """The records contain no reset of the part, which a golden model must begin with."""
+    """The records contain no reset of the part. A golden model must begin with a reset."""
 
 
 def pins_of(layout: Layout, levels: int) -> dict[str, int]:
-    """Return the pins in the levels of a record."""
+    """Return the level of each pin in a record."""
     found = {}
     for pin, width in layout:
         found[pin] = levels & (1 << width) - 1
@@ -75,7 +75,7 @@ def pins_of(layout: Layout, levels: int) -> dict[str, int]:
 
 
 def reset_levels(samples: Sequence[tuple[int, int]], layout: Layout) -> dict[str, int]:
-    """Return the pins while the part is in reset. Raises NoReset."""
+    """Return the levels of the pins while the part is in reset. Raises NoReset."""
     for t, pins in _in_reset(samples, layout):
         if t >= SETTLE:
             return pins
@@ -83,9 +83,9 @@ def reset_levels(samples: Sequence[tuple[int, int]], layout: Layout) -> dict[str
 
 
 def _in_reset(samples: Sequence[tuple[int, int]], layout: Layout) -> Iterator[tuple[int, dict[str, int]]]:
-    """Yield (cycles since rst_n fell, pins) of the first reset.
+    """Yield (cycles since rst_n fell, levels of the pins) during the first reset.
 
-    It yields each record, and the state one cycle before each following record.
+    The generator yields each record, and also the state one cycle before the next record.
     """
     fell, pins = None, dict[str, int]()
     for t, levels in samples:
@@ -109,7 +109,8 @@ def recording_of(
 ) -> Recording:
     """Return the recording of the part from its reset on.
 
-    An output whose level differs from its reset level is an edge, which is a difference.
+    If an output does not have its reset level in reset, the recording contains an edge, which the comparison
+    reports as a difference.
 
     Args:
         samples: (cycle, levels) of all records.
@@ -125,7 +126,7 @@ def recording_of(
     watched = [name for name, _ in layout]
     now = {**inputs, "rst_n": 0}
     out = {name: level for name, level in outputs.items() if name in watched}
-    # The state before the recorded reset does not matter: the model is in reset up to its end.
+    # The state before the recorded reset is irrelevant, because the model is in reset until the reset ends.
     stimulus = [Change(0, "rst_n", 0)]
     edges: list[Edge] = []
     for t, levels in _from(samples, fell):
@@ -141,10 +142,7 @@ def recording_of(
 
 
 def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, int]]:
-    """Yield the records from the reset on.
-
-    It also yields the state at the time when outputs must have their reset levels.
-    """
+    """Yield the records from the reset on, and the state when outputs must have their reset levels."""
     looked = False
     before = samples[0][1]
     for t, levels in samples:
@@ -160,7 +158,7 @@ def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, 
 def _accesses(stimulus: Iterable[Change], edges: Iterable[Edge], pins: Mapping[str, int]) -> Iterator[Access]:
     """Yield writes and reads of the host, for reports.
 
-    A write ends with its write strobe, a read with its read strobe.
+    A write has the time of the end of its write strobe, a read that of the end of its read strobe.
     """
     names = [next((n for n in group if n in pins), "") for group in (("wr_n", "we_n", "ds_wrs_n"),)]
     reads = next((n for n in ("rd_n", "oe_n", "rw_rds_n") if n in pins), "")

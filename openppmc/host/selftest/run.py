@@ -23,13 +23,13 @@ ECHOES, ECHO_BYTES = 8, 48
 TRIES = 3
 """Number of attempts per section.
 
-If the PC is busy for a long time, a chopper or a clock may fill the recorder.
+While the PC is busy, a chopper or a clock may fill the recorder.
 """
 PrintLine = Callable[[str], None]
 
 
 class NoRecorder(PpmcError):  # noqa: N818 - names the missing object
-    """The bitstream has no recorder."""
+    """The bitstream of the board has no recorder."""
 
 
 @dataclass(frozen=True)
@@ -38,9 +38,9 @@ class SectionResult:
 
     Attributes:
         edges: output edges that were compared.
-        wrong: difference in one line, or "".
+        wrong: difference in one line, "" if there is none.
         report: difference as text.
-        skipped: reason why there is no result, or "".
+        skipped: reason why there is no result, "" if there is one.
         full: True if not all records fitted into the recorder.
     """
 
@@ -60,7 +60,8 @@ class SelfTestResult:
     """Results of a self-test.
 
     Attributes:
-        rates: number of repeated requests by line rate, `None`: the adapter does not support it.
+        rates: number of repeated requests for each line rate; `None` if the adapter does not support the
+            rate.
     """
 
     build: Build | None
@@ -85,7 +86,7 @@ class SelfTest:
 
     Args:
         folder: folder of the pictures of differences.
-        tell: called with one line per step.
+        tell: called with one line of text for each step.
     """
 
     def __init__(self, link: Link, plan: Plan, folder: Path, tell: PrintLine = lambda line: None) -> None:
@@ -147,7 +148,7 @@ class SelfTest:
         """Return the sections of the plan.
 
         Args:
-            switches: including those that need wires for limits and origin.
+            switches: True to include the sections that need wires for limits and origin.
         """
         info = self.recorder()
         identity, width = self.link.identity, info.width
@@ -155,10 +156,9 @@ class SelfTest:
         return [*found, *(self.plan.switches(identity, width) if switches else ())]
 
     def play(self, section: Section) -> SectionResult:
-        """Record a section, compare it, and reset the part, so that its outputs are off.
+        """Record a section and compare it; reset the part afterwards, so that its outputs are off.
 
-        If the records did not fit into the recorder, the section is played again, because the PC may have
-        been busy.
+        If the recorder was full, the section is played again, because the PC may have been busy.
         """
         for left in reversed(range(TRIES)):
             outcome = self._record(section)
@@ -204,7 +204,7 @@ class SelfTest:
         count, pulses = comparison.edges_compared, comparison.pulses
         if comparison.mismatch is not None:
             return SectionResult(section, records, end, count, pulses, *self._difference(section, comparison))
-        # Without the wire a motion does not end, and the recorder may be full.
+        # Without the wire, a motion does not end, and the recorder may be full. So check the wire first.
         if section.what == SWITCHES and not self._has_switched(comparison.recording):
             skipped = "no switch has moved: is the wire there?"
             return SectionResult(section, records, end, count, pulses, skipped=skipped)
@@ -217,7 +217,7 @@ class SelfTest:
         return SectionResult(section, records, end, count, pulses, skipped=skipped)
 
     def _compare(self, samples: list[tuple[int, int]]) -> Comparison:
-        """Compare with the first parameters that match, and keep them."""
+        """Compare with each set of parameters until one matches, and keep this set."""
         if not self._params:
             reset = reset_levels(samples, self._layout)
             width = sum(bits for _, bits in self._layout)
@@ -248,7 +248,7 @@ class SelfTest:
     def _difference(self, section: Section, comparison: Comparison) -> tuple[str, str]:
         """Return the difference in one line and as a report.
 
-        Picture and waveforms are written to the folder.
+        A picture and the waveforms are written to the folder.
         """
         assert comparison.mismatch is not None
         folder = self.folder / section.folder

@@ -1,6 +1,6 @@
 """Self-test of a board with an STMC (`host.selftest`).
 
-The part has no outputs that a host can set, so its switches are wired to a winding and to HOLD.
+A host cannot set any output of the part directly, so the switches are wired to a winding and to HOLD.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus, Rates
 from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 INSIDE = 0xFE
-"""Straps that stop the step clock of the board; its edges would fill the recorder."""
+"""Strap levels that stop the step clock of the board, because its edges would fill the recorder."""
 OUTSIDE = 0xFF
 EXTERNAL = 0x1A
 LAYOUT = recorded(INPUTS, OUTPUTS, WIDTHS)

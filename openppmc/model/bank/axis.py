@@ -1,4 +1,4 @@
-"""Axis of the bank: the blocks of a PPMC-104, served at the visits of the axis."""
+"""Axis of the bank: the blocks of a PPMC-104, which are processed at the visits of the axis."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ CONFIG_RESET = 0b11
 class AxisScheduler(Scheduler):
     """Event queue of the part for the blocks of one axis.
 
-    Every event that runs adds the axis to `changed_axes`.
+    Each event adds the axis to `changed_axes` when it runs.
     """
 
     def __init__(self, queue: Scheduler, changed_axes: set[int], axis: int) -> None:
@@ -41,12 +41,12 @@ class AxisScheduler(Scheduler):
 
 @dataclass
 class AxisContext(Context):
-    """Context of one axis; its interrupt is a bit of the map."""
+    """Context of one axis. Its interrupt is a bit of the interrupt map."""
 
     interrupt: bool = False
 
     def drive(self, t: int, signal: str, value: int) -> None:
-        """Store the interrupt; `int_n` is the only host-side output that the blocks drive."""
+        """Store the level of the interrupt. The blocks drive no other host-side output than `int_n`."""
         assert signal == "int_n"
         self.interrupt = not value
 
@@ -111,9 +111,9 @@ class Axis:
         self.commands.take(t, byte, command, t)
 
     def _retry_edge(self, t: int, command: bool) -> int | None:
-        """Return the first edge at which the waiting byte of this axis may be tried again.
+        """Return the first edge at which the axis may check the waiting byte again.
 
-        The call returns None if visit t may accept the byte (BANK-HSK-02, -05).
+        The result is `None` if visit t may accept the byte (BANK-HSK-02, -05).
         """
         if t in (self.motion.ended, self.commands.completed, self._go_visit) or self.chopper.schedules_edge(
             t
@@ -149,7 +149,7 @@ class Axis:
         self.context.queue.at(t + CONFIG_LEAD, Phase.LEVELS, lambda now: self.context.levels.update(levels))
 
     def on_levels(self, t: int, levels: Mapping[str, int]) -> None:
-        """Process switches that changed at edge t."""
+        """Process new levels of the switches at edge t."""
         self._switches.update(levels)
         queue = self.context.queue
         queue.at(t, Phase.GUARD, self.motion.check_stops)

@@ -1,4 +1,4 @@
-"""Modelled carrier with a bank: the bridge accesses its window one axis at a time."""
+"""Carrier model with a bank. The bridge accesses the window of one axis at a time."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from .part import PpmcBank
 SELECT = 0x3
 WINDOW_AXES = 64
 ADDRESS_AHEAD = 2
-"""Cycles from a valid address to the strobe (BANK-WIN-04)."""
+"""Cycles from a valid address to the start of the strobe (BANK-WIN-04)."""
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 
 class Carrier(carrier.Carrier[PpmcBank]):
-    """Carrier wired like ppmc_bank_carrier; each axis has one plant.
+    """Carrier with the connections of ppmc_bank_carrier; each axis has a plant.
 
-    Register 3 of the bridge is the selected axis (from 0, read and write); all other registers are those of
-    this axis. PINS returns int_n, and HOLD and switches of this axis. There are no straps and no pulse
-    counters, because the bank counts its pulses.
+    Register 3 of the bridge holds the number of the selected axis (from 0; read and write). All other
+    registers are those of this axis. PINS returns int_n, and HOLD and switches of this axis. There are no
+    straps. There are no pulse counters either, because the bank itself counts pulses.
     """
 
     ADDRESS_BITS = 10
@@ -63,7 +63,7 @@ class Carrier(carrier.Carrier[PpmcBank]):
             super().write(self._address(a), byte)
 
     def _address(self, a: int) -> int:
-        """Return the address of a register of the selected axis; set it on the pins before the strobe."""
+        """Drive the address of a register of the selected axis before the strobe, and return it."""
         address = self._selected << 4 | a
         self.set_pins(a=address)
         self.t += ADDRESS_AHEAD - 1

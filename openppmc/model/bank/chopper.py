@@ -1,4 +1,4 @@
-"""Chopper of an axis of the bank: each edge is scheduled at a visit (BANK-CHP-01)."""
+"""Chopper of an axis of the bank. A visit schedules each of its edges (BANK-CHP-01)."""
 
 from __future__ import annotations
 
@@ -7,32 +7,32 @@ from ..clock import Event
 from ..motion import excitation
 from ..motion.excitation import ChopperTimes
 
-# Times of the visits of each axis (BANK-GEN-01), and delays from an event to the first visit that sees its
-# effect.
+# Times of the visits of each axis (BANK-GEN-01), and delays from an event to the first visit at which it is
+# effective.
 
 SHORTEST_ROUND = 8
 FIRST = 8
 
 BYTE_LEAD = 7
-"""Cycles from a write event to the first visit that sees the byte (BANK-HSK-01)."""
+"""Cycles from a write event to the first visit that may accept the byte (BANK-HSK-01)."""
 END_LEAD = 5
-"""Cycles from the decision to end a motion to the first visit that sees it (BANK-MOT-03)."""
+"""Cycles from the decision to end a motion to the first visit that detects it (BANK-MOT-03)."""
 BUILD_LEAD = 2
 """Cycles from the end of a table build to the first visit that may start the next one.
 
 Rule: BANK-INI-01.
 """
 READY_LEAD = 3
-"""Cycles from the end of a table build to the visit that completes the initialisation.
+"""Cycles from the end of a table build to the first visit that may complete the initialisation.
 
-Rule: BANK-INI-02. This visit is the first that may complete the initialisation.
+Rule: BANK-INI-02.
 """
 GROUP_LEAD = 5
-"""Cycles from a write event of MASK or GO to the first visit that sees it (BANK-GRP-01, -02)."""
+"""Cycles from a write event of MASK or GO to the first visit at which it is effective (BANK-GRP-01, -02)."""
 CONFIG_LEAD = 7
-"""Cycles from a write event of CONFIG to the first visit that sees it (BANK-GEN-04)."""
+"""Cycles from a write event of CONFIG to the first visit at which it is effective (BANK-GEN-04)."""
 SWITCH_LEAD = 4
-"""Cycles from the edge that samples a switch to the first visit that sees it (BANK-MOT-05)."""
+"""Cycles from the edge that samples a switch to the first visit that uses the level (BANK-MOT-05)."""
 
 
 def round_clk(axes: int) -> int:
@@ -52,14 +52,14 @@ class VisitSchedule:
         return self._start + max(0, -(-(edge - self._start) // self.round)) * self.round
 
     def last(self, edge: int) -> int:
-        """Return the last visit at or before an edge. This visit schedules the events of that edge."""
+        """Return the last visit at or before an edge, which schedules the events of the edge."""
         return self._start + (edge - self._start) // self.round * self.round
 
 
 class Chopper(excitation.Chopper):
-    """Chopper of the PPMC-104 at visits.
+    """Chopper of the PPMC-104 whose phases are scheduled at visits.
 
-    The length of a phase is determined at the visit that schedules its first edge.
+    The visit that schedules the first edge of a phase determines the length of the phase.
     """
 
     def __init__(self, context: Context, times: ChopperTimes, visits: VisitSchedule) -> None:
@@ -70,7 +70,7 @@ class Chopper(excitation.Chopper):
         self._latch_event: Event | None = None
 
     def schedules_edge(self, visit: int) -> bool:
-        """Return True if this visit schedules an edge (BANK-HSK-02)."""
+        """Return True if this visit schedules an edge of the chopper (BANK-HSK-02)."""
         return self._boundary_edge == visit or (
             self.next_phase_at is not None and self.next_phase_at < visit + self._visits.round
         )
@@ -90,7 +90,7 @@ class Chopper(excitation.Chopper):
         )
 
     def _latch_length(self, t: int) -> None:
-        """Latch vsel and the parameters at this visit (BANK-GEN-04)."""
+        """Latch the length of the next phase, with vsel and the parameters of this visit (BANK-GEN-04)."""
         self._latched_length = self._times.quanta(not self.on)
 
     def _length(self) -> int:

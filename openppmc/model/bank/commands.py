@@ -28,9 +28,13 @@ RetryEdge = Callable[[int, bool], int | None]
 class Mailbox:
     """Input buffer and output queue.
 
-    take(t, byte, is_command): command unit. retry_edge(t, is_command): `None`, or the edge of the next
-    attempt if visit t must not accept the byte. Readable: obf, data_register (next byte that a
-    data read returns).
+    Args:
+        take: take(t, byte, is_command) passes an accepted byte to the command unit.
+        retry_edge: retry_edge(t, is_command) returns `None` if visit t may accept the byte, else the edge of
+            the next attempt.
+
+    Attributes:
+        data_register: next byte that a data read returns.
     """
 
     def __init__(
@@ -57,7 +61,7 @@ class Mailbox:
     def store(self, t: int, byte: int, command: bool) -> None:
         """Process write event t.
 
-        A visit that does not see this write yet may still accept the byte that it replaces.
+        A visit before this write is effective may still accept the byte that the write replaces.
         """
         self._written.append((t, byte, command))
         if self._planned is None or self._visits.first(t + BYTE_LEAD) < self._next:
@@ -68,7 +72,7 @@ class Mailbox:
         self._closed_until = t
 
     def retry(self, t: int) -> None:
-        """Try again at the next visit, because the reason for waiting at visit t may be gone."""
+        """Check the waiting byte again at the next visit, because it may be acceptable then."""
         if self._planned:
             self._plan(t + 1)
 
@@ -91,7 +95,7 @@ class Mailbox:
                 del self._written[0]
                 self._take(t, byte, command)
             else:
-                # A byte that replaces the rejected byte may be accepted earlier.
+                # Another byte may replace the waiting byte and be accepted earlier.
                 later = min([retry_at, *(written + BYTE_LEAD for written, _, _ in self._written[1:])])
         if self._written:
             self._plan(later)
@@ -108,7 +112,7 @@ class Mailbox:
         self._being_read = self.obf
 
     def read_ended(self) -> None:
-        """End a data read: the next byte is loaded, or OBF is cleared (BANK-HSK-04)."""
+        """End a data read: load the next byte, or clear OBF if there is none (BANK-HSK-04)."""
         if not self._being_read:
             return
         self._being_read = False
@@ -127,7 +131,7 @@ class Builder:
     """Builder of ramp tables.
 
     Attributes:
-        free_from: first edge at which it accepts a new table.
+        free_from: first edge at which the builder accepts a new table.
     """
 
     def __init__(self) -> None:
@@ -138,7 +142,7 @@ class CommandUnit(ppmc104.CommandUnit):
     """Commands of axis `axis`.
 
     Attributes:
-        completed: visit that completed the last initialisation, or -1.
+        completed: visit that completed the last initialisation; -1 before the first.
         initialised: True if an initialisation is complete and active.
     """
 
@@ -172,11 +176,11 @@ class CommandUnit(ppmc104.CommandUnit):
         return super()._pin(name) >> self._axis & 1
 
     def was_initialised(self, t: int) -> bool:
-        """Return True if visit t sees an initialisation that was complete before it (BANK-GRP-02)."""
+        """Return True if an initialisation was complete before visit t (BANK-GRP-02)."""
         return self._before if t == self.completed else self.initialised
 
     def reject(self, error: Error) -> None:
-        """Store the error of a GO for which no motion was waiting (BANK-GRP-02)."""
+        """Store the error of a GO that came while no motion was waiting (BANK-GRP-02)."""
         self._pending, self._data = None, []
         self.error = error
 
@@ -185,7 +189,10 @@ class CommandUnit(ppmc104.CommandUnit):
         self.initialised = False
 
     def builder_free_from(self, command: bool) -> int:
-        """Return the first edge at which the builder allows the next byte."""
+        """Return the first edge at which the builder permits the next byte.
+
+        The result is 0 if this byte does not start a build.
+        """
         last = self._pending is not None and self._pending.kind is Kind.INITIALISE and self.expected == 1
         return self._builder.free_from if last and not command else 0
 

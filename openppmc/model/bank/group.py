@@ -11,8 +11,8 @@ from ..motion.excitation import ALL_PHASES
 from ..ppmc104 import GUARD
 from .chopper import GROUP_LEAD, VisitSchedule
 
-# Pins of the bank with idle and reset levels. A port of all axes is one number; bit i belongs to axis i. In
-# `s`, bits 5 i .. 5 i + 4 are S1 .. S5 of axis i.
+# Pins of the bank, with idle and reset levels. A port that exists for all axes is one number: bit i belongs
+# to axis i. In `s`, bits 5 i .. 5 i + 4 are S1 .. S5 of axis i.
 
 HOST_PINS = ("a", "cs_n", "rd_n", "wr_n", "d_i")
 SWITCHES = GUARD.all
@@ -56,7 +56,7 @@ class Group:
     """Group registers of a bank.
 
     Attributes:
-        mask: MASK as it reads, bit i = axis i.
+        mask: MASK as a read returns it; bit i = axis i.
     """
 
     def __init__(self, queue: Scheduler, axes: int, round_clk: int) -> None:
@@ -78,13 +78,13 @@ class Group:
         self._visible_mask = mask
 
     def includes(self, axis: int) -> bool:
-        """Return the MASK bit of an axis as its current visit sees it."""
+        """Return the MASK bit of an axis that is effective at its current visit."""
         return bool(self._visible_mask >> axis & 1)
 
     def go(self, t: int) -> None:
         """Process write event t of GO.
 
-        This GO acts from `t` on, or after the end of an active GO (BANK-GRP-03).
+        The GO is effective from edge t on, or, if a GO is still active, after its end (BANK-GRP-03).
         """
         if self._go > t:
             return
@@ -104,5 +104,5 @@ class Group:
             self._queue.at(t + 1, Phase.COMMAND, member.halt)
 
     def stops(self, visit: int) -> bool:
-        """Return True if an operation that starts at this visit is ended by an earlier STOP."""
+        """Return True if an earlier STOP ends an operation that starts at this visit."""
         return 0 <= self._stopped < visit <= self._stopped + self._round

@@ -1,8 +1,9 @@
 """Motion of an axis of the bank, where it differs from the PPMC-104 (BANK-MOT, BANK-GRP).
 
-Visits make decisions and detect events. Pins change at the edges of their events. From the edge at which a
-motion is cut to the first visit that detects the cut, the engine continues unchanged (BANK-MOT-03). A pulse
-that is scheduled in this time is *cancelled*: the engine counts it until this visit, but it is never output.
+Decisions are made, and events are detected, at visits. Pins change at the edges of their events. A motion is
+*cut* at the edge that ends it; the first visit after END_LEAD cycles detects the cut. Until this visit, the
+engine continues unchanged (BANK-MOT-03). A pulse that is scheduled in this time is *cancelled*: it is never
+output, but the engine counts it until this visit.
 """
 
 from __future__ import annotations
@@ -24,11 +25,11 @@ class Motion(ppmc104.Motion):
     """Motion of axis `axis`.
 
     Args:
-        switches: levels of the switches at this edge; context.levels holds those that a visit sees.
+        switches: current levels of the switches; context.levels holds those that are effective at a visit.
 
     Attributes:
         waits_for_go: True if the motion is waiting for GO (BANK-GRP-01).
-        ended: visit that ended the last motion, or -1.
+        ended: visit that ended the last motion; -1 before the first.
     """
 
     def __init__(
@@ -68,11 +69,14 @@ class Motion(ppmc104.Motion):
 
     @property
     def in_group(self) -> bool:
-        """MASK bit as the current visit sees it."""
+        """MASK bit that is effective at the current visit."""
         return self._group.includes(self._axis)
 
     def release(self, go: int) -> None:
-        """Continue a waiting operation; pulse 1 waits until all axes have seen this GO (BANK-GRP-02)."""
+        """Start the pulses of a waiting operation.
+
+        Pulse 1 is output after the GO is effective in all axes (BANK-GRP-02).
+        """
         self.waits_for_go = False
         self._arm(go + GROUP_LEAD - 1 + self._visits.round + self._context.timebase.w)
 
@@ -81,8 +85,8 @@ class Motion(ppmc104.Motion):
     def stop(self, t: int) -> None:
         """Process an immediate stop accepted at visit t.
 
-        This visit schedules no pulse and ignores the slow-down limit (BANK-MOT-05). After an end that was
-        decided before t, no finish bit is added (BANK-MOT-03).
+        This visit schedules no pulse and ignores the slow-down limit (BANK-MOT-05). If the end of the motion
+        was decided before t, the stop adds no finish bit (BANK-MOT-03).
         """
         self._stopped = t
         if self._cut is None:
@@ -105,7 +109,7 @@ class Motion(ppmc104.Motion):
         return inspect(GUARD, self._switches, self.operation, self.direction)._replace(slow=False)
 
     def schedule_slow_check(self, edge: int) -> None:
-        """Check an active slow-down limit in the first visit from an edge on."""
+        """Schedule the check of an active slow-down limit at the first visit from an edge on."""
         if self.busy and self.is_ramp and self._slow_active():
             self._context.queue.at(self._visits.first(edge), Phase.GUARD, self._check_slow_limit)
 
@@ -126,7 +130,7 @@ class Motion(ppmc104.Motion):
     # ------------------------------------------------------------------ pulses
 
     def position(self, after: int) -> int:
-        """Return the position register after an edge (BANK-WIN-07)."""
+        """Return the value of the position register after an edge (BANK-WIN-07)."""
         next_pulse = self._next_pulse
         scheduled = next_pulse is not None and self._visits.last(next_pulse) <= after < next_pulse
         return self._position + (self._step if scheduled else 0)
@@ -154,14 +158,17 @@ class Motion(ppmc104.Motion):
     # ------------------------------------------------------------------ end
 
     def _end_now(self, t: int, bits: int) -> None:
-        """Cut the motion: no pulse from edge t on. The visits detect it later (BANK-MOT-02, -03)."""
+        """Cut the motion: no pulse is output from edge t on.
+
+        A later visit detects the cut (BANK-MOT-02, -03).
+        """
         self._cut, self._stop_bits = t, bits
         self._context.queue.at(self._visits.first(t + END_LEAD), Phase.CHOPPER, self._detect_cut)
 
     def _detect_cut(self, t: int) -> None:
-        """Process visit t, the first one that sees the cut.
+        """Process visit t, which detects the cut.
 
-        A low time that has begun ends first (BANK-MOT-04).
+        A low time that has already begun is completed (BANK-MOT-04).
         """
         self.finishing = True
         self._cancel("pulse")
@@ -176,7 +183,7 @@ class Motion(ppmc104.Motion):
     def _plan_end(self, low_ended: int) -> None:
         """Clear BUSY at the first visit after the low time (BANK-MOT-04).
 
-        The low time is longer than END_LEAD.
+        The low time is longer than END_LEAD cycles.
         """
         self._context.queue.at(self._visits.first(low_ended + 1), Phase.CHOPPER, self._finish)
 

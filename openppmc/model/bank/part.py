@@ -1,11 +1,11 @@
-"""Golden model of the bank at pin level: N PPMC-104, served at visits.
+"""Golden model of the bank at pin level: N axes of a PPMC-104, which are processed at visits.
 
 The model is event driven and cycle-accurate.
 
-`chip` and `clock` contain pins and time. Rules by module: this module BANK-GEN-01, -02, -05; `window`
-BANK-WIN; `chopper` rounds with their delays and BANK-CHP; `axis`, one object per axis, BANK-GEN-04;
-`commands` BANK-HSK, BANK-GEN-03 and BANK-INI; `motion` BANK-MOT and BANK-HLD; `group` BANK-GRP. All other
-behaviour is that of the PPMC-104.
+`chip` and `clock` define pins and time. Rules by module: this module BANK-GEN-01, -02, -05; `window`
+BANK-WIN; `chopper` the times of the visits and BANK-CHP; `axis` (one object per axis) BANK-GEN-04; `commands`
+BANK-HSK, BANK-GEN-03 and BANK-INI; `motion` BANK-MOT and BANK-HLD; `group` BANK-GRP. All other behaviour is
+that of the PPMC-104.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ SIZES = (4, 8, 16, 32, 64)
 
 
 class PpmcBank(Chip):
-    """Bank of PPMC-104. Axes count from 0.
+    """Bank of PPMC-104 axes, which are numbered from 0.
 
     The model starts just after the release of reset, before edge 0.
 
@@ -94,7 +94,7 @@ class PpmcBank(Chip):
     # ------------------------------------------------------------------ methods that `chip` calls
 
     def _latch(self, t: int) -> None:
-        """Update the ports of all axes from the axes in which something happened."""
+        """Update the ports from the axes in which an event occurred."""
         if not self._changed_axes:
             return
         pout_n, directions, hold, phases = self._motors.values()
@@ -133,7 +133,7 @@ class PpmcBank(Chip):
         return {"cs_n": 0, "wr_n" if write else "rd_n": 0, "a": reg}
 
     def read(self, t: int, reg: int, strobe: int = 6) -> int:
-        """Read the address `reg`; the next access may begin at t + strobe + 3."""
+        """Read the register at address `reg`; the next access may begin at edge t + strobe + 3."""
         return super().read(t, reg, strobe)
 
     # ------------------------------------------------------------------ observable state
@@ -160,7 +160,7 @@ class PpmcBank(Chip):
         return [(t, bits) for t, bits in changes if t >= since]
 
     def pulses(self, axis: int, since: int = 0) -> list[int]:
-        """Return the edges of the pulses of an axis: falls of its pout_n (P104-GEN-05)."""
+        """Return the edges of the pulses of an axis: falling edges of its pout_n (P104-GEN-05)."""
         return [t for t, level in self.bits("pout_n", axis, since) if level == 0]
 
     def busy(self, axis: int) -> bool:
@@ -172,11 +172,11 @@ class PpmcBank(Chip):
         return self._axes[axis].status
 
     def position(self, axis: int) -> int:
-        """Return the position of an axis after edge `now`, two's complement."""
+        """Return the position of an axis after edge `now`, in two's complement."""
         return self._axes[axis].motion.position(self.now)
 
     def initialised(self, axis: int) -> bool:
-        """Return True if an initialisation of an axis is active (its table build may still run)."""
+        """Return True if an initialisation of an axis is active, even while its table is being built."""
         return self._axes[axis].commands.setup is not None
 
     def intervals(self, axis: int) -> list[Interval]:
@@ -184,5 +184,5 @@ class PpmcBank(Chip):
         return self._axes[axis].motion.intervals
 
     def index(self, axis: int) -> int | None:
-        """Return the ramp index of the running interval; `None` while stopped or at constant speed."""
+        """Return the ramp index of the running interval; `None` at standstill or at constant speed."""
         return self._axes[axis].motion.index

@@ -23,7 +23,7 @@ _READY = 7
 
 
 class Window:
-    """Accesses of the bus strobes to the registers.
+    """Window of the bank: converts bus strobes to register accesses.
 
     Args:
         released: edge 0 of the bank.
@@ -58,7 +58,7 @@ class Window:
             (self._begin_read if reading else self._end_read)(t, pins["a"])
 
     def _begin_read(self, t: int, address: int) -> None:
-        """Take the snapshot after edge 2 and output it at edge 4 (BANK-WIN-05)."""
+        """Latch the snapshot after edge 2 of a read, and output it at edge 4 (BANK-WIN-05)."""
         self._address = address
 
         def take_snapshot(now: int) -> None:
@@ -89,7 +89,7 @@ class Window:
         return self._axes[number] if number < len(self._axes) else None
 
     def _is_ready(self, after: int) -> bool:
-        """Return True if the bank is ready after an edge (BANK-GEN-05)."""
+        """Return True if the bank is ready for accesses after an edge (BANK-GEN-05)."""
         return after >= self._ready
 
     def _write(self, t: int, address: int, byte: int) -> None:

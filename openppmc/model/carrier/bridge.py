@@ -1,8 +1,8 @@
 """Golden model of `ppmc_uart_bridge` at the level of line bytes (docs/uart_bridge.md).
 
 Bit times are not modelled (UB-LIN-03, -04, UB-BUS-01). The caller reports events that depend on time:
-`receive_bad` for a byte with a framing error, `idle` for a silence. Bytes that follow a request in the same
-`receive` call arrive, by definition, while its script runs (UB-FRM-07).
+`receive_bad` for a byte with a framing error, `idle` for an idle line. If bytes follow a request in the same
+call of `receive`, the model assumes that they arrive while its script runs (UB-FRM-07).
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from typing import NamedTuple
 
 from .bridge_ops import BUILD_BYTES, Bus, Engine
 
-# Receiver of the bridge's golden model: line bytes to requests and faults (UB-FRM-01..06). It is written
-# from docs/uart_bridge.md, deliberately without the codec of the host package, so that one checks the other.
+# Receiver of the golden model of the bridge: converts line bytes to requests and faults (UB-FRM-01..06). It
+# is written from docs/uart_bridge.md and deliberately does not use the codec of the host package, so that
+# each of the two is a check of the other.
 
 FLAG, ESCAPE = 0x7E, 0x7D
 MAX_LENGTH, MIN_LENGTH = 256, 3
@@ -63,7 +64,10 @@ class Receiver:
 
     @property
     def inside(self) -> bool:
-        """True if a part of a frame has arrived, so that a silence breaks it. A single 7D counts."""
+        """True if an incomplete frame has been received, which an idle line would invalidate.
+
+        A single 7D is also an incomplete frame.
+        """
         return not self._hunting and (self._escaped or bool(self._content))
 
     @property
@@ -72,7 +76,7 @@ class Receiver:
         return self._hunting
 
     def drop(self, nak: int) -> int | None:
-        """Discard the frame after a framing error or a silence (UB-FRM-06).
+        """Discard the frame after a framing error or on an idle line (UB-FRM-06).
 
         Before the first flag, no NAK is returned.
         """
@@ -160,10 +164,7 @@ class Bridge:
     # ------------------------------------------------------------------ from the line
 
     def receive(self, data: bytes) -> bytes:
-        """Process bytes without framing error.
-
-        The call returns the line bytes that the bridge sends in response.
-        """
+        """Process bytes without framing error; return the line bytes that the bridge sends in response."""
         sent = b""
         place = 0
         while place < len(data):
@@ -192,7 +193,7 @@ class Bridge:
         return b"" if nak is None else self._nak(nak)
 
     def idle(self, milliseconds: float) -> bytes:
-        """Process a silence of the line (UB-FRM-06 fault 5, UB-LIN-07)."""
+        """Process an idle line (UB-FRM-06 fault 5, UB-LIN-07)."""
         self._silent_ms += milliseconds
         nak = None
         if self._silent_ms >= SILENCE_MS and self._receiver.inside:
@@ -209,7 +210,7 @@ class Bridge:
         """Execute a request, or repeat its answer.
 
         Args:
-            more_bytes: True if bytes arrive before the answer is sent (UB-FRM-07).
+            more_bytes: True if more bytes arrive before the answer is sent (UB-FRM-07).
         """
         code = None
         if request.seq and self._stored and self._stored[0] == request.seq:
@@ -237,9 +238,9 @@ class Bridge:
     # ------------------------------------------------------------------ events
 
     def interrupt(self) -> bytes:
-        """Process a fall of `int_n`; return the event message.
+        """Process a falling edge of `int_n`; return the event message.
 
-        The message is empty if events are disabled or must wait for an answer.
+        The result is empty if events are disabled, or if the message must wait until an answer is sent.
         """
         if not self._engine.events:
             return b""

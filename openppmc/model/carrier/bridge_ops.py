@@ -2,7 +2,8 @@
 
 Rules: UB-ANS-02..05, UB-OPS, UB-WAIT and the table of ops.
 
-Every op is checked before it begins (UB-ANS-05): number, operands, length, free space for its data.
+Before an operation begins, its number, its operands, its length and the free space for its data are checked
+(UB-ANS-05).
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ RECORD_END, RECORD_BEGIN, RECORD_REWIND = 0, 1, 2
 class Bus(Protocol):
     """Part accessed through the bridge. `read` and `write` are one bus access each.
 
-    A bus may also have these methods. Without a method, the bridge behaves as stated:
+    A bus may also have these methods. The second column is the behaviour of the bridge without the method, or
+    a note:
 
         reset()             nothing happens
         straps(byte)        nothing happens
@@ -41,8 +43,8 @@ class Bus(Protocol):
         skip(limit_ms)      called during a wait: let at most limit_ms pass until a register may read
                             differently
 
-    With a recorder: `record(what)` 0 = end, 1 = begin, 2 = rewind; `recorded() -> bytes` of RECORDED;
-    `fetch() -> int` the next byte of its records.
+    A bus with a recorder also has: `record(what)` (0 = end, 1 = begin, 2 = rewind); `recorded() -> bytes`
+    (answer to RECORDED); `fetch() -> int` (next byte of the records).
     """
 
     def read(self, a: int) -> int:
@@ -53,7 +55,7 @@ class Bus(Protocol):
 
 
 class Stop(Exception):  # noqa: N818 - not an error of the program: the script ends here
-    """End of the execution with this RESULT."""
+    """Ends the execution of a script with this RESULT."""
 
     def __init__(self, result: int) -> None:
         super().__init__(result)
@@ -127,7 +129,7 @@ class Engine:
     # ------------------------------------------------------------------ one op
 
     def _op(self, rest: bytes) -> int:
-        """Execute the op at the beginning of `rest`; return its length."""
+        """Execute the operation at the beginning of `rest`; return its length."""
         code, group, low = rest[0], rest[0] >> 4, rest[0] & 15
         length = self._length(rest)
         if length is None or length > len(rest):
@@ -162,7 +164,10 @@ class Engine:
         return length
 
     def _length(self, rest: bytes) -> int | None:
-        """Return the length of the op with operands; `None` if the op does not exist or a count is 0."""
+        """Return the length of an operation with its operands.
+
+        The result is `None` if the operation does not exist or a count is 0.
+        """
         group, low = rest[0] >> 4, rest[0] & 15
         if group == 0:
             return None if low in self._unknown or low not in FIXED_OPERANDS else 1 + FIXED_OPERANDS[low]
@@ -238,14 +243,14 @@ class Engine:
     def _append(self, make: Callable[[], int]) -> None:
         """Append one byte to the answer.
 
-        If the answer is full, the operation is rejected before it reads the byte.
+        If the answer is full, the operation ends before it reads the byte.
         """
         if len(self._data) >= MAX_DATA:
             raise Stop(4)
         self._data.append(make())
 
     def _append_all(self, values: bytes) -> None:
-        """Append all bytes of an operation. If they do not all fit, append no byte."""
+        """Append all bytes of an operation. If not all of them fit, append no byte."""
         if len(self._data) + len(values) > MAX_DATA:
             raise Stop(4)
         self._data += values
@@ -259,7 +264,7 @@ class Engine:
         return self.hook("now_ms", self._reads * READ_CYCLE_CLK * 1000 / self._clk_hz)
 
     def _wait(self, a: int, mask: int, value: int) -> int:
-        """Read until the masked bits match (UB-WAIT-01)."""
+        """Read a register until its masked bits match (UB-WAIT-01)."""
         end = self._now_ms() + self._limit_ms
         while True:
             byte = self._read(a)

@@ -19,7 +19,7 @@ FARTHEST = 1 << 31
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "origin", "alarm")
 """Switches in the order of the bridge's PINS byte."""
 INDEX_AT = -20
-"""One of the positions of the encoder's index: on the cam, away from its edge."""
+"""A position of the encoder's index. It is on the cam, but not at an edge of the cam."""
 
 
 @dataclass(frozen=True)
@@ -30,11 +30,11 @@ class Plant:
         start: position of the motor at the beginning.
         cw, ccw: hard limits, active at positions >= cw and <= ccw.
         slow_cw, slow_ccw: slow-down limits, active at positions >= slow_cw and <= slow_ccw.
-        origin: active at positions <= origin and, with a cam, >= origin_from.
+        origin: active at positions <= origin; with a cam, only at positions >= origin_from.
         alarm: active from the first to the second of these positions.
-        index: period of the encoder's index in pulses, one index at -20; 0: no index.
-        block: position that the shaft cannot pass in direction CW; the encoder then stops while pulses
-            continue. `None`: no such position.
+        index: period of the encoder's index in pulses, with an index at position -20; 0: no index.
+        block: position that the shaft cannot pass in direction CW, `None` if there is none. At this position
+            the encoder stops while pulses continue.
     """
 
     start: int = 4000
@@ -49,7 +49,7 @@ class Plant:
     block: int | None = None
 
     def steps(self, position: int, ccw: int) -> bool:
-        """Return True if the shaft follows a pulse."""
+        """Return True if the shaft follows a pulse at this position."""
         return bool(ccw) or self.block is None or position < self.block
 
     def index_level(self, position: int) -> int:
@@ -88,13 +88,13 @@ class SwitchPositions(Protocol):
 
 
 class Carrier(ABC, Generic[P_co]):
-    """Part whose motors follow `pout_n` and `dir`, with one plant per axis.
+    """Carrier of a part. The motors follow `pout_n` and `dir`; each axis has a plant.
 
     Attributes:
-        t: next free edge of `clk`.
+        t: next edge of `clk` that was not run yet.
         positions: positions of the motors.
         counts: values of the pulse counters.
-        on_interrupt: called when the pin INTERRUPT falls.
+        on_interrupt: called at a falling edge of the pin INTERRUPT.
         ADDRESS_BITS: number of connected address lines of the bridge.
     """
 
@@ -164,13 +164,13 @@ class Carrier(ABC, Generic[P_co]):
         return self.part.next_event
 
     def _follow_outputs(self) -> None:
-        """Follow the outputs: motors, counters, switches, interrupt."""
+        """Process new output edges: update motors, counters, switches and interrupt."""
         log = self.part.log
         if not log.edges:
             return
         edges = log.edges[:]
-        # The log starts again here, with its current levels; otherwise a change of two axes at the same
-        # edge would be lost.
+        # Restart the log with the current levels first; otherwise a change of two axes at the same edge would
+        # be lost.
         log.edges.clear()
         log.initial.update(log.levels)
         before = self.positions[:]
@@ -200,7 +200,7 @@ class Carrier(ABC, Generic[P_co]):
         self.counts[n] += step
 
     def _run_pending(self) -> None:
-        """Run all events before the next access."""
+        """Run all events that precede the next access."""
         self.run_until(self.t)
         self.t = max(self.t, self.part.now + 1)
 
@@ -244,7 +244,7 @@ class Carrier(ABC, Generic[P_co]):
         return self.part.outputs[self.INTERRUPT] | hold << 1 | switches << 2
 
     def count(self, axis: int = 1) -> int:
-        """Return the pulse counter; it wraps at 32 bits in the answer."""
+        """Return the pulse counter, which may exceed the 32 bits of the answer."""
         self._run_pending()
         return self.counts[axis - 1]
 
@@ -258,8 +258,8 @@ class Carrier(ABC, Generic[P_co]):
         return self.t * 1000 / self.clk_hz
 
     def skip(self, limit_ms: float) -> None:
-        """Run to the event that changes the polled register, or to the limit."""
-        before = self._polled_value  # before the last read, during which the register may have changed
+        """Run to the next event that changes the polled register, at most for this time."""
+        before = self._polled_value  # before the last read, because the register may have changed during it
         limit = self.t + max(1, round(limit_ms * self.clk_hz / 1000))
         if self.watched_register() == before:
             self.run_until(limit, stop=lambda: self.watched_register() != before)

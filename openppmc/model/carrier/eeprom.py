@@ -2,9 +2,9 @@
 
 The EEPROM has 4096 bytes, pages of 32 bytes, a write time and acknowledge polling.
 
-The device samples both lines at edges of `clk`; a line that it pulls changes at the same edge. Call
-`on_lines` at every edge whose levels differ from those of the previous edge, and at `due`; nothing happens
-between them.
+The device samples both lines at edges of `clk`. A line that it pulls low or releases changes at the same
+edge. Call `on_lines` at every edge at which a level differs from the previous edge, and at edge `due`. The
+state does not change at other edges.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ class Written(NamedTuple):
 
 
 class Eeprom24C32:
-    """Device just after power-up.
+    """Device. Its initial state is that after power-up.
 
     Args:
         clk_hz: cycles per second.
-        content: at most 4096 bytes from address 0; the rest is FF.
+        content: at most 4096 bytes from address 0; all other bytes are FF.
         device: 7-bit address.
-        write_us: time of a write cycle, 0 or more.
-        stretch_us: time that SCL is held low after each acknowledge.
+        write_us: duration of a write cycle, 0 or more.
+        stretch_us: time for which the device holds SCL low after each acknowledge.
         missing: True if no device is connected.
 
     Raises:
@@ -41,7 +41,8 @@ class Eeprom24C32:
         sda, scl: 1 while the device pulls the line low.
         memory: content.
         writes: all page writes.
-        stuck_sda, stuck_scl: hold a line low; a change is effective from the next `on_lines` on.
+        stuck_sda, stuck_scl: True to hold a line low; a change is effective from the next call of `on_lines`
+            on.
     """
 
     def __init__(
@@ -71,14 +72,14 @@ class Eeprom24C32:
         self._idle()
 
     def _idle(self) -> None:
-        """Set the state in which the device waits for a START."""
+        """Change to the state in which the device waits for a START."""
         self._phase = ""
         self._bits = self._shift = 0
         self._pull = 0
         self._page: list[int] = []
 
     def occupy(self, until: int) -> None:
-        """Set the edge at which a write cycle that another device has started ends."""
+        """Set the edge at which a write cycle ends that began before this model."""
         self._busy_until = until
 
     def busy(self, t: int) -> bool:
@@ -86,7 +87,7 @@ class Eeprom24C32:
         return t < self._busy_until
 
     def on_lines(self, t: int, scl: int, sda: int) -> None:
-        """Process the levels of the lines at edge t, which any device may pull."""
+        """Process the levels of both lines at edge t; any device may pull a line low."""
         if self.due is not None and t >= self.due:
             self.due, self._holds_scl = None, 0
         before, self._lines = self._lines, (scl, sda)
@@ -110,9 +111,9 @@ class Eeprom24C32:
         self._phase = "device"
 
     def _stop(self, t: int) -> None:
-        """End the transfer; a write cycle begins if whole bytes were received.
+        """End the transfer; a write cycle begins if only whole bytes were received.
 
-        The rise of SCL before a STOP was counted as a bit.
+        The rising edge of SCL before a STOP was counted as a bit.
         """
         if self._phase == "data" and self._page and self._bits <= 1:
             first = self._address
@@ -154,7 +155,7 @@ class Eeprom24C32:
             self._pull = ~self._sent >> 7 - self._bits & 1
 
     def _byte(self, t: int) -> None:
-        """Process the end of the eighth bit; the acknowledge lasts from now to the next fall."""
+        """Process the end of the eighth bit; the acknowledge lasts until the next falling edge of SCL."""
         byte = self._shift
         if self._phase == "read":
             self._pull = 0

@@ -44,8 +44,8 @@ class Command:
 
     Attributes:
         parameters: number of data bytes that follow.
-        operation, pulse_only, masked, direction: of operations only.
-        axis: number of the axis from 0; 0 on a part with one axis.
+        operation, pulse_only, masked, direction: fields of an operation code; not used for other codes.
+        axis: number of the axis, counted from 0; 0 on a part with one axis.
     """
 
     kind: Kind
@@ -61,7 +61,7 @@ class Command:
 def operation_command(code: int, axis: int = 0) -> Command:
     """Return the command of an operation code.
 
-    Bit 4 masks the end interrupt, bit 3 is the direction, and bit 7 means pulses only.
+    Bit 7 selects pulses without phases, bit 4 masks the end interrupt, and bit 3 is the direction.
     """
     low = code & 7
     return Command(
@@ -80,7 +80,7 @@ def operation_command(code: int, axis: int = 0) -> Command:
 
 
 class GuardPins(NamedTuple):
-    """Names of the active-low switches; pairs are (CW, CCW)."""
+    """Pin names of the active-low switches; pairs are (CW, CCW)."""
 
     limits: tuple[str, str]
     slow_limits: tuple[str, str]
@@ -89,12 +89,12 @@ class GuardPins(NamedTuple):
 
     @property
     def all(self) -> tuple[str, ...]:
-        """All six names."""
+        """All six pin names."""
         return (*self.limits, *self.slow_limits, self.alarm, self.origin)
 
 
 class ActiveCauses(NamedTuple):
-    """Causes active at an edge.
+    """Causes that are active at an edge.
 
     Attributes:
         bits: end-status bits of limit and alarm.
@@ -108,12 +108,12 @@ class ActiveCauses(NamedTuple):
 
     @property
     def ends(self) -> bool:
-        """True if the motion ends now."""
+        """True if a cause ends the motion immediately."""
         return bool(self.bits) or self.origin
 
 
 def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, direction: int) -> ActiveCauses:
-    """Evaluate the synchronised levels for an operation and its direction.
+    """Return the causes that the synchronised levels indicate for an operation and its direction.
 
     Args:
         operation: lowest three bits of the code.
@@ -128,5 +128,5 @@ def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, directio
 
 
 def input_register(levels: Mapping[str, int], bits: Mapping[int, str]) -> int:
-    """Return the byte of the control input read: pin levels by bit number."""
+    """Return the byte that a read of the control inputs returns, from the pin levels by bit number."""
     return sum(levels[pin] << bit for bit, pin in bits.items())

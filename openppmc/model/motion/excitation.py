@@ -1,8 +1,9 @@
 """Phase excitation: energised phases at each index, derived from the definition of the drive.
 
-P104-PHS-01..06 (docs/ppmc104/README.md, 10.1 Patterns): neighbours of a ring of 3, 4 or 5 phases
-are energised. Full step always energises two, half step alternately two and one (3- and 4-phase) or two and
-three (5-phase). Patterns are integers, bit 0 = S1.
+P104-PHS-01..06 (docs/ppmc104/README.md, 10.1 Patterns): the phases form a ring of 3, 4 or 5, and neighbours
+are energised. A full step always energises two phases. Half steps alternately energise two phases and one
+phase (3- and 4-phase motors), or two phases and three phases (5-phase motors). Patterns are integers, bit 0 =
+S1.
 """
 
 from __future__ import annotations
@@ -28,18 +29,17 @@ def step_list(phases: int, half: bool) -> tuple[int, ...]:
     for first in range(phases):
         steps.append(ring(first, 2))
         if half:
-            # Patterns between two full steps: the phase that both full steps share (1-2 phase), or all three
-            # phases (2-3 phase).
+            # A pattern between two full steps energises the phase that both full steps share (1-2 phase), or
+            # all three phases of both (2-3 phase).
             steps.append(ring(first, 3) if phases == 5 else ring(first + 1, 1))
     return tuple(steps)
 
 
 def step_directions() -> dict[tuple[int, int], int]:
-    """Return the directions of steps, by pin levels (before, after): 1 = CW, -1 = CCW.
+    """Return the direction of each step, by the pin levels (before, after): 1 = CW, -1 = CCW.
 
-    The table is valid for any motor and logic.
-
-    Two successive levels that occur in several motors have the same direction in all of them.
+    One table is valid for all motors and both logics: if a pair of successive levels occurs with several
+    motors, its direction is the same with all of them.
     """
     found: dict[tuple[int, int], int] = {}
     for phases, half, off in product((3, 4, 5), (False, True), (0, ALL_PHASES)):
@@ -65,9 +65,9 @@ class Excitation:
         self._steps: tuple[int, ...] = (0,)
 
     def configure(self, phases: int, half: bool, positive: bool) -> None:
-        """Process the first accepted initialisation (P104-PHS-03).
+        """Process the first accepted initialisation, which fixes type, method and logic, and sets index 0.
 
-        This initialisation fixes type, method and logic, and sets index 0.
+        Rule: P104-PHS-03.
         """
         self._steps = step_list(phases, half)
         self.positive = positive
@@ -81,12 +81,12 @@ class Excitation:
             self.energised = False
 
     def step(self, direction: int) -> None:
-        """Process one pulse: CW (0) forward, CCW (1) back (P104-OPR-05)."""
+        """Advance the index by one pulse: CW (0) forward, CCW (1) backward (P104-OPR-05)."""
         self.index = (self.index + (-1 if direction else 1)) % len(self._steps)
 
     @property
     def off_level(self) -> int:
-        """Level of all five pins when off, in the active logic (P104-PHS-01)."""
+        """Level of all five pins when they are off, in the active logic (P104-PHS-01)."""
         return 0 if self.positive else ALL_PHASES
 
     @property
@@ -109,7 +109,7 @@ class ChopperTimes(Protocol):
     """Chopper times of a part."""
 
     def quanta(self, on: bool) -> int:
-        """Return the length in quanta of an ON or OFF phase that begins now."""
+        """Return the length of an ON or OFF phase that begins now, in quanta."""
 
 
 class Chopper:
@@ -136,7 +136,7 @@ class Chopper:
         self._plan()
 
     def stop(self) -> None:
-        """Stop the chopper: full pattern, no switching (P104-SW-03)."""
+        """Stop the chopper: the pins have the full pattern, without switching (P104-SW-03)."""
         if self._event:
             self._event.cancel()
             self._event = None
@@ -149,7 +149,7 @@ class Chopper:
         self._event = self._context.queue.at(self.next_phase_at, Phase.CHOPPER, self._boundary)
 
     def _length(self) -> int:
-        """Return the quanta of the phase that begins now."""
+        """Return the length of the phase that begins now, in quanta."""
         return self._times.quanta(self.on)
 
     def _boundary(self, t: int) -> None:

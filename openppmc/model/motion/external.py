@@ -12,9 +12,10 @@ class ExternalInterval:
     """Counter of effective base edges from pulse to pulse; times are edges of `clk`.
 
     Args:
-        plain: level of vsel during the operation. If it is 1, the pulse occurs at edge number rate + 1 after
-            the last pulse. If it is 0, the edges are counted from the first one at or after the pulse, and
-            the pulse is delayed by 7.5 us minus the wait for that first edge (P104-INT-03).
+        plain: level of vsel during the operation. If it is 1, the next pulse occurs at base edge number rate
+            + 1 after the last pulse. If it is 0, counting begins with the first base edge at or after the
+            last pulse, and the next pulse is delayed by 7.5 us minus the time from the last pulse to that
+            first edge (P104-INT-03).
     """
 
     def __init__(self, timebase: Timebase, plain: bool) -> None:
@@ -38,13 +39,13 @@ class ExternalInterval:
     def rise(self, t: int, gap: int | None, low: bool) -> int | None:
         """Process a base edge.
 
-        An edge that would make a pulse while pout_n is still low is not counted.
+        An edge at which a pulse would occur while pout_n is still low is not counted.
 
         Args:
-            gap: cycles since the previous base edge, `None` for the first one ever.
+            gap: cycles since the previous base edge, `None` for the first base edge after a reset.
 
         Returns:
-            Cycles from this edge to the next pulse, `None` if this edge makes no pulse.
+            Cycles from this edge to the next pulse, `None` if this edge does not cause a pulse.
         """
         if self._delayed:
             return None

@@ -4,8 +4,8 @@ This module contains the behaviour that the PPMC family shares.
 
 Intervals: P104-BCK-01..03, P104-INT-01..03, P104-PRO-04..06 (P2104-BCK, -INTV, -PRO). Forced deceleration:
 P104-FDC-01..05. Pulse shape: P104-TIM-02..06. Ends: P104-END-01..08. Inputs: P104-LIM-01..09 (`codes` defines
-the effect of each input). The `motion` module of each part defines when an operation may start, the effect of
-a stop, and the DATASHEET times.
+the effect of each input). The `motion` module of a part defines when an operation may start, the effect of a
+stop, and the DATASHEET times.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ OnEnd = Callable[[int, bool], None]
 
 
 class Setup(NamedTuple):
-    """Settings of an accepted initialisation for operations."""
+    """Settings of an accepted initialisation that operations use."""
 
     ramp: Ramp
     external: bool
@@ -45,7 +45,7 @@ class Setup(NamedTuple):
 
 @dataclass(slots=True)
 class Interval:
-    """Interval `number` (from pulse `number` on).
+    """Interval that begins with pulse `number`.
 
     Attributes:
         index: ramp index, `None` at constant speed.
@@ -59,14 +59,15 @@ class Interval:
 
 
 class Motion:
-    """Operation of an axis; busy, index, done, intervals, finish, remaining are public.
+    """Operation of an axis. The attributes busy, index, done, intervals, finish and remaining are public.
 
     Args:
         guard: names of the switches in context.levels.
-        on_end: on_end(t, masked) is called when BUSY falls; masked is that of the operation.
+        on_end: on_end(t, masked) is called when BUSY falls; `masked` is True if the operation masks its
+            interrupt.
 
     Attributes:
-        hold_cycles: crystal cycles from the fall of BUSY to HOLD.
+        hold_cycles: crystal cycles from the falling edge of BUSY to HOLD.
     """
 
     hold_cycles: int
@@ -102,9 +103,9 @@ class Motion:
         """Latch an operation at its C-event (P104-OPR-01, P104-BCK-02).
 
         Args:
-            data: its bytes, rate before count.
-            csel: level of the pin.
-            plain: True if an interval has no extra time.
+            data: data bytes of the operation: rate, then count.
+            csel: level of the pin csel.
+            plain: True if intervals have no extra time (vsel).
         """
         self.operation = command.operation
         self._command = command
@@ -120,7 +121,7 @@ class Motion:
         self._external = ExternalInterval(self._context.timebase, plain) if counts_clock else None
 
     def _begin(self, t: int) -> None:
-        """Process the start edge: BUSY rises, hold and dir follow."""
+        """Process the start edge: BUSY rises, hold is deasserted, and dir is set."""
         self.busy, self.finishing = True, False
         self.hold, self.direction = 0, self._command.direction
         self.done, self.index = 0, None
@@ -133,7 +134,7 @@ class Motion:
         self._context.queue.at(t + 1, Phase.GUARD, self.check_stops)
 
     def _arm(self, first: int) -> None:
-        """Schedule pulse 1 at edge `first`, or at the first base edge from there on."""
+        """Schedule pulse 1 at edge `first`, or, with the external clock, at the next base edge from it on."""
         if self._external:
             self._armed_from = first
         else:
@@ -149,17 +150,17 @@ class Motion:
 
     @property
     def is_ramp(self) -> bool:
-        """True for operation types 011 and 110."""
+        """True for the operation types 011 and 110, which have a ramp."""
         return self.operation in RAMP_OPERATIONS
 
     @property
     def external(self) -> bool:
-        """True while an operation runs that counts the external clock."""
+        """True while an operation that counts the external clock is running."""
         return self.busy and self._external is not None
 
     @property
     def decelerating(self) -> bool:
-        """State DEC: flagged, or decelerating by count."""
+        """State DEC: forced deceleration, or natural deceleration at the end of a move."""
         return self.busy and not self.finishing and (self._flag_edge is not None or self._natural)
 
     @property
@@ -176,7 +177,7 @@ class Motion:
             self._context.queue.at(t, Phase.GUARD, self.check_stops)
 
     def check_stops(self, t: int) -> None:
-        """Check the guard at edge t: immediate ends first, then the slow-down limit (P104-LIM-01..09)."""
+        """Check the stop causes at edge t: immediate ends, then the slow-down limit (P104-LIM-01..09)."""
         if not self.busy or self.finishing or t <= self._began:
             return
         causes = self._active_causes(t)
@@ -194,16 +195,19 @@ class Motion:
         return self._flag_edge is None and "slow" not in self._events
 
     def _slow_limit_edge(self, t: int) -> int:
-        """Return the edge at which a slow-down limit sampled at edge t acts."""
+        """Return the edge at which a slow-down limit that was sampled at edge t is effective."""
         return t
 
     def _request(self, at: int, name: str, bit: int) -> None:
-        """Schedule the forced deceleration that `name` requests at edge `at`."""
+        """Schedule the forced deceleration that cause `name` requests at edge `at`."""
         self._events[name] = self._context.queue.at(at, Phase.FLAG, lambda now: self._flag(now, bit))
 
     def _flag(self, t: int, bit: int) -> None:
-        """Set the forced-deceleration flag; two requests at one edge both count (P104-LIM-09)."""
-        # The other request of this edge was processed first and may have ended the motion.
+        """Set the forced-deceleration flag.
+
+        Two requests at the same edge both set their bit (P104-LIM-09).
+        """
+        # Another request at this edge was processed first, and it may have ended the motion.
         if self._flag_edge == t:
             self._flag_bits |= bit
             return
@@ -216,7 +220,7 @@ class Motion:
 
     @property
     def _at_start_rate(self) -> bool:
-        """True if the running interval has the start-up rate, at any place of the ramp."""
+        """True if the running interval has the start-up rate, at any index of the ramp."""
         ramp = self._setup.ramp
         return self.index is not None and ramp.rate(self.index) == ramp.rl
 
@@ -228,7 +232,7 @@ class Motion:
         self._end_decided(t)
 
     def _end_decided(self, t: int) -> None:
-        """Schedule the end of a motion cut at edge t; with FAST timing it follows the low time."""
+        """Schedule the end of a motion that was cut at edge t; with FAST timing, after the low time."""
         self._end_after = t + self._context.latency.imm_end
         if not self.low:
             self._plan_end(self._low_ended)
@@ -242,7 +246,7 @@ class Motion:
         external = self._external
         if not self.busy or external is None:
             return
-        if self.finishing:  # the low time that has begun keeps its length (P104-TIM-05)
+        if self.finishing:  # a low time that has begun keeps its length (P104-TIM-05)
             if self.low and self._cut_at:
                 external.rise(t, gap, self.low)
                 if external.edges == self._cut_at:
@@ -313,7 +317,7 @@ class Motion:
         return None if index is None else ramp.rate(index)
 
     def _begin_low(self, t: int, rate: int | None, gap: int | None) -> None:
-        """Set pout_n low; the length of the low time is fixed here (P104-TIM-05)."""
+        """Set pout_n low and determine the length of the low time (P104-TIM-05)."""
         timebase = self._context.timebase
         length, self._cut_at, self._cut_on_fall = timebase.w, 0, False
         if rate is not None and self._plain:
@@ -341,7 +345,7 @@ class Motion:
     # ------------------------------------------------------------------ end
 
     def _last_pulse_output(self, t: int) -> None:
-        """Process edge t, at which the last pulse was output, also after a forced deceleration."""
+        """Process the edge of the last pulse, also after a forced deceleration."""
 
     def _ends_with_low(self) -> bool:
         """Return True if BUSY falls at the end of the last low time (FAST timing)."""
@@ -353,7 +357,7 @@ class Motion:
         self._context.queue.at(edge, Phase.END, self._finish)
 
     def _finish(self, t: int) -> None:
-        """Process the end of the operation; all actions are at one edge (P104-END-01..08)."""
+        """Process the end of the operation; all its actions occur at the same edge (P104-END-01..08)."""
         context = self._context
         self._cancel("flag")
         self._cancel("slow")

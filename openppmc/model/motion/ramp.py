@@ -7,7 +7,8 @@ rounded half up. A and B are the squares of the start and high-speed periods. Al
 the closed formula with exact integer square roots. `period` is generic: it is the number of base clocks of an
 interval (rate + 1 for parts with rates, the divisor itself for parts with divisors).
 
-P104-PRO-01..06 and P104-FDC-02: index of each interval of a move, step by step or by formula.
+P104-PRO-01..06 and P104-FDC-02: index of each interval of a move, interval by interval or by a closed
+formula.
 """
 
 from __future__ import annotations
@@ -44,9 +45,7 @@ def ramp_rate(rl: int, rh: int, pa: int, k: int) -> int:
 
 
 def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
-    """Return the index of the next interval at a pulse event (P104-PRO-04).
-
-    After the last pulse it returns None.
+    """Return the index of the next interval at a pulse event (P104-PRO-04), `None` after the last pulse.
 
     Args:
         kp: index of the interval that has just ended, -1 at pulse 1.
@@ -62,7 +61,7 @@ def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
 
 
 def natural_deceleration(kp: int, m: int, pa: int) -> bool:
-    """Return True at the pulse event where the move begins its natural deceleration (P104-PRO-05)."""
+    """Return True at the pulse event that begins the natural deceleration of a move (P104-PRO-05)."""
     return 0 < m and m - 1 < min(kp + 1, pa)
 
 
@@ -77,8 +76,8 @@ def index_profile(n: int, pa: int, flagged_in: int | None = None) -> list[int]:
     Memory is proportional to the number of pulses.
 
     Args:
-        flagged_in: number of the interval in which forced deceleration is flagged, 0 = before pulse 1. The
-            move then ends as P104-FDC-02/03 define.
+        flagged_in: number of the interval in which a forced deceleration is requested, 0 = before pulse 1. In
+            this case, the move ends as P104-FDC-02/03 define.
     """
     plain = [profile_index(n, pa, j) for j in range(1, n)]
     if flagged_in is None or flagged_in >= n:
@@ -92,7 +91,8 @@ def index_profile(n: int, pa: int, flagged_in: int | None = None) -> list[int]:
 def traverse_ramp(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list[int]:
     """Return the indices of all intervals, calculated pulse by pulse.
 
-    flag(j): forced deceleration at pulse j.
+    Args:
+        flag: flag(j) returns True if a forced deceleration is requested at pulse j.
     """
     indices: list[int] = []
     kp, forced = -1, False
@@ -110,7 +110,7 @@ def traverse_ramp(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False
 class Ramp:
     """Initialised ramp: start rate rl, high-speed rate rh, pa ramp pulses.
 
-    Only 0 <= rh <= rl, and pa = 0 only for rl = rh, are checked here. Each part has its own limits.
+    Two conditions are checked: 0 <= rh <= rl, and rl = rh if pa = 0. Each part checks further limits.
 
     Raises:
         ValueError: there is no such ramp.
@@ -142,13 +142,11 @@ class Ramp:
 
 @dataclass(frozen=True)
 class BaseClock:
-    """Internal base clock of an interval (P104-BCK-01, P104-INT-01/02).
-
-    It consists of a period and an addition in quanta.
+    """Internal base clock of an interval, with its extra time (P104-BCK-01, P104-INT-01/02).
 
     Attributes:
         tclock: period of the base clock in quanta: 8 (500 kHz) or 32 (125 kHz).
-        extra: addition to an interval in quanta: 0, or 30 (7.5 us).
+        extra: time in quanta that is added to each interval: 0, or 30 (7.5 us).
     """
 
     tclock: int = 8
@@ -156,7 +154,7 @@ class BaseClock:
 
     @classmethod
     def of_pins(cls, csel: int, vsel: int) -> BaseClock:
-        """Return the clock selected by the two pins."""
+        """Return the clock that the pins csel and vsel select."""
         return cls(8 if csel else 32, 0 if vsel else 30)
 
     def quanta(self, rate: int) -> int:

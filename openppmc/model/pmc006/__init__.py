@@ -1,7 +1,7 @@
 """Golden model of the PMC006B4. `Pmc006` is the part at pin level.
 
-Layers from the bottom up: line, motion, memory, drive, instructions. `bench` has the motor around the part,
-and `program` the text form of its user programs.
+Layers from the bottom up: line, motion, memory, drive, instructions. `bench` contains a model of the motor,
+and `program` the text form of user programs.
 """
 
 from .part import Pmc006

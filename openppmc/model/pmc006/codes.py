@@ -29,14 +29,14 @@ def step(context: ExecutionContext, count: int) -> Effect:
 
 
 def speed_mode(context: ExecutionContext, data: int) -> Effect:
-    """Execute instruction N (P006-STA-16, P006-MOT-40..42); the answer is SPEED_MODE."""
+    """Execute instruction N (P006-STA-16, P006-MOT-40..42). The answer is SPEED_MODE."""
     answer = Effect(lambda context: int(context.speed_on))
     if data == 0:
         return answer._replace(action=lambda context, t: context.speed(t, False))
     if data != 1 or context.speed_on:
         return answer
     if context.motion.busy:
-        # A move rejects N. A motion that is decelerating after N=0 continues.
+        # A move rejects N = 1. In a free run that is decelerating after N = 0, N = 1 resumes the run.
         return (
             answer._replace(early_action=lambda context, t: context.speed(t, True))
             if context.running
@@ -55,7 +55,7 @@ def freerun(context: ExecutionContext, data: int) -> Effect:
 
 
 def offline(context: ExecutionContext, data: int) -> Effect:
-    """Execute instruction F; 0 also ends a program and the key functions."""
+    """Execute instruction F. F 0 also ends a program and the key functions."""
     if data not in LEGAL["offline"]:
         return Effect(context.settings.offline)
     return Effect(
@@ -110,7 +110,7 @@ def single(context: ExecutionContext, data: int) -> Effect:
 
 
 def job(kind: str) -> ActionInstruction:
-    """Return the instruction t or B, a job for the EEPROM engine."""
+    """Return the instruction t or B, which starts a job of the EEPROM engine."""
 
     def start_job(context: ExecutionContext, data: int) -> Effect:
         if context.eeprom.busy:

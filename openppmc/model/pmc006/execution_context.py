@@ -1,6 +1,6 @@
 """Protocols for the instructions of the PMC006B4, and the instructions as objects.
 
-The execution context is everything that instructions read and change.
+The execution context contains all state that instructions read and change.
 
 `instructions.executor.ExecutionContext` implements the protocols.
 """
@@ -16,7 +16,7 @@ from .settings import LEGAL, Settings
 
 
 class Motion(Protocol):
-    """Motor, as other blocks see it."""
+    """Motion control: members that other blocks use."""
 
     @property
     def busy(self) -> bool:
@@ -69,7 +69,7 @@ class Eeprom(Protocol):
 
     @property
     def state(self) -> int:
-        """Answer to instruction V."""
+        """Data of the answer to instruction V."""
 
     @property
     def busy(self) -> bool:
@@ -80,11 +80,11 @@ class Eeprom(Protocol):
         """True while the program buffer is being written."""
 
     def begin(self, t: int, kind: str) -> None:
-        """Start a job at edge t (t or B)."""
+        """Start a job for instruction t or B at edge t."""
 
 
 class ExecutionContext(Protocol):
-    """Everything that instructions read and change.
+    """State that instructions read and change.
 
     Attributes:
         echo: True if STEP_ACK is "ECHO".
@@ -101,7 +101,7 @@ class ExecutionContext(Protocol):
 
     @property
     def motion(self) -> Motion:
-        """Motor."""
+        """Motion control."""
 
     @property
     def stop_monitor(self) -> StopMonitor:
@@ -125,7 +125,7 @@ class ExecutionContext(Protocol):
 
     @property
     def port_word(self) -> int:
-        """Answer to instruction x."""
+        """Data of the answer to instruction x."""
 
     def stop(self, t: int) -> None:
         """Process a cause that stops a motion at edge t."""
@@ -137,26 +137,26 @@ class ExecutionContext(Protocol):
         """Execute instruction s or ROT."""
 
     def run(self, t: int) -> None:
-        """Execute instruction N=1 in IDLE."""
+        """Execute instruction N = 1 at standstill (IDLE)."""
 
     def speed(self, t: int, on: bool) -> None:
         """Execute instruction N while the speed mode is running or ending."""
 
 
-# Instructions of the PMC006B4 (docs/pmc006/README.md, 4 Instructions). An instruction is an object that
-# reads the execution context and its data, and returns an `Effect`. Nothing changes before the executor
-# applies the effect.
+# Instructions of the PMC006B4 (docs/pmc006/README.md, 4 Instructions). An instruction is an object. It reads
+# the execution context and its data, and returns an `Effect`, but it changes no state. The executor applies
+# the effect.
 
 
 class Effect(NamedTuple):
     """Effect of an executed instruction in its cycle.
 
     Attributes:
-        reply: data of the answer; a function is called one cycle later.
+        reply: data of the answer, or a function that returns them and is called one cycle later.
         registers: new register values.
         halt: True if the motor stops immediately.
         action: function for any other effect, called with the context and the edge.
-        early_action: the same, before the motion is processed at that edge.
+        early_action: as `action`, but called before the motion is processed at that edge.
         excludes_step: True if no step may be counted in that cycle.
         program_index: number of the instruction of the program that E executes.
     """
@@ -171,7 +171,7 @@ class Effect(NamedTuple):
 
 
 class Instruction:
-    """Instruction; an unknown one has no effect."""
+    """Instruction. The base class is an unknown instruction, which has no effect."""
 
     def __call__(self, context: ExecutionContext, data: int) -> Effect:
         """Return the effect of `data`."""
@@ -180,10 +180,10 @@ class Instruction:
 
 @dataclass
 class Setting(Instruction):
-    """Instruction that writes a register if the data is legal. Its answer is the value of the register.
+    """Instruction that writes a register if the data are legal. Its answer is the value of the register.
 
     Attributes:
-        also: other registers that it writes, with their values.
+        also: further registers that the instruction writes, with their values.
     """
 
     name: str
@@ -191,7 +191,7 @@ class Setting(Instruction):
     also: dict[str, int] | None = None
 
     def __call__(self, context: ExecutionContext, data: int) -> Effect:
-        """Return the effect; rejected data changes nothing, and the answer is the active value."""
+        """Return the effect. Illegal data change nothing; the answer is the active value."""
         if data in (LEGAL[self.name] if self.legal is None else self.legal):
             return Effect(self.now, {self.name: data, **(self.also or {})})
         return Effect(self.now)
@@ -203,7 +203,7 @@ class Setting(Instruction):
 
 @dataclass
 class Read(Instruction):
-    """Instruction that answers with a value."""
+    """Instruction whose answer is a value."""
 
     get: Callable[[ExecutionContext], int]
 
@@ -214,7 +214,7 @@ class Read(Instruction):
 
 @dataclass
 class ActionInstruction(Instruction):
-    """Instruction of any other kind: a function that returns its effect."""
+    """Any other instruction, defined by a function that returns its effect."""
 
     action: Callable[[ExecutionContext, int], Effect]
 

@@ -1,4 +1,4 @@
-"""Serial line of the PMC006B4 in time: receiver, silence, replies.
+"""Serial line of the PMC006B4 with its timing: receiver, gaps between characters, replies.
 
 Rules: P006-UART-01..05, P006-FRM-04, -07.
 """
@@ -15,13 +15,14 @@ from ..chip import Phase
 from ..uart import Receiver
 from .pins import Services
 
-# Frames of the PMC006B4: eight bytes, a checksum, addresses (P006-FRM-01..08). This part contains no time.
+# Frames of the PMC006B4: eight bytes with address and checksum (P006-FRM-01..08). This section does not model
+# time.
 
 HEAD, ANSWER, SIZE = 0xA5, 0x7A, 8
 
 
 class Command(NamedTuple):
-    """Frame with a valid checksum: address, instruction code, data as a signed 32-bit number."""
+    """Frame with a valid checksum: address, instruction code, and data as a signed 32-bit number."""
 
     address: int
     code: int
@@ -56,7 +57,7 @@ class Assembler:
 
     @property
     def unfinished(self) -> bool:
-        """True if a frame has begun."""
+        """True if a frame has begun but is not complete."""
         return bool(self._open)
 
     def drop(self) -> None:
@@ -64,7 +65,7 @@ class Assembler:
         self._open = b""
 
     def take(self, byte: int) -> Command | None:
-        """Process a byte; return the command that it completes."""
+        """Process a byte; return the command if this byte completes it."""
         if not self._open and byte != HEAD:
             return None
         self._open += bytes([byte])
@@ -77,15 +78,15 @@ class Assembler:
 
 
 STOP = Fraction(163, 2)
-"""Bit times from e to the middle of a reply's last stop bit; after that a host may send."""
+"""Bit times from edge e to the middle of the last stop bit of a reply; then a host may send."""
 SYNC = 2
-"""Cycles from a sampled level to its effect."""
+"""Cycles from the sampling of a level to its effect."""
 SILENCE = 192
-"""Bit times without the start of a byte after which a frame that has begun is dropped."""
+"""Bit times without a start bit after which an incomplete frame is dropped."""
 
 
 def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
-    """Return (bit times after e, pin, level) of all pin changes of a reply."""
+    """Return (bit times after edge e, pin, level) for all pin changes of a reply."""
     levels = [1]
     for byte in frame:
         levels += [0, *(byte >> place & 1 for place in range(8)), 1]
@@ -94,7 +95,7 @@ def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
 
 
 class Line:
-    """Serial line. It ignores its input until `listen` is called.
+    """Serial line. The receiver is closed until `listen` is called.
 
     Args:
         take: take(t, command) is called when a frame with a valid checksum is complete at edge t, the e of
@@ -133,13 +134,13 @@ class Line:
             self._on_receiver_level(t + SYNC, level)
 
     def _on_level(self, t: int, level: int) -> None:
-        """Process the synchronised level from edge t on; the receiver opens at a high level."""
+        """Process the synchronised level from edge t on; a high level opens an enabled receiver."""
         self._level = level
         if level and not self._muted and not self._open:
             self._services.queue.at(t, Phase.BUS, self._open_up)
 
     def listen(self, t: int, on: bool) -> None:
-        """Open or close the receiver after edge t; before it opens, the line must be high."""
+        """Enable or close the receiver after edge t. An enabled receiver opens when the line is high."""
         self._muted = not on
         if not on:
             self._open = False
@@ -149,7 +150,10 @@ class Line:
             self._services.queue.at(t + 1, Phase.BUS, self._open_up)
 
     def _open_up(self, t: int) -> None:
-        """Open the receiver: the line was high before edge t, and the next edge samples the pin."""
+        """Open the receiver, because the line was high before edge t.
+
+        The next edge is the first to sample the pin.
+        """
         if not self._muted and not self._open and self._level:
             self._open = True
             self._services.queue.at(
@@ -162,11 +166,11 @@ class Line:
         )
 
     def _on_received(self, t: int, byte: int | None) -> None:
-        """Process a character whose stop bit edge t has sampled."""
+        """Process a character whose stop bit was sampled at edge t."""
         self._services.queue.at(t, Phase.BUS, lambda now: self.on_char(now, byte))
 
     def on_char(self, t: int, byte: int | None) -> None:
-        """Process a character at edge t. `None`: its stop bit was low."""
+        """Process a character at edge t; `None` is a character whose stop bit was low."""
         if self._muted:
             return
         if byte is None or t - self._last_char_at >= self._silence:
@@ -190,7 +194,7 @@ class Line:
         self._count(origin, frame)
 
     def _count(self, origin: int, rest: bytes) -> None:
-        """Record bytes as sent at the time of their stop bits."""
+        """Record each byte as sent, at the time of its stop bit."""
         if rest:
             at = origin + ceil((2 + 10 * (SIZE - len(rest)) + Fraction(19, 2)) * self._bit)
             self._services.queue.at(at, Phase.PIN, lambda now: self._byte_sent(now, origin, rest))

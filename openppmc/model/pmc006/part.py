@@ -1,8 +1,8 @@
 """Golden model of the PMC006B4 at pin level, event driven and cycle-accurate.
 
-`chip` and `clock` have pins and time, `line` the line, `codes`, `settings` and `instructions` the
-instructions (including the user program and its keys), `motion` the motion, emergency inputs and stall,
-`memory` the EEPROM, `drive` microsteps and chopper.
+`chip` and `clock` define pins and time. `line` contains the serial line; `codes`, `settings` and
+`instructions` contain the instructions, the user program and its keys; `motion` contains motion, emergency
+inputs and stall; `memory` contains the EEPROM; `drive` contains microsteps and chopper.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, CoreTiming, Services, T
 from .settings import Settings
 
 MS, RESTORE_MS = 1000, 20
-"""µs ticks of a millisecond; length of a restore with FSET in ms."""
+"""Number of µs ticks in a millisecond; time in ms for which FSET must be low for a restore."""
 _LINES = {"scl_i", "sda_i"}
 
 
@@ -34,8 +34,8 @@ class Pmc006(Chip):
 
     Args:
         clk_hz: 8e6..200e6.
-        xtal_hz: without effect.
-        timing: "FAST" or "DATASHEET", without difference.
+        xtal_hz: no effect; accepted because all parts have this argument.
+        timing: "FAST" or "DATASHEET"; both behave identically.
         step_ack: "MANUAL" or "ECHO".
         baud: 1200..115200.
         i2c_hz: 10e3..400e3.
@@ -98,7 +98,7 @@ class Pmc006(Chip):
     # ------------------------------------------------------------------ reset
 
     def _build(self, t: int) -> None:
-        """Create blocks in their reset state, as if edge t were the first one after the reset."""
+        """Create blocks in their reset state; edge t is the first edge after the reset."""
         first = t + self.core_timing.reset
         queue, clk_hz = self._queue, self.timebase.clk_hz
         us = Ticks(clk_hz, 1_000_000, first - 1)
@@ -122,14 +122,14 @@ class Pmc006(Chip):
         self._restore_key = KeyFilter(services, restore_ticks, 0, self._restore, armed=True)
 
     def _bus(self, services: Services, levels: Mapping[str, int]) -> Bus:
-        """Return the master of the EEPROM's lines."""
+        """Return the master of the I2C bus of the EEPROM."""
         return Bus(services, levels, self._i2c_hz)
 
     def _restart(self) -> None:
         self._build(0)
 
     def _released(self, t: int) -> None:
-        """Process edge t, the first one after a reset."""
+        """Process edge t, the first edge after a reset."""
         self._build(t)
         self._output_values = (0, 0, True, False)
         levels = dict(SYNCHRONISED)
@@ -170,14 +170,14 @@ class Pmc006(Chip):
         self.line.answer(reply(self.context.settings.addr, data))
 
     def on_char(self, t: int, byte: int | None) -> None:
-        """Process a whole byte on the line without the levels of rxd.
+        """Process a whole byte on the line; the levels of rxd are not modelled.
 
         Args:
             t: edge that samples the stop bit.
             byte: the byte, `None` if its stop bit is low.
 
         Raises:
-            ValueError: edge t was already run.
+            ValueError: edge t was already simulated.
         """
         self._queue.at(t, Phase.BUS, lambda now: self.line.on_char(now, byte))
 
@@ -213,10 +213,10 @@ class Pmc006(Chip):
         self._queue.at(t + 1, Phase.PIN, lambda now: self.log.set(now, "mon_step", 0))
 
     def _sample(self, t: int, changed: Iterable[str]) -> None:
-        """Sample pins; in reset no pin is sampled, and the first edge after it samples all pins."""
+        """Sample pins. During a reset, no pin is sampled; the first edge after it samples all pins."""
         names, at = set(changed), max(t, self._first)
         if names <= _LINES:
-            # The bus of the EEPROM has more edges than all other pins.
+            # The I2C bus has more edges than all other pins, so process it first.
             levels = {pin: self._pins[pin] for pin in names}
             seen = self.context.levels
             later = at + self.latency.input_sync

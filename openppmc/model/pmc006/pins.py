@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..clock import EdgeLog, Scheduler
 from .settings import Settings
 
-# Latencies of the PMC006B4 of this project within the bounds of its rules, all in cycles.
+# Latencies of the PMC006B4 core of this project, in cycles. They are within the bounds of the rules.
 
 
 @dataclass(frozen=True)
@@ -15,32 +15,33 @@ class CoreTiming:
     """Constants of one core in cycles, except key_ticks.
 
     Attributes:
-        reset: first edge with rst_n = 1 to the first internal edge.
-        answer: line: e to the origin of the reply's bit times (<= 8).
-        frame: executor: e to the first edge that may accept the frame.
-        effect: from there to the effect.
-        after: from there to the first edge that may accept anything else (frame + effect + after <= 64).
-        fetch: begin of a program instruction to its effect.
-        slot: begin of a program instruction to the next one (<= 64).
-        key_ticks: keys: µs ticks of a filter in addition to its time.
-        job: EEPROM: last tick to the end of a job.
-        fact: event to the first edge whose tick may begin a restore.
-        program_cleared, program_kept: boot, from one cycle after the last tick: the program is cleared, or
-            stays.
-        fields: check of the parameters' fields. Storing them takes the same time again.
-        trigm: part of the storing time until TRIGM is stored.
-        gpo: registers to their pins.
-        plan: motion: rise of BUSY to the end of planning.
-        step: us tick to mon_step.
-        move_end: mon_step of the last step to the fall of BUSY (<= 2).
-        run_end: us tick to the fall of BUSY at the end of speed mode.
+        reset: from the first edge with rst_n = 1 to the first internal edge.
+        answer: line: from e to the origin of the bit times of the reply (<= 8).
+        frame: executor: from e to the first edge that may accept the frame.
+        effect: from that edge to the effect.
+        after: from the effect to the first edge that may accept another instruction (frame + effect + after
+            <= 64).
+        fetch: from the start of a program instruction to its effect.
+        slot: from the start of a program instruction to that of the next one (<= 64).
+        key_ticks: keys: µs ticks that a filter takes in addition to its time.
+        job: EEPROM: from the last tick to the end of a job.
+        fact: from the event to the first edge whose tick may begin a restore.
+        program_cleared, program_kept: boot: from one cycle after the last tick until the program is cleared,
+            or kept.
+        fields: check of the parameter fields. Storing the parameters takes the same time again.
+        trigm: from the start of storing to the store of TRIGM.
+        gpo: from the register of the outputs to the pins.
+        plan: motion: from the rising edge of BUSY to the end of planning.
+        step: from a us tick to mon_step.
+        move_end: from mon_step of the last step to the falling edge of BUSY (<= 2).
+        run_end: from a us tick to the falling edge of BUSY at the end of the speed mode.
         grid: drive: cycles between two evaluations of the references.
-        grid_from: first internal edge to the first evaluation.
-        refs: evaluation to the four references (grid + refs <= 64).
-        enable: end of BOOT or change of FREE to the bridges.
-        idle: us tick to the end of the idle time.
-        force: change of a reference to OFF.
-        cmp: sampled level of a comparator to its effect (<= 4).
+        grid_from: from the first internal edge to the first evaluation.
+        refs: from an evaluation to the four reference outputs (grid + refs <= 64).
+        enable: from the end of BOOT, or a change of FREE, to the bridges.
+        idle: from a us tick to the end of the idle time.
+        force: from a change of a reference to the state OFF.
+        cmp: from the sampling of a comparator level to its effect (<= 4).
     """
 
     reset: int = 2
@@ -126,14 +127,14 @@ SYNCHRONISED: dict[str, int] = {
     "scl_i": 1,
     "sda_i": 1,
 }
-"""Pins that pass two flip-flops, with their levels after a reset.
+"""Pins with a synchroniser of two flip-flops, with their levels after a reset.
 
-cmp_a and cmp_b belong to the chopper.
+The chopper synchronises cmp_a and cmp_b.
 """
 
 
 class Ticks:
-    """Base clock: tick n (1, 2, ..) enables edge origin + ceil(n * clk_hz / hz) (P006-PAR-01)."""
+    """Base clock: tick n (1, 2, ..) is at edge origin + ceil(n * clk_hz / hz) (P006-PAR-01)."""
 
     def __init__(self, clk_hz: int, hz: int, origin: int = -1) -> None:
         self.clk_hz, self.hz, self.origin = clk_hz, hz, origin
@@ -143,7 +144,7 @@ class Ticks:
         return self.origin - (-n * self.clk_hz // self.hz)
 
     def first(self, t: int) -> int:
-        """Return the number of the first tick at or after edge t; at least 1."""
+        """Return the number of the first tick at or after edge t; the result is at least 1."""
         return max(1, (t - self.origin - 1) * self.hz // self.clk_hz + 1)
 
 

@@ -1,6 +1,4 @@
-"""Registers of the PMC006B4 with legal and factory values, and their EEPROM page.
-
-The page stores some of the registers.
+"""Registers of the PMC006B4 with legal values and factory values, and the EEPROM page of some of them.
 
 Rules: P006-CMD (legal values), P006-EEP-10, -20.
 """
@@ -39,7 +37,7 @@ LEGAL: dict[str, Container[int]] = {
 }
 """Values that an instruction or the EEPROM may write.
 
-`vmax` 0 and `pp` 200 have other sources.
+Only other sources can set `vmax` to 0 and `pp` to 200.
 """
 
 
@@ -93,7 +91,7 @@ PLACES: dict[str, tuple[int, int]] = {
     "scomp": (18, 2),
     "cur": (20, 2),
 }
-"""Place and bytes of each saved register."""
+"""Place in the page and number of bytes of each saved register."""
 
 
 def page_of(settings: Settings) -> bytes:
@@ -115,7 +113,7 @@ def framed(page: bytes) -> bool:
 def values_of(page: bytes) -> dict[str, int] | None:
     """Return the registers of a block read from the EEPROM.
 
-    `None`: the block is not valid as a whole (docs/pmc006/README.md, 14 EEPROM).
+    The result is `None` if any of them is not valid (docs/pmc006/README.md, 14 EEPROM).
     """
     if not framed(page):
         return None

@@ -1,4 +1,4 @@
-"""Axis of the PPMC-2104: its blocks, its registers, and the path to its pins."""
+"""Axis of the PPMC-2104: blocks, registers, and output of the pins."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ _POLL = 35
 
 
 def window_us(command: Command, triangle: bool = False) -> int:
-    """Return the length of an instruction's processing window in us (P2104-DS-01..13)."""
+    """Return the length of the processing window of an instruction in us (P2104-DS-01..13)."""
     if command.kind is Kind.READ:
         return _READS[command.code & 7]
     if command.kind is Kind.OPERATION:
@@ -68,7 +68,9 @@ def window_us(command: Command, triangle: bool = False) -> int:
 
 
 class Windows:
-    """Open window, if any, and the poll ticks that it delays. Only used with DATASHEET timing.
+    """Processing window that is open, if any, and the poll ticks that it delays.
+
+    This class is used only with DATASHEET timing.
 
     Attributes:
         axis: 0 or 1 while a window of that axis is open, otherwise `None`.
@@ -86,7 +88,7 @@ class Windows:
         """Open a window at edge t; return its last edge.
 
         Args:
-            axis: `None` if the window appears in CMND of no axis.
+            axis: axis whose CMND indicates the window, `None` for no axis.
         """
         context = self._context
         end = t + context.timebase.cyc(16 * us) + context.latency.ds_window
@@ -101,9 +103,9 @@ class Windows:
         self.axis = None
 
     def _origin(self, t: int) -> int:
-        """Return the edge from which the poll ticks at edge t count.
+        """Return the edge from which poll ticks are counted at edge t.
 
-        A tick at the edge that opens a window still counts from the old origin.
+        At the edge that opens a window, ticks are still counted from the old origin.
         """
         return self._origins[t > self._since]
 
@@ -113,14 +115,14 @@ class Windows:
         return passed > 0 and passed % self._period == 0
 
     def next_tick(self, t: int) -> int:
-        """Return the first tick after edge t, unless a window opens before it."""
+        """Return the first tick after edge t. If a window opens before this tick, the tick occurs later."""
         origin = self._origin(t + 1)
         return origin + (max(0, t - origin) // self._period + 1) * self._period
 
 
-# Motion of a PPMC-2104 axis, where it differs: RUN gate, stop at start-up speed, polled inputs. RUN:
-# P2104-OPR-02, -TIM-02. Stops: P2104-STP-01..05, -FDC-02. Inputs: P2104-LIM-03..09, with DATASHEET timing
-# P2104-DS-20, -21. `motion` has the rest, which the PPMC family shares.
+# Motion of a PPMC-2104 axis, where it differs from related parts. Wait for RUN: P2104-OPR-02, -TIM-02. Stops:
+# P2104-STP-01..05, -FDC-02. Inputs: P2104-LIM-03..09; with DATASHEET timing, they are polled (P2104-DS-20,
+# -21). `motion` contains the behaviour that the PPMC family shares.
 
 HOLD_UNIT, HOLD_DEFAULT = 2048, 0x18
 
@@ -151,7 +153,7 @@ class Motion(motion.Motion):
         self.set_hold_delay(HOLD_DEFAULT)
 
     def set_hold_delay(self, n: int) -> None:
-        """Set the hold delay to 128 (n + 1) us for timers that start from now on (P2104-AUX-05)."""
+        """Set the hold delay to 128 (n + 1) us, for timers that are started later (P2104-AUX-05)."""
         self.hold_cycles = HOLD_UNIT * (n + 1)
 
     # ------------------------------------------------------------------ start
@@ -172,7 +174,7 @@ class Motion(motion.Motion):
             self.check_run(t)
 
     def check_run(self, t: int) -> None:
-        """End RUNWAIT at the first edge that samples RUN = H."""
+        """End the state RUNWAIT at the first edge that samples RUN high."""
         if (
             not self.waiting
             or self.finishing
@@ -188,7 +190,10 @@ class Motion(motion.Motion):
 
     @property
     def can_decelerate(self) -> bool:
-        """True if a deceleration stop is accepted: START, ACC or HIGH of 011/110 (P2104-STP-02, -03)."""
+        """True in state START, ACC or HIGH of 011 or 110.
+
+        These states accept a deceleration stop (P2104-STP-02, -03).
+        """
         free = self._flag_edge is None and not self._natural
         return self.busy and self.is_ramp and not self.waiting and not self.finishing and free
 
@@ -199,7 +204,7 @@ class Motion(motion.Motion):
     def stop_until(self, t: int, end: int) -> None:
         """Process an immediate stop with DATASHEET timing (P2104-DS-02).
 
-        The motion is cut at edge t; all other effects occur at edge `end`.
+        No pulse is output from edge t on; all other effects occur at edge `end`.
         """
         if not self.finishing:
             self._end_delayed_until = end
@@ -248,7 +253,7 @@ class ChopperTimes:
     off: int = 0xA6
 
     def quanta(self, on: bool) -> int:
-        """Return the length in quanta of a phase that begins now."""
+        """Return the length of a phase that begins now, in quanta."""
         return 2 * (self.on if on else self.off)
 
 
@@ -282,7 +287,7 @@ class Axis:
             self._interrupt.raise_(Cause.END, self.number)
 
     def _set_pin(self, t: int, signal: str, value: int) -> None:
-        """Set a pin: the phases have a port per axis, other pins are one bit of a common port."""
+        """Set a pin of the part. The phases have a port per axis; other pins are a bit of a common port."""
         log = self.context.log
         if signal == "s":
             log.set(t, f"s{self.number + 1}_n", value)
@@ -312,11 +317,11 @@ class Axis:
 
     @property
     def operating(self) -> bool:
-        """True if the other axis must count this axis as operating (P2104-DS-31)."""
+        """True if this axis is operating, as the rate check of the other axis defines it (P2104-DS-31)."""
         return self.motion.busy or (self.setup is not None and self.setup.chopping)
 
     def switch_off(self) -> None:
-        """Process excitation OFF, which returns to INITIAL (P2104-AUX-01)."""
+        """Execute excitation OFF, which returns to state INITIAL (P2104-AUX-01)."""
         self.chopper.stop()
         self.excitation.off()
         self.setup = None
@@ -342,5 +347,5 @@ class Axis:
         return list(motion.remaining.to_bytes(3, "little"))
 
     def pin(self, signal: str) -> int:
-        """Return the current level of this axis's bit of a common port."""
+        """Return the current level of the bit of this axis in a common port."""
         return self.context.log.levels[signal] >> self.number & 1

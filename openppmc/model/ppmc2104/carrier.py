@@ -1,4 +1,4 @@
-"""Modelled carrier with a PPMC-2104."""
+"""Carrier model with a PPMC-2104."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"),
 
 
 class Carrier(carrier.Carrier[Ppmc2104]):
-    """Carrier wired like ppmc2104_carrier.
+    """Carrier with the connections of ppmc2104_carrier.
 
-    Straps bits 1..0 are csel, 3..2 run, 4 errint_n. Bit 7 selects the pins in PINS: 1 = pins of axis 1.
+    Bits 1..0 of the straps are csel, bits 3..2 are run, bit 4 is errint_n. Bit 7 selects the axis whose pins
+    PINS returns: 1 = axis 1.
     """
 
     def __init__(

@@ -43,12 +43,12 @@ NEEDS_TABLE = (Kind.INITIALISE, Kind.OPERATION, Kind.EXCITATION_OFF)
 
 
 def is_error_read(command: Command) -> bool:
-    """Return True for the error code read, the only register read that is allowed in every state."""
+    """Return True for the read of the error code. It is the only register read that every state accepts."""
     return command.kind is Kind.READ and command.code & 7 == ERROR_CODE
 
 
 def _register(code: int, axis: int) -> Command:
-    """Decode group 10: reads, chopper times, hold delay."""
+    """Decode a code of group 10: reads, chopper times, hold delay."""
     if code & 0x18 or code & 7 == 7:
         return Command(Kind.UNDEFINED, code, axis=axis)
     if code & 7 == 4:
@@ -59,7 +59,7 @@ def _register(code: int, axis: int) -> Command:
 
 
 def _expansion(code: int, axis: int) -> Command:
-    """Decode group 11: pulse-only moves, excitation off, auxiliary pins."""
+    """Decode a code of group 11: pulse-only moves, excitation off, auxiliary pins."""
     if code & 7 in RAMP_OPERATIONS:
         return operation_command(code, axis)
     if code in (0xC0, 0xE0):
@@ -91,14 +91,14 @@ def decode(code: int) -> Command:
 
 # Rate limits with DATASHEET timing: P2104-DS-30..35.
 
-# Smallest accepted rates (one axis, both axes) by csel.
+# Smallest accepted rates, by csel, if one axis operates, and if both axes operate.
 _PULSES = {1: (0x0C, 0x19), 0: (0x03, 0x06)}
 _PHASES = {1: (0x12, 0x23), 0: (0x04, 0x08)}
 _ORIGIN = {1: (0x14, 0x25), 0: (0x05, 0x09)}
 
 
 def rate_error(command: Command, rate: int, setup: Setup, csel: int, other_operating: bool) -> Error:
-    """Return Error.NONE, RATE_ONE_AXIS or RATE_TWO_AXES for the fastest rate of an operation."""
+    """Return the error for the fastest rate of an operation: NONE, RATE_ONE_AXIS or RATE_TWO_AXES."""
     if command.operation == SINGLE_STEP or setup.external:
         return Error.NONE
     table = _PULSES if command.pulse_only else _ORIGIN if command.operation == ORIGIN else _PHASES
@@ -109,7 +109,8 @@ def rate_error(command: Command, rate: int, setup: Setup, csel: int, other_opera
 
 
 # Pins of the PPMC-2104 with idle and reset levels (P2104-PORT-01), and their assignment to the axes. A port
-# of both axes is one number, bit 0 = axis 1. `clk_o` is not modelled: it never stops and depends on nothing.
+# of both axes is one number, bit 0 = axis 1. `clk_o` is not modelled, because it never stops and depends on
+# no state.
 
 AXES = (0, 1)
 INPUTS: dict[str, int] = {
@@ -157,7 +158,7 @@ MOTOR_AT_REST = {"s": 0b11111, "pout_n": 1, "hold": 1, "dir": 0}
 
 
 def axis_levels(levels: Mapping[str, int], axis: int) -> dict[str, int]:
-    """Return the inputs of one axis (0 or 1) as single bits."""
+    """Return the levels of the inputs of one axis (0 or 1)."""
     return {pin: levels[pin] >> axis & 1 for pin in AXIS_INPUTS}
 
 
@@ -175,14 +176,14 @@ def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
 
 
 class Cause(Enum):
-    """Kinds of causes; each axis has one latch of each kind."""
+    """Kinds of interrupt causes; each axis has one latch of each kind."""
 
     END = "end"
     ERROR = "error"
 
 
 class Interrupt:
-    """Interrupt latches. The pin register loads `level(t)` from the state after edge t."""
+    """Interrupt latches. The register of the pin is loaded with `level(t)` after edge t."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -194,16 +195,16 @@ class Interrupt:
         self._set.add((cause, axis))
 
     def release(self, t: int, cause: Cause, axis: int) -> None:
-        """Clear a latch that is read at edge t; if it was set, INT* is high for W (P2104-INT-03, -04)."""
+        """Clear a latch when it is read at edge t. If it was set, INT* is high for W (P2104-INT-03, -04)."""
         if (cause, axis) not in self._set:
             return
         self._set.remove((cause, axis))
         self._quiet_until = t + self._context.timebase.w
-        # An event at the end of W is required, so that the pins are updated.
+        # An event at the end of W makes the model update the pins then.
         self._context.queue.at(self._quiet_until, Phase.END, lambda now: None)
 
     def level(self, t: int) -> int:
-        """Return the level of int_n for the latches after edge t."""
+        """Return the level of int_n for the state of the latches after edge t."""
         return 0 if self._set and t >= self._quiet_until else 1
 
     @property

@@ -1,7 +1,7 @@
 """Instruction processor of the PPMC-2104 model: effect and error of each byte.
 
 Handshake: P2104-HSK-04..08. Errors and their order: P2104-ERR-01..06, P2104-FSM-01..05. Setting:
-P2104-INI-01..07. Reads: P2104-RD-01..08. Auxiliary: P2104-AUX-01..06. `axis.Windows` has the times.
+P2104-INI-01..07. Reads: P2104-RD-01..08. Auxiliary: P2104-AUX-01..06. `axis.Windows` contains the times.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class CommandUnit:
         return bits
 
     def must_wait(self, t: int, byte: int, command: bool) -> bool:
-        """Return True if a byte must wait for a ramp table at edge t (P2104-HSK-04)."""
+        """Return True if, at edge t, a byte must wait for the end of a table build (P2104-HSK-04)."""
         if not command or self._pending is not None:
             return False
         code = decode(byte)
@@ -81,7 +81,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ code bytes
 
     def _code(self, t: int, command: Command) -> None:
-        """Process a code byte with the checks of P2104-ERR-04 in their order."""
+        """Process a code byte; apply the checks of P2104-ERR-04 in the order of that rule."""
         abandoned = self._pending is not None
         self._pending, self._data = None, []
         if abandoned and command.kind not in STOPS:
@@ -124,7 +124,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ data bytes
 
     def _parameter(self, t: int, byte: int) -> None:
-        """Process a data byte; the last one of an instruction executes it."""
+        """Process a data byte. The last data byte of an instruction executes it."""
         command = self._pending
         if command is None:
             self._report_error(0, Error.UNASKED_DATA)
@@ -140,7 +140,7 @@ class CommandUnit:
             self._execute(t, command, data)
 
     def _data_error(self, command: Command, data: list[int]) -> Error:
-        """Return the error of the checks at the last byte of an instruction (P2104-ERR-05)."""
+        """Return the error of the checks that follow the last byte of an instruction (P2104-ERR-05)."""
         if command.kind is Kind.INITIALISE:
             return self._setting_error(command, data)
         if command.kind is Kind.OPERATION:
@@ -178,7 +178,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ execution
 
     def _execute(self, t: int, command: Command, data: list[int]) -> None:
-        """Execute an instruction at edge t, with DATASHEET timing in its window."""
+        """Execute an instruction at edge t; with DATASHEET timing, during its processing window."""
         axis, kind = self._axes[command.axis], command.kind
         end = self._window(t, command, data) if self._context.datasheet else t
         if kind is Kind.INITIALISE:
@@ -204,7 +204,7 @@ class CommandUnit:
         return self._windows.open(t, window_us(command, triangle), None if no_axis else command.axis)
 
     def _at(self, t: int, end: int, action: Callable[[int], None]) -> None:
-        """Execute an action now, or at the end of the window."""
+        """Execute an action immediately, or, with DATASHEET timing, at the end of the window."""
         if end > t:
             self._context.queue.at(end, Phase.BEGIN, action)
         else:
@@ -229,7 +229,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ initial setting
 
     def _set_up(self, t: int, end: int, axis: Axis, code: int, data: list[int]) -> None:
-        """Execute a valid setting: store it, output the pattern, build the table (P2104-INI-04, -05)."""
+        """Store a valid setting, output the phase pattern and start the table build (P2104-INI-04, -05)."""
         ramp = Ramp(data[0], data[1], data[2] | data[3] << 8)
         fresh = axis.setup is None
         if axis.setup is None:
@@ -248,7 +248,7 @@ class CommandUnit:
         self._context.queue.at(ready, Phase.BEGIN, lambda now: self._complete(now, axis, fresh))
 
     def _complete(self, t: int, axis: Axis, fresh: bool) -> None:
-        """Complete the setting when the table is ready: state NORMAL (P2104-INI-04, -07)."""
+        """Change to state NORMAL when the table is ready (P2104-INI-04, -07)."""
         axis.building = False
         assert axis.setup is not None
         if fresh and axis.setup.chopping:

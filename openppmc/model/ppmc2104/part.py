@@ -1,8 +1,8 @@
 """Golden model of the PPMC-2104 at pin level, event driven and cycle-accurate.
 
-Rules by module: this module P2104-PORT-01..03, P2104-PAR-01. Bus: `single.hostport` (P2104-BUS, -HSK).
-`commands`: P2104-CMD, -INI, -RD, -AUX, -ERR, -FSM. `codes`: interrupt (P2104-INT). `axis`, one object per
-axis, with `motion.motion`: P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM, -DS. Phases and chopper:
+Rules by module: P2104-PORT-01..03 and P2104-PAR-01 are in this module. Bus: `single.hostport` (P2104-BUS,
+-HSK). `commands`: P2104-CMD, -INI, -RD, -AUX, -ERR, -FSM. `codes`: interrupt (P2104-INT). `axis`, one object
+per axis, with `motion.motion`: P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM, -DS. Phases and chopper:
 `motion.excitation` (P2104-PHS, -SW). Ramp: `motion.ramp` (P2104-RMP). `chip` and `clock` contain pins and
 time. `clk_o` is not modelled.
 """
@@ -24,7 +24,7 @@ from .commands import CommandUnit
 class Ppmc2104(Chip):
     """One PPMC-2104. The model starts just after the release of reset, before edge 0.
 
-    Ports of both axes are one number, bit 0 = axis 1.
+    A port of both axes is one number, bit 0 = axis 1.
 
     Args:
         clk_hz: 8e6..200e6.
@@ -32,7 +32,7 @@ class Ppmc2104(Chip):
         timing: "FAST" or "DATASHEET".
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -54,8 +54,8 @@ class Ppmc2104(Chip):
             released: first edge after the reset.
         """
         counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
-        # The synchronisers start with idle inputs. The exception is extck, which starts with its pin level,
-        # so that no clock edge occurs that was not on the pin.
+        # After a reset, the synchronisers hold idle levels. Only that of extck holds the level of the pin, so
+        # that the part counts no clock edge that did not occur at the pin.
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context
@@ -104,7 +104,7 @@ class Ppmc2104(Chip):
     # ------------------------------------------------------------------ observable state
 
     def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
-        """Return the changes (t, level) of one axis's bit of a common port.
+        """Return the changes (t, level) of the bit of one axis in a common port.
 
         Args:
             axis: 1 or 2.
@@ -119,7 +119,7 @@ class Ppmc2104(Chip):
         return [(t, bit) for t, bit in changes if t >= since]
 
     def pulses(self, axis: int, since: int = 0) -> list[int]:
-        """Return the edges of the pulses of axis 1 or 2: falls of its pout_n (P2104-GEN-05)."""
+        """Return the edges of the pulses of axis 1 or 2: falling edges of its pout_n (P2104-GEN-05)."""
         return [t for t, level in self.bits("pout_n", axis, since) if level == 0]
 
     def busy(self, axis: int) -> bool:
@@ -133,11 +133,11 @@ class Ppmc2104(Chip):
     def index(self, axis: int) -> int | None:
         """Return the ramp index of the running interval of axis 1 or 2.
 
-        Stopped or at constant speed it is `None`.
+        The result is `None` at standstill or at constant speed.
         """
         return self.axes[axis - 1].motion.index
 
     @property
     def status(self) -> int:
-        """Status register without the look-ahead of the read path."""
+        """Status register; a byte that is being stored or cleared is not considered."""
         return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)

@@ -1,4 +1,4 @@
-"""Modelled carrier with a PPMC-312 and a motor with an encoder."""
+"""Carrier model with a PPMC-312 and a motor that has an encoder."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"),
 
 
 class Carrier(carrier.Carrier[Ppmc312]):
-    """Carrier wired like ppmc312_carrier.
+    """Carrier with the connections of ppmc312_carrier.
 
-    Straps bit 0 is RUN, bits 1 and 2 are event inputs 1 and 2.
+    Bit 0 of the straps is RUN; bits 1 and 2 are event inputs 1 and 2.
 
     The encoder outputs a pulse for each pulse that the shaft follows. The drive asserts END immediately.
     `positions` holds the position of the shaft; the part itself counts pulses.
@@ -97,11 +97,11 @@ class Carrier(carrier.Carrier[Ppmc312]):
 class TableMove(Move):
     """Predicted move.
 
-    Rates are in ticks of the base clock, `divider` crystal periods each. Indices are stages of the table,
-    `None` at constant speed.
+    Rates are in ticks of the base clock; a tick has `divider` crystal periods. Indices are stages of the
+    table, `None` at constant speed.
 
     Attributes:
-        kind: status bits of the response to the start.
+        kind: status bits of the response to the start instruction.
     """
 
     divider: int

@@ -54,7 +54,7 @@ class Code(IntEnum):
 
 
 class Answer(IntEnum):
-    """Response codes that are no instruction codes (docs/ppmc312/README.md, 6.1 Blocks)."""
+    """Response codes that are not instruction codes (docs/ppmc312/README.md, 6.1 Blocks)."""
 
     STOPPED = 0xE0
     INTERLOCK_END = 0xE1
@@ -114,7 +114,7 @@ class Cause(IntEnum):
     ALARM = 0x80
 
 
-# Immediate causes; the first one has priority if several act in the same cycle (P312-MOT-34).
+# Causes of an immediate end, highest priority first, for causes in the same cycle (P312-MOT-34).
 IMMEDIATE = (Cause.ALARM, Cause.LIMIT, Cause.ORIGIN, Cause.STOP)
 
 
@@ -142,7 +142,7 @@ class Trigger(IntEnum):
 
 OV, LE, FO, DIR, IDX = 0x04, 0x10, 0x08, 0x40, 0x10
 
-# Codes with an override bit in their flag byte, and those whose trigger may be a position.
+# Codes with an override bit in their flag byte, and codes whose trigger may be a position.
 OVERRIDABLE = frozenset({0x80, 0x81, 0x82, 0x83, 0x85, 0x86, 0x87, 0x88})
 POSITION_TRIGGERED = frozenset({0x80, 0x81, 0x87, 0x88})
 MOTION_STARTS = frozenset({0x10, 0x11, 0x82, 0x83, 0x84, 0x85, 0x86})
@@ -174,7 +174,7 @@ _NORMAL_ONLY = ".O...."
 _START = (_NORMAL_ONLY, ".OOO..")
 _STOP = ("..OO..", ".OOO..")
 
-# One letter per state in the order of `_STATES`; pairs are OV = 0 and OV = 1 (P312-STA-01).
+# One letter for each state, in the order of `_STATES`; a pair is for OV = 0 and OV = 1 (P312-STA-01).
 _ACCEPT: dict[int, tuple[str, str]] = {
     **{code: (_AT_REST, _AT_REST) for code in (0x00, 0x01, 0x02, 0x03, 0x04, 0x06)},
     **{code: (_AT_REST, _AT_REST) for code in (0x20, 0x21, 0x22, 0x23, 0x28, 0x41, 0x43)},
@@ -261,17 +261,17 @@ HOST_PINS = ("d_i", "rs", "cs_n", "we_n", "oe_n")
 SERIAL_PINS = ("rxd",)
 
 
-# Event queue of the PPMC-312 for its blocks: a software reset cancels their events.
+# Event queue for the blocks of a PPMC-312. A software reset cancels the events of all blocks.
 
 
 class _BlockEvent(Event):
-    """Event of a block; only the current blocks have such events in the queue."""
+    """Event of a block. The queue contains such events of the current blocks only."""
 
     __slots__ = ()
 
 
 class ResettableScheduler(Scheduler):
-    """Queue of a part for its blocks; their events are cancelled when the blocks are replaced."""
+    """Queue for the blocks of a part. When the blocks are replaced, their events are cancelled."""
 
     def __init__(self, queue: Scheduler) -> None:
         super().__init__()
@@ -279,7 +279,7 @@ class ResettableScheduler(Scheduler):
         self._alive = True
 
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = _BlockEvent) -> Event:
-        """Call `action(t)` unless the blocks have been replaced by then."""
+        """Schedule `action(t)`, which is called unless the blocks are replaced before."""
         event = self._queue.at(t, phase, action, kind)
         if not self._alive:
             event.cancel()

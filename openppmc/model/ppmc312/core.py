@@ -1,4 +1,4 @@
-"""All blocks of the PPMC-312 and its state; the instructions act on them.
+"""All blocks of the PPMC-312 and its state, which the instructions change.
 
 Rules: P312-STA, P312-GEN-12, P312-INP-30..33. `make_host` creates the host side of the parallel bus;
 `connect` replaces it.
@@ -25,7 +25,8 @@ from .timing import CoreTiming
 class Core:
     """All blocks of the part.
 
-    reset(t, source): software reset of the part, which sends a response.
+    Args:
+        reset: reset(t, source) executes a software reset of the part, which sends a response.
     """
 
     unit: Unit
@@ -77,7 +78,7 @@ class Core:
         self.host = make_host(self)
 
     def connect(self, host: HostSide, serial: bool) -> None:
-        """Connect the host side, which is known just after a reset."""
+        """Connect the host side, which is determined just after a reset."""
         self.host, self.responses.serial = host, serial
 
     # ------------------------------------------------------------------ state
@@ -90,7 +91,7 @@ class Core:
         return self.operation.state or (State.NOR if self.table else State.INI)
 
     def discard_table(self) -> None:
-        """Change to state INI: no table, no registered instructions."""
+        """Change to state INI, without a table and without registered instructions."""
         self.table = self.transfer = None
         self._clear_buffers()
 
@@ -108,14 +109,14 @@ class Core:
     def drop_overrides(self, t: int) -> None:
         """Clear the FIFO after an override has failed.
 
-        Pulses that a position has stopped do not resume.
+        If a position has stopped the pulses, they do not resume.
         """
         self.fifo.clear()
 
     # ------------------------------------------------------------------ alarms
 
     def alarm(self, t: int, status: Alarm) -> None:
-        """Process alm_n = 0, or a multiple occurrence (P312-INP-30..32)."""
+        """Process an alarm: alm_n = 0, or a multiple occurrence (P312-INP-30..32)."""
         self.responses.report(t, responses.ALARM, Answer.ALARM, status)
         if self._abnormal:
             return
@@ -125,13 +126,13 @@ class Core:
         self.operation.stop(t, Cause.ALARM)
 
     def overrun(self, t: int, status: Alarm) -> None:
-        """Process a report lost at edge t; the alarm occurs one cycle later."""
+        """Process a report that is lost at edge t. The alarm occurs one cycle later."""
         self.context.queue.at(t + 1, Phase.LEVELS, lambda now: self.alarm(now, status))
 
     def clear_alarm(self, t: int) -> None:
-        """Execute instruction 24: aclr_n is asserted (low) (P312-INP-33).
+        """Execute instruction 24, which asserts aclr_n (P312-INP-33).
 
-        While it is low, the part can leave ABN.
+        While aclr_n is low, the part can leave state ABN.
         """
         self.outputs.alarm_clear(t)
         self._clearing = self._abnormal
@@ -152,10 +153,7 @@ class Core:
             self.monitors.was_read(t, report.kind)
 
     def _on_pulse(self, t: int, direction: int) -> bool:
-        """Count a pulse in the position and compare the position.
-
-        The call returns True if the output ends permanently at this position.
-        """
+        """Compare the position after a pulse; return True if an override stops the pulses there."""
         position = self.counters.pulse
         released = self.fifo.count(t, position)
         if released:

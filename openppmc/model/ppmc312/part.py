@@ -1,8 +1,8 @@
 """Golden model of the PPMC-312 at pin level, event driven and cycle-accurate.
 
-`chip` and `clock` have pins and time, `front` the host interface, `instructions` the instructions, `stages`
-tables and plans, `motion` motion, positions, inputs and outputs; `core` connects them. This module:
-P312-PRT-01..03, reset, software reset.
+`chip` and `clock` define pins and time. `front` contains the host interface, `instructions` the instructions,
+`stages` tables and plans, `motion` motion, positions, inputs and outputs; `core` connects them. This module
+contains P312-PRT-01..03, the reset and the software reset.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .timing import READY, CoreTiming
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
-"""Internal levels of the pins before they have been sampled."""
+"""Internal levels of the pins before they are first sampled."""
 
 
 class Ppmc312(Chip):
@@ -33,12 +33,12 @@ class Ppmc312(Chip):
         timing: "FAST" or "DATASHEET".
         version: 0..255.
         sum_mode: "BINARY" or "CHARS", checksum rule of the serial mode.
-        snd_lead: 1..16, bits from the rise of snd to the start bit.
+        snd_lead: 1..16, number of bits from the rising edge of snd to the start bit.
         snd_wait: 0..8, delay of snd in bits in addition to half a bit.
         straps: pin levels from the beginning on, for example mode, mod, adr.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
 
     Attributes:
         replies: (edge at which snd rises, whole frame) of all frames that the station has sent.
@@ -82,7 +82,7 @@ class Ppmc312(Chip):
         self._sample(0, self.INPUTS)
 
     def _build(self) -> None:
-        """Create blocks in their reset state; the synchronisers hold inactive levels."""
+        """Create blocks in their reset state. The synchronisers hold inactive levels."""
         levels = dict(_SYNCHRONISED)
         self._block_queue = ResettableScheduler(self._queue)
         self._context = Context(
@@ -120,7 +120,7 @@ class Ppmc312(Chip):
         self._out_oe = 0
 
     def _released(self, t: int) -> None:
-        """Process edge t, the first one after a reset (P312-PRT-02, -03)."""
+        """Process edge t, the first edge after a reset (P312-PRT-02, -03)."""
         self._latch_mode(t)
         self._out_oe = 0
         self._reset_levels_held = self._levels()
@@ -137,7 +137,7 @@ class Ppmc312(Chip):
     def _make_registers(self) -> list[tuple[tuple[str, ...], PinRegister]]:
         """Return the output registers.
 
-        Most outputs are registers themselves, some follow an internal level.
+        Most outputs are registers of a block; some follow an internal level.
         """
         late = {name: level for name, level in self._reset_levels_held.items() if name in _LATE}
         early = {name: level for name, level in self._reset_levels_held.items() if name not in _LATE}
@@ -151,7 +151,7 @@ class Ppmc312(Chip):
         self._host.ready(t)
 
     def _sample(self, t: int, changed: Iterable[str]) -> None:
-        """Sample pins; in reset no pin is sampled, and the first edge after it samples all pins."""
+        """Sample pins. During a reset, no pin is sampled; the first edge after it samples all pins."""
         names = set(changed)
         if self._host_pins & names:
             self._queue.at(max(t, self._bus_from), Phase.PINS, lambda now: self._sample_bus(now, self._pins))
@@ -164,7 +164,7 @@ class Ppmc312(Chip):
         self._queue.at(t + self.latency.input_sync, Phase.PINS, lambda now: self._set_run_level(now, level))
 
     def _set_run_level(self, t: int, level: int) -> None:
-        """Update RUN, which is combinational.
+        """Update RUN, which has no register before the decision.
 
         A start uses the level of RUN at the same edge, not that of the previous edge (P312-INP-20).
         """
@@ -174,15 +174,14 @@ class Ppmc312(Chip):
     def _software_reset(self, t: int, source: Source) -> None:
         """Execute instruction FF (P312-CMD-FF) and send its response.
 
-        The state is that after a reset, except the levels of the pins.
-
-        A strobe on the bus continues (P312-PAR-11), unless the pins now select the serial mode.
+        Afterwards, the state is that after a reset, except the levels of the pins. A strobe on the bus
+        continues (P312-PAR-11), unless the pins select the serial mode now.
         """
         self._block_queue.close()
         self._queue.at(t, Phase.PIN, self._reset_outputs)
         self._build()
         self._connect()
-        # A read at this edge still returns the old registers.
+        # A read at this edge still returns the values of the old registers.
         self._queue.at(t, Phase.COMMAND, lambda now: self._strobes.replace_registers(now, self._mailbox))
         self._line_from = self._pins_from = t + self.core_timing.reboot
         self._queue.at(t + self.core_timing.reboot, Phase.PINS, self._switch)
@@ -193,7 +192,7 @@ class Ppmc312(Chip):
         self._queue.at(t + self.core_timing.reboot, Phase.BUS, self.core.unit.answer_reset)
 
     def _switch(self, t: int) -> None:
-        """Process edge t, the first one with the mode of a software reset.
+        """Process edge t, the first edge in the mode that a software reset has selected.
 
         This edge samples the pins of the host side.
         """
@@ -207,19 +206,19 @@ class Ppmc312(Chip):
             self._host.ready(t)
 
     def _reset_outputs(self, t: int) -> None:
-        """Reset the pins that follow no internal level, and those that follow it one cycle later."""
+        """Reset the pins that do not follow an internal level, and those that follow it one cycle later."""
         for pin in ("wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
 
     def on_char(self, t: int, byte: int | None) -> None:
-        """Process a whole character on the line without the levels of rxd. Serial mode only.
+        """Process a whole character on the line (serial mode only); the levels of rxd are not modelled.
 
         Args:
             t: edge that samples the stop bit.
             byte: the character, `None` if its stop bit is low.
 
         Raises:
-            ValueError: edge t was already run.
+            ValueError: edge t was already simulated.
         """
         self._queue.at(t, Phase.BUS, lambda now: self.station.on_char(now, byte))
 
@@ -232,11 +231,11 @@ class Ppmc312(Chip):
         return {**core.outputs.levels(), **pulse, **self._host.levels(), "out_oe": self._out_oe}
 
     def _latch(self, t: int) -> None:
-        """Update the pins; before out_oe they keep their reset levels (P312-PRT-02)."""
+        """Update the pins. Until out_oe is active, they keep their reset levels (P312-PRT-02)."""
         if not self._out_oe:
             levels = self._reset_levels_held
         else:
-            # Leave early: at most edges, no pin changes.
+            # At most edges, no pin changes, so return early.
             core, motion = self.core, self.motion
             state = core.outputs.values, motion.pout, motion.direction, core.interlock.on, self._host.levels()
             if state == self._last_state:
@@ -281,7 +280,7 @@ class Ppmc312(Chip):
 
     @property
     def csr(self) -> int:
-        """Value of CSR, without an access; parallel mode only."""
+        """Value of CSR without side effects; parallel mode only."""
         assert isinstance(self._host, Mailbox)
         return self._host.csr
 

@@ -1,8 +1,8 @@
 """Acceleration tables of the PPMC-312 from an initial setting: P312-TBL-01..06, P312-CMD-00.
 
-Rates are rounded fractions of exact speeds, pulses are differences of floors of the exact running sum, and
-the raised cosine is calculated from its power series. In contrast to a table engine, nothing is divided step
-by step.
+Rates are rounded from exact speeds. The pulses of the stages are differences of the rounded-down exact
+running sum. The raised cosine is calculated from its power series. Thus, the model does not use the stepwise
+divisions of the RTL.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LAST = STAGES - 1
 SLOWEST_START, FASTEST, SLOWEST = 0x0011, 0x0002, 0xFFEF
 LEAST_DIFFERENCE, LEAST_PULSES = 127, 2
 DIVIDERS = {0: 2, 1: 16, 2: 32, 3: 64, 4: 256, 5: 1024}
-"""CLK to crystal cycles of a tick; 6 and 7 are the edges of EXTCK."""
+"""CLK -> crystal cycles of a tick; with CLK 6 and 7, ticks are the edges of EXTCK."""
 
 
 class SettingError(ValueError):
@@ -46,8 +46,8 @@ class Table:
 
     It has 127 rates in ticks, the pulses of each stage for both ramps, and the first stage of each ramp.
 
-    Index 126 is the fastest stage. Below its first stage a ramp has 0 pulses; below both first stages the
-    rates have no meaning.
+    Index 126 is the fastest stage. Stages below the first stage of a ramp have 0 pulses in this ramp; below
+    both first stages, the rates have no meaning.
 
     Attributes:
         clk: base clock 0..7.
@@ -89,7 +89,7 @@ class Table:
 
     @cached_property
     def sums_up(self) -> list[int]:
-        """Acceleration pulses up to and including each stage."""
+        """Acceleration pulses of each stage and the slower ones."""
         return list(accumulate(self.pa))
 
     @cached_property
@@ -98,9 +98,9 @@ class Table:
         return list(accumulate(self.pd))
 
     def stage(self, rate: int) -> int:
-        """Return t(rate), the last stage that is at least as slow.
+        """Return t(rate), the fastest stage that is not faster than this rate.
 
-        If there is no such stage, it returns the first stage - 1.
+        If there is no such stage, the result is the first stage - 1.
         """
         for i in range(LAST, self.first - 1, -1):
             if self.rates[i] >= rate:
@@ -113,7 +113,7 @@ class Table:
 
 
 def _pi() -> Decimal:
-    """Return pi by Machin's formula in the current precision."""
+    """Return pi in the current precision, with Machin's formula."""
 
     def arccot(x: int) -> Decimal:
         term, n, total = Decimal(1) / x, 1, Decimal(0)
@@ -143,7 +143,7 @@ def sigmoid_weights() -> tuple[int, ...]:
 
 
 def _shares(sigmoid: bool) -> list[Fraction]:
-    """Return the fraction of the distance from the slowest to the fastest speed for each stage."""
+    """Return the position of each stage between the slowest (0) and the fastest speed (1)."""
     if sigmoid:
         return [Fraction(w, 65536) for w in sigmoid_weights()]
     return [Fraction(i, LAST) for i in range(STAGES)]
@@ -158,7 +158,7 @@ def speeds(slow: int, high: int, sigmoid: bool) -> list[Fraction]:
 def side(total: int, speed: Sequence[Fraction], first: int) -> tuple[int, ...]:
     """Return the pulses of each stage (P312-TBL-04).
 
-    `total` is distributed in proportion to speed, and remainders are carried to the next stage.
+    `total` is distributed in proportion to the speeds, and remainders are carried to the next stage.
     """
     whole = sum(speed[first:])
     sums = [floor(total * part / whole) for part in accumulate(speed[first:])]
@@ -168,7 +168,7 @@ def side(total: int, speed: Sequence[Fraction], first: int) -> tuple[int, ...]:
 def first_stage(rates: Sequence[int], ordered: int) -> int:
     """Return the first stage of the ramp with this slowest rate (P312-TBL-03)."""
     if ordered == rates[0]:
-        return 0  # the slower ramp has all stages, for any rounding of R[1]
+        return 0  # the slower ramp has all stages, however R[1] is rounded
     return max(i for i in range(STAGES) if rates[i] >= ordered)
 
 
@@ -184,7 +184,7 @@ def build(
 ) -> Table:
     """Return the table of an initial setting with LE = `separate`.
 
-    Without `separate`, stop and nd are ignored.
+    If `separate` is False, stop and nd are ignored.
 
     Args:
         start, stop, high: 16-bit rates.
@@ -214,10 +214,7 @@ def build(
 
 
 def read_back(table: Table) -> list[tuple[int, bytes]]:
-    """Return the blocks of the table read (P312-CMD-41).
-
-    They are (header, bytes after the length byte), in order.
-    """
+    """Return the blocks of a table read, in order, as (header, bytes after the length byte) (P312-CMD-41)."""
     upward = range(LAST, -1, -1)
     counts = (STAGES - table.first, STAGES - table.sa, STAGES - table.sd if table.separate else 0)
     head = bytes([0x41, *counts]) + table.na.to_bytes(3, "big") + table.nd.to_bytes(3, "big")
@@ -240,16 +237,16 @@ _MOST_PULSES = 0xFFFFFF
 
 
 class FreeCurve:
-    """Transfer that the code block opens. Every error raises SettingError and ends the transfer.
+    """Transfer of a free curve, which a code block begins.
+
+    Every error raises SettingError and ends the transfer.
 
     Attributes:
         table: finished table, `None` before the last block.
     """
 
     def __init__(self, header: int, parameters: bytes) -> None:
-        """Process the code block.
-
-        Errors 0x10, 0x11.
+        """Process the code block, which may have the errors 0x10 and 0x11.
 
         Args:
             parameters: bytes after the code.
@@ -268,7 +265,7 @@ class FreeCurve:
         self.table: Table | None = None
 
     def _expected(self) -> int | None:
-        """Return the list that the next block belongs to, `None` if all lists are complete."""
+        """Return the list to which the next block belongs, `None` if all lists are complete."""
         for item, (need, values) in enumerate(zip(self._needs, self._lists, strict=True)):
             if len(values) < need:
                 return item
@@ -283,7 +280,7 @@ class FreeCurve:
         return bytes([item, self._needs[item] - len(self._lists[item])])
 
     def add(self, header: int, data: bytes) -> None:
-        """Process a data block. Errors 0x16..0x1A in the order of P312-CMD-FC-4."""
+        """Process a data block; check the errors 0x16..0x1A in the order of P312-CMD-FC-4."""
         item = self._expected()
         assert item is not None
         width, values = _WIDTH[item], self._lists[item]
@@ -340,9 +337,9 @@ class Step(NamedTuple):
     """Pulse and the interval after it.
 
     Attributes:
-        rate: in ticks.
+        rate: length of the interval in ticks.
         stage: stage of the table, `None` at constant speed.
-        planned: True if it belongs to a planned final deceleration.
+        planned: True if the pulse belongs to a planned final deceleration.
     """
 
     rate: int
@@ -358,7 +355,7 @@ class Plan:
         n: pulses, `None` for an endless operation.
         up: accelerating pulses at the beginning.
         down: decelerating pulses at the end.
-        rate: constant rate between them.
+        rate: constant rate between acceleration and deceleration.
         kind: status bits of the response.
     """
 
@@ -388,12 +385,12 @@ class Plan:
 
 
 def constant(table: Table, rate: int, n: int | None = None) -> Plan:
-    """Return a plan of constant speed: 83, 84, 86, 10."""
+    """Return a plan at constant speed, for instruction 83, 84, 86 or 10."""
     return Plan(table, rate, n)
 
 
 def ramped(table: Table, rate: int, n: int | None) -> Plan:
-    """Return a plan with ramps: 82 with n pulses, 85 and phase 1 of 11 without.
+    """Return a plan with ramps: with n pulses for instruction 82, without n for 85 and for phase 1 of 11.
 
     Args:
         rate: target rate.

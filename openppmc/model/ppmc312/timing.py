@@ -11,66 +11,67 @@ from .stages import RIGHT_DOWN, TRIANGLE, Plan, Table
 from .stages import TRAPEZOID as TRAPEZOID_KIND
 
 US, WIDTH = 16, 80
-"""Crystal cycles of a microsecond at 16 MHz, and of TW."""
+"""Crystal cycles in a microsecond at 16 MHz, and in TW."""
 
 
 @dataclass(frozen=True)
 class CoreTiming:
     """Constants of one core in cycles, except `early`.
 
-    The times of plans and tables depend on the table.
+    The methods return the times of plans and tables, which depend on the table.
 
     Attributes:
-        arbitration: instructions: header write event, trigger, or end of the last instruction to the start of
-            processing. The block is fetched at one byte per cycle and checked.
-        check: start of processing to the checks.
-        effect: start of processing to the effect of a short instruction.
+        arbitration: instructions: from the write event of the header, the trigger, or the end of the last
+            instruction to the start of processing. In this time, the block is fetched at one byte per cycle
+            and checked.
+        check: from the start of processing to the checks.
+        effect: from the start of processing to the effect of a short instruction.
         copy: additional time of an instruction that is registered.
         data: additional time of a data block of a free curve, without its bytes (one cycle each).
-        limits: effect to the limit check of a start, which uses the levels of its edge.
-        answer: effect to the stored response, without its bytes (one cycle each).
-        done: stored response to MWEF = 0.
-        reset: begin of processing to the reset by FF.
-        reboot: reset by FF to its effect.
-        reopen: reset by FF to MWEF = 0.
-        alarm: multiple occurrence to its alarm.
-        halt: effect of 80 to its stop.
-        next_response: responses: read of an earlier response to the one that waited for it (P312-RSP-20,
-            <= 4).
-        load: store to load.
-        show: load to MREF = 0.
-        reload: MREF = 1 to the next load (P312-PAR-08).
-        rest: motion: end of the pulses, or fall of pout, to standstill.
-        report: standstill to E0 (<= 64).
-        turn_back: phase 1 of a zero return to t0 of phase 2 (<= 64).
-        run_to_t0: RUN to t0 of an operation that waits for RUN.
-        count: pulse to POS.
-        compare: pulse to the actions that the position triggers (P312-MOT-05, P312-OVR-12).
-        unlock: pulse to E1.
-        lead, slow_lead, change_lead, ramp_lead, origin_lead: least time until a boundary for which the
-            high-speed limit, 81, 88, 87, the level of the origin counts.
-        drop_lead: the same for a change that a newer 87 or 88 replaces.
-        const_rate_lead: 87 requires a constant rate for this time.
-        search: addition to const_rate_lead after the rate of a stage has become the constant rate, whose
+        limits: from the effect to the limit check of a start, which uses the levels at its edge.
+        answer: from the effect to the stored response, without its bytes (one cycle each).
+        done: from the stored response to MWEF = 0.
+        reset: from the start of processing to the reset by FF.
+        reboot: from the reset by FF to its effect.
+        reopen: from the reset by FF to MWEF = 0.
+        alarm: from a multiple occurrence to its alarm.
+        halt: from the effect of 80 to its stop.
+        next_response: responses: from the read of a response to the store of the response that waited for it
+            (P312-RSP-20, <= 4).
+        load: from the store of a response to its load.
+        show: from the load to MREF = 0.
+        reload: from MREF = 1 to the next load (P312-PAR-08).
+        rest: motion: from the end of the pulses, or the falling edge of pout, to standstill.
+        report: from standstill to E0 (<= 64).
+        turn_back: from the end of phase 1 of a zero return to t0 of phase 2 (<= 64).
+        run_to_t0: from RUN to t0 of an operation that waits for RUN.
+        count: from a pulse to the change of POS.
+        compare: from a pulse to the actions that the position triggers (P312-MOT-05, P312-OVR-12).
+        unlock: from a pulse to E1.
+        lead, slow_lead, change_lead, ramp_lead, origin_lead: shortest time to a boundary that is affected,
+            from (in this order) the high-speed limit, 81, 88, 87, and the level of the origin.
+        drop_lead: shortest time from a newer 87 or 88 to a boundary at which it replaces a waiting change.
+        const_rate_lead: time for which the rate must be constant before 87 takes effect.
+        search: addition to const_rate_lead if the rate of a stage has become the constant rate, because its
             t(x) must be searched first.
         scan: one pass over the table.
-        limit_from: t0 to the first check of the high-speed limit.
+        limit_from: from t0 to the first check of the high-speed limit.
         least: shortest interval (P312-MOT-04).
-        armed: new head of the command FIFO to its trigger (P312-OVR-02, <= 4).
-        compare_lag: monitors: change of POS or ENC to the result of the comparison. The status bit follows
-            one cycle later, the report two cycles later.
-        standstill: standstill to the first evaluation of the in-position monitor.
-        character: serial mode: middle of the stop bit to the character.
-        frame: last character to the event that is a header write in parallel mode.
-        sampling: last character to the sampling of reports, state and counters.
-        reply: that sampling, or the stored response, to the rise of snd.
-        clear: snd does not rise earlier than this time plus one bit after the middle of the stop bit.
+        armed: from a new head of the command FIFO to the first trigger that releases it (P312-OVR-02, <= 4).
+        compare_lag: monitors: from a change of POS or ENC to the result of the comparison. The status bit
+            follows one cycle later, the report two cycles later.
+        standstill: from standstill to the first evaluation of the in-position monitor.
+        character: serial mode: from the middle of the stop bit to the character.
+        frame: from the last character to the event that corresponds to the header write of the parallel mode.
+        sampling: from the last character to the sampling of reports, state and counters.
+        reply: from that sampling, or from the stored response, to the rising edge of snd.
+        clear: shortest time from the middle of the stop bit to the rising edge of snd, minus one bit.
         silence: addition to the 20 ms.
-        early: DATASHEET: crystal cycles that a time is shortened by, for the time that has already passed.
-        proc_time: end of a DATASHEET time to the effect.
-        pins: internal level to irq_n and intlk_n.
+        early: crystal cycles that are subtracted from a DATASHEET time, because this time has already passed.
+        proc_time: from the end of a DATASHEET time to the effect.
+        pins: from an internal level to irq_n and intlk_n.
         wrq_fast: T_WRQ with FAST timing.
-        ready: first edge after a reset to out_oe with FAST timing.
+        ready: from the first edge after a reset to out_oe, with FAST timing.
         start: addition to the DATASHEET time from a reset to out_oe.
     """
 
@@ -128,18 +129,19 @@ class CoreTiming:
     def look_up(self) -> int:
         """Return the cycles of one look-up in the table.
 
-        The look-up lies between the effect of 87 or 88 and the change, or t0 without a plan.
+        This is the time from the effect of 87 or 88 to the change, or, for a start without a plan, to t0.
         """
         return self.scan + 4
 
     def starting(self, plan: Plan, single: bool = False, ramped: bool = False) -> int:
         """Return the cycles from the effect to t0.
 
-        The look-up also adds up the ramps. It needs another pass over the deceleration ramp if this ramp does
-        not begin with a full stage. A triangular profile needs a multiplication and a division.
+        The look-up also adds up the pulses of the ramps. If the deceleration does not begin with a full
+        stage, another pass over the deceleration ramp is required. A triangular profile requires a
+        multiplication and a division.
 
         Args:
-            single: True for a single step, which needs no look-up.
+            single: True for a single step, which requires no look-up.
             ramped: True if the operation has a plan with ramps.
         """
         if single:
@@ -158,10 +160,10 @@ class CoreTiming:
     def filling(self, table: Table) -> int:
         """Return the cycles from the effect of 00 to the last word of the table.
 
-        One operation of n steps takes n + 4 cycles, a division one more. First K RH and K Rs are calculated
-        (24 steps each). For each stage follow its speed D (24), D / 2 (1), C + D / 2 and C / D (16 each), and
-        S + D for each ramp (24). Then D is calculated again, and for each ramp that uses the stage P D and
-        its share of S (24 each).
+        An operation of n steps takes n + 4 cycles, a division takes one cycle more. The numbers of steps are
+        in parentheses. First, K RH and K Rs are calculated (24 each). Then, for each stage, the speed D (24),
+        D / 2 (1), C + D / 2 and C / D (16 each), and, for each ramp, S + D (24) are calculated. In a second
+        pass, D is calculated again, and P D and its share of S (24 each) for each ramp that uses the stage.
         """
         stages, speed, separate = 127, 28, int(table.separate)
         sides = (table.sa, table.sd) if separate else (table.sa,)
@@ -172,14 +174,14 @@ class CoreTiming:
     def looking_up(self) -> int:
         """Return the cycles from the last word of a table to the valid table.
 
-        The start-up rate is looked up during this time.
+        During this time, the start-up rate is looked up.
         """
         return self.scan + 3
 
     def reading(self, block: bytes) -> int:
-        """Return the cycles from the read of a block of a table read to the next block in its store.
+        """Return the cycles from the end of a block of a table read to the store of the next block.
 
-        Each byte takes one cycle, and each stage three cycles more.
+        Each byte takes one cycle, and each stage takes three more cycles.
         """
         stages = (len(block) - 3) // (2 if block[2] == 1 else 3)
         return len(block) + 3 * stages
@@ -195,5 +197,5 @@ CONSTANT, ENDLESS, ENDLESS_RATE, GENERAL = 400 * US, 60 * US, 400 * US, 500 * US
 STOP, OUTPUT = 350 * US, 300 * US
 PIN_LOW, EVT_LOW = 200 * US, 25_000 * US
 
-# Functional times in crystal cycles, the same in both modes.
+# Functional times in crystal cycles; they are equal for FAST and DATASHEET.
 CLEAR_PULSE, CURRENT_DOWN, SAMPLE, SILENCE = 393_216, 1_600_000, 800, 320_000

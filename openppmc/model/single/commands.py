@@ -19,8 +19,8 @@ from ..motion.ramp import Ramp
 from .codes import BUSY, ERR, Error, Kind
 from .hostport import BytePort
 
-# Motion of a part with one axis: start, interrupt, and the DATASHEET times of P104-DS-03..08. The STMC has
-# the same times under STMC-DS-01 and -04..10. The `Motion` class of each part has its own behaviour.
+# Motion of a part with one axis: start, interrupt, and the DATASHEET times of P104-DS-03..08. The same times
+# are STMC-DS-01 and -04..10 for the STMC. The class `Motion` of each part defines the behaviour of this part.
 
 DS_BUSY_RAMP, DS_BUSY_CONSTANT = 1792, 432
 DS_PULSE_CONSTANT, DS_PULSE_RAMP, DS_PULSE_STEP = 3104, 3200, 1376
@@ -44,11 +44,11 @@ class TimedMotion(Motion):
 
     @abstractmethod
     def _latch_operation(self, command: Command, data: list[int], setup: Setup) -> None:
-        """Call `_load` with the settings of the part's pins."""
+        """Latch the settings of an operation, with the levels of the pins that the part has."""
 
     @abstractmethod
     def slow_stop(self, t: int, reference: int) -> None:
-        """Process a deceleration stop accepted at edge t in START, ACC or HIGH of 011/110."""
+        """Process a deceleration stop, accepted at edge t in state START, ACC or HIGH of 011 or 110."""
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, reference: int) -> None:
         """Process the C-event of an operation's last byte (P104-OPR-01, P104-BCK-02, P104-DS-03..06)."""
@@ -95,25 +95,30 @@ class TimedMotion(Motion):
         return not self._context.datasheet
 
     def _datasheet_end(self, t: int, since: int, end_cycles: int, open_cycles: int) -> None:
-        """Schedule the end and the closed mailbox, both counted from `since` (P104-DS-06..08)."""
+        """Schedule the end of the command, and close the mailbox.
+
+        Both times start at `since` (P104-DS-06..08).
+        """
         context = self._context
         since += context.latency.ds_motor
         self._port.close_until(since + context.timebase.cyc(open_cycles))
         self._ending(t)
-        # Runs before Phase.COMMAND, so that a byte that waited for this edge is checked with BUSY = 0.
+        # This precedes Phase.COMMAND, so that a byte that waited for this edge is checked with BUSY = 0.
         context.queue.at(since + context.timebase.cyc(end_cycles), Phase.BEGIN, self._finish)
 
     def _ending(self, t: int) -> None:
         """Process the decision at edge t to end the operation."""
 
 
-_DS_PATTERN = 704  # crystal cycles to the first pattern (P104-DS-01)
+_DS_PATTERN = 704  # crystal cycles to the first phase pattern (P104-DS-01)
 
 
 class ByteUnit(ABC):
     """Unit that accepts one byte per C-event.
 
-    Readable: error (`None` or number), expected, setup (`None`: UNINIT).
+    Attributes:
+        error: error number of the last byte, or `None`.
+        setup: settings of the initialisation, `None` in state UNINIT.
     """
 
     allowed_while_busy: ClassVar[tuple[Kind, ...]] = (
@@ -178,7 +183,7 @@ class ByteUnit(ABC):
         return self._execute(t, command, reference, [])
 
     def _code_error(self, command: Command) -> Error | None:
-        """Return the error of the checks in the order of P104-ERR-01."""
+        """Return the error of a command byte; the order of the checks is that of P104-ERR-01."""
         motion, kind = self._motion, command.kind
         if kind is Kind.UNDEFINED:
             return Error.UNDEFINED
@@ -193,7 +198,7 @@ class ByteUnit(ABC):
         return None
 
     def _parameter(self, t: int, byte: int, reference: int) -> Error | None:
-        """Process a data byte; return its error. The last one executes its command (P104-FSM-03)."""
+        """Process a data byte; return its error. The last data byte executes the command (P104-FSM-03)."""
         if self._pending is None:
             return Error.UNASKED_DATA_BUSY if self._motion.busy else Error.UNASKED_DATA
         self._data.append(byte)
@@ -235,15 +240,15 @@ class ByteUnit(ABC):
         self._complete_after(done)
 
     def _complete_after(self, done: int) -> None:
-        """Complete the initialisation at edge `done`, when the table is ready.
+        """Schedule the end of the initialisation at edge `done`, when the table is ready.
 
-        Until then no byte is accepted.
+        Until then, no byte is accepted.
         """
         self._port.close_until(done)
         self._context.queue.at(done, Phase.BEGIN, self._complete)
 
     def _complete(self, t: int) -> None:
-        """Process the end of the table build: bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""
+        """Process the end of the table build; now bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""
         assert self.setup is not None
         if self.setup.chopping:
             self._chopper.start(t)

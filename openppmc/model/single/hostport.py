@@ -1,8 +1,8 @@
-"""Host side of the models: write path, early read path, mailbox, output queue.
+"""Host side of the models: write path, read path, mailbox, output queue.
 
 Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..04, P2104-HSK-01..04. Output
 queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Each part defines the pins of a strobe, the other status
-bits, and the conditions under which a byte waits.
+bits, and the conditions for which a byte waits.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from ..clock import Event
 from ..motion.codes import IBF, OBF
 from .codes import Kind, decode
 
-# Host port of the PPMC-104, where it differs: its strobes, and the over-speed rule.
+# Functions that only the PPMC-104 has: its strobes, and the gate at high speed.
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Return write strobe and read strobe; both low together are no strobe (P104-BUS-02)."""
+    """Return write strobe and read strobe. If both pins are low, there is no strobe (P104-BUS-02)."""
     selected = not pins["cs_n"]
     writing = selected and not pins["wr_n"] and bool(pins["rd_n"])
     reading = selected and not pins["rd_n"] and bool(pins["wr_n"])
@@ -27,9 +27,10 @@ def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
 
 
 class SpeedGate:
-    """Gate that only lets stop commands pass above a speed, with DATASHEET timing (P104-DS-12).
+    """Gate for DATASHEET timing: above a speed, only stop commands pass (P104-DS-12).
 
-    retry(t): called when the host port shall check a waiting byte again.
+    Args:
+        retry: retry(t) is called when the host port must check a waiting byte again.
     """
 
     def __init__(self, retry: Callable[[int], None]) -> None:
@@ -37,7 +38,7 @@ class SpeedGate:
         self._fast = (False, False, 0)
 
     def set(self, t: int, fast: bool) -> None:
-        """Close the gate at edge t, except for stop commands, or open it again."""
+        """Close or open the gate at edge t. Stop commands pass a closed gate."""
         self._fast = (self._is_fast(t), fast, t)
         if not fast:
             self._retry(t)
@@ -47,7 +48,7 @@ class SpeedGate:
         return after if t >= since else before
 
     def must_wait(self, t: int, byte: int, command: bool) -> bool:
-        """Return True if this byte must stay in the buffer at edge t."""
+        """Return True if this byte must remain in the buffer at edge t."""
         stop = command and decode(byte).kind in (Kind.STOP, Kind.SLOW_STOP)
         return self._is_fast(t) and not stop
 
@@ -61,7 +62,7 @@ READ_SYNC = 2
 
 
 class BytePort(Protocol):
-    """Members of the host side that commands and motion need."""
+    """Members of the host side that commands and motion use."""
 
     def answer(self, values: Iterable[int]) -> None:
         """Load the bytes of a read command."""
@@ -71,15 +72,15 @@ class BytePort(Protocol):
 
 
 class HostPort:
-    """Host side: conversion of bus strobes to bytes and back.
+    """Host side, which converts bus strobes to bytes and back.
 
     Args:
-        take: take(t, byte, is_command, stored_at), the command processor, is called on the C-event; stored_at
-            is the write event.
+        take: take(t, byte, is_command, stored_at) is called at the C-event; stored_at is the edge of the
+            write event.
         state: state() returns all status bits except IBF and OBF.
         strobes: strobes(pins) returns write strobe and read strobe.
         must_wait: must_wait(t, byte, is_command) returns True if the byte must stay in the buffer at edge t.
-            The function that returns True also calls `retry` when the byte may pass.
+            If it returns True, it must call `retry` when the byte may pass.
     """
 
     def __init__(
@@ -134,7 +135,7 @@ class HostPort:
             self._load(t)
 
     def _load(self, t: int) -> None:
-        """Load d_o from the selected register, with its value just before edge t."""
+        """Load d_o with the value of the selected register just before edge t."""
         self._byte_was_read = False
         if self._pins["a0"]:
             value = self.status
@@ -149,7 +150,10 @@ class HostPort:
 
     @property
     def status(self) -> int:
-        """Status register as a read returns it, including a byte that is being stored or cleared."""
+        """Status register as a read returns it.
+
+        IBF is already 1 while a byte is being stored, and OBF is already 0 while a byte is being cleared.
+        """
         waiting = self.ibf or self._in_pipe > 0
         return self._state() | (IBF if waiting else 0) | (OBF if self._readable else 0)
 
@@ -181,7 +185,7 @@ class HostPort:
     # ------------------------------------------------------------------ mailbox
 
     def _store(self, t: int, byte: int, command: bool) -> None:
-        """Process a write event: the byte replaces one that still waits (P104-HSK-02)."""
+        """Process a write event. The byte replaces a byte that is still waiting (P104-HSK-02)."""
         self._in_pipe -= 1
         self._buffer = (byte, command)
         self._stored_at = t

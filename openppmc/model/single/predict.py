@@ -2,8 +2,8 @@
 
 A prediction contains pulse times and speeds.
 
-`predict_move` calls the `predict` function of the part, which the table of parts names. This module has the
-shared code of parts with four initialisation bytes.
+`predict_move` calls the `predict` function of the part, which the table of parts names. This module contains
+the shared code of parts with four initialisation bytes.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Move(ABC):
     """Predicted move.
 
     Attributes:
-        clk: `clk[j]` is pulse j+1 in cycles after pulse 1.
+        clk: `clk[j]` is the time of pulse j + 1 in cycles after pulse 1.
         indices: ramp index of the interval after each pulse; `None`, or an empty tuple, at constant speed.
         rates: rate of the interval after each pulse.
     """
@@ -34,7 +34,7 @@ class Move(ABC):
 
     @property
     def seconds(self) -> list[float]:
-        """Pulse times in s after pulse 1."""
+        """Times of the pulses in s after pulse 1."""
         return [self.timebase.seconds(t) for t in self.clk]
 
     @property
@@ -53,7 +53,7 @@ class RampMove(Move):
     """Predicted move of a part with rates or divisors of one byte.
 
     Attributes:
-        quanta: length of each interval.
+        quanta: length of each interval in quanta.
     """
 
     quanta: tuple[int, ...]
@@ -88,8 +88,8 @@ def predict_move(
             initial setting, see `ppmc312.carrier`, which also has free curves.
         n: number of pulses, 1..2^24.
         rate: `None` for a move with ramps, otherwise the rate of a constant-speed move.
-        csel: level of this pin.
-        vsel: level of this pin.
+        csel: level of the pin csel.
+        vsel: level of the pin vsel.
         part: "ppmc104", "ppmc2104" (has no vsel, leave it 1), "stmc" (has neither csel nor vsel; rates are
             divisors) or "ppmc312".
 
@@ -105,8 +105,8 @@ class Limits:
     """Limits of a part.
 
     Attributes:
-        slower: least RL - RH.
-        least: smallest rate with the internal clock.
+        slower: smallest difference RL - RH.
+        least: smallest rate byte with the internal clock.
         shortest, longest: range of PA.
     """
 
@@ -138,7 +138,8 @@ def run(
     """Return the pulses of a checked move.
 
     Args:
-        beyond: base clocks of an interval minus its rate; `rates` of the result include them.
+        beyond: number of base clocks of an interval minus its rate. `rates` of the result include this
+            number.
     """
     indices = tuple(profile_index(n, ramp.pa, j) for j in range(1, n)) if rate is None else ()
     rates = tuple(ramp.rate(k) + beyond for k in indices) if rate is None else (rate,) * (n - 1)

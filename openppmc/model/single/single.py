@@ -1,7 +1,7 @@
 """Part with one axis at pin level; `ppmc104` and `stmc` share this code.
 
 This module contains the path of command bytes, the pin registers, the synchronised inputs of the axis, and
-the properties that tests and tools read.
+properties for tests and tools.
 """
 
 from __future__ import annotations
@@ -115,10 +115,10 @@ class SingleAxis(Chip):
         return {"cs_n": 0, "wr_n" if write else "rd_n": 0, "a0": reg}
 
     def clock_rise(self, t: int) -> None:
-        """Process a rising edge of the external clock at edge t, while its pin does not change.
+        """Process a rising edge of the external clock at edge t without a change of its pin.
 
-        This method is for boards with their own clock, because processing all its edges at the pin would take
-        too long.
+        Models of boards with a clock generator use this method, because it takes too long to process each
+        edge of the pin.
         """
         self._queue.at(t, Phase.BASE, self._motion.base_rise)
 
@@ -126,7 +126,7 @@ class SingleAxis(Chip):
 
     @property
     def counts_clock(self) -> bool:
-        """True while an operation runs that counts the external clock."""
+        """True while an operation that counts the external clock is running."""
         return self._motion.external
 
     @property
@@ -136,14 +136,14 @@ class SingleAxis(Chip):
 
     @property
     def status(self) -> int:
-        """Status register without the look-ahead of the read path."""
+        """Status register; a byte that is being stored or cleared is not considered."""
         return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)
 
     @property
     def index(self) -> int | None:
         """Ramp index of the running interval.
 
-        The value is None if stopped, before the first pulse, or at constant speed.
+        The value is `None` at standstill, before the first pulse, and at constant speed.
         """
         return self._motion.index
 
@@ -154,7 +154,7 @@ class SingleAxis(Chip):
 
     @property
     def initialised(self) -> bool:
-        """True if an initialisation is active (its table build may still run)."""
+        """True if an initialisation is active, even while its table is being built."""
         return self._commands.setup is not None
 
     @property

@@ -1,4 +1,4 @@
-"""Modelled carrier with an STMC and the step clock of the J105 board."""
+"""Carrier model with an STMC and the step clock of the J105 board."""
 
 from __future__ import annotations
 
@@ -18,11 +18,9 @@ _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), str
 
 
 class Carrier(carrier.Carrier[Stmc]):
-    """Carrier wired like stmc_carrier: no straps, MON instead of the alarm.
+    """Carrier with the connections of stmc_carrier: no straps, and MON instead of the alarm.
 
-    The motor follows the phases.
-
-    The step clock only ticks while a motion counts it.
+    The motor follows the phases. The step clock is modelled only while a motion counts it.
     """
 
     _directions_of = step_directions()
@@ -59,7 +57,7 @@ class Carrier(carrier.Carrier[Stmc]):
 
     def _next_event(self) -> int | None:
         if self.part.counts_clock and self._tick <= self.part.now:
-            # Rise n = 0, 1, .. of a square wave occurs (n + 1/2) periods after power-up.
+            # The rising edge n = 0, 1, .. of the square wave is (n + 1/2) periods after power-up.
             rise = (self.part.now * 2 * BOARD_CLOCK_HZ // self.clk_hz + 1) // 2
             self._tick = -(-(2 * rise + 1) * self.clk_hz // (2 * BOARD_CLOCK_HZ))
             self.part.clock_rise(self._tick)
@@ -68,7 +66,10 @@ class Carrier(carrier.Carrier[Stmc]):
     def _follow(self, edge: Edge) -> None:
         if edge.signal != "s":
             super()._follow(edge)
-        elif edge.value not in (0, ALL_PHASES):  # otherwise the chopper, or no initialisation yet
+        elif edge.value not in (
+            0,
+            ALL_PHASES,
+        ):  # others: chopper or not initialised
             step = self._directions_of.get((self._phases, edge.value))
             self._phases = edge.value
             if step is not None:
@@ -89,5 +90,5 @@ def predict(
     """
     ramp = profile(*_LIMITS.check(init, n, rate))
     timebase = timebase or Timebase()
-    # A divisor counts all base clocks of an interval, a rate all except the first.
+    # A divisor is the number of base clocks of an interval, a rate is this number minus 1.
     return run(timebase, BaseClock(TICK_XT // timebase.quantum), ramp, n, rate, beyond=1)

@@ -8,13 +8,13 @@ from __future__ import annotations
 from ..motion.codes import Command, Kind, operation_command
 
 INIT_BYTES = 4
-# Tick of the internal step clock in crystal periods (STMC-CLK-01).
+# Period of the internal step clock in crystal periods (STMC-CLK-01).
 TICK_XT = 1280
-# "External" step clock of the board in Hz (J105-06).
+# Frequency of the external step clock, which the board generates, in Hz (J105-06).
 BOARD_CLOCK_HZ = 48_675
 FINISH_STATUS, INPUTS, OUTPUTS, REMAINING = "finish status", "inputs", "outputs", "remaining steps"
 
-# Meaning of each read code by READ_MAP, the default first (docs/stmc/README.md, 6.6 Reads).
+# Meaning of each read code, by READ_MAP; the default is first (docs/stmc/README.md, 6.6 Reads).
 READ_MAPS: dict[str, dict[int, str]] = {
     "FAMILY": {0x80: FINISH_STATUS, 0x81: INPUTS, 0x82: OUTPUTS, 0x83: REMAINING},
     "SHEET": {0x80: FINISH_STATUS, 0x82: INPUTS, 0x83: OUTPUTS, 0x84: REMAINING},

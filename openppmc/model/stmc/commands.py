@@ -1,6 +1,6 @@
 """Command processor of the STMC: the effect of each command.
 
-`single.commands` processes the bytes before.
+`single.commands` converts bytes to commands.
 
 Initialisation: STMC-INI-01..08, STMC-DS-02/03. Motion commands: STMC-MOT-01..04. Reads: STMC-FIN, -INP, -OUT,
 -REM, -RD.
@@ -28,18 +28,19 @@ from ..single.hostport import HostPort
 from .codes import FINISH_STATUS, INPUTS, OUTPUTS, READ_MAPS, TICK_XT, decode
 from .pins import GUARD, INPUT_REGISTER
 
-# Motion of the STMC, where it differs: STMC-MOT, -CLK, -DEC, -IN, -DS. Divisors: a gap of x ticks is an
-# interval of rate x - 1 on a base clock of 1280 crystal periods, so the ramp and the rate counter of the PPMC
-# family are used unchanged (STMC-INI-01, STMC-RMP-01). There is no pulse output: a motion is over with its
-# last step (STMC-MOT-08). An operation that starts while its deceleration limit is active makes one step
-# (STMC-DEC-03); at the start-up speed a request ends it immediately.
+# Motion of the STMC, where it differs from related parts: STMC-MOT, -CLK, -DEC, -IN, -DS. A gap of x ticks is
+# an interval of rate x - 1 with a base clock of 1280 crystal periods. Therefore, the ramp and the rate
+# counter of the PPMC family are used unchanged (STMC-INI-01, STMC-RMP-01). There is no pulse output, so a
+# motion ends with its last step (STMC-MOT-08). An operation that starts while its deceleration limit is
+# active outputs one step (STMC-DEC-03). At the start-up speed, a deceleration request ends a motion
+# immediately.
 
 
 class Motion(TimedMotion):
     """Motion of the axis of an STMC.
 
     Args:
-        hold_xt: crystal periods from the fall of BUSY to `hold`.
+        hold_xt: crystal periods from the falling edge of BUSY to `hold`.
     """
 
     ends_at_start_rate = True
@@ -57,7 +58,7 @@ class Motion(TimedMotion):
         """Latch an operation.
 
         Args:
-            data: bytes as written, the divisor before the count.
+            data: data bytes in the order in which they were written: divisor, then count.
         """
         rated = [data[0] - 1, *data[1:]] if data and command.operation in (4, 5, 7) else data
         self._latch_settings(command, rated, setup, csel=1, plain=True)
@@ -66,11 +67,11 @@ class Motion(TimedMotion):
     # ------------------------------------------------------------------ stops and inputs
 
     def slow_stop(self, t: int, reference: int) -> None:
-        """Process command 1 in state S or A of commands 3 and 6 (STMC-STP-03, STMC-DS-11)."""
+        """Process command 1 in state S or A of command 3 or 6 (STMC-STP-03, STMC-DS-11)."""
         self._request(t, "flag", FINISH_STOP)
 
     def _active_causes(self, t: int) -> ActiveCauses:
-        """Return the causes; command 7 also ends at its deceleration limit (STMC-IN-04)."""
+        """Return the active causes; command 7 also ends at its deceleration limit (STMC-IN-04)."""
         causes = super()._active_causes(t)
         if self.operation == ORIGIN and causes.slow:
             return ActiveCauses(causes.bits | FINISH_SLOW, causes.origin)
@@ -91,7 +92,7 @@ class Motion(TimedMotion):
 def profile(d1: int, d2: int, pa: int) -> Ramp:
     """Return the ramp of divisors d1 >= d2 >= 1 (STMC-MOV-02, -04).
 
-    Without ramp steps all gaps are d2.
+    Without ramp steps, all gaps have d2 ticks.
     """
     return Ramp(d1 - 1, d2 - 1, pa) if pa and d1 > d2 else Ramp(d2 - 1, d2 - 1, 0)
 
@@ -151,9 +152,9 @@ class CommandUnit(ByteUnit):
     # ------------------------------------------------------------------ initialisation
 
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
-        """Process the fourth byte of an initialisation (STMC-INI-02..07).
+        """Check and store an initialisation after its fourth byte, and begin the table build.
 
-        The initialisation is checked and stored, and the table build begins.
+        Rules: STMC-INI-02..07.
         """
         d1, d2 = data[0], data[1]
         pa = data[2] | data[3] << 8

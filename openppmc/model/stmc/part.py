@@ -1,6 +1,6 @@
 """Golden model of the STMC core at pin level, event driven and cycle-accurate.
 
-Rules by module: this module parameters and reset values (docs/stmc/README.md, 3 Parameters). Bus:
+Rules by module: parameters and reset values are in this module (docs/stmc/README.md, 3 Parameters). Bus:
 `single.hostport` (STMC-BUS). Commands and motion: `commands` in this folder and in `single` (STMC-ST, -CMD,
 -INI, -RD), `motion.motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS). Phases and chopper:
 `motion.excitation` (STMC-EXC, -CHP). Ramp: `motion.ramp` (STMC-RMP). `chip`, `clock` and `single.single`
@@ -20,7 +20,7 @@ from .codes import READ_MAPS
 from .commands import CommandUnit, Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
-# The table of 16-bit thresholds takes longer to build than that of the related parts.
+# Its table of 16-bit thresholds takes longer to build than the tables of related parts.
 LATENCY = Latency(build_base=2032, build_per_rate=144)
 
 
@@ -33,7 +33,7 @@ class FixedChopperTimes:
     quantum: int
 
     def quanta(self, on: bool) -> int:
-        """Return the length in quanta of a phase that begins now."""
+        """Return the length of a phase that begins now, in quanta."""
         return -(-(self.on if on else self.off) // self.quantum)
 
 
@@ -46,12 +46,12 @@ class Stmc(SingleAxis):
         timing: "FAST" or "DATASHEET".
         read_map: "FAMILY" or "SHEET".
         phase_idle: 0 or 1.
-        hold_xt: time until HOLD in crystal periods, at least 1.
+        hold_xt: time from the end of a motion to HOLD in crystal periods, at least 1.
         chop_on_xt: on-time of the chopper in crystal periods, at least 1.
         chop_off_xt: off-time of the chopper in crystal periods, at least 1.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     XTAL_MAX = 20_000_000

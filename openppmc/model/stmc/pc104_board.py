@@ -1,6 +1,4 @@
-"""Golden model of the J105 STMC board: bus, step clock and interrupt of the core.
-
-The board has an ISA slave and a step clock of 48.675 kHz.
+"""Golden model of the J105 STMC board: the core with an ISA slave and a step clock of 48.675 kHz.
 
 Rules J105-01..07. This module contains the logic between the core and the bus; the core is in `part`.
 """
@@ -31,14 +29,14 @@ WIDTHS: dict[str, int] = {"sa": 10, "sd_i": 8, "sd_o": 8, "s": 5, "drv": 4}
 class J105Stmc:
     """J105 board. Time and edges are those of the core.
 
-    The other arguments are those of the core; phase_idle does not exist.
+    The other arguments are those of the core, without phase_idle.
 
     Args:
         base_addr: even, 0..0x3FE.
         ext_hz: 1..clk_hz/4.
 
     Raises:
-        ValueError: another value.
+        ValueError: a value is out of range.
     """
 
     def __init__(
@@ -68,7 +66,7 @@ class J105Stmc:
         )
         self._base = base_addr
         self._pins = dict(INPUTS)
-        # The core sees the register of the accumulator one edge later.
+        # The core samples the register of the accumulator one edge later.
         self._lag = self.core.latency.reset_tick + 1
         self._square = Square(clk_hz, ext_hz, self._lag)
         self.log = EdgeLog(OUTPUTS)
@@ -79,12 +77,12 @@ class J105Stmc:
 
     @property
     def now(self) -> int:
-        """Last edge that was run, -1 before edge 0."""
+        """Last edge that was simulated, -1 before edge 0."""
         return self.core.now
 
     @property
     def next_event(self) -> int:
-        """Next edge with an event that needs no input change."""
+        """Edge of the next event that does not depend on an input change."""
         edges = [self._square.next_edge, *(at for at, _ in self._irq_pending)]
         event = self.core.next_event
         return min(edges if event is None else [*edges, event])
@@ -101,7 +99,10 @@ class J105Stmc:
     # ------------------------------------------------------------------ pins
 
     def pins(self, t: int, **levels: int) -> None:
-        """Set input levels that rising edge t samples first. Raises ValueError for an unknown pin."""
+        """Set input levels; edge t is the first edge that samples them.
+
+        Raises ValueError for an unknown pin.
+        """
         for pin in levels:
             if pin not in INPUTS:
                 raise ValueError(f"no input pin {pin!r}")
@@ -137,7 +138,7 @@ class J105Stmc:
         self.log.set(t, "sd_oe", int(bool(enabled)))
 
     def _follow(self) -> None:
-        """Pass new edges of the core to the pins of the board, in order of time."""
+        """Pass new output edges of the core to the pins of the board, in order of time."""
         new_edges = self.core.edges[self._edges_passed :]
         self._edges_passed += len(new_edges)
         for edge in new_edges:

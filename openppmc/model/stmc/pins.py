@@ -1,6 +1,6 @@
 """Pins of the STMC core with idle and reset levels (docs/stmc/README.md, 2 Pins).
 
-"mon" replaces the alarm of the other parts: low stops the motor (STMC-IN-05).
+"mon" replaces the alarm of other parts: a low level stops the motor (STMC-IN-05).
 """
 
 from __future__ import annotations

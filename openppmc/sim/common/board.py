@@ -30,11 +30,11 @@ class AxisStatus:
 
     Switches: True = active.
 
-    For an stmc, pulses counts steps, and alm is MON low.
+    For an stmc, `pulses` counts steps, and `alm` is True while MON is low.
 
     Attributes:
-        hold: True = at standstill for the hold time.
-        pulses: number since the start.
+        hold: True if the motor has been at standstill for the hold time.
+        pulses: number of pulses since the start of the board.
         phases: levels of S5 to S1.
     """
 
@@ -54,13 +54,13 @@ class AxisStatus:
 class Status(AxisStatus):
     """State of the board.
 
-    The fields of an axis belong to axis 1; `second` has those of axis 2, and `axes` those of each axis, axis
-    1 first.
+    The fields of AxisStatus are those of axis 1. `second` contains those of axis 2, and `axes` those of all
+    axes, axis 1 first.
 
     Attributes:
-        seconds, clk: board time.
-        factor: board time / wall time over the last half second.
-        asleep: True if nothing can change before the host sends, so nothing is computed.
+        seconds, clk: time of the board in s, and in cycles.
+        factor: board time divided by wall time, over the last half second.
+        asleep: True if no state can change before the host sends, so that the simulation is paused.
         open: True if a host has the port open, at `rate` bit/s.
         lost: bytes for the host that were discarded because the buffer was full.
         interrupt: True while int_n is low.
@@ -105,7 +105,7 @@ def _typed(kind: type[AxisStatus], values: dict[str, str]) -> dict[str, Any]:
 class Child:
     """Board in a separate process.
 
-    The process ends with `close`, with the end of the `with` block, or with this program.
+    `close`, the end of the `with` block and the end of this program end the process.
 
     Attributes:
         port: path of its pseudo-terminal.
@@ -114,7 +114,8 @@ class Child:
 
     def __init__(self, command: Sequence[str | Path], env: dict[str, str] | None = None) -> None:
         try:
-            # The program ends when its standard input closes, so also when this process is killed.
+            # The program ends when its standard input is closed, and therefore also when this process is
+            # killed.
             self.process = subprocess.Popen(
                 command,
                 env=env,
@@ -138,7 +139,7 @@ class Child:
 
     @property
     def running(self) -> bool:
-        """Whether the program is running."""
+        """True while the program is running."""
         return self.process.poll() is None
 
     def _ask_status(self, word: str = "status") -> str:
@@ -194,7 +195,7 @@ class SimBoard(Child):
         super().__init__([program, *spec.arguments()])
 
     def status(self) -> Status:
-        """Return the present state. Raise SimError if the program has ended."""
+        """Return the current state. Raise SimError if the program has ended."""
         return Status.parse(self._ask_status())
 
 
@@ -206,7 +207,7 @@ def start(spec: str = "", say: Callable[[str], None] | None = None, **options: o
 
     Args:
         spec: the text after `sim:`.
-        say: prints a line when a step takes long (default: on standard error).
+        say: prints a line if a step takes long (default: on standard error).
     """
     return SimBoard(parse_spec(spec, **options), say or to_stderr)
 

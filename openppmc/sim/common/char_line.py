@@ -13,11 +13,11 @@ from typing import Generic, Protocol, TypeVar
 BITS = 10
 _STOP_MIDDLE = 9.5
 _CLEAN = 0.25
-"""Bit times between equal characters of two stations that do not corrupt each other."""
+"""Largest distance in bit times at which equal characters of two stations do not corrupt each other."""
 
 
 class LineOptions(Protocol):
-    """Fields of a spec that the line itself needs."""
+    """Fields of a spec that the line itself uses."""
 
     @property
     def clk_hz(self) -> int:
@@ -25,11 +25,11 @@ class LineOptions(Protocol):
 
     @property
     def echo(self) -> bool:
-        """Whether the master receives its own characters."""
+        """True if the master receives its own characters."""
 
     @property
     def noise(self) -> int:
-        """One in this number of characters is corrupted, in both directions; 0: no noise."""
+        """Average number of characters, in both directions, of which one is corrupted; 0: no noise."""
 
     @property
     def seed(self) -> int:
@@ -65,7 +65,7 @@ class LineStation(ABC, Generic[H]):
     """Station on a line.
 
     Attributes:
-        number: its initial address.
+        number: initial address of the station.
     """
 
     part: H
@@ -83,7 +83,7 @@ class LineStation(ABC, Generic[H]):
 
     @property
     def moving(self) -> bool:
-        """Whether the state changes soon without input: time must advance in small steps."""
+        """True if the state will change soon without input, so that time must advance in small steps."""
         event = self.part.next_event
         return event is not None and event < self.part.now + self.clk_hz // 50
 
@@ -100,7 +100,7 @@ class LineStation(ABC, Generic[H]):
 
 
 class SimulatedStation(Protocol):
-    """Station that a line simulates; `Carrier` and `LineStation` together implement it."""
+    """Station that a line simulates. `Carrier` and `LineStation` together implement this protocol."""
 
     number: int
     t: int
@@ -121,11 +121,11 @@ S = TypeVar("S", bound=SimulatedStation)
 class CharLine(Generic[S]):
     """Line with its stations.
 
-    The time of stations that are not in `listeners` may be less than t until `settle` is called. This has no
-    visible effect, because the stations have no common wires except the line.
+    Until `settle` is called, stations that are not in `listeners` may be simulated up to an earlier time than
+    t. This has no visible effect, because the line is the only connection of the stations.
 
     Args:
-        bit: cycles of a bit, not necessarily a whole number.
+        bit: duration of a bit in cycles, which may be a fraction.
 
     Attributes:
         t: time of the line in cycles.
@@ -151,7 +151,7 @@ class CharLine(Generic[S]):
         return next(one for one in self.stations if one.number == number)
 
     def select_listeners(self, byte: int) -> None:
-        """Set `listeners`, the stations that receive this character of the master."""
+        """Set `listeners` to the stations that receive this character of the master."""
 
     # ------------------------------------------------------------------ time
 
@@ -170,7 +170,7 @@ class CharLine(Generic[S]):
             one.run_until(self.t)
 
     def run_seconds(self, seconds: float) -> None:
-        """Advance by a time in s; if a character arrives, stop after its character time."""
+        """Advance by a time in s; if a character arrives at the master, stop at its end."""
         end = self.t + max(1, round(seconds * self.spec.clk_hz))
         step = round(BITS * self.bit)
         while self.t < end and not self._waiting:
@@ -179,7 +179,7 @@ class CharLine(Generic[S]):
     # ------------------------------------------------------------------ bytes
 
     def write(self, data: bytes) -> None:
-        """Send characters of the master back to back, now or after those being sent."""
+        """Send characters of the master without gaps, after those that are still being sent."""
         begin = max(self.t, self._free)
         for place, byte in enumerate(data):
             if self.spec.echo:
@@ -203,7 +203,7 @@ class CharLine(Generic[S]):
         return data
 
     def _deliver(self, received: Iterable[tuple[int, int]]) -> None:
-        """Deliver characters to the master; characters at the same time corrupt each other."""
+        """Deliver characters to the master. Characters that overlap in time corrupt each other."""
         last, value = -(1 << 62), 0
         for t, byte in received:
             apart = (t - last) / self.bit
@@ -218,7 +218,7 @@ class CharLine(Generic[S]):
                 self._waiting.append(changed)
 
     def _with_noise(self, byte: int) -> int | None:
-        """Return a character as received: unchanged, with a wrong bit, or None if it is lost."""
+        """Return a character as it is received: unchanged, with a wrong bit, or None if it is lost."""
         if not self.spec.noise or self._random.randrange(self.spec.noise):
             return byte
         bit = self._random.randrange(9)

@@ -1,4 +1,4 @@
-"""Virtual lines with stations: text (`word=value`, for station N `wordN=value`), process."""
+"""Virtual lines with stations: their text (`word=value`, for station N `wordN=value`) and process."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def split_words(
     Args:
         stations: words that may have the number of a station.
         options: words of the line.
-        number: returns the number of a station from the item and the digits.
+        number: function that returns the number of a station from the item and its digits.
     """
     words = Words()
     numbered = re.compile(rf"({'|'.join(stations)})(\d+)$")
@@ -67,14 +67,14 @@ def one_of(word: str, value: str, known: Sequence[str]) -> str:
 
 
 def whole(word: str, text: str, low: int, high: int) -> int:
-    """Return the text as a whole number. Raise ValueError unless it is one from low to high."""
+    """Return the text as a whole number from low to high. Raise ValueError for any other text."""
     if not text.isdigit() or not low <= int(text) <= high:
         raise ValueError(f"{word}={text}: expected {low} to {high}")
     return int(text)
 
 
 def positive(word: str, text: str) -> float:
-    """Return the text as a number. Raise ValueError unless it is above 0."""
+    """Return the text as a number above 0. Raise ValueError for any other text."""
     try:
         value = float(text)
     except ValueError:
@@ -94,7 +94,7 @@ class StationStatus:
     """State of a station: number, position of the motor, state.
 
     Attributes:
-        inputs, outputs: levels, number 1 last; empty for a station without general inputs and outputs.
+        inputs, outputs: levels, with number 1 last; empty if the station has no general inputs and outputs.
     """
 
     number: int
@@ -120,7 +120,7 @@ class LineStatus:
 
     Attributes:
         seconds: time of the line.
-        factor: time of the line / wall time, recent value.
+        factor: recent time of the line divided by wall time.
         lost: characters for the host that were discarded because the buffer was full.
     """
 
@@ -153,9 +153,8 @@ class SimLine(Child):
     """Virtual line with the RTL of its stations; see `Child`.
 
     Args:
-        part: part of the stations if the text names no part; default: the first part that is connected to a
-            line.
-        say: prints a line when a step takes long (default: on standard error).
+        part: part of the stations if the text names no part; by default, the first part with a line.
+        say: prints a line if a step takes long (default: on standard error).
 
     Attributes:
         spec: the requested line.
@@ -179,7 +178,7 @@ class SimLine(Child):
                 False,
                 say or to_stderr,
             )
-            # The program has read its files when it reports its port.
+            # When the program reports its port, it has already read its files.
             super().__init__([program, *arguments, *self._common_arguments()])
 
     def _common_arguments(self) -> list[str]:
@@ -190,7 +189,7 @@ class SimLine(Child):
         return [f"speed={spec.speed or 0}", *words, *unplug]
 
     def status(self) -> LineStatus:
-        """Return the present state. Raise SimError if the program has ended."""
+        """Return the current state. Raise SimError if the program has ended."""
         return LineStatus.parse(self._ask_status())
 
     def set_inputs(self, number: int, levels: str) -> LineStatus:
@@ -204,8 +203,7 @@ def start_line(text: str = "", part: str = "") -> SimLine:
     Raises SpecError (a ValueError) for an invalid text, SimError (a RuntimeError) if the line does not start.
 
     Args:
-        part: part of the stations if the text names no part; default: the first part that is connected to a
-            line.
+        part: part of the stations if the text names no part; by default, the first part with a line.
     """
     return SimLine(text, part)
 
@@ -214,14 +212,14 @@ class StationState(Protocol):
     """Station for a server.
 
     Attributes:
-        number: its initial address.
+        number: initial address of the station.
     """
 
     number: int
 
     @property
     def moving(self) -> bool:
-        """Whether the state changes soon without input: time must advance in small steps."""
+        """True if the state will change soon without input, so that time must advance in small steps."""
 
     def status_text(self) -> str:
         """Return the state in the format of `StationStatus`."""
@@ -242,7 +240,7 @@ class VirtualLine(Protocol):
         """Virtual time in s."""
 
     def run_seconds(self, seconds: float) -> None:
-        """Advance by a time in s; stop earlier if a character arrives."""
+        """Advance by a time in s; stop earlier if a character arrives at the master."""
 
     def settle(self) -> None:
         """Simulate all stations up to the time of the line."""
@@ -255,7 +253,7 @@ class VirtualLine(Protocol):
 
 
 class LineSpec(LineOptions, Protocol):
-    """Fields of a requested line that a server needs."""
+    """Fields of a requested line that a server uses."""
 
     @property
     def rate(self) -> float:
@@ -263,11 +261,11 @@ class LineSpec(LineOptions, Protocol):
 
     @property
     def speed(self) -> float | None:
-        """Multiple of real time; None: as fast as possible."""
+        """Speed as a multiple of real time; None: as fast as possible."""
 
     @property
     def unplug(self) -> float:
-        """Seconds after which the port disappears."""
+        """Time in s after which the port disappears."""
 
 
 S = TypeVar("S", bound=LineSpec)
@@ -277,14 +275,14 @@ S = TypeVar("S", bound=LineSpec)
 class LineCapabilities(Generic[S]):
     """Functions and texts for the lines of a part.
 
-    For the RTL: `parameters` returns the parameters of its `line_node`, including CLK_HZ. `arguments` returns
-    the arguments of the program in tb/line; it may write files into the folder, and raises ValueError for an
-    unusable file.
+    For the RTL, `parameters` returns the parameters of the `line_node` of the part, including CLK_HZ.
+    `arguments` returns the arguments of the program in tb/line; it may write files into the folder, and
+    raises ValueError if a file is unusable.
 
     Attributes:
         parse: returns the spec of a text; raises ValueError if the text is invalid.
         at_rate: returns the text for a host with this line rate.
-        known: list of the accepted words, as text.
+        known: text that lists the accepted words.
         make: returns the modelled line of a spec.
         sources: sources of the node in addition to the carrier, relative to tb/.
     """
@@ -310,7 +308,7 @@ def line_kind(part: str) -> LineCapabilities[LineSpec]:
 
 
 def part_of(text: str) -> str | None:
-    """Return the part whose line the text of a board requests; None without a line.
+    """Return the part if the text of a board requests a line with stations, else None.
 
     >>> part_of("start=3, part=ppmc312-serial"), part_of("part=ppmc312")
     ('ppmc312-serial', None)

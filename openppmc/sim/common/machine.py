@@ -1,7 +1,7 @@
 """Machine model of a motor controller as a text: `start=4000,cw=40000,alarm=100..200`.
 
 The virtual board and the golden model use the same text. Words of axis 2 end in 2 (`cw2=30000`), and so on.
-The module that the table of parts names for a part defines the differences of the part.
+The column `machine` of the table of parts names a module that defines the differences of a part.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ...model.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")
-"""Words for a machine with an encoder only."""
+"""Words that only a machine with an encoder has."""
 _OF_AXIS = re.compile(r"([a-z_]+?)([2-9]|[1-9][0-9])")
 
 
@@ -44,15 +44,15 @@ class MachineKind:
     """Machine model of a part that is accessed through the UART bridge.
 
     Attributes:
-        called: name of the part in messages.
-        carrier: creates its modelled carrier.
-        axes: number of axes, unless the part has a word `axes`.
+        called: name of the part for messages.
+        carrier: function that creates the carrier model of the part.
+        axes: number of axes; the word `axes`, if the part has it, overrides this number.
         plant: default positions of the switches.
         encoder: True if the machine has an encoder.
-        own: words that only this part has, with their values, the default first.
+        own: words that only this part has, with their possible values; the default is first.
         xtal_max: highest crystal frequency in Hz.
         alarm: name of the alarm switch.
-        check: raises ValueError for an impossible set-up.
+        check: function that raises ValueError for an impossible set-up.
         timed: True if the part has the parameter TIMING.
         counters: True if the carrier counts pulses.
     """
@@ -109,7 +109,7 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     Raises ValueError with the offending word.
 
     Args:
-        known: words of the caller, which no part has.
+        known: further words that the caller accepts, and that no part has.
     """
     words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}
@@ -149,7 +149,7 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
 
 
 def _first(condition: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
-    """Return the first part with such a machine."""
+    """Return the first part that has a machine model."""
     kinds = ((part, machine_kind(part)) for part in machine_parts())
     return next((part, kind) for part, kind in kinds if condition(kind))
 
@@ -180,7 +180,7 @@ def _plant(plant: Plant, words: Mapping[str, int | tuple[int, int]]) -> Plant:
 
 
 def _plant_fields(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]:
-    """Return the fields of a plant for a word."""
+    """Return the fields of a plant that a word sets."""
     if name == "alarm":
         return {name: _span(word, value)}
     if name == "origin":

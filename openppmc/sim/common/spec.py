@@ -1,4 +1,7 @@
-"""Text after `sim:`: plant words and options of the virtual board, checked before a build."""
+"""Text after `sim:`: words of the plant, and options of the virtual board.
+
+They are checked before a build.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
 
 
 def suffixes() -> Iterator[str]:
-    """Yield the endings of the words of each axis."""
+    """Yield the suffix of the words of each axis."""
     return ("" if number == 1 else str(number) for number in count(1))
 
 
@@ -26,7 +29,7 @@ def known_words() -> str:
 
 
 class SpecError(ValueError):
-    """The text of a virtual board is wrong; the message is one line with the known words."""
+    """The text of a virtual board is invalid; the message is one line that lists the known words."""
 
 
 @dataclass(frozen=True)
@@ -34,16 +37,16 @@ class Spec:
     """Requested virtual board.
 
     Attributes:
-        part: a part with the UART bridge.
+        part: name of a part that is accessed through the UART bridge.
         plants: one for each axis.
-        speed: multiple of real time; None: as fast as the computer can.
+        speed: multiple of real time; None: as fast as possible.
         clk_hz: clock of the board, 8e6 … 200e6 Hz (real time is not possible far above 8e6).
         xtal_hz: crystal of the emulated chip, 1e6 Hz or more.
         timing: FAST or DATASHEET.
         record: the recorder stores 2**record records of the pins; 0: no recorder.
-        own: values of words that only this part has; each one is a parameter of its top module.
+        own: values of words that only this part has. Each word sets a parameter of the top module.
         vcd: waveform file or None; vcd_from and vcd_for are in ms of board time.
-        log: file to which each pulse writes a line, or None.
+        log: file that receives a line for each pulse, or None.
     """
 
     part: str = "ppmc104"
@@ -87,7 +90,10 @@ class Spec:
 
 
 def parse_spec(text: str = "", **options: object) -> Spec:
-    """Parse `word=value,word=value`; options have priority over the text. Raise SpecError."""
+    """Parse `word=value,word=value`; options have priority over the text.
+
+    Raise SpecError if a value is invalid.
+    """
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
         machine = parse_machine(",".join(words), (*OPTIONS, *FILES))

@@ -2,7 +2,7 @@
 
 The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end applies to the
 controller with that address; a word without a number applies to all. The EEPROM is modelled byte by byte,
-because a simulation bit by bit would need most of the time.
+because a simulation of each bit would take most of the run time.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Eeprom:
     """Model of an EEPROM.
 
     Args:
-        content: bytes from address 0; the rest is blank.
+        content: bytes from address 0; all other bytes are blank.
         file: the content is stored here after each write.
         missing: True if no EEPROM is connected.
 
@@ -44,7 +44,7 @@ class Eeprom:
         self._sent: list[int] = []
 
     def start(self) -> None:
-        """Begin a transfer; an address that was already sent stays valid for reading."""
+        """Begin a transfer. An address that was sent before remains valid for a read."""
         self._sent = []
 
     def take(self, byte: int) -> None:
@@ -60,7 +60,7 @@ class Eeprom:
         return byte
 
     def stop(self) -> None:
-        """End the transfer: write the data bytes that followed the address."""
+        """End the transfer, and write the data bytes that followed the address."""
         data, self._sent = self._sent[3:], []
         for place, byte in enumerate(data):
             self.memory[self._address & -PAGE | self._address + place & PAGE - 1] = byte
@@ -71,14 +71,14 @@ class Eeprom:
 
 
 class QuickBus(Bus):
-    """Bus interface of the controller that transfers a byte in a quarter of a bit time."""
+    """Bus interface of the controller. It transfers a whole byte in a quarter of a bit time."""
 
     def __init__(self, eeprom: Eeprom, services: Services, levels: Mapping[str, int], hz: int) -> None:
         super().__init__(services, levels, hz)
         self._eeprom = eeprom
 
     def release(self) -> None:
-        """Do nothing: this bus has no wires."""
+        """Do nothing, because this bus has no wires."""
 
     def start(self) -> BusSequence[None]:
         yield
@@ -104,7 +104,10 @@ PART = "pmc006"
 FACTORY, LAST = 255, 120
 FARTHEST = 1 << 27
 UNIT = 16
-"""Positions in the text are in 1/16 full steps, the steps of a factory-new controller."""
+"""Number of units in a full step.
+
+Positions in the text are in 1/16 full steps, the steps of a factory-new controller.
+"""
 OWN = ("start", "low", "high", "gpi", "eeprom", "program")
 OPTIONS = ("part", "address", "twin", "baud", "ack", "echo", "noise", "seed", "speed", "clk", "unplug")
 KNOWN = ", ".join((*(f"{word}[N]" for word in OWN), *OPTIONS))
@@ -116,14 +119,16 @@ class MechanicalLoad:
 
     Positions are in 1/16 full steps, forward positive.
 
-    EXT1 is at level 0 at and below `low`, EXT2 at and above `high`.
+    EXT1 is 0 at positions <= `low`, EXT2 is 0 at positions >= `high`.
 
     Attributes:
         start: initial position.
         gpi: levels of GPI5 to GPI1.
-        eeprom: file with the content of the EEPROM; None: the EEPROM is new each time and has the address.
+        eeprom: file with the content of the EEPROM; None: the EEPROM is new each time, and contains only the
+            address.
         no_eeprom: True if no EEPROM is connected.
-        program: text that is assembled into the EEPROM and starts after power-up, or None.
+        program: file with the text of a program that is stored in the EEPROM and starts after power-up, or
+            None.
     """
 
     start: int = 4000
@@ -145,13 +150,13 @@ class LineSpec:
 
     Attributes:
         loads: one for each controller, by its address.
-        twin: address that a second controller also has, or None.
+        twin: address that two controllers have, or None.
         baud: line rate in bit/s.
         step_ack: MANUAL or ECHO.
         echo: True if the master receives its own characters.
-        noise: one in this number of characters is corrupted, in both directions; 0: no noise.
+        noise: average number of characters, in both directions, of which one is corrupted; 0: no noise.
         speed: multiple of real time; None: as fast as possible.
-        unplug: seconds after which the port disappears.
+        unplug: time in s after which the port disappears.
     """
 
     loads: dict[int, MechanicalLoad] = field(default_factory=lambda: {FACTORY: MechanicalLoad()})
@@ -172,7 +177,7 @@ class LineSpec:
 
 
 def at_rate(text: str, rate: int) -> str:
-    """Return the text with the rate of a host added, unless it names a rate.
+    """Return the text with the line rate of the host appended, unless it names a rate.
 
     >>> at_rate("address=5", 19200)
     'address=5,baud=19200'
@@ -261,7 +266,7 @@ def _position(word: str, text: str) -> int:
 
 
 def _levels(text: str) -> int:
-    """Parse the levels of GPI5 to GPI1. Raise ValueError."""
+    """Parse the levels of GPI5 to GPI1. Raise ValueError for any other text."""
     if len(text) != 5 or set(text) - {"0", "1"}:
         raise ValueError(f"gpi={text}: not five levels; write GPI5 to GPI1, as 11111")
     return int(text, 2)
@@ -275,13 +280,13 @@ def _file(word: str, text: str, must_exist: bool) -> Path:
 
 
 FULL_STEP = 128
-"""Finest microsteps in a full step."""
+"""Largest number of microsteps in a full step."""
 
 
 def first_content(address: int, load: MechanicalLoad) -> bytes:
-    """Return the initial content of an EEPROM; it is empty for a factory-new controller.
+    """Return the initial content of an EEPROM, which is empty for a factory-new controller.
 
-    Raises ValueError for a file of the wrong size, AssemblyError for an error in the program.
+    Raises ValueError if the file has the wrong size, AssemblyError if the program is invalid.
     """
     if load.eeprom is not None and load.eeprom.is_file():
         content = load.eeprom.read_bytes()
@@ -298,7 +303,7 @@ def first_content(address: int, load: MechanicalLoad) -> bytes:
 
 
 class Part(Pmc006):
-    """Golden model with an EEPROM that it accesses byte by byte."""
+    """Golden model that accesses its EEPROM byte by byte."""
 
     def __init__(self, eeprom: Eeprom, spec: LineSpec, gpi: int) -> None:
         self._eeprom = eeprom
@@ -311,11 +316,11 @@ class Part(Pmc006):
 class Node(Carrier[Part], LineStation[Part]):
     """Controller with its mechanical load, after boot.
 
-    `position` is that of the load in 1/16 full steps; the part itself counts steps. The switches are
-    optical: they do not bounce.
+    `position` is that of the load in 1/16 full steps; the part itself counts steps. The switches do not
+    bounce.
 
     Args:
-        number: its initial address.
+        number: initial address of the controller.
     """
 
     def __init__(self, load: MechanicalLoad, number: int, spec: LineSpec) -> None:
@@ -333,7 +338,7 @@ class Node(Carrier[Part], LineStation[Part]):
         return levels[0]
 
     def straps(self, levels: int) -> None:
-        """Do nothing: the part has no straps."""
+        """Do nothing, because the part has no straps."""
 
     def pins(self) -> int:
         return 0
@@ -391,7 +396,7 @@ def parameters(spec: LineSpec) -> dict[str, int | str]:
 def arguments(spec: LineSpec, files: Path) -> list[str]:
     """Return the arguments of the program in tb/line with tb/pmc006/line/node.h.
 
-    Raises ValueError for an unusable file.
+    Raises ValueError if a file is unusable.
 
     Args:
         files: folder into which the contents of the EEPROMs are written.

@@ -1,9 +1,9 @@
 """Up to sixteen PPMC-312 with their motors on one line: RTL, or models in virtual time.
 
 The text is `stations=4,start=2000,alarm3=100..200,speed=max`. A word of the plant with a number at its end
-applies to that station; a word without a number applies to all stations. The characters after a control code
-are delivered only to the models that the code addresses. All other stations would ignore them, so idle
-stations need no computing time.
+applies to the station with this number; a word without a number applies to all stations. The characters after
+a control code are delivered only to the models that the code addresses. All other stations would ignore them,
+and thus they need no computing time.
 """
 
 from __future__ import annotations
@@ -48,13 +48,13 @@ class LineSpec:
 
     Attributes:
         plants: one for each station, by its number.
-        twin: (number, plant) of a second station with the number of another station, or None.
+        twin: (number, plant) of an additional station with the number of another station, or None.
         baud: line rate in bit/s with a 16 MHz crystal.
         sum_mode: BINARY or CHARS.
         echo: True if the master receives its own characters.
-        noise: one in this number of characters is corrupted, in both directions; 0: no noise.
+        noise: average number of characters, in both directions, of which one is corrupted; 0: no noise.
         speed: multiple of real time; None: as fast as possible.
-        unplug: seconds after which the port disappears.
+        unplug: time in s after which the port disappears.
     """
 
     plants: dict[int, Plant]
@@ -77,9 +77,12 @@ class LineSpec:
 
 
 def at_rate(text: str, rate: int) -> str:
-    """Return the text with the speed for a host added, unless it names a speed.
+    """Return the text with the speed for a host appended, unless it names a speed.
 
-    rate: line rate of the host in bit/s. Raises ValueError.
+    Raises ValueError if no speed matches the rate.
+
+    Args:
+        rate: line rate of the host in bit/s.
 
     >>> at_rate("stations=2,xtal=8000000", 9600)
     'stations=2,xtal=8000000,baud=19200'
@@ -140,7 +143,7 @@ def _twin(
 
 
 def _numbers(text: str) -> range:
-    """Parse `4` as 0 to 3, `3..5` as 3 to 5. Raise ValueError."""
+    """Parse `4` as 0 to 3, `3..5` as 3 to 5. Raise ValueError for any other text."""
     first, dots, last = text.partition("..")
     try:
         numbers = range(int(first), int(last) + 1) if dots else range(int(first))
@@ -175,7 +178,7 @@ class Station(Carrier, LineStation[Ppmc312]):
 
 
 class StationLine(CharLine[Station]):
-    """Line; only the station that was addressed last is simulated together with it."""
+    """Line. Only the station that was addressed last is simulated together with the line."""
 
     def __init__(self, spec: LineSpec) -> None:
         numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]

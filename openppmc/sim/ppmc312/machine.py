@@ -1,6 +1,6 @@
 """Machine model of a PPMC-312: the motor has an encoder.
 
-The origin is a cam well inside the limits, as the zero return of the PPMC-312 requires.
+The origin is a cam at a distance from the limits, as the zero return of the PPMC-312 requires.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ def test_a_script(run: Run, tmp_path: Path) -> None:
         (("move", "5", "--external-clock", "100000"), "external clock: a PPMC bank does not have that", 1),
         (("move", "9", "50000", "10"), "axis 2: slow-down limit ended the motion at position", 1),
         (("stop",), "nothing to stop", 1),
-        (("stop", "--now"), "nothing to stop: all axes are at rest", 1),
+        (("stop", "--now"), "nothing to stop: no axis is moving", 1),
         (("stop", "--axis", "2", "--now"), "axis 2: nothing to stop", 1),
         (("--port", PORT + ",timing=DATASHEET", "info"), "timing=DATASHEET: a bank is always FAST", 1),
         (("--port", PORT + ",clk=9000000", "info"), "clk=9000000: 4 * clk must be a multiple of xtal", 1),

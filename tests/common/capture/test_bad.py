@@ -145,7 +145,7 @@ def test_cut_files(tmp_path: Path) -> None:
         ("a.txt", "x", "captures end in .vcd, .csv, .sr"),
         ("a.csv", "", "there is nothing in it"),
         ("a.csv", "Name,Value\nx,1\n", "neither a column of times nor a sample rate"),
-        ("a.csv", "Time [s],A,A\n0,1,1\n", "two channels of the same name"),
+        ("a.csv", "Time [s],A,A\n0,1,1\n", "two channels have the name"),
         ("a.csv", "Time [s],A\n0,1\n1,1\n", "no level ever changes"),
         ("a.csv", "Time [s],A\n0,1\n1,0.53\n", "digital channels only"),
         ("a.sr", "nothing", "no sigrok file"),

@@ -350,7 +350,7 @@ def test_home_finds_the_same_place_from_everywhere(start: int, how: dict[str, bo
 
 def test_home_towards_a_switch_that_is_not_there() -> None:
     with board("origin=-5000", start_pps=2000) as axis:
-        with pytest.raises(OriginNotFound, match="limit switch came before the origin") as caught:
+        with pytest.raises(OriginNotFound, match="limit switch was reached before the origin") as caught:
             axis.home(CCW)
         assert caught.value.result.cause is Cause.LIMIT
 

@@ -389,7 +389,7 @@ def test_home_finds_one_place(start: int, way: dict[str, bool]) -> None:
     """
     with board(f"start={start},cw=4200,slow_cw=4100,ccw=-900,slow_ccw=-600") as part:
         if start < -50 and "to_limit" not in way:
-            with pytest.raises(OriginNotFound, match="limit switch came before the origin"):
+            with pytest.raises(OriginNotFound, match="limit switch was reached before the origin"):
                 part.home(**way)
             return
         end = part.home(**way)

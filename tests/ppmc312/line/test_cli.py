@@ -128,7 +128,7 @@ def test_init_stop_reset(run: Run, tmp_path: Path) -> None:
         (("--line", "sum=odd", "scan"), "--line 'sum=odd': there are echo, rs485"),
         (("--line", "patience=x", "scan"), "--line patience=x: not a number"),
         (("--line", "patience=100", "scan"), "patience 100 s is outside"),
-        (("--line", "echo", "scan"), "does not hear its own bytes"),
+        (("--line", "echo", "scan"), "does not receive its own bytes"),
         (("--port", "/dev/none", "scan"), "no such port"),
         (("--port", "model:stations=0", "scan"), "a number from 1 to 16"),
         (("--port", "", "scan"), "no port given"),

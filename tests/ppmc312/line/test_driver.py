@@ -137,7 +137,7 @@ def test_homing() -> None:
         for how in ({}, {"fast": True}, {"index": True}):
             assert axis.home(CCW, **how).cause is Cause.ORIGIN and axis.position == 0
             axis.move(60)
-        with pytest.raises(OriginNotFound, match="limit switch came before the origin"):
+        with pytest.raises(OriginNotFound, match="limit switch was reached before the origin"):
             axis.home(CW, search_pps=8000)
 
 

@@ -440,5 +440,5 @@ def test_echo() -> None:
     with pytest.raises(LineEcho, match="hears its own bytes: say so"):
         axis.version()
     port, axis = station(option=True)
-    with pytest.raises(LineEcho, match="does not hear its own bytes"):
+    with pytest.raises(LineEcho, match="does not receive its own bytes"):
         axis.version()

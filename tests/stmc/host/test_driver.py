@@ -309,7 +309,7 @@ def test_limits() -> None:
         with pytest.raises(LimitReached) as caught:
             axis.step(CW)
         assert (caught.value.result.pulses, caught.value.result.remaining) == (0, 1)
-        with pytest.raises(OriginNotFound, match="a limit switch came before the origin"):
+        with pytest.raises(OriginNotFound, match="a limit switch was reached before the origin"):
             axis.home(CW)
         assert axis.move(-50).pulses == -50, "away from the switch is free"
 

@@ -1,4 +1,4 @@
-"""Script files on a line of PPMC-312: the words of a board; each line names its station."""
+"""Script files on a line of PPMC-312. They have the words of a board, and each line names its station."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ from .session import Session, opened
 
 
 class LinePresenter:
-    """The methods of a presenter that a script needs, for stations."""
+    """Methods of a presenter that a script uses, for stations."""
 
     def busy(self, part: Ppmc312Bus, axes: Sequence[Station312]) -> tuple[Station312, ...]:
         """Return the stations that are moving."""
         return tuple(axis for axis in axes if axis.busy_now())
 
     def reports(self, part: Ppmc312Bus, tell: Callable[[str], None]) -> None:
-        """Pass the reports of the stations to `tell`. Raise the first error among them."""
+        """Print the reports of the stations. Raise the first error among them."""
         show.reports(part.axes, tell)
 
 
 class LineSession:
-    """Line for a script; its stations are the axes.
+    """Line as the target of a script. Its stations are the axes.
 
     Args:
         used: stations that the script names.
@@ -66,14 +66,14 @@ class LineSession:
         return self.part.axis(number)
 
     def selected_axes(self, number: int | None) -> Sequence[Any]:
-        """Return the station with this number; for None all stations of the script."""
+        """Return the station with this number, all stations of the script for None."""
         return [self.axis(one) for one in ([number] if number is not None else self.used)]
 
 
 def check_line(steps: Iterable[Step], name: str) -> None:
     """Raise ScriptError for steps that a line does not support.
 
-    These are a motion without a station, two numbers for both axes, and words of one part.
+    These are motions that name no station, moves of two axes, and words of other parts.
     """
     for step in steps:
         where = f"{name}:{step.line}: "
@@ -113,5 +113,5 @@ def script(
 
 
 def _names(steps: Iterable[Step], number: int) -> bool:
-    """Return whether a line of the script names this station."""
+    """Return True if a line of the script names this station."""
     return any(step.axis == number or _names(step.body, number) for step in steps)

@@ -1,4 +1,4 @@
-"""A line of PPMC-312 during a command."""
+"""Line of PPMC-312 that a command has opened."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from ...common.session import Guard
 
 
 def parse_stations(text: str) -> list[int]:
-    """Parse `3`, `0,2,5` or `0-7`, in the order given. Raise BadParameter."""
+    """Parse `3`, `0,2,5` or `0-7`; keep the order. Raise BadParameter for any other text."""
     last = STATIONS - 1
     return parse_numbers("--axis", text, range(STATIONS), f"stations have numbers from 0 to {last}", "0-7")
 
 
 def line_options(text: str) -> dict[str, Any]:
-    """Return arguments of `Ppmc312Bus.open` from the text of --line. Raise BadParameter."""
+    """Return arguments of `Ppmc312Bus.open` from the text of --line. Raise BadParameter if it is invalid."""
     options = line_session.line_options(text, LINE_WORDS)
     if "sum_mode" in options:
         options["sum_mode"] = SumMode(options["sum_mode"])
@@ -38,7 +38,7 @@ class Session:
     guard: Guard
 
     def selected_axes(self, text: str | None) -> list[Station312]:
-        """Return the stations that --axis names, which must reply; without it, all that reply."""
+        """Return the stations that --axis names, which must reply; without --axis, all that reply."""
         if text is not None:
             numbers = parse_stations(text)
             self.bus.check(numbers)
@@ -59,7 +59,7 @@ class Session:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the line; a signal stops the motors and ends with status 128 + n."""
+    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
     options = line_options(BOARD.line)
     if BOARD.baud is not None:
         options["speed"] = BOARD.baud

@@ -55,7 +55,7 @@ def found_values(found: Iterable[ScanResult]) -> list[dict[str, Any]]:
 
 
 def status_values(axis: Station312) -> dict[str, Any]:
-    """Return all values that may be read at any time, and the error counters of the line."""
+    """Return the values that may be read at any time, and the error counters of the line."""
     return {**axis_values(axis), "line": asdict(axis.counters)}
 
 
@@ -93,7 +93,7 @@ def status_line(axis: Station312) -> str:
 
 
 def no_station_message(port: str) -> str:
-    """Return the message for a line without a reply."""
+    """Return the message for a line on which no station replies."""
     return f"{port}: no station replies; check power, speed (MOD, --baud), MODE and the two wires"
 
 

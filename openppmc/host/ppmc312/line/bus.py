@@ -34,11 +34,11 @@ class ScanResult:
     """Station found by `scan`.
 
     Attributes:
-        version, status, position: `None` if the replies are corrupt.
+        version, status, position: state of the station; `None` if the replies are corrupt.
         errors: error counters of the station, which the scan has cleared; `None` if they could not be read
-            (motion, alarm).
+            because of a motion or an alarm.
         counters: counters of the master.
-        problem: the problem, empty if there is no problem.
+        problem: description of a problem, or an empty text.
     """
 
     station: int
@@ -67,7 +67,7 @@ class Ppmc312Bus(LineBus[Line, Station312]):
         patience: float = PATIENCE,
         xtal_hz: int = XTAL_HZ,
     ) -> Ppmc312Bus:
-        """Open a port; the arguments are those of `line.Line`. It sends nothing."""
+        """Open a port without sending anything; the arguments are those of `line.Line`."""
         return cls(Line(spec, speed, sum_mode, echo, rs485, patience, xtal_hz))
 
     def _make_station(self, station: int) -> Station312:
@@ -83,9 +83,8 @@ class Ppmc312Bus(LineBus[Line, Station312]):
     ) -> list[ScanResult]:
         """Return the stations of the line.
 
-        An address without a station takes twice the time `patience`.
-
-        The scan reads and clears the error counters of stopped stations.
+        For each address without a station, the scan waits for twice the time `patience`. The scan reads and
+        clears the error counters of stations whose motor is stopped.
 
         Args:
             progress: called with each number before it is polled.
@@ -124,7 +123,7 @@ class Ppmc312Bus(LineBus[Line, Station312]):
     def check(self, stations: Iterable[int]) -> None:
         """Check that all these stations reply.
 
-        Raises StationNotResponding, or DuplicateAddress after corrupt replies only.
+        Raises StationNotResponding without a reply, and DuplicateAddress if all replies are corrupt.
         """
         for number in stations:
             one = self._probe(self.axis(number))

@@ -1,6 +1,6 @@
 """Line with PPMC-312 in serial mode.
 
-The line transfers one frame and its reply, counts faults, and repeats nothing.
+`Line` transfers one frame and its reply, and counts faults. It does not repeat frames.
 """
 
 # ruff: noqa: N818
@@ -88,7 +88,7 @@ class Error(IntEnum):
 _SERIAL_PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
     Code.INITIAL: (
         TableRefused,
-        "the part refuses this table: its speeds are too close, or its ramp too short",
+        "the part refuses this table: the speeds are too close, or the ramp is too short",
     ),
     **dict.fromkeys(
         (Code.RAMP, Code.CONSTANT),
@@ -104,11 +104,11 @@ _STOPPING = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
 
 
 def serial_command_error(prefix: str, code: int, error: int, state: int | None = None) -> CommandRefused:
-    """Return the exception for error code `error` of a reply.
+    """Return the exception for an error code in a reply.
 
     Args:
         prefix: prefix of the message.
-        code: code of the instruction on the parallel bus.
+        code: code that the instruction has on the parallel bus.
         state: condition of the part, read after error 43.
 
     >>> str(serial_command_error("station 3: ", 0x82, 0x43, 0x10))
@@ -118,7 +118,9 @@ def serial_command_error(prefix: str, code: int, error: int, state: int | None =
     """
     kind: type[CommandRefused]
     if error == Error.PARAMETER:
-        kind, text = _SERIAL_PARAMETERS.get(code, (ParameterRefused, "the part refuses a value of this"))
+        kind, text = _SERIAL_PARAMETERS.get(
+            code, (ParameterRefused, "the part refuses a value of this instruction")
+        )
     elif error == Error.STATUS:
         if state == State.NOR and code not in _STOPPING:
             kind, text = AxisBusy, "the part was busy with a motion: try again"
@@ -136,7 +138,7 @@ def serial_command_error(prefix: str, code: int, error: int, state: int | None =
             "all places are taken, or the event is in use by an override or buffer",
         )
     else:
-        kind, text = CommandRefused, f"the part refuses this (error {error:02X})"
+        kind, text = CommandRefused, f"the part refuses this instruction (error {error:02X})"
     return kind(error, prefix + (text or kind.text))
 
 
@@ -154,15 +156,15 @@ class Line(Master[Reply]):
     """Master of a line.
 
     Args:
-        spec: any port that pyserial knows (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, `rfc2217://…`),
+        spec: any port that pyserial supports (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, `rfc2217://…`),
             `sim:…` or `model:…`.
         speed: 19200, 38400 or 83333 bit/s as set by the MOD pins of the stations.
         sum_mode: checksum rule of the stations.
-        echo: True if the master receives its own bytes (two-wire adapters that never switch their receiver
-            off).
-        rs485: settings of pyserial for adapters whose driver is switched by RTS.
-        patience: seconds beyond line time until a station counts as silent.
-        xtal_hz: crystal of the stations; the line rates are proportional to it.
+        echo: True if the master receives its own bytes, as with two-wire adapters that do not switch their
+            receiver off.
+        rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
+        patience: time in s, beyond the line time, that the master waits for a reply.
+        xtal_hz: crystal frequency of the stations in Hz; the line rates are proportional to it.
 
     Raises:
         PortError: the port cannot be opened.
@@ -190,8 +192,7 @@ class Line(Master[Reply]):
         port = open_line(spec, baud, "ppmc312-serial", rs485) if isinstance(spec, str) else spec
         super().__init__(port, baud, echo, patience)
         self.sum_mode = known
-        # The line does not report the timing of the stations, so the time limits are those of the slower
-        # timing.
+        # The stations do not report their TIMING, so the time limits are those of DATASHEET.
         self.identity = Identity(1, 312, True, True, 0, xtal_hz, xtal_hz, STATIONS)
         self.counters = {number: Counters() for number in range(STATIONS)}
 
@@ -219,7 +220,7 @@ class Line(Master[Reply]):
     def send_instruction(self, station: int, data: bytes | None) -> bytes:
         """Send a frame, discard its echo, if any, and return the frame.
 
-        Bytes received earlier are discarded.
+        Bytes received before are discarded.
         """
         sent = self._frame(station, data)
         self.send(station, sent)

@@ -20,7 +20,7 @@ from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 _MOST_PPS = 4_000_000
 """Speed in pulses/s that no table exceeds: rate 2 at 8 MHz."""
 _ENCODER_SLACK = 64
-"""Largest difference of two reads that is accepted: half the value of bit 7 of the lowest byte."""
+"""Largest accepted difference of two reads of the encoder: half the value of bit 7 of the lowest byte."""
 
 
 class ErrorCounts(NamedTuple):
@@ -53,10 +53,10 @@ class SerialMotion(Motion):
         return Progress(position, done, self.requested, self._link.clock() - self._started)
 
     def _on_stop_report(self, report: Stopped) -> None:
-        """Process the report of the end, and compare it with the request.
+        """Process the report that the motion has ended, and compare it with the request.
 
-        A damaged request or position may look valid. Therefore the position is read again if they do not
-        agree.
+        A damaged request or position may appear valid. Therefore, the position is read again if the report
+        does not match the request.
         """
         super()._on_stop_report(report)
         if self.result_error is not None:
@@ -68,7 +68,7 @@ class SerialMotion(Motion):
         window = self._part.window
         window.collect()
         if not self.over and not window.busy:
-            # The motor is stopped, but the report was lost on the line.
+            # The motor is stopped, but the report of the end was lost on the line.
             cause = window.end_status()
             if cause is None:
                 self._not_confirmed("the station is at standstill and knows of no motion")
@@ -84,9 +84,9 @@ class SerialMotion(Motion):
 class Station312(Axis[SerialMotion]):
     """One station, with the methods of `ppmc312.Ppmc312`.
 
-    Free curves, tables and event buffers cannot be accessed on the line (OutOfRange). Reports are read by
-    polling the station. After a lost reply, an instruction is repeated only if that has no side effect
-    (`LostReplyResolver`). LostReply is raised where the driver cannot know whether the instruction was
+    The line has no access to free curves, tables and event buffers (OutOfRange). Polls of the station return
+    its reports. After a lost reply, an instruction is repeated only if the repetition has no side effect
+    (`LostReplyResolver`). The driver raises LostReply if it cannot determine whether the instruction was
     executed.
 
     Args:
@@ -124,9 +124,7 @@ class Station312(Axis[SerialMotion]):
         self._store_report(report)
 
     def poll(self) -> list[Report]:
-        """Poll the station until no report is pending; return all reports, oldest first.
-
-        Reports that were fetched before are not included.
+        """Poll the station until no report is pending; return the new reports, oldest first.
 
         Ends of motions that this object started are in their `result` instead.
         """
@@ -153,18 +151,18 @@ class Station312(Axis[SerialMotion]):
             self.link.pause(min(left, POLL_EVERY))
 
     def busy_now(self) -> bool:
-        """Return True if a motion is running or held; polls the station."""
+        """Poll the station; return True if a motion is running or held."""
         self.window.collect()
         return self.window.busy
 
     def status(self) -> Status:
-        """Return the status; it is read until two successive reads are equal."""
+        """Read the status until two successive reads are equal, and return it."""
         return self.window.read_consistently(super().status)
 
     # ------------------------------------------------------------------ instructions of the line only
 
     def error_code(self) -> int:
-        """Return the last error code that the station replied (42 to 49), 0 for no error.
+        """Return the last error code (42 to 49) that the station has sent in a reply, 0 for no error.
 
         Reading clears it. Raises AxisBusy while the motor is moving.
         """
@@ -178,16 +176,16 @@ class Station312(Axis[SerialMotion]):
         return ErrorCounts(*self.window.read(ERROR_COUNTS))
 
     def end_status(self) -> Cause | None:
-        """Return the cause of the last end of a motion. The call is allowed at any time.
+        """Return why the last motion ended. The call is allowed at any time.
 
-        Before the first end since the reset, it returns None.
+        The result is `None` if no motion has ended since the reset.
         """
         return self.window.end_status()
 
     def reset(self) -> None:
         """Reset the station by instruction, in any state.
 
-        Pulses end immediately, there is no table, and the position is 0.
+        The pulses end immediately. After the reset there is no table, and the position is 0.
         """
         for _ in range(ATTEMPTS):
             sent = self.link.send_instruction(self.number, bytes([Code.RESET]))
@@ -198,19 +196,19 @@ class Station312(Axis[SerialMotion]):
         raise StationNotResponding(f"{self._message_prefix}no reset in {ATTEMPTS} attempts: check the cable")
 
     def software_reset(self) -> None:
-        """Reset the station as `reset` does, because a line has no other reset."""
+        """Reset the station with `reset`, because a line has no other reset."""
         self.reset()
 
     def _on_reset(self) -> None:
         super()._on_reset()
         self._slow_override = False
 
-    # ------------------------------------------------------------------ inside
+    # ------------------------------------------------------------------ internal
 
     def _position(self, encoder: bool) -> int:
-        """Read the position until two successive reads agree.
+        """Read the position until two successive reads agree, and return it.
 
-        They agree if they are equal, or differ by no more than the motor can move between them.
+        Two reads agree if their difference is at most the distance that the motor can move between them.
         """
         times: list[float] = []
 

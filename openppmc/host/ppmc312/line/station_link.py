@@ -1,6 +1,6 @@
 """Instructions to one station of a line, with their responses and errors.
 
-An instruction whose reply is lost is repeated only if that has no side effect.
+An instruction whose reply is lost is repeated only if the repetition has no side effect.
 
 `ppmc312.window.Window` does the same for the parallel bus.
 """
@@ -45,10 +45,10 @@ from .wire import (
     response,
 )
 
-# Check whether an instruction was executed whose reply was lost, so that nothing moves twice. A repetition
-# has no side effect if the instruction reads, sets a value or stops the motor. A start is checked by state
-# and position. A toggle and a registration are checked by the status before and after. In all other cases
-# LostReply is raised.
+# After a lost reply, the driver determines whether the instruction was executed, so that no motion is
+# executed twice. A repetition has no side effect if the instruction reads, sets a value or stops the motor. A
+# start is checked with the state and the position. A toggle and a registration are checked with the status
+# before and after the instruction. In all other cases, LostReply is raised.
 
 _TOGGLES = {Code.INTERLOCK: "interlock", Code.RUN_MONITOR: "run_monitored"}
 _REGISTERED = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
@@ -84,10 +84,10 @@ class StationAccess(Protocol):
 
 
 class LostReplyResolver:
-    """Check of one instruction block whose reply may get lost.
+    """Check of one instruction block after its reply was lost.
 
     Attributes:
-        repeated: True if a reply to it was lost.
+        repeated: True if a reply to the instruction was lost.
     """
 
     def __init__(self, station: StationAccess, block: bytes) -> None:
@@ -106,7 +106,7 @@ class LostReplyResolver:
         return self._block[2] in _REGISTERED and bool(self._block[3] & OV)
 
     def resolve(self) -> bool:
-        """Return whether the instruction was executed. Raises LostReply if that is unknown."""
+        """Return True if the instruction was executed. Raises LostReply if that is unknown."""
         self.repeated = True
         code = self._block[2]
         try:
@@ -127,20 +127,20 @@ class LostReplyResolver:
     def error_for(self, refusal: CommandRefused) -> Exception:
         """Return the exception to raise for a rejection.
 
-        A rejection of a repeated change of speed does not show whether the first one was executed.
+        If a repeated change of speed is rejected, it is unknown whether the first one was executed.
         """
         if self.repeated and self._block[2] == Code.RAMP_CHANGE:
             return self._lost_reply(f"sent again, it was refused ({refusal})")
         return refusal
 
     def _started(self) -> bool:
-        """Detect a started motion by the state, by the report of its end, or by the position."""
+        """Return True if the motion was started: from the state, the report of its end, or the position."""
         station, motion = self._station, self._motion
         if motion is None or self._was_busy:
             raise self._lost_reply("it is not known what the motor did before")
         if station.window.status().busy:
             return True
-        station.window.answers += 1  # from now on the end of this motion may be reported
+        station.window.answers += 1  # later reports may contain the end of this motion
         station.window.collect()
         return motion.over or station.position != motion.begin
 
@@ -150,7 +150,7 @@ class LostReplyResolver:
         if added == 1:
             return True
         if added == 0 and not now.busy and not now.override_events:
-            return False  # no override can have been executed in the meantime
+            return False  # the motor is stopped and no override waits for an event, so none was executed
         raise self._lost_reply("overrides may have happened meanwhile")
 
     def _buffered(self, now: Status) -> bool:
@@ -187,7 +187,7 @@ END_CODES = {
     0x39: Cause.LOW,
 }
 DAMAGED = (Error.CHECKSUM, Error.COMMAND)
-"""Replies to a frame that was damaged in transit; the driver sends no unknown codes."""
+"""Error codes that mean that the frame was damaged on the line, because the driver sends no unknown codes."""
 _STOPPING = (Code.STOP, Code.SLOW_STOP)
 _CHECK = "is it there and powered, are speed (MOD), address and the two wires right?"
 _OTHERS = "noise, another speed or checksum rule, or two stations with this address"
@@ -222,11 +222,11 @@ class StationLink:
         return self._station.number
 
     def open(self) -> None:
-        """Prepare for a station that was reset; it responds as before."""
+        """Clear the record of the alarm. A station that was reset needs no other preparation."""
         self._alarmed = False
 
     def next_block(self) -> Response:
-        """Raise OutOfRange, because no response has a second block on a line."""
+        """Raise OutOfRange, because a response on a line has only one block."""
         raise OutOfRange("answers of several blocks: only on the parallel bus")
 
     # ------------------------------------------------------------------ instructions
@@ -295,7 +295,7 @@ class StationLink:
             counters.repeated += attempt > 0
             got = self._line.exchange(self._number, data, gives, extra)
             if not isinstance(got, MissingReply) and not plausible(data, got):
-                # The checksum does not cover the highest bit of a byte.
+                # The checksum does not protect the highest bit of a byte, so check the content, too.
                 counters.garbled += 1
                 got = MissingReply(Fault.BROKEN, got.data or b"?")
             if isinstance(got, MissingReply):
@@ -312,10 +312,10 @@ class StationLink:
         raise unanswered(f"{self._line.name}: station {self._number}", misses, attempts, _CHECK, _OTHERS)
 
     def read_consistently(self, read: Callable[[], T], agree: Callable[[T, T], bool] = eq) -> T:
-        """Return a value on which two successive reads agree.
+        """Read a value until two successive reads agree, and return it.
 
-        A damaged reply may look valid: the checksum has seven bits, which do not cover the highest bit of a
-        byte.
+        A damaged reply may appear valid, because the seven bits of the checksum do not protect the highest
+        bit of a byte.
 
         Raises:
             CorruptReply: the reads do not agree.
@@ -349,22 +349,22 @@ class StationLink:
             self._check_alarm()
 
     def _check_alarm(self) -> None:
-        """Read the state, because the report of an alarm may have been in a lost reply."""
+        """Read the state, because a lost reply may have contained the report of an alarm."""
         alarmed = self._station.status().state is State.ABN
         if alarmed and not self._alarmed:
             self._station._on_report(Alarm(0))
         self._alarmed = alarmed
 
     def end_status(self) -> Cause | None:
-        """Return the cause of the last end of a motion, `None` before the first since the reset."""
+        """Return why the last motion ended, `None` if no motion has ended since the reset."""
         return END_CODES.get(self.request(bytes([END_STATUS])).data[0])
 
     def stop_report(self, cause: Cause) -> Stopped:
-        """Return the end of a motion with the position, which the report on the line does not contain."""
+        """Return the end of a motion; read the position, which the report on the line does not contain."""
         return Stopped(cause, self._station.position)
 
     def _report(self, reply: Reply) -> Report:
-        """Return the report in a reply to a poll."""
+        """Decode the report in a reply to a poll."""
         code = reply.data[0]
         if reply.kind == DATA:
             return self.stop_report(END_CODES[code])
@@ -378,7 +378,7 @@ class StationLink:
         return report
 
     def status(self) -> Status:
-        """Return the status without counting a response as `ask` does."""
+        """Read the status without changing the number of responses."""
         return self.read_consistently(lambda: Status.parse(self.request(bytes([Code.STATUS])).data))
 
 

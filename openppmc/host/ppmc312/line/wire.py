@@ -1,7 +1,7 @@
 """Serial mode of the PPMC-312: frames, and conversion of bus blocks and back. Pure.
 
-A frame consists of control code, hexadecimal characters and checksum. Most instructions differ from the
-blocks in their code only; the flag byte becomes part of the code.
+A frame consists of control code, hexadecimal characters and checksum. In most instructions, only the code
+differs from the block: it includes the flag byte.
 
 >>> line_data(blocks.acceleration(blocks.CW, 5000)).hex(" ")
 '83 00 00 00 00 13 88'
@@ -43,21 +43,21 @@ SPEEDS = (19_200, 38_400, 83_333)
 
 
 class SumMode(Enum):
-    """Content of the checksum: control code and data bytes, or the characters between."""
+    """Bytes that the checksum covers: the control code and the data bytes, or the characters of the frame."""
 
     BINARY = "binary"
     CHARS = "chars"
 
 
 def sum_mode_of(mode: SumMode) -> SumMode:
-    """Return the mode. Raises OutOfRange if it is no SumMode, for example its name as text."""
+    """Return the mode unchanged. Raises OutOfRange if it is not a SumMode, for example a name as text."""
     if not isinstance(mode, SumMode):
         raise OutOfRange(f"sum_mode {mode!r}: there are {' and '.join(map(str, SumMode))}")
     return mode
 
 
 def station_number(station: int) -> int:
-    """Return the number if it is a valid station number. Raises OutOfRange otherwise."""
+    """Return the number unchanged. Raises OutOfRange if it is not a station number."""
     number = whole(station, "station")
     if number not in range(STATIONS):
         raise OutOfRange(f"station {number}: a line has stations 0 to {STATIONS - 1}")
@@ -65,7 +65,7 @@ def station_number(station: int) -> int:
 
 
 def checksum(control: int, data: bytes, mode: SumMode = SumMode.BINARY) -> int:
-    """Return the last byte of a frame.
+    """Return the checksum, which is the last byte of a frame.
 
     >>> f"{checksum(1, bytes([2, 3, 4, 5, 6])):02X}"
     '6A'
@@ -114,7 +114,7 @@ class Receiver:
     def feed(self, byte: int) -> Reply | Fault | None:
         """Process a byte; see `host.line.ReplyReceiver`."""
         if byte & 0x80:
-            # A control code always starts a new frame, as in the station.
+            # A control code always starts a new frame; a station does the same.
             broken = self._control is not None
             self._control, self._digits = byte, bytearray()
             if byte & 0x40 or byte & 0x0F != self._station:
@@ -131,7 +131,7 @@ class Receiver:
         return Reply(self._station, self._control & 0xF0, data)
 
     def _length(self, kind: int) -> int:
-        """Return the number of data bytes of the reply, as far as it is known."""
+        """Return the number of data bytes of the reply, if it is known."""
         if kind == DATA:
             return self._data_length
         if kind == SPECIFIC:
@@ -152,7 +152,7 @@ DATA_BYTES = {
     ERROR_CODE: 1,
     ERROR_COUNTS: 3,
 }
-"""Codes that read, and the number of bytes that they return."""
+"""Codes of read instructions, and the number of bytes that they return."""
 LONGEST_EVENT = 10
 _MOTIONS = {
     Code.RAMP: 0x83,
@@ -165,14 +165,14 @@ _MOTIONS = {
 }
 _STOPS = {Code.STOP: 0x80, Code.SLOW_STOP: 0x81, Code.RAMP_CHANGE: 0x89, Code.CHANGE: 0x8A}
 _TRIGGERS = {0: 1, 2: 1, 1: 2, 3: 3}
-"""Bits 5:4 of a code by TRG of the flag byte."""
+"""Bits 5:4 of a code, by the TRG field of the flag byte."""
 _ONLY_PARALLEL = {
     Code.FREE_CURVE: "free curves",
     Code.TABLE_READ: "reading the table",
     Code.EVENT_READ: "reading an event buffer",
 }
 _RESULT = {(Code.EVENT_SET, 0): b"\x00", (Code.EVENT_SET, 2): b"\x03"}
-"""Response on the parallel bus: registered, deleted."""
+"""Data of the response on the parallel bus to a registration and to a deletion."""
 
 
 def line_data(block: bytes) -> bytes:
@@ -210,7 +210,7 @@ def line_data(block: bytes) -> bytes:
 
 
 def _motion(code: Code, data: bytes) -> bytes:
-    """Return a start, which has no triggers on the line."""
+    """Return code and data of a start, which cannot have a trigger on the line."""
     flags, rest = data[0], data[1:]
     if flags & OV and code not in (Code.ORIGIN_SEARCH, Code.ZERO_RETURN, Code.STEP):
         raise OutOfRange("a start cannot wait for an event in serial mode: put it into an event buffer")
@@ -221,7 +221,7 @@ def _motion(code: Code, data: bytes) -> bytes:
 
 
 def _event(flags: int, embedded: bytes) -> bytes:
-    """Return a registration, which has ten bytes for any length of the instruction."""
+    """Return code and data of a registration, which has ten bytes for an instruction of any length."""
     code = 0x49 | (flags & 1) << 4 | (flags & 2) << 4
     if flags & 2:
         return bytes([code])
@@ -231,7 +231,7 @@ def _event(flags: int, embedded: bytes) -> bytes:
 
 
 def response(block: bytes, reply: Reply) -> Response:
-    """Return a valid reply in the form of a response on the parallel bus."""
+    """Convert a valid reply to a response of the parallel bus."""
     code, data = block[2], reply.data if reply.kind == DATA else b""
     if code == Code.POSITION_READ:
         data = block[3:4] + data

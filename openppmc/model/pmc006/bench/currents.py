@@ -1,6 +1,6 @@
 """Phase currents that a PMC006B4 regulates.
 
-Set-ups on the golden model, ripple, error and distortion of the currents.
+Set-ups of measurements on the golden model; ripple, error and distortion of the currents.
 """
 
 from __future__ import annotations
@@ -27,9 +27,10 @@ class Case:
 
     Attributes:
         cur: requested current in mA.
-        mstep, full: microsteps (0: full steps), and full steps/s; their product is at most 16000.
+        mstep, full: microsteps per full step (0: full steps), and speed in full steps/s; their product is at
+            most 16000.
         emf: back EMF in V, 90 degrees ahead of the reference.
-        scomp: P.
+        scomp: speed compensation P.
         periods: electrical cycles that are measured.
     """
 
@@ -49,7 +50,7 @@ class Case:
 
 
 class Waves(NamedTuple):
-    """Samples of one phase: time since the first one in s, currents in A."""
+    """Samples of one phase: time since the first sample in s, currents in A."""
 
     time: list[float]
     current: list[float]
@@ -60,11 +61,11 @@ class WaveMetrics(NamedTuple):
     """Results of a measurement.
 
     Attributes:
-        amplitude: fundamental of the reference, A.
-        error: rms of current minus this fundamental, relative to its rms.
-        follows: rms of current minus reference, relative to the rms of the reference.
+        amplitude: amplitude of the fundamental of the reference, A.
+        error: rms of (current - fundamental of the reference), relative to the rms of this fundamental.
+        follows: rms of (current - reference), relative to the rms of the reference.
         thd: harmonics 2..40 of the current, relative to its fundamental.
-        all: everything in the current except its fundamental, relative to its fundamental.
+        all: rms of the current without its fundamental, relative to its fundamental.
     """
 
     amplitude: float
@@ -96,10 +97,10 @@ class BootedMotor:
         self._go(round(165 * bit))
 
     def hold(self, angle_steps: int = 0) -> Plant:
-        """Return the plant at standstill with full current, settled.
+        """Return the plant in steady state at standstill, with full current.
 
         Args:
-            angle_steps: steps from the angle after a reset.
+            angle_steps: distance from the angle after a reset, in steps.
         """
         if angle_steps:
             self.send("s", angle_steps)
@@ -109,7 +110,7 @@ class BootedMotor:
         return plant
 
     def cruise(self) -> Plant:
-        """Return the plant at constant speed, settled."""
+        """Return the plant in steady state at constant speed."""
         speed = self.case.full * max(1, self.case.mstep)
         slow = min(3000, speed)
         for code, data in (("u", 5), ("v", speed), ("L", slow), ("S", slow), ("N", 1)):
@@ -128,7 +129,7 @@ class BootedMotor:
 
 
 def waves(plant: Plant, phase: str, first: int, last: int, step: float = SAMPLE_S) -> Waves:
-    """Return samples of phase "a" or "b" from edge `first` to before edge `last`, every `step` s."""
+    """Return samples of phase "a" or "b" every `step` s, from edge `first` to before edge `last`."""
     winding: Winding = plant.windings[phase]
     begin = plant.seconds(first)
     times = [number * step for number in range(round((plant.seconds(last) - begin) / step))]
@@ -161,7 +162,7 @@ def holding(case: Case, angle_steps: int = 0, us: int = 400) -> tuple[Waves, Wav
 
 
 def _component(samples: Sequence[float], cycles: int) -> tuple[float, float]:
-    """Return amplitude and angle of the sine that has this number of cycles in all samples."""
+    """Return amplitude and angle of the harmonic with this number of cycles in all samples."""
     turn = 2 * pi * cycles / len(samples)
     along = sum(value * sin(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
     across = sum(value * cos(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
@@ -198,7 +199,7 @@ def wave_metrics(measured: Waves, periods: int) -> WaveMetrics:
 def residual_current(measured: Waves) -> tuple[float, float]:
     """Return the largest and smallest mean current of steps whose reference is 0, in A.
 
-    The mean is that of the second half of a step. Without such a step the result is 0.
+    The mean is calculated over the second half of each step. Without such a step, the result is 0.
     """
     means = [0.0]
     for zero, span in groupby(zip(measured.reference, measured.current, strict=True), lambda one: not one[0]):

@@ -14,7 +14,7 @@ from typing import NamedTuple, Protocol, TypeVar
 
 FULL_SCALE_A, FULL_CODE = 4.0, 255
 WINDOW_S = 20e-6
-"""Least time between two changes of a comparator with back EMF, in s."""
+"""Shortest time between two changes of a comparator if there is a back EMF, in s."""
 BRIDGES = {
     "a": ("bridge_a_en", "m10", "m11", "phase_a_ref", "phase_a_sign", "cmp_a"),
     "b": ("bridge_b_en", "m20", "m21", "phase_b_ref", "phase_b_sign", "cmp_b"),
@@ -24,11 +24,11 @@ QUARTER = {"a": pi / 2, "b": 0.0}
 
 
 class Part(Protocol):
-    """Members of the golden model that are used."""
+    """Members of the golden model that the motor uses."""
 
     @property
     def now(self) -> int:
-        """Last edge that was run."""
+        """Last edge that was simulated."""
 
     @property
     def next_event(self) -> int | None:
@@ -63,7 +63,7 @@ class Emf(NamedTuple):
 
 
 class CurrentSegment:
-    """Current from `begin` (s) on, with a constant voltage on the winding and a back EMF."""
+    """Current segment from `begin` (s) on, with a constant voltage on the winding and a back EMF."""
 
     __slots__ = ("_amplitude", "_decay", "_emf", "_free", "_lag", "_level", "begin", "zero_from")
 
@@ -88,7 +88,7 @@ class CurrentSegment:
         return current
 
     def stop_at_zero(self, positive: bool) -> None:
-        """Set the current to 0 from its first zero on, because the diodes block the other direction."""
+        """Set the current to 0 from its zero crossing on, because the diodes block the other direction."""
         low, high = self.begin, self.begin + WINDOW_S
         while (self.at(high) > 0) == positive:
             low, high = high, high + WINDOW_S
@@ -107,7 +107,7 @@ class ReferenceSegment:
         self.begin, self._from, self.to, self.sign, self._tau = begin, before, to, sign, tau
 
     def at(self, t: float) -> float:
-        """Return the reference in A at t >= begin, without sign."""
+        """Return the magnitude of the reference in A at t >= begin."""
         if not self._tau:
             return self.to
         return self.to + (self._from - self.to) * exp((self.begin - t) / self._tau)
@@ -117,7 +117,7 @@ Piece = TypeVar("Piece", CurrentSegment, ReferenceSegment)
 
 
 class Winding:
-    """One phase: current segment and level now, and all earlier ones."""
+    """One phase: its current segment and comparator level, and all earlier ones."""
 
     def __init__(self, motor: Motor, name: str, begin: float, tau: float) -> None:
         self._motor, self._tau = motor, tau
@@ -131,7 +131,7 @@ class Winding:
         self.levels = [ReferenceSegment(begin, 0.0, 0.0, 0, tau)]
 
     def on_outputs(self, t: float, outputs: Mapping[str, int], emf_changed: bool = False) -> None:
-        """Process the outputs of the part at t.
+        """Process the outputs of the part at time t.
 
         Args:
             emf_changed: True if the back EMF has changed at t.
@@ -160,7 +160,7 @@ class Winding:
     def above(self, t: float) -> int:
         """Return the level of the comparator.
 
-        The level is 1 if the current in the direction of the sign has reached the reference.
+        It is 1 if the current in the direction of the sign has reached the reference.
         """
         level, current = self.levels[-1], self.segments[-1].at(t)
         return int((-current if level.sign else current) >= level.at(t))
@@ -195,7 +195,7 @@ class Plant:
         now = self.seconds(model.now)
         self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
         self._update_windings()
-        # Any caller that runs the model, for example a host, also runs the currents.
+        # Whoever runs the model, for example a host, also advances the currents.
         model.run_until = self.run_until  # type: ignore[method-assign]
 
     def seconds(self, t: int) -> float:
@@ -220,7 +220,7 @@ class Plant:
         self._update_windings(emf_changed=True)
 
     def detach(self) -> None:
-        """Remove the motor; the model runs alone again."""
+        """Remove the motor, so that the model runs without it again."""
         self._model.run_until = self._run  # type: ignore[method-assign] # restored
 
     # ------------------------------------------------------------------ time
@@ -235,9 +235,8 @@ class Plant:
     def pieces(self, t: int) -> Iterator[tuple[int, dict[str, int]]]:
         """Yield the time up to edge t in pieces.
 
-        A piece is its last edge and the comparator levels after it.
-
-        The caller runs the part to this edge and sets the levels before the next piece.
+        A piece consists of its last edge and the comparator levels after this edge. Before the next piece,
+        the caller runs the part to this edge and sets the levels.
         """
         model = self._model
         while model.now < t:
@@ -262,7 +261,7 @@ class Plant:
     def _flip(self, winding: Winding, last: int) -> int | None:
         """Return the first edge up to `last` that samples another level of the comparator.
 
-        Without such an edge it returns None.
+        The result is `None` if there is no such edge.
         """
         begin = self._model.now
         window = int(WINDOW_S * self._hz)

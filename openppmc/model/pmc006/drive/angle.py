@@ -7,14 +7,14 @@ from math import floor, pi, sin
 from typing import NamedTuple
 
 CYCLE, QUARTER = 512, 128
-"""Units of an electrical cycle, and of a full step."""
+"""Number of angle units in an electrical cycle, and in a full step."""
 HOME = 64
 """Angle after a reset."""
 SCALE = 256
 
 
 class Phase(NamedTuple):
-    """Reference of a phase: 0..255 of 4000 mA, and 1 for M11 -> M10 or M21 -> M20."""
+    """Reference of a phase: magnitude (0..255 of 4000 mA), and sign (1: M11 to M10 or M21 to M20)."""
 
     ref: int
     sign: int
@@ -29,13 +29,13 @@ class References(NamedTuple):
 
 OFF = References(Phase(0, 0), Phase(0, 0))
 WAVE = tuple(floor(SCALE * sin(2 * pi * unit / CYCLE) + 0.5) for unit in range(QUARTER + 1))
-"""S[0..128]."""
+"""Quarter of the sine table, S[0..128]."""
 
 
 def wave(unit: int) -> int:
     """Return the signed sine of an angle in units, -256..256.
 
-    The table is odd and symmetric like the sine itself.
+    The other quarters follow from the symmetry of the sine.
     """
     unit %= CYCLE
     if unit >= CYCLE // 2:
@@ -44,7 +44,7 @@ def wave(unit: int) -> int:
 
 
 def reference(unit: int, peak: int) -> Phase:
-    """Return the reference of a phase at an angle with peak code 0..255 (P006-EXC-12)."""
+    """Return the reference of a phase at an angle, for a peak code of 0..255 (P006-EXC-12)."""
     height = wave(unit)
     return Phase((2 * abs(height) * peak + SCALE) // (2 * SCALE), int(height < 0))
 
@@ -59,11 +59,11 @@ def references(angle: int, peak: int) -> References:
 
 
 def peak_code(base: int, added: int, busy: bool, decayed: bool, att: int) -> int:
-    """Return RI (P006-EXC-30).
+    """Return the peak code RI (P006-EXC-30).
 
     Args:
         base: base code.
-        added: compensation.
+        added: code that the current compensation adds.
         busy: level of BUSY.
         decayed: True if the current has decayed by 2^att.
         att: exponent of the decay.

@@ -2,8 +2,8 @@
 
 A fixed off time is followed by on or fast decay.
 
-The model is driven by events: timers, changes of the comparator, of the reference and of the enable. An edge
-in this module is the edge at which the half-bridge commands change.
+The model is driven by events: timers, and changes of the comparator, the reference and the enable. In this
+module, an edge is the edge at which the half-bridge commands change.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class State(Enum):
 
 @dataclass(frozen=True)
 class Times:
-    """Cycles: off time, blanking, longest fast decay, change of a sign to OFF."""
+    """Numbers of cycles: off time, blanking, longest fast decay, from a change of the sign to OFF."""
 
     off: int
     blank: int
@@ -35,7 +35,10 @@ class Times:
 
     @classmethod
     def of(cls, clk_hz: int, t_off_ns: int, t_blank_ns: int, force: int = 1) -> Times:
-        """Return off, blanking and fast-decay time (docs/pmc006/README.md, 9 Chopper and bridges)."""
+        """Return the off time, the blanking time and the fast-decay time.
+
+        See docs/pmc006/README.md, 9 Chopper and bridges.
+        """
         off, blank = (-(-ns * clk_hz // 1_000_000_000) for ns in (t_off_ns, t_blank_ns))
         return cls(off, blank, max(blank, off // 2), force)
 
@@ -43,7 +46,9 @@ class Times:
 class Chopper:
     """Chopper of one phase.
 
-    set_bridge(t, m_plus, m_minus): sets the half-bridge commands (m10, m11 or m20, m21) at edge t.
+    Args:
+        set_bridge: set_bridge(t, m_plus, m_minus) sets the half-bridge commands (m10, m11 or m20, m21) at
+            edge t.
     """
 
     def __init__(self, queue: Scheduler, times: Times, set_bridge: Callable[[int, int, int], None]) -> None:
@@ -57,9 +62,9 @@ class Chopper:
     # ------------------------------------------------------------------ causes
 
     def enable(self, t: int, on: bool) -> None:
-        """Process a change of the bridge's enable at edge t.
+        """Process a change of the bridge enable at edge t.
 
-        While disabled, the commands are low, from that edge on.
+        While the bridge is disabled, from this edge on, the commands are low.
         """
         self._on = on
         if not on:
@@ -76,7 +81,7 @@ class Chopper:
             self._at(t + self._times.force, self._forced)
 
     def compare(self, t: int, level: int) -> None:
-        """Process a level of the synchronised comparator, which decisions use from edge t on."""
+        """Process a synchronised comparator level, which decisions use from edge t on."""
         self._cmp = level
         if self._armed and level == (self.state is State.ON):
             self._at(t, self._end_phase)
@@ -106,7 +111,7 @@ class Chopper:
             self._at(t + self._times.off, self._decide)
 
     def _decide(self, t: int) -> None:
-        """Decide after the off time; with a reference of 0 a current may only fall."""
+        """Select on or fast decay after the off time; if the reference is 0, the current must not rise."""
         if self._cmp:
             self._enter(t, State.FAST)
         else:

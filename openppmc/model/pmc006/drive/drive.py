@@ -2,7 +2,7 @@
 
 Angle, references, idle current, bridges and bit streams of the references.
 
-The model is event driven. An edge in this module is the edge at which the register in question changes.
+The model is event driven. In this module, an edge is the edge at which the register concerned changes.
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ MODULUS = 256
 
 
 class Stream:
-    """Bit stream of a reference: carry of an accumulator that adds the reference every cycle (P006-EXC-40).
+    """Bit stream of a reference: the carry of an accumulator that adds the reference every cycle.
+
+    Rule: P006-EXC-40.
 
     The level is calculated on demand.
     """
@@ -32,7 +34,7 @@ class Stream:
         self._since, self._sum, self._before, self._ref = t, 0, 0, 0
 
     def change(self, t: int, ref: int) -> None:
-        """Change the reference register at edge t, which still adds the old value."""
+        """Change the reference register at edge t; at this edge, the accumulator still adds the old value."""
         self._before, self._sum = self._total(t - 1), self._total(t)
         self._since, self._ref = t, ref
 
@@ -41,17 +43,20 @@ class Stream:
         return self._sum + (t - self._since) * self._ref if t >= self._since else self._before
 
     def level(self, t: int) -> int:
-        """Return the level after edge t. Raises ValueError before the last change of the reference."""
+        """Return the level after edge t.
+
+        Raises ValueError if t is before the last change of the reference.
+        """
         if t < self._since:
             raise ValueError(f"level({t}): the reference has changed at edge {self._since}")
         return self._total(t) // MODULUS - self._total(t - 1) // MODULUS
 
 
 class Drive:
-    """Drive; the log holds the outputs phase_*, bridge_*, m10 .. m21, and `level` returns pwm_*.
+    """Drive. The log contains the outputs phase_*, bridge_* and m10 .. m21; `level` returns pwm_*.
 
     Args:
-        t_off_ns, t_blank_ns: times of the chopper.
+        t_off_ns, t_blank_ns: off time and blanking time of the chopper.
         origin: first internal edge after the reset.
 
     Attributes:
@@ -117,7 +122,7 @@ class Drive:
         self._schedule_evaluation(t)
 
     def changed(self, t: int) -> None:
-        """Process a change of busy, current_comp or lead_angle of the motion at edge t."""
+        """Process new values of busy, current_comp or lead_angle of the motion at edge t."""
         if self._motion.busy:
             self._stop_idle()
         elif self._booted and self._timer is None and not self.decayed:
@@ -127,7 +132,7 @@ class Drive:
     # ------------------------------------------------------------------ idle timer
 
     def _start_idle(self, t: int) -> None:
-        """Start the idle timer (P006-EXC-31); BUSY or BOOT falls at edge t."""
+        """Start the idle timer when BUSY or BOOT falls at edge t (P006-EXC-31)."""
         us = self._services.us
         over = us.edge_of(us.first(t + 1) + IDLE_US - 1) + self._services.core_timing.idle
         self._timer = self._services.queue.at(over, Phase.STORE, self._decay)
@@ -145,10 +150,7 @@ class Drive:
     # ------------------------------------------------------------------ references
 
     def _schedule_evaluation(self, t: int) -> None:
-        """Schedule the next evaluation of the references on the grid.
-
-        A value that they use changes at edge t.
-        """
+        """Schedule the next evaluation of the references, because a value that they use changes at edge t."""
         grid = self._services.core_timing.grid
         at = t + grid - (t - self._origin) % grid
         if self._evaluation_at != at:
@@ -156,7 +158,7 @@ class Drive:
             self._services.queue.at(at, Phase.PINS, self._evaluate)
 
     def _evaluate(self, t: int) -> None:
-        """Evaluate the references from all levels before edge t (P006-EXC-12, -30, P006-STA-12)."""
+        """Evaluate the references from the levels before edge t (P006-EXC-12, -30, P006-STA-12)."""
         motion, now = self._motion, self._services.settings
         refs = OFF
         if self.enabled:
@@ -197,6 +199,6 @@ class Drive:
     def level(self, t: int, name: str) -> int:
         """Return pwm_a_ref ("a") or pwm_b_ref ("b") after edge t.
 
-        t must not be before the last change of the reference.
+        Edge t must not be before the last change of the reference.
         """
         return self.streams[name].level(t)

@@ -18,11 +18,11 @@ from ..pins import SYNCHRONISED, Services
 from .operations import Outcome
 from .processor import Processor
 
-# Execution context: everything that instructions read and change.
+# Execution context: the state that instructions read and change.
 
 
 class ExecutionContext:
-    """Execution context of instructions. The part sets motion, program and eeprom.
+    """Execution context of instructions. The part sets `motion`, `program` and `eeprom` later.
 
     Args:
         echo: True if STEP_ACK is "ECHO".
@@ -82,7 +82,7 @@ class ExecutionContext:
     # ------------------------------------------------------------------ effects and events
 
     def execute(self, t: int, effect: Effect) -> None:
-        """Apply the first half of an effect, before the motion is processed at edge t."""
+        """Apply the effects that precede the processing of the motion at edge t."""
         if effect.halt:
             self.services.queue.at(t, Phase.GUARD, self._halt)
         if effect.early_action:
@@ -90,7 +90,7 @@ class ExecutionContext:
             self.services.queue.at(t, Phase.GUARD, lambda now: early_action(self, now))
 
     def commit(self, t: int, effect: Effect) -> None:
-        """Apply the second half of an effect, after the first one."""
+        """Apply the effects that follow the processing of the motion at edge t."""
         self.settings.load(effect.registers or {})
         if effect.action:
             effect.action(self, t)
@@ -129,7 +129,7 @@ class ExecutionContext:
         self.motion.start(t, count)
 
     def run(self, t: int) -> None:
-        """Execute instruction N=1 in IDLE."""
+        """Execute instruction N = 1 at standstill (IDLE)."""
         self.stop_monitor.started()
         self.speed_on = self.running = True
         self.motion.run(t)
@@ -144,8 +144,11 @@ class ExecutionContext:
 class Executor:
     """Executor of instructions.
 
-    answered(t, data): called with the data of the reply, sampled at edge t. An instruction begins at an edge
-    whose previous cycle shows its source: a frame, or a running program.
+    An instruction begins at an edge if its source (a frame or a running program) is present in the cycle
+    before.
+
+    Args:
+        answered: answered(t, data) is called with the data of the reply, which are sampled at edge t.
     """
 
     def __init__(self, context: ExecutionContext, answered: Callable[[int, int], None]) -> None:
@@ -163,7 +166,7 @@ class Executor:
     # ------------------------------------------------------------------ choice of the next instruction
 
     def frame(self, t: int, command: Command) -> None:
-        """Process a command whose last byte was complete at edge t."""
+        """Process a command whose last byte is complete at edge t."""
         self._frame = (t + self._core_timing.frame, command)
         self._schedule_next(t)
 
@@ -179,7 +182,7 @@ class Executor:
         self._schedule_next(t)
 
     def cancel(self, t: int) -> None:
-        """Process RESET at edge t: an instruction of the program that is in progress has no effect."""
+        """Process RESET at edge t: the program instruction that is being executed has no effect."""
         self._cancelled = t
         if self._slot:
             self._slot.cancel()
@@ -187,7 +190,7 @@ class Executor:
         self._schedule_next(t)
 
     def _schedule_next(self, t: int) -> None:
-        """Schedule the beginning of the next instruction."""
+        """Schedule the edge at which the next instruction begins."""
         if self._begin:
             self._begin.cancel()
             self._begin = None
@@ -268,7 +271,7 @@ class Executor:
     # ------------------------------------------------------------------ WAIT
 
     def check_wait(self, t: int) -> None:
-        """Check at edge t whether the condition of WAIT is fulfilled."""
+        """Check at edge t if the condition of WAIT is met."""
         if not self._wait_end_event and self._context.program.wait_is_over():
             self._wait_end_event = self._queue.at(t, Phase.QUEUE, self._end_wait)
 

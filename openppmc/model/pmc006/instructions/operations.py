@@ -18,12 +18,13 @@ from ..settings import BOTH
 
 
 class KeyFilter:
-    """Filter of an active-low input: a level counts when it was stable for a number of µs ticks.
+    """Filter of an active-low input: a level is accepted after it was stable for a number of µs ticks.
 
     Args:
-        low_ticks, high_ticks: these numbers of ticks. With high_ticks 0, any high level counts immediately.
-        pressed: pressed(t) is called when the input was low for this time and the filter was armed.
-        released: released(t) is called when the input was high for this time, which also arms the filter.
+        low_ticks, high_ticks: number of ticks for a low level, and for a high level. With high_ticks = 0, a
+            high level is accepted immediately.
+        pressed: pressed(t) is called when a low level is accepted while the filter is armed.
+        released: released(t) is called when a high level is accepted, which also arms the filter.
         armed: True if the filter is armed at the beginning.
     """
 
@@ -101,13 +102,13 @@ class Operation:
     """Instruction of the program.
 
     Attributes:
-        single: True if instruction E can also execute it.
+        single: True if the host instruction E can also execute this instruction.
     """
 
     single = True
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome of these fields; operand is signed."""
+        """Return the outcome for these fields; `operand` is signed."""
         return Outcome(next_action=NextAction.HALT)
 
 
@@ -121,14 +122,14 @@ class End(Operation):
 class HostInstruction(Operation):
     """Host instruction of this letter.
 
-    The data of the instruction is the operand, or the entry of `data` for the operand.
+    The data of the instruction are the operand, or the entry of `data` for this operand.
     """
 
     letter: str
     data: dict[int, int] | None = None
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome; the instruction is rejected as if the host had sent it."""
+        """Return the outcome. The instruction may be rejected, as if the host had sent it."""
         if self.data is None:
             return Outcome(LETTERS[self.letter](context, operand))
         if operand not in self.data:
@@ -140,7 +141,7 @@ class Speed(Operation):
     """Instruction VSET."""
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome; unlike in v, 0 is legal."""
+        """Return the outcome; in contrast to v, 0 is legal."""
         if option not in BOTH or operand not in range(16001):
             return NOTHING
         return Outcome(Effect(registers={"vmax": operand, "analog": option}))
@@ -170,7 +171,7 @@ class Jump(Operation):
     single = False
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome; an illegal target halts the program if the jump is executed."""
+        """Return the outcome. If the jump is taken, an illegal target halts the program."""
         if context.program.flag not in self.on:
             return NOTHING
         if operand not in TARGETS:
@@ -184,7 +185,7 @@ class Wait(Operation):
     single = False
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome; the program continues immediately if the condition is fulfilled."""
+        """Return the outcome. If the condition is met, the program continues immediately."""
         source = wait_source(context, option)
         return NOTHING if source in (None, operand & 1) else Outcome(next_action=NextAction.WAIT)
 
@@ -222,14 +223,17 @@ class Key(Operation):
     single = False
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome; with an illegal target RESET_EN is illegal, even if it is to switch off."""
+        """Return the outcome.
+
+        RESET_EN with an illegal target is illegal, even if it switches the function off.
+        """
         if option not in BOTH or (self.name == "rsten" and operand not in TARGETS):
             return NOTHING
         return Outcome(Effect(action=lambda context, t: context.program.enable(self.name, option, operand)))
 
 
 def pin(context: ExecutionContext, option: int) -> int | None:
-    """Return source 1..7 of WAIT and CMP: inputs and EXT flags."""
+    """Return the value of source 1..7 of WAIT and CMP: inputs and EXT flags."""
     if option in range(1, 6):
         return context.levels["gpi"] >> option - 1 & 1
     return int(context.stop_monitor.latched(f"ext{option - 5}")) if option in (6, 7) else None
@@ -273,7 +277,7 @@ TABLE: dict[int, Operation] = {
     0x13: Key("rsten"),
     0x14: Key("pauen"),
 }
-"""Operation of each opcode; all others are END."""
+"""Operation of each opcode; all other opcodes are END."""
 
 
 def decode(word0: int, word1: int) -> tuple[Operation, int, int]:

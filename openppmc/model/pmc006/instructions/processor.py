@@ -22,7 +22,7 @@ class State(Enum):
 
 
 class ProgramExecutor(Protocol):
-    """Members of the executor, which executes the instructions."""
+    """Members of the executor of instructions that the processor uses."""
 
     def resume(self, t: int, restart: bool = False) -> None:
         """Continue the program after edge t."""
@@ -108,14 +108,14 @@ class Processor:
             self.pc += 1
 
     def wait_is_over(self) -> bool:
-        """Return True if the condition of WAIT is fulfilled."""
+        """Return True if the condition of WAIT is met."""
         if self.state is not State.WAIT or self.paused:
             return False
         _, option, operand = self.fetch(self.pc)
         return wait_source(self._context, option) == operand & 1
 
     def end_wait(self, t: int) -> None:
-        """End WAIT, unless another event has changed the state."""
+        """End WAIT, unless another event has changed the state before."""
         if self.state is State.WAIT:
             self.state = State.RUN
             self._step()
@@ -139,7 +139,7 @@ class Processor:
             self._context.services.queue.at(t, Phase.END, self._hold)
 
     def _hold(self, t: int) -> None:
-        """Change to HELD after all other events of this edge."""
+        """Change to the state HELD after all other events of this edge."""
         if self.state is not State.HALT:
             self.pc, self.state, self.paused = self.target, State.HELD, False
 
@@ -155,7 +155,7 @@ class Processor:
             self._context.services.queue.at(t, Phase.END, self._pause)
 
     def _pause(self, t: int) -> None:
-        """Change PAUSED after all other events of this edge."""
+        """Toggle PAUSED after all other events of this edge."""
         if self.state in (State.RUN, State.WAIT):
             self.paused = not self.paused
             self._executor.resume(t)

@@ -11,10 +11,7 @@ from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, BusSequence, Engin
 
 
 def program_of(block: bytes) -> list[int] | None:
-    """Return the words of a program with its sum and mark from the EEPROM.
-
-    The call returns None if the program is invalid.
-    """
+    """Return the words of a program from its bytes in the EEPROM, `None` if checksum or mark is invalid."""
     body, total, mark = block[:SIZE], int.from_bytes(block[SIZE : SIZE + 2], "little"), block[SIZE + 2]
     if mark != COMPLETE or sum(body) % 65536 != total:
         return None
@@ -25,8 +22,8 @@ class Boot:
     """Sequence after a reset.
 
     Args:
-        ended: ended(t, valid) is called at the end of BOOT. valid: a program exists.
-        stored: stored(t) is called when registers have new values.
+        ended: ended(t, valid) is called at the end of BOOT; `valid` is True if there is a valid program.
+        stored: stored(t) is called when registers have received new values.
     """
 
     def __init__(
@@ -44,7 +41,7 @@ class Boot:
         self._page, self._rest = bytearray(PAGE), bytearray(MARK + 1 - PROGRAM)
 
     def begin(self, t: int) -> None:
-        """Begin at edge t, the first internal edge."""
+        """Begin the sequence at edge t, the first internal edge."""
         self._engine.run(t, "boot", self._read_sequence(), self._process_program)
 
     def restore(self, t: int) -> None:
@@ -64,7 +61,7 @@ class Boot:
         self._whole = True
 
     def _copy_read_sequence(self) -> BusSequence[None]:
-        """Read the copy into the buffer of page 0, which is invalid."""
+        """Page 0 is invalid: read its copy into the same buffer."""
         yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
         self._whole = True
 
@@ -110,7 +107,7 @@ class Boot:
         self._at(t + 1, self._finish)
 
     def _finish(self, t: int) -> None:
-        """End the sequence, start a restore that was requested before the end, or read the copy."""
+        """End the sequence, or start a restore that was requested before, or read the copy of the page."""
         if self._restore_pending:
             self._restore_pending = False
             self._engine.run(t + 1, "fact", self._engine.fact(), self._schedule_finish)

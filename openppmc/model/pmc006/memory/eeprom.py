@@ -19,7 +19,7 @@ from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 R = TypeVar("R")
 BusSequence = Generator[None, None, R]
 LOW = Fraction(55, 100)
-"""Part of a period for which SCL is low: slightly more than two quarters."""
+"""Fraction of a period for which SCL is low: slightly more than two quarters."""
 
 
 class BusError(Exception):
@@ -27,7 +27,7 @@ class BusError(Exception):
 
 
 class Bus:
-    """The two lines.
+    """The two lines of the bus.
 
     Attributes:
         levels: synchronised levels of the lines.
@@ -51,7 +51,7 @@ class Bus:
     # ------------------------------------------------------------------ time
 
     def begin(self, t: int, sequence: BusSequence[None], ended: Callable[[int], None]) -> None:
-        """Run a sequence from the first tick at or after edge t. ended(t): called at its last tick."""
+        """Run a sequence from the first tick at or after edge t; call ended(t) at its last tick."""
         next(sequence)
         self._wait(self._ticks.first(t), sequence, ended)
 
@@ -71,7 +71,7 @@ class Bus:
     # ------------------------------------------------------------------ lines
 
     def level(self, pin: str) -> int:
-        """Return the level of a pin."""
+        """Return the synchronised level of a line."""
         return self._levels[pin]
 
     def release(self) -> None:
@@ -98,7 +98,7 @@ class Bus:
     # ------------------------------------------------------------------ actions of a master
 
     def start(self) -> BusSequence[None]:
-        """Send a START, also a repeated one."""
+        """Send a START or a repeated START."""
         yield
         self._drive("sda", 1)
         yield
@@ -124,7 +124,7 @@ class Bus:
         yield
 
     def bit(self, level: int) -> BusSequence[int]:
-        """Send a bit, or receive one (level 1)."""
+        """Send a bit and return the level of the line; to receive a bit, send 1."""
         yield
         received = yield from self._bit_now(level)
         yield
@@ -158,7 +158,7 @@ class Bus:
         return not (yield from self.bit(1))
 
     def read(self, last: bool) -> BusSequence[int]:
-        """Receive a byte; the last one is not acknowledged."""
+        """Receive a byte; acknowledge it unless it is the last one."""
         byte = 0
         for _ in range(8):
             byte = byte << 1 | (yield from self.bit(1))
@@ -166,7 +166,10 @@ class Bus:
         return byte
 
     def clear(self) -> BusSequence[None]:
-        """Send up to 9 pulses of SCL for a device that holds SDA, then STOP (docs/pmc006/README.md, 14)."""
+        """Pulse SCL up to 9 times until the device releases SDA, then send a STOP.
+
+        See docs/pmc006/README.md, 14.
+        """
         for _ in range(8):
             if (yield from self.bit(1)):
                 break
@@ -184,7 +187,7 @@ PROGRAM, SUM, MARK = 0x0020, 0x0340, 0x0342
 COPY = 0x0360
 """Address of the copy of the parameter page.
 
-The copy is written first, so that the page or the copy survives a power cut.
+The copy is written first. Therefore, after a power cut either the page or the copy is valid.
 """
 SIZE = SUM - PROGRAM
 COMPLETE = 0x5A
@@ -192,7 +195,7 @@ POLL_MS = 10
 
 
 class Engine:
-    """Engine for one job at a time; a FACT during another job waits until that job ends.
+    """Engine for one job at a time. A factory restore during another job waits until that job ends.
 
     Args:
         device: address of the device.
@@ -209,7 +212,7 @@ class Engine:
 
     @property
     def state(self) -> int:
-        """Answer to instruction V: 1 = a job is in progress, 2 = the last one has failed, otherwise 0."""
+        """Data of the answer to instruction V: 1 = a job is in progress, 2 = the last job failed, else 0."""
         return 1 if self.busy else 2 * self.failed
 
     @property
@@ -229,7 +232,7 @@ class Engine:
         self._kind = None
 
     def begin(self, t: int, kind: str) -> None:
-        """Start t, B, or the restore of the parameters at edge t; the engine is idle."""
+        """Start job t, job B or the restore of the parameters at edge t. The engine must be idle."""
         sequence = {"save": self._save, "burn": self._burn, "fact": self.fact}[kind]
         self.run(t, kind, sequence())
 
@@ -238,7 +241,7 @@ class Engine:
     ) -> None:
         """Run a sequence as a job from edge t on. Any error ends the job.
 
-        ended(t): called when the bus has been idle for one cycle; the engine stays busy.
+        `ended(t)` is called when the bus has been idle for one cycle; the engine remains busy until then.
         """
         self._kind = kind
         self.failed = False
@@ -283,7 +286,7 @@ class Engine:
             yield from self._page(place, PAGE, iter(FACTORY_PAGE).__next__)
 
     def _burn(self) -> BusSequence[None]:
-        """Write the program, which is valid only after its last byte (P006-EEP-11)."""
+        """Write the program. It becomes valid only with its last byte (P006-EEP-11)."""
         yield from self._page(MARK, 1, lambda: 0)
         code = b"".join(word.to_bytes(4, "little") for word in self._context.program.words)
         content = iter(code)
@@ -302,7 +305,7 @@ class Engine:
                 raise BusError
 
     def poll(self) -> BusSequence[None]:
-        """Address the device until it responds, for at most 10 ms."""
+        """Address the device repeatedly until it responds, for at most 10 ms."""
         first: int | None = None
         while first is None or self._bus.tick + 1 - first < POLL_MS * self._bus.per_ms:
             first = self._bus.tick + 1 if first is None else first
@@ -326,7 +329,7 @@ class Engine:
         yield from self.poll()
 
     def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> BusSequence[None]:
-        """Read bytes from any address; store(place, byte) is called for each."""
+        """Read bytes from an address on; store(place, byte) is called for each byte."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
         yield from self._bus.start()

@@ -1,7 +1,7 @@
 """Speed and steps of one motion of the PMC006B4, per update (P006-MOT-03, -22, -23, -30..-42).
 
-This module is pure arithmetic in us from t = 0; `motion` has edges and events. Between two updates the speed
-is constant, so the steps of each 100 us are known in closed form.
+This module contains only arithmetic, with times in us from t = 0; `motion` handles edges and events. Between
+two updates, the speed is constant, so the steps of each 100 us are calculated in closed form.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from functools import lru_cache
 from math import isqrt
 from typing import NamedTuple
 
-# Arithmetic of the PMC006B4's motions: accelerations, ramps, distances, plans (P006-MOT-02, -10..-21).
-# Speeds are whole steps/s 0..16000, distances whole steps, all times multiples of 1 us. All results are
-# exact.
+# Arithmetic of the PMC006B4's motions: accelerations, ramps, distances, plans (P006-MOT-02, -10..-21). Speeds
+# are whole numbers of steps/s from 0 to 16000, distances are whole numbers of steps, and times are multiples
+# of 1 us. All results are exact.
 
 WHOLE = 1 << 32
-"""Progress of a complete ramp."""
+"""Value of the progress at the end of a ramp."""
 UPDATES_HZ = 10_000
 STEEPEST = 5
 """Largest coefficient."""
 SHORT = 256
-"""Displacements below this one have no S-curve (P006-MOT-23)."""
+"""Displacements below this number of steps have no S-curve (P006-MOT-23)."""
 SPARE = 3
-"""Steps that a fitted ramp leaves for CREEP (P006-MOT-11)."""
+"""Number of steps that a fitted ramp leaves for CREEP (P006-MOT-11)."""
 
 
 def acceleration(n: int) -> int:
@@ -58,18 +58,18 @@ def margin(v: int) -> int:
 
 
 def ramp_steps(fast: int, slow: int, n: int) -> int:
-    """Return the steps between two speeds at coefficient n, rounded up; fast >= slow."""
+    """Return the steps of a ramp between two speeds with coefficient n, rounded up; fast >= slow."""
     return up((fast + slow) * (fast - slow), 2 * acceleration(n))
 
 
 @lru_cache(maxsize=1 << 14)
 def stopping_distance(v: int, ve: int, n: int) -> int:
-    """Return the stopping distance from v > ve (P006-MOT-15)."""
+    """Return the stopping distance from v to ve, v > ve (P006-MOT-15)."""
     return ramp_steps(v, ve, n) + margin(v)
 
 
 class Ramp(NamedTuple):
-    """Ramp from `begin` to `goal` steps/s, `rate` of WHOLE per update.
+    """Ramp from `begin` to `goal` steps/s. Each update adds `rate` to the progress.
 
     Attributes:
         smooth: True for an S-curve, False for a straight ramp.
@@ -90,7 +90,7 @@ class Ramp(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Goal of the first ramp, and the active coefficients."""
+    """Goal of the first ramp, and the coefficients to use."""
 
     goal: int
     acc: int
@@ -127,7 +127,7 @@ class Stage(Enum):
 
 
 FREE = (Stage.RAMP, Stage.CRUISE)
-"""Stages that accept a new target or begin to decelerate."""
+"""Stages in which a new target is accepted and a deceleration may begin."""
 NEXT = {Stage.RAMP: Stage.CRUISE, Stage.DEC: Stage.CREEP, Stage.STOP: Stage.END}
 
 
@@ -135,7 +135,7 @@ class MotionStart(NamedTuple):
     """Values that a motion latches at its start.
 
     Attributes:
-        n: steps (`None`: speed mode).
+        n: number of steps, `None` in speed mode.
         vs: VSTART.
         ve: VSTOP.
         target: target speed.
@@ -155,8 +155,8 @@ class LiveRegisters(NamedTuple):
 
     Attributes:
         target: target speed.
-        straight: True if ramps to it are straight.
-        stop: True if speed mode was switched off.
+        straight: True if ramps to the target are straight.
+        stop: True if the speed mode was switched off.
     """
 
     target: int
@@ -167,13 +167,13 @@ class LiveRegisters(NamedTuple):
 class Engine:
     """One motion.
 
-    Per update, call `load`, `segment`, then `advance` unless `finished`. At t = 0, call `advance`, then
-    `segment(99)`.
+    At t = 0, call `advance` and then `segment(99)`. At each update, call `load` and `segment`, and then,
+    unless `finished`, `advance`.
 
     Attributes:
         speed: current V.
         next_speed: V of the next update.
-        steps_left: remaining steps, `None` without an end.
+        steps_left: remaining steps, `None` in speed mode.
         decel_start: (steps_left, speed) at which the last deceleration began, `None` before it.
     """
 
@@ -204,7 +204,7 @@ class Engine:
             self._ramp(Stage.RAMP, goal, by_coefficient(abs(goal - self.speed), self.acc))
 
     def _begin_short(self, vs: int, ve: int, n: int) -> None:
-        """Begin a displacement without S-curve (P006-MOT-23)."""
+        """Begin a displacement that has no S-curve (P006-MOT-23)."""
         if vs != ve:
             rate = by_coefficient(abs(ve - vs), self.dec if ve < vs else self.acc)
             self._ramp(Stage.RAMP, ve, max(rate, by_distance(vs, ve, n)), smooth=False)
@@ -220,7 +220,7 @@ class Engine:
         self.speed = self.next_speed
 
     def segment(self, ticks: int = UPDATE) -> Sequence[int]:
-        """Return the steps of the next `ticks` us at the current speed, as 1 .. ticks.
+        """Return the times of the steps in the next `ticks` us at the current speed, each 1 .. ticks.
 
         The last step of the motion sets `finished`.
         """
@@ -243,7 +243,7 @@ class Engine:
     def advance(self, live: LiveRegisters) -> None:
         """Calculate `next_speed` (docs/pmc006/README.md, 6.1 Exact arithmetic).
 
-        In an update, call it after the first us was processed, and before the second one.
+        During an update interval, call it after the first us and before the second us is processed.
         """
         if self.stage in (Stage.STOP, Stage.END) and not live.stop:
             self.stage, self._target = Stage.CRUISE, self.speed

@@ -2,8 +2,9 @@
 
 Rules: P006-MOT-04, -05, -50..-52.
 
-`engine` has the arithmetic. An edge in this module is the edge at which the register in question changes;
-registers of other blocks are read with their values before the edge. Work is done per update and per step.
+`engine` contains the arithmetic. In this module, an edge is the edge at which the register concerned changes;
+registers of other blocks are read with their values before the edge. Events are processed per update and per
+step.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ class StopMonitor:
     """Emergency inputs and stall detector.
 
     Attributes:
-        stall, stpos: the flag STALL, and the position at which it was set.
+        stall, stpos: flag STALL, and position at which it was set.
     """
 
     def __init__(self, context: ExecutionContext) -> None:
@@ -46,13 +47,13 @@ class StopMonitor:
 
     @property
     def locked(self) -> bool:
-        """True if one of the two flags is set."""
+        """True if a stop flag is set."""
         return any(self._flags.values())
 
     # ------------------------------------------------------------------ emergency inputs
 
     def on_levels(self, t: int, levels: Mapping[str, int]) -> None:
-        """Compare synchronised levels at edge t with those of the previous cycle (P006-EXT-04)."""
+        """Process synchronised levels at edge t; a change may set a flag (P006-EXT-04)."""
         for place, ext in enumerate(EXTS):
             before, self._level[ext] = self._level[ext], levels[ext]
             active_level = self._regs.trigm >> place & 1
@@ -70,7 +71,7 @@ class StopMonitor:
 
     @property
     def _is_monitoring(self) -> bool:
-        """True if a sample is evaluated (P006-STL-01)."""
+        """True if samples are evaluated (P006-STL-01)."""
         motion = self._context.motion
         return bool(self._regs.stcfg & 1) and not self.stall and motion.busy and motion.at_constant_speed
 
@@ -81,7 +82,7 @@ class StopMonitor:
             self._sample(t)
 
     def _sample(self, t: int) -> None:
-        """Compare the level at edge t; the result is evaluated one cycle later."""
+        """Compare the sampled back EMF with the limit at edge t; the result is evaluated one cycle later."""
         if self._sampled != t:
             self._sampled = t
             below = self._bemf < self._regs.stlvl
@@ -96,7 +97,7 @@ class StopMonitor:
             if self._regs.stcfg & 2:
                 self._context.stop(t)
         elif monitoring and self._valid:
-            # A strobe that stays high is a sample in every cycle.
+            # While the strobe is high, every cycle is a sample.
             self._sample(t)
 
     def _stalled(self, t: int, position: int) -> None:
@@ -111,13 +112,13 @@ class StopMonitor:
 
     @property
     def pulls_gpo5(self) -> bool:
-        """True if STALL pulls GPO5."""
+        """True if STALL drives GPO5."""
         return self.stall and bool(self._regs.stcfg & 4)
 
     # ------------------------------------------------------------------ executor
 
     def clear(self, t: int, latch: str) -> None:
-        """Execute instruction b, l or p; a latch that is set in the same cycle stays set (P006-STA-14)."""
+        """Execute instruction b, l or p. A latch that is set in the same cycle stays set (P006-STA-14)."""
         if self._set_at.get(latch) == t:
             return
         if latch == "stall":
@@ -126,7 +127,7 @@ class StopMonitor:
             self._flags[latch] = False
 
     def started(self) -> None:
-        """Process the start of an accepted motion (P006-STA-03, P006-STL-04)."""
+        """Process the start of a motion that was accepted (P006-STA-03, P006-STL-04)."""
         self.stall, self._count = False, 0
 
 
@@ -135,13 +136,13 @@ ANALOG_UPDATES = 100
 
 
 def drive_index(cur: int) -> int:
-    """Return k of a request of 400..4000 mA (P006-EXC-20)."""
+    """Return k for a requested current of 400..4000 mA (P006-EXC-20)."""
     return (cur - 325) // 150
 
 
 @lru_cache
 def base_code(cur: int) -> int:
-    """Return RB of a request of 400..4000 mA (P006-EXC-20)."""
+    """Return RB for a requested current of 400..4000 mA (P006-EXC-20)."""
     return (RB_FULL * (400 + 150 * drive_index(cur)) + MA_FULL // 2) // MA_FULL
 
 
@@ -149,20 +150,20 @@ def base_code(cur: int) -> int:
 def compensation(speed: int, mstep: int, cur: int, ccomp: int, scomp: int) -> tuple[int, int]:
     """Return B and W at a speed (P006-EXC-21..23).
 
-    B is the addition to the peak code, W the advance of the angle.
+    B is added to the peak code; W is the lead angle.
     """
     full = speed // max(1, mstep)
     return base_code(cur) * ccomp * full // (1 << 22), min(64, scomp * full // (1 << 16))
 
 
 class Listener(Protocol):
-    """Receiver of the events of a motion."""
+    """Object that receives the events of a motion."""
 
     def moved(self, t: int, forward: bool, increment: int) -> None:
         """Process a step at edge t."""
 
     def changed(self, t: int) -> None:
-        """Process a change of busy, current_comp or lead_angle at edge t."""
+        """Process new values of busy, current_comp or lead_angle at edge t."""
 
 
 class Motion:
@@ -173,10 +174,10 @@ class Motion:
         ended: ended(t) is called when BUSY has fallen at edge t without a stop.
 
     Attributes:
-        busy, forward, current_comp, lead_angle: levels after the last edge that was run.
+        busy, forward, current_comp, lead_angle: levels after the last edge that was simulated.
         increment: angle units per step.
-        at_constant_speed: True at constant speed (P006-STL-01).
-        tick: number of the us tick that is t = 0, `None` before the end of planning.
+        at_constant_speed: True if the speed is constant (P006-STL-01).
+        tick: number of the us tick at t = 0 of `engine`, `None` before the end of planning.
     """
 
     def __init__(
@@ -202,19 +203,19 @@ class Motion:
         self._start(t, count)
 
     def run(self, t: int) -> None:
-        """Start the speed mode from IDLE; BUSY rises at edge t."""
+        """Start the speed mode from standstill (IDLE); BUSY rises at edge t."""
         self._speed_mode = True
         self._start(t, None)
 
     def speed_mode(self, t: int, on: int) -> None:
-        """Change the register at edge t; 0 in speed mode requests its end.
+        """Change the register SPEED_MODE at edge t. In speed mode, 0 requests the end of the motion.
 
-        A 1 counts for an update at edge t if this is called before Phase.RUN. A 0 must be set after it.
+        An update at edge t uses a 1 that is set before Phase.RUN. A 0 must be set after this phase.
         """
         self._speed_mode = bool(on)
 
     def adc(self, t: int, data: int) -> None:
-        """Process a strobe with this value, 0..1023, that edge t samples."""
+        """Process a strobe of the analogue value, 0..1023, that edge t samples."""
         self._adc_before, self._adc, self._adc_at = self._adc_read(t), data, t
 
     def halt(self, t: int) -> None:
@@ -248,7 +249,7 @@ class Motion:
         return self._adc if t > self._adc_at else self._adc_before
 
     def _target(self) -> int:
-        """Return the current target (P006-MOT-50, -51)."""
+        """Return the current target speed (P006-MOT-50, -51)."""
         now = self._services.settings
         if not now.analog:
             return now.vmax
@@ -274,9 +275,9 @@ class Motion:
             self._advance(t)
 
     def _plan_steps(self, before: int, ticks: int) -> bool:
-        """Schedule the steps in the us after t = `before`, and the next update.
+        """Schedule the steps of `ticks` us after t = `before`, and the next update.
 
-        The call returns False if the first us contains the last step.
+        The call returns False if the last step of the motion is in the first us.
         """
         engine, us, lag = self.engine, self._services.us, self._services.core_timing.step
         assert engine is not None and self.tick is not None
@@ -292,7 +293,7 @@ class Motion:
         return True
 
     def _advance(self, t: int) -> None:
-        """Calculate the values that the next update loads, from the registers before edge t."""
+        """Calculate the values that the next update loads from the registers before edge t."""
         engine, now = self.engine, self._services.settings
         assert engine is not None
         self._next_constant_speed = engine.stage is Stage.CRUISE and engine.speed > 0

@@ -4,7 +4,7 @@
     print(disassemble(program))
     Path("shuttle.bin").write_bytes(program.image())
 
-`instructions` has the table of instructions, `assembler` both directions of the text.
+`instructions` contains the table of instructions; `assembler` converts text to programs and back.
 """
 
 from .assembler import AssemblyError, assemble, disassemble

@@ -1,4 +1,4 @@
-"""Text to program: labels, constants, comments.
+"""Conversion of text to a program, with labels, constants and comments, and back.
 
 >>> assemble("again: ROT 200 ; there\\nWAIT busy, 0\\nJMP again").words[:6]
 (1, 200, 2064, 0, 13, 0)
@@ -23,7 +23,7 @@ _CONSTANT = re.compile(rf"({_NAME})\s*=\s*(.*)$")
 
 
 class AssemblyError(PpmcError, ValueError):  # noqa: N818 - part of the API
-    """Line `line` of the text is wrong; the message states the valid forms."""
+    """A line of the text is invalid; the message states the valid forms."""
 
     def __init__(self, where: str, line: int, text: str) -> None:
         super().__init__(f"{where}:{line}: {text}")
@@ -39,9 +39,9 @@ class _Line(NamedTuple):
 def assemble(text: str, where: str = "program") -> Program:
     """Return the program of a text.
 
-    The text has one instruction per line, in upper or lower case; `;` and `#` begin comments. `name:` names
-    the next instruction, `name = value` a number. The target of a jump is a label or the number of an
-    instruction. `.word W0, W1` is an instruction by its two words.
+    The text has one instruction per line, in upper or lower case; `;` and `#` begin comments. `name:` is a
+    label of the next instruction; `name = value` defines a constant. The target of a jump is a label or the
+    number of an instruction. `.word W0, W1` specifies an instruction by its two words.
 
     Args:
         where: file of the text, for messages.
@@ -60,7 +60,7 @@ class _Assembler:
         self._lines: list[_Line] = []
 
     def run(self, text: str) -> Program:
-        """Process names first, then instructions."""
+        """Process all names first, then the instructions."""
         number = 0
         for number, line in enumerate(text.splitlines(), 1):
             self._read(number, re.split("[;#]", line, maxsplit=1)[0].strip())
@@ -147,7 +147,7 @@ class _Assembler:
         return Instruction.of(first, second)
 
 
-# Conversion of a program to text, which assembles to the same words.
+# Conversion of a program to text. The text assembles to the same words.
 
 _WIDTH = 8
 
@@ -155,10 +155,10 @@ _WIDTH = 8
 def disassemble(program: Program, numbers: bool = False) -> str:
     """Return the text of a program.
 
-    An instruction with illegal operands, or with bits that the part ignores, is written as its two words.
+    An instruction with illegal operands, or with set bits that the part ignores, is written as its two words.
 
     Args:
-        numbers: add the number of each instruction as a comment.
+        numbers: True to add the number of each instruction as a comment.
     """
     used = program.used
     targets = {target for one in used for target in _targets(one) if target < len(used)}
@@ -171,7 +171,7 @@ def disassemble(program: Program, numbers: bool = False) -> str:
 
 
 def _targets(one: Instruction) -> list[int]:
-    """Return the numbers of the instructions that it refers to."""
+    """Return the numbers of the instructions to which this instruction refers."""
     if not one.plain or one.kind is None:
         return []
     return [one.value(operand) for operand in one.kind.operands if operand.target]

@@ -34,9 +34,9 @@ class Operand:
     Attributes:
         accepts: valid values.
         span: valid values as text.
-        names: words for values; the first word of a value is the one that is printed.
-        target: True if a label is valid.
-        default: value of an omitted operand; `None`: it must not be omitted.
+        names: words for values; if a value has several words, the first one is printed.
+        target: True if the operand may be a label.
+        default: value if the operand is omitted; `None` if it must not be omitted.
     """
 
     place: Place
@@ -70,7 +70,7 @@ _FAR = _operand("target", range(LAST + 1), f"a label or 0 to {LAST}", target=Tru
 
 @dataclass(frozen=True)
 class Kind:
-    """Instruction: name, opcode, operands."""
+    """Kind of instruction: name, opcode, operands."""
 
     name: str
     opcode: int
@@ -183,7 +183,7 @@ class Instruction:
 
     @property
     def kind(self) -> Kind | None:
-        """Row of the table, `None` for a code that halts the program."""
+        """Kind of the instruction, `None` for an opcode that halts the program."""
         return BY_OPCODE.get(self.opcode)
 
     def value(self, operand: Operand) -> int:
@@ -192,7 +192,7 @@ class Instruction:
 
     @property
     def plain(self) -> bool:
-        """True if the instruction can be written by name: all operands are legal, unused fields are 0."""
+        """True if the name can represent the instruction: operands are legal, and unused fields are 0."""
         if self.kind is None or self.spare:
             return False
         used = {one.place for one in self.kind.operands}
@@ -202,6 +202,6 @@ class Instruction:
 
 
 def harmless(first: int) -> bool:
-    """Return True if the trial of an instruction with this first word (`E`) has no effect."""
+    """Return True if instruction E has no effect on an instruction with this first word."""
     opcode = first & 0xFF
     return opcode in _DO_NOTHING or opcode not in BY_OPCODE

@@ -15,12 +15,12 @@ from .instructions import Instruction
 
 INSTRUCTIONS, WORDS = 100, 200
 PLACE = 0x20
-"""Address in the EEPROM."""
+"""Address of the program in the EEPROM."""
 _BYTES, _COMPLETE = 4 * WORDS, 0x5A
 
 
 class BadImage(PpmcError, ValueError):  # noqa: N818 - names the invalid object
-    """The bytes are no program."""
+    """The bytes are not a valid program."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Program:
     """User program.
 
     Attributes:
-        words: 200 of 32 bits, two per instruction; others raise ValueError.
+        words: 200 words of 32 bits, two per instruction; any other number raises ValueError.
     """
 
     words: tuple[int, ...] = (0,) * WORDS
@@ -51,14 +51,14 @@ class Program:
 
     @property
     def used(self) -> tuple[Instruction, ...]:
-        """Instructions up to the END after the last one that is not END; at least one."""
+        """Instructions up to the first END that only END follow; at least one instruction."""
         last = max((place for place, word in enumerate(self.words) if word), default=-1) // 2
         return self.instructions[: last + 2]
 
     def image(self) -> bytes:
-        """Return the bytes for the EEPROM from 0x0020 on.
+        """Return the bytes that are stored in the EEPROM from address 0x0020 on.
 
-        They are the words, their sum, and the mark of a complete program.
+        They consist of the words, their sum, and the mark of a complete program.
         """
         data = b"".join(word.to_bytes(4, "little") for word in self.words)
         return data + (sum(data) & 0xFFFF).to_bytes(2, "little") + bytes([_COMPLETE])

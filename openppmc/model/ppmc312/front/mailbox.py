@@ -2,7 +2,7 @@
 
 Rules: P312-PAR-01..08, -12.
 
-Any host side has the members `notify_response`, `done`, `levels`, `ready` and `answer`.
+Each host side has the methods `notify_response`, `done`, `levels`, `ready` and `answer`.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from ..codes import Source
 from ..timing import CoreTiming
 from .responses import Responses
 
-# Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11). They belong to the pins, not to the
-# registers: a software reset replaces the registers, but a strobe in progress continues.
+# Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11). They are separate from the registers, because
+# a software reset replaces the registers, but a strobe in progress continues.
 
 SYNC = 2
-"""Cycles from a pin to a decision."""
+"""Cycles from the sampling of a pin to the decision that uses its level."""
 IDLE = {"cs_n": 1, "we_n": 1, "oe_n": 1, "rs": 0, "d_i": 0}
 
 
@@ -37,7 +37,7 @@ class Registers(Protocol):
         """Process the end of a read strobe."""
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """Process the strobe that is sampled at edge t: its register, or `None` without a strobe."""
+        """Process the register of the strobe that is sampled at edge t, `None` without a strobe."""
 
 
 class Strobes:
@@ -55,7 +55,7 @@ class Strobes:
         self._closed = -1
 
     def replace_registers(self, t: int, registers: Registers) -> None:
-        """Replace the registers at edge t; the new ones are in reset at the next edge."""
+        """Replace the registers at edge t; the new registers are in reset up to the next edge."""
         self.registers, self._closed = registers, t + 1
         self._queue.at(t + 2, Phase.LEVELS, self._notify_access)
 
@@ -69,7 +69,7 @@ class Strobes:
         self.registers.access(t, reg, self._writing)
 
     def _on_levels(self, t: int, pins: Mapping[str, int]) -> None:
-        """Process these levels, which decisions use from edge t on."""
+        """Process levels that decisions use from edge t on."""
         is_selected = not pins["cs_n"] and pins["we_n"] != pins["oe_n"]
         writing, reading = bool(is_selected and not pins["we_n"]), bool(is_selected and not pins["oe_n"])
         is_open, old, wrote, was_reading = t > self._closed, self._pins, self._writing, self._reading
@@ -87,7 +87,7 @@ class Strobes:
                 self._queue.at(t, Phase.QUEUE, lambda at: self.registers.after_read(at, reg))
 
     def _load_output(self, t: int) -> None:
-        """Load d_o from the register, once per strobe, at the second edge that has seen the strobe."""
+        """Load d_o from the register, once per strobe, at the second edge at which the strobe is active."""
         if self._reading and self._read_register is None:
             self._read_register = self._pins["rs"]
             self._log.set(t, "d_oe", 1)
@@ -102,8 +102,9 @@ WINDOW = 0x20
 class Mailbox:
     """Parallel registers.
 
-    take(t, block): called with a complete instruction block in logical order, at the write event of its
-    header.
+    Args:
+        take: take(t, block) is called with a complete instruction block in logical order, at the write event
+            of its header.
     """
 
     def __init__(
@@ -137,21 +138,21 @@ class Mailbox:
         self._is_ready = True
 
     def done(self, t: int) -> None:
-        """Process the end of an instruction, whose response is stored (P312-PAR-06)."""
+        """Process the end of an instruction, when its response is stored (P312-PAR-06)."""
         self._context.queue.at(t, Phase.STORE, self._open)
 
     def _open(self, t: int) -> None:
         self._busy = False
 
     def notify_response(self, t: int) -> None:
-        """Load a response that may wait from edge t on, if the window is free (P312-PAR-08)."""
+        """If the window is free, schedule the load of a response from edge t on (P312-PAR-08)."""
         if self._window or self._selected or self._loading:
             return
         at = max(t + self._core_timing.load, self._free_from)
         self._loading = self._context.queue.at(at, Phase.PINS, self._load)
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
-        """Do nothing, because responses wait in the store."""
+        """Do nothing, because the store of responses holds the response."""
 
     def levels(self) -> dict[str, int]:
         """Return the internal level of irq_n."""
@@ -169,7 +170,7 @@ class Mailbox:
         return self._busy or not self._is_ready
 
     def _load(self, t: int) -> None:
-        """Select the response to load; the host can read it when its bytes are loaded."""
+        """Select the response to load. The host can read it after its bytes have been loaded."""
         self._loading = None
         selected = self._responses.select()
         if selected is not None:
@@ -223,7 +224,7 @@ class Mailbox:
     def after_read(self, t: int, reg: int) -> None:
         """Process the end of a read strobe.
 
-        A strobe that began before there was a response has read none of its bytes.
+        A strobe that began before the response was loaded has not read a byte of it.
         """
         if not self._response_was_read:
             return

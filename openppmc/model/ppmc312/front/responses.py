@@ -1,6 +1,6 @@
 """Response store of the PPMC-312: eight classes of responses and reports (P312-RSP-10..22).
 
-The host side fetches one block at a time with `select`, and calls `read` when the host has read it.
+The host side fetches one block at a time with `select`, and calls `read` when the host has read the block.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ def block(header: int, *content: int | bytes) -> bytes:
 
 @dataclass
 class Report:
-    """Blocks that the host has not read yet, in logical order.
+    """Report or response: its blocks that the host has not read yet, in logical order.
 
     Attributes:
-        source: source of the instruction.
+        source: source of the instruction of a response.
     """
 
     kind: int
@@ -44,12 +44,12 @@ class Responses:
 
     Args:
         on_stored: on_stored(t) is called when a new block may be loaded.
-        was_read: was_read(t, report, block) is called when the host has read a block, which report.blocks no
-            longer contains.
+        was_read: was_read(t, report, block) is called when the host has read a block. report.blocks contains
+            the following blocks.
         response_pending: response_pending() returns True if a response is about to be stored.
 
     Attributes:
-        live_content: classes whose content is the state at the time of loading.
+        live_content: functions that return the block of a class when it is loaded.
         serial: True in serial mode: a newer report of classes 3 to 5 replaces the older one, and no report
             waits for responses (P312-SER-21).
     """
@@ -71,7 +71,7 @@ class Responses:
         return [report for report in self._stores[kind] if report is not self.loaded]
 
     def occupied(self, kind: int) -> bool:
-        """Return True if the store is full: a report in it has not been read completely."""
+        """Return True if the store of a class is full of reports that have not been read completely."""
         return len(self._stores[kind]) >= _DEPTH.get(kind, 1)
 
     @property
@@ -80,7 +80,7 @@ class Responses:
         return self._stores[ANSWER][0] if self._stores[ANSWER] else None
 
     def post(self, t: int, kind: int, blocks: Iterable[bytes], source: Source | None = None) -> bool:
-        """Store a report; return False, and discard it, if the store is full."""
+        """Store a report. If the store is full, discard the report and return False."""
         if self.occupied(kind):
             if not self.serial or kind not in _REPLACED:
                 return False
@@ -94,7 +94,7 @@ class Responses:
         return self.post(t, kind, [block(SPONTANEOUS, code, *content)])
 
     def input_change(self, t: int, data: int) -> None:
-        """Store E9; new data replace those of a second report that waits (P312-RSP-21)."""
+        """Store E9. If a second report is already waiting, the new data replace its data (P312-RSP-21)."""
         if not self.report(t, INPUT, Answer.INPUT_CHANGE, 0, data):
             self._stores[INPUT][1].blocks = [block(SPONTANEOUS, Answer.INPUT_CHANGE, 1, data)]
 
@@ -107,9 +107,8 @@ class Responses:
     def select(self) -> bytes | None:
         """Return the next block for the host (P312-RSP-11).
 
-        The block is that of the waiting class with the lowest number.
-
-        While a response is about to be stored, reports of classes 3 to 8 wait for it.
+        Of the classes with reports, the one with the lowest number is first. While a response is about to be
+        stored, reports of classes 3 to 8 wait.
         """
         for kind in CLASSES:
             if self._stores[kind] and (kind <= ANSWER or self.serial or not self._response_pending()):
@@ -125,7 +124,7 @@ class Responses:
         return bool(self._stores[ALARM])
 
     def take(self, t: int) -> tuple[int, bytes] | None:
-        """Return class and block of the first waiting report, and mark it as read (serial mode)."""
+        """Return class and block of the first waiting report, and mark the block as read (serial mode)."""
         block = self.select()
         if block is None or self.loaded is None:
             return None
@@ -135,11 +134,11 @@ class Responses:
 
     @property
     def any_waiting(self) -> bool:
-        """True if `select` has a block."""
+        """True if a report or response is waiting."""
         return any(self._stores.values())
 
     def read(self, t: int) -> None:
-        """Process the read of the block that was selected."""
+        """Process the end of the read of the selected block."""
         report, self.loaded = self.loaded, None
         assert report is not None
         block = report.blocks.pop(0)

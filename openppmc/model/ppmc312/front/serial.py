@@ -13,9 +13,9 @@ from typing import NamedTuple
 from ..codes import DIR, IDX, OV, Answer, Cause, Code
 from . import responses
 
-# Frames of the PPMC-312's serial mode: control code, hex-ASCII data, checksum (P312-SER-02..17). This part
-# contains no time: `Parser.take` receives one character after the other, and `silence` is called after 20 ms
-# without a character.
+# Frames of the PPMC-312's serial mode: control code, hex-ASCII data, checksum (P312-SER-02..17). This section
+# does not model time: `Parser.take` processes one character after the other, and `silence` is called after 20
+# ms without a character.
 
 POLL, INSTRUCTION = 0x80, 0x90
 BUSY, READY, DATA, SPECIFIC = 0x80, 0x90, 0xA0, 0xB0
@@ -32,7 +32,7 @@ class Outcome(Enum):
 
 
 class Frame(NamedTuple):
-    """Finished frame; code and data of an instruction."""
+    """Complete frame; for an instruction, with its code and data."""
 
     outcome: Outcome
     code: int = 0
@@ -81,7 +81,7 @@ class Parser:
         self._open = b""
 
     def take(self, character: int) -> Frame | None:
-        """Process a character; return the frame that it completes."""
+        """Process a character; return the frame if this character completes it."""
         if character & 0x80:
             self._open = bytes([character]) if addressed(character, self._address) else b""
             return None
@@ -90,7 +90,7 @@ class Parser:
         self._open += bytes([character])
         size = self._size()
         if size is None:
-            # From here on, only the instruction code is needed.
+            # The following characters are checked only with the instruction code.
             self._open = self._open[:3]
         if len(self._open) != size:
             return None
@@ -100,7 +100,7 @@ class Parser:
     def silence(self) -> Frame | None:
         """Process 20 ms without a character (P312-SER-12, -17).
 
-        The call returns the frame to respond to if a frame of unknown length has begun.
+        If a frame of unknown length has begun, the call returns the frame that requires a response.
         """
         given, self._open = self._open[1:3], b""
         if any(character not in _DIGITS for character in given):
@@ -110,9 +110,9 @@ class Parser:
         return Frame(Outcome.UNKNOWN, code)
 
     def _size(self) -> int | None:
-        """Return the number of characters of the unfinished frame.
+        """Return the number of characters of the incomplete frame.
 
-        The number is 0 while the code is not complete, `None` if the code does not define it.
+        The result is 0 while the code is not complete, and `None` if the code does not define the number.
         """
         if self._open[0] & 0xF0 == POLL:
             return 2
@@ -131,7 +131,7 @@ class Parser:
 
 
 def _bytes(characters: bytes) -> bytes | None:
-    """Return the bytes of hex digits; `None` if their number is odd or one is not a lower-case digit."""
+    """Return the bytes of lower-case hex digits; `None` for an odd number or another character."""
     if len(characters) % 2 or any(character not in _DIGITS for character in characters):
         return None
     return bytes.fromhex(characters.decode())
@@ -144,7 +144,7 @@ _CYCLES = {5: Fraction(2500, 3), 6: Fraction(2500, 6), 7: Fraction(192)}
 def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
     """Return the cycles of a bit.
 
-    `None`: mod selects no documented speed, and the station is silent.
+    The result is `None` if mod selects no documented speed; then the station does not send.
     """
     cycles = _CYCLES.get(mod)
     return None if cycles is None else cycles * clk_hz / xtal_hz
@@ -152,7 +152,7 @@ def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
 
 @unique
 class ReportCode(IntEnum):
-    """Data byte of a specific report."""
+    """Data byte of each specific report."""
 
     INTERLOCK = 0x22
     HOLD = 0x23
@@ -177,7 +177,7 @@ class ReportCode(IntEnum):
 
 @unique
 class Local(IntEnum):
-    """Instructions that the station itself answers."""
+    """Instructions to which the station itself replies, without the instruction unit."""
 
     END_STATUS = 0x40
     ERROR_CODE = 0x4E
@@ -194,7 +194,7 @@ END_CODES = {
     Cause.NORMAL: 0x38,
     Cause.LOW: 0x39,
 }
-"""Reply to the end-status instruction 40 (P312-SER-46)."""
+"""Data of the reply to the end-status instruction 40, by cause (P312-SER-46)."""
 
 ERRORS = {
     Answer.PARAMETER: ReportCode.PARAMETER,
@@ -205,14 +205,14 @@ ERRORS = {
     Answer.REGISTRATION: ReportCode.REGISTRATION,
 }
 _TRIGGERS = {0x00: (0x00, 0), 0x10: (OV, 4), 0x20: (OV | 1, 0), 0x30: (OV | 3, 0)}
-"""By bits 5:4 of 80, 81, 89, 8A: flag byte, number of further bytes (P312-SER-40)."""
+"""Flag byte and number of further bytes, by bits 5:4 of 80, 81, 89, 8A (P312-SER-40)."""
 _AUTO = 0x02
 _REJECTED = (1, 2, 5)
 """Status bytes of 49: trigger in use, buffer full, nothing to delete (P312-SER-43)."""
 
 
 class SerialInstruction(NamedTuple):
-    """Serial instruction: number of data bytes, parallel code, flag byte before the data."""
+    """Serial instruction: number of data bytes, code on the parallel bus, flag byte before the data."""
 
     n: int
     code: int
@@ -277,7 +277,7 @@ LENGTHS = {code: instruction.n for code, instruction in SERIAL_INSTRUCTIONS.item
 
 
 def block_of(code: int, data: bytes) -> bytes:
-    """Return the parallel block of a serial instruction in logical order; not for `Local` ones."""
+    """Return the block of the parallel bus for a serial instruction that is not `Local`, in logical order."""
     instruction, given = SERIAL_INSTRUCTIONS[code], data
     if code == 0x00:
         data = bytes([data[0] & 0x0F]) + data[1:]
@@ -286,7 +286,7 @@ def block_of(code: int, data: bytes) -> bytes:
     elif instruction.code == Code.EVENT_SET and data:
         data = data[: data[1] + 2]
         if len(data) != given[1] + 2:
-            # The embedded block is longer than its frame, so the length of the block is wrong, too.
+            # The embedded instruction is longer than the frame permits, so its length byte is wrong.
             return bytes([0x03, 0, instruction.code]) + instruction.flags + data
     body = bytes([instruction.code]) + instruction.flags + data
     return bytes([0x03, len(body)]) + body
@@ -296,7 +296,7 @@ def reply_of(answer: bytes) -> tuple[int, bytes]:
     """Return kind and data of the reply to an instruction.
 
     Args:
-        answer: the parallel response in logical order.
+        answer: response of the parallel bus, in logical order.
     """
     code, content = answer[2], answer[3:]
     if code in ERRORS:

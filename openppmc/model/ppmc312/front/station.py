@@ -1,6 +1,6 @@
 """PPMC-312 as one of sixteen stations on a line: the host side of its serial mode.
 
-Rules: P312-SER-10..22, -30, -45, -46. `serial` has frames and codes, `uart` the bits.
+Rules: P312-SER-10..22, -30, -45, -46. `serial` defines frames and codes; `uart` models the bits.
 """
 
 from __future__ import annotations
@@ -35,26 +35,30 @@ from .serial import (
     reply_of,
 )
 
-# Members of the host side that the part needs: parallel bus (`mailbox`) or line (`station`).
+# Members of a host side that the part uses. A host side is the parallel bus (`mailbox`) or the line
+# (`station`).
 
 
 class HostSide(Protocol):
-    """Host side."""
+    """Host side of the part: parallel registers or serial station."""
 
     def levels(self) -> dict[str, int]:
         """Return the internal levels of the pins of this side."""
 
     def notify_response(self, t: int) -> None:
-        """Process a response that may wait in the store."""
+        """Process a response that may be in the store."""
 
     def done(self, t: int) -> None:
-        """Process the end of the host's instruction, whose response is stored."""
+        """Process the end of an instruction of the host, when its response is stored."""
 
     def ready(self, t: int) -> None:
         """Enable the interface."""
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
-        """Send the response to an instruction; serial mode only, where no store holds it."""
+        """Send the response to an instruction.
+
+        This is for the serial mode, in which no store holds responses.
+        """
 
 
 _MAX_COUNT = 255
@@ -77,7 +81,7 @@ class Unit(Protocol):
 
 
 class Operation(Protocol):
-    """Operation that moved the motor last."""
+    """Last operation that moved the motor."""
 
     @property
     def last_cause(self) -> Cause | None:
@@ -85,7 +89,7 @@ class Operation(Protocol):
 
 
 class Core(Protocol):
-    """Members of the part that a station needs."""
+    """Members of the part that a station uses."""
 
     context: Context
     core_timing: CoreTiming
@@ -97,7 +101,7 @@ class Core(Protocol):
 
     @property
     def operation(self) -> Operation:
-        """Operation that moved the motor last."""
+        """Last operation that moved the motor."""
 
     @property
     def state(self) -> State:
@@ -115,7 +119,7 @@ class Driver(NamedTuple):
     """SND_LEAD and SND_WAIT in bits (P312-SER-18).
 
     Attributes:
-        lead: bits from the rise of snd to the start bit.
+        lead: bits from the rising edge of snd to the start bit.
         wait: delay of snd in bits, in addition to half a bit after the last character.
     """
 
@@ -127,7 +131,7 @@ class Station:
     """Station on a line.
 
     Args:
-        bit: bit time in cycles, `None` for a silent station.
+        bit: bit time in cycles, `None` for a station that does not send.
         address: 0..15.
         mode: SUM_MODE.
         log: log of all frames and characters sent.
@@ -173,14 +177,14 @@ class Station:
         self._receiver.on_level(t, level)
 
     def levels(self) -> dict[str, int]:
-        """Return the internal levels of the pins of the other host side, which are inactive."""
+        """Return inactive levels for the pins of the parallel bus."""
         return {"irq_n": 1}
 
     def notify_response(self, t: int) -> None:
-        """Do nothing, because a report waits for a poll."""
+        """Do nothing, because a report is sent only as the reply to a poll."""
 
     def done(self, t: int) -> None:
-        """Do nothing after an instruction."""
+        """Do nothing at the end of an instruction."""
 
     def ready(self, t: int) -> None:
         """Accept frames from edge t on."""
@@ -194,7 +198,7 @@ class Station:
     # ------------------------------------------------------------------ characters
 
     def on_char(self, t: int, byte: int | None) -> None:
-        """Process a character whose stop bit was sampled at edge t. `None`: without a stop bit."""
+        """Process a character whose stop bit was sampled at edge t; `None` if the stop bit is missing."""
         self._last_char_at = t
         self._queue.at(t + self._core_timing.character, Phase.BUS, lambda now: self._character(now, byte))
 
@@ -229,7 +233,7 @@ class Station:
     # ------------------------------------------------------------------ frames
 
     def _take(self, t: int, finished: Frame) -> None:
-        """Process a frame for this station; each one gets one reply (P312-SER-19)."""
+        """Process a frame for this station. Each frame causes one reply (P312-SER-19)."""
         self._busy = True
         code, data = finished.code, finished.data
         if finished.outcome is Outcome.INSTRUCTION and code not in list(Local):
@@ -246,7 +250,7 @@ class Station:
         self._core.unit.host_block(t, block_of(code, data))
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
-        """Process a response of the unit in logical order (P312-SER-20, -22)."""
+        """Process a response of the instruction unit, in logical order (P312-SER-20, -22)."""
         if source is Source.EVENT:
             self._result_code = (
                 ReportCode.EVENT_FAILED if block[2] == Answer.EVENT_FAILED else ReportCode.EVENT_DONE
@@ -260,7 +264,7 @@ class Station:
             self._reply(t, *reply_of(block))
 
     def _answer(self, t: int, finished: Frame) -> tuple[int, bytes]:
-        """Return kind and data of a reply of the station itself."""
+        """Return kind and data of the reply to an instruction that the station itself executes."""
         if finished.outcome is Outcome.POLL:
             return self._poll(t)
         if finished.outcome is Outcome.FAULT:
@@ -283,7 +287,7 @@ class Station:
     def _poll(self, t: int) -> tuple[int, bytes]:
         """Return the reply to a poll (P312-SER-30).
 
-        The order is: the alarm, then the result of an event or override, then the other classes.
+        The priority is: the alarm, the result of an event or override, the other classes.
         """
         responses = self._core.responses
         if self._result_code is not None and not responses.alarm_waits:
@@ -296,7 +300,7 @@ class Station:
         return (BUSY if moving else READY), b""
 
     def _reply(self, t: int, kind: int, data: bytes) -> None:
-        """Schedule a reply, whose content is known at edge t.
+        """Schedule a reply whose content is determined at edge t.
 
         snd does not rise before the line is free (P312-SER-18).
         """

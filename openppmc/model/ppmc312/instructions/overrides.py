@@ -19,11 +19,11 @@ from ..motion.position import Counters, Interlock, WindowMonitors
 from ..stages import FreeCurve, Table
 from ..timing import CoreTiming
 
-# Members of the part that instructions need: its blocks and its state. `ppmc312.core.Core` implements them.
+# Members of the part that instructions use: its blocks and its state. `ppmc312.core.Core` implements them.
 
 
 class Core(Protocol):
-    """Part, as instructions see it.
+    """Members of the part that instructions use.
 
     Attributes:
         table: table of the last setting, `None` in state INI.
@@ -52,16 +52,16 @@ class Core(Protocol):
         """Operation state (docs/ppmc312/README.md, 7 States)."""
 
     def reset(self, t: int, source: Source, /) -> None:
-        """Execute the software reset, which sends a response."""
+        """Execute a software reset, which sends a response."""
 
     def discard_table(self) -> None:
-        """Change to state INI: no table, no registered instructions."""
+        """Change to state INI, without a table and without registered instructions."""
 
     def set_table(self, table: Table) -> None:
         """Change to state NOR with a new table."""
 
     def drop_overrides(self, t: int) -> None:
-        """Process a failed override."""
+        """Process the failure of an override."""
 
     def alarm(self, t: int, status: Alarm) -> None:
         """Process a multiple occurrence."""
@@ -74,7 +74,7 @@ FIFO_DEPTH, BUFFER_DEPTH = 8, 4
 
 
 class Entry(NamedTuple):
-    """Registered instruction: block in logical order, trigger, position that triggers it."""
+    """Registered instruction: block in logical order, trigger, and position for a trigger by position."""
 
     block: bytes
     trigger: Trigger
@@ -83,25 +83,25 @@ class Entry(NamedTuple):
 
 @dataclass
 class Triggered:
-    """Entry of the FIFO that its trigger released at edge t."""
+    """Entry of the FIFO that was released by its trigger at edge t."""
 
     entry: Entry
     t: int
 
     @property
     def stops_at_position(self) -> bool:
-        """True for an instruction 80 that a position triggers (P312-OVR-12).
+        """True for an instruction 80 that is triggered by a position (P312-OVR-12).
 
-        The position stops the pulses before the instruction is processed.
+        The pulses stop at this position, before the instruction is processed.
         """
         return self.entry.trigger is Trigger.POSITION and self.entry.block[2] == Code.STOP
 
 
 class Fifo:
-    """Command buffers.
+    """FIFO of registered overrides.
 
     Attributes:
-        waiting: entries, the armed head first.
+        waiting: entries that are not released yet; only the first one, the head, can be released.
         triggered: released entries that are not processed yet.
         armed: cycles from a release to the arming of the next head.
     """
@@ -122,7 +122,7 @@ class Fifo:
         return any(entry.trigger is trigger for entry in self.waiting)
 
     def register(self, entry: Entry, armed_from: int) -> None:
-        """Add an entry; a trigger before edge `armed_from` does not release it."""
+        """Add an entry. A trigger before edge `armed_from` does not release it."""
         if not self.waiting:
             self._armed_from = armed_from
         self.waiting.append(entry)
@@ -139,14 +139,14 @@ class Fifo:
         self.triggered.clear()
 
     def event(self, t: int, trigger: Trigger) -> bool:
-        """Process a falling edge of an event pin; return True if it released the head."""
+        """Process a falling edge of an event pin; return True if this edge releases the head."""
         if not self.waiting or self.waiting[0].trigger is not trigger or t < self._armed_from:
             return False
         self._release(t)
         return True
 
     def count(self, t: int, position: int) -> Triggered | None:
-        """Process a count to this position; return the entry that it released."""
+        """Process the arrival at this position; return the entry if the position releases the head."""
         head = self.waiting[0] if self.waiting else None
         if head is None or head.trigger is not Trigger.POSITION or head.position != position:
             return None
@@ -158,7 +158,7 @@ class EventBuffer:
     """Event buffer.
 
     Attributes:
-        next: number of the entry that the next edge executes.
+        next: number of the entry that the next event edge executes.
         edge: edge of `clk` of a stored event that is not processed yet.
     """
 
@@ -177,7 +177,7 @@ class EventBuffer:
         self.next = 0
 
     def delete(self) -> None:
-        """Remove the last entry, if any; without entries, a stored edge is discarded."""
+        """Remove the last entry, if any. If no entry is left, discard a stored edge."""
         if self.entries:
             self.entries.pop()
             self.next = 0
@@ -190,11 +190,11 @@ class EventBuffer:
         return block
 
     def clear(self) -> None:
-        """Clear the buffer; a stored edge is discarded."""
+        """Clear the buffer, and discard a stored edge."""
         self.entries.clear()
         self.next, self.edge = 0, None
 
     def read(self) -> bytes:
-        """Return the parameters of 47 after the code (P312-CMD-47)."""
+        """Return the parameters of the response to 47 (P312-CMD-47)."""
         codes = bytes(block[2] for block in self.entries).ljust(BUFFER_DEPTH, b"\0")
         return bytes([len(self.entries), self.next]) + codes

@@ -17,7 +17,10 @@ def _number(data: bytes) -> int:
 
 
 def initial(core: Core, data: bytes) -> Work:
-    """Return the work of instruction 00: flags and parameters. `data` has one of the two valid lengths."""
+    """Return the work of instruction 00.
+
+    `data` are flags and parameters, with one of the two valid lengths.
+    """
     flags = data[0]
     separate, sigmoid = bool(flags & LE), bool(flags & FO)
     try:
@@ -46,7 +49,7 @@ def initial(core: Core, data: bytes) -> Work:
 
 
 def open_curve(core: Core, header: int, data: bytes) -> Work:
-    """Return the work of instruction 01, the code block."""
+    """Return the work of the code block of instruction 01."""
     core.discard_table()
     try:
         transfer = FreeCurve(header, data)

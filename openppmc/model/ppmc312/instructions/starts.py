@@ -31,7 +31,7 @@ from . import settings, terminals
 from .overrides import Core, Entry
 from .work import Rejection, Work
 
-# Checks 1..7 on an instruction block of the PPMC-312, and its registration (P312-BLK-01, P312-OVR-01).
+# Checks 1..7 of an instruction block of the PPMC-312, and its registration (P312-BLK-01, P312-OVR-01).
 
 MORE, LAST, CODE_MORE, CODE_LAST = range(4)
 INSTRUCTION_DUE, DATA_DUE = 0x01, 0x02
@@ -49,10 +49,11 @@ def check(core: Core, block: bytes, source: Source, at_position: bool = False) -
     """Check a block in logical order; return its work.
 
     Args:
-        at_position: True if a position has released it, which affects the DATASHEET time of instruction 80.
+        at_position: True if a position has released the block; this affects the DATASHEET time of instruction
+            80.
 
     Raises:
-        Rejection: the block is rejected. State that a rejection clears is already cleared.
+        Rejection: the block is rejected. The state that this rejection clears has already been cleared.
     """
     _check_size(core, block)
     header, body = block[0], block[2:]
@@ -174,11 +175,11 @@ def _count(data: bytes) -> int:
 
 
 def _plan(code: int, table: Table, data: bytes) -> tuple[Plan, int]:
-    """Return plan and DATASHEET time to pulse 1 of a start."""
+    """Return the plan of a start, and its DATASHEET time to pulse 1."""
     given = data[1:3]
     if code == Code.RAMP:
         given = data[1:3] if len(data) == 7 else b"\0\0"
-        count = _count(data[-4:])  # checked before the rate
+        count = _count(data[-4:])  # this is checked before the rate
         plan = ramped(table, _rate(table, given), count)
         if any(given):
             slow = timing.TRAPEZOID_RATE, timing.OTHER_SHAPE_RATE

@@ -131,20 +131,20 @@ def _counter_clear(core: Core, t: int, data: bytes) -> bytes:
     return b""
 
 
-# Reads of the pins, with the levels of the edge at which they are checked. An action in the next cycle
-# happens before the levels of that cycle are updated.
+# Reads of pins return the levels at the edge at which the instruction is checked. An action in the next cycle
+# is executed before the levels of that cycle are updated.
 _PINS: dict[int, Callable[[Core], bytes]] = {
     Code.INPUT: lambda core: bytes([core.context.levels["auxi"]]),
     Code.TERMINALS: terminals,
 }
-# Reads of the part, with its state at the time of the check.
+# Reads of the part return its state at the time of the check.
 _READS: dict[int, Callable[[Core, bytes], bytes]] = {
     Code.VERSION: lambda core, data: bytes([core.version]),
     Code.POSITION_READ: _position_read,
     Code.EVENT_READ: _event_read,
     Code.STATUS: lambda core, data: status(core),
 }
-# Actions of the other instructions at edge t; they return the parameters of the response.
+# Actions of the other instructions at edge t. They return the parameters of the response.
 _ACTIONS: dict[int, Callable[[Core, int, bytes], bytes]] = {
     Code.EXCITATION_ON: _set(exon_n=0),
     Code.EXCITATION_OFF: _set(exon_n=1),
@@ -160,7 +160,7 @@ _ACTIONS: dict[int, Callable[[Core, int, bytes], bytes]] = {
 
 
 def _check_event(data: bytes) -> None:
-    """Check an embedded block, or a deletion without one (P312-CMD-49)."""
+    """Check the parameters of 49: an embedded block, or a deletion without a block (P312-CMD-49)."""
     if data and data[0] & 2:
         legal = len(data) == 1
     else:

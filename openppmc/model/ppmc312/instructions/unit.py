@@ -1,7 +1,7 @@
 """Instruction unit of the PPMC-312: arbitration, checks, execution, responses.
 
-Rules: P312-BLK-01, P312-RSP-20, P312-OVR-10. One instruction is processed at a time. Blocks of the host,
-released entries of the command FIFO and stored event edges wait in this unit.
+Rules: P312-BLK-01, P312-RSP-20, P312-OVR-10. One instruction is processed at a time. This unit selects among
+blocks of the host, released entries of the command FIFO, and stored event edges.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ class Job(NamedTuple):
     Attributes:
         block: block in logical order.
         source: source of the instruction.
-        since: edge that the DATASHEET times count from.
+        since: edge from which the DATASHEET times are counted.
         buffer: number of the event buffer.
-        at_position: True if a position has released it.
+        at_position: True if a position has released the instruction.
     """
 
     block: bytes
@@ -40,10 +40,10 @@ class Unit:
     """Instruction unit.
 
     Args:
-        core: all blocks and state that instructions act on.
+        core: blocks and state that instructions use.
 
     Attributes:
-        response_pending: True if a response is about to be stored; reports of classes 3 to 8 follow it.
+        response_pending: True if a response is about to be stored; reports of classes 3 to 8 wait for it.
     """
 
     def __init__(self, core: Core) -> None:
@@ -58,7 +58,7 @@ class Unit:
         self._storing = False
         self._waiting_block: bytes | None = None
         self._open_from = 0
-        """Edge from which the place of the response that was read last may be used."""
+        """First edge at which the store may accept a response after the previous one was read."""
         self._alarming = False
         self._next_blocks: list[bytes] = []
         self.response_pending = False
@@ -72,7 +72,7 @@ class Unit:
         self.schedule(t)
 
     def schedule(self, t: int) -> None:
-        """Schedule an arbitration, because an instruction may wait."""
+        """Schedule an arbitration, because an instruction may be waiting."""
         self._at(t + self._core.core_timing.arbitration, self._arbitrate)
 
     def event(self, t: int, trigger: Trigger) -> None:
@@ -87,17 +87,14 @@ class Unit:
 
     @property
     def overrides_done(self) -> bool:
-        """True if all released entries of the command FIFO are processed.
-
-        In addition, no alarm may be pending.
-        """
+        """True if all released entries of the command FIFO are processed, and no alarm is pending."""
         busy = self._busy and self._source is Source.OVERRIDE
         return not self._core.fifo.triggered and not self._alarming and not busy
 
     def _at(self, t: int, action: Callable[[int], None]) -> None:
-        """Schedule an action before other events of edge t.
+        """Schedule an action that precedes the other events of edge t.
 
-        Instructions see the state before an edge.
+        Thus, instructions use the state before this edge.
         """
         self._core.context.queue.at(t, Phase.BUS, action)
 
@@ -132,9 +129,9 @@ class Unit:
         return since + self._core.core_timing.arbitration <= t
 
     def _first_waiting(self, t: int) -> tuple[Source, int] | None:
-        """Return the first of the triggered instructions, with the number of its buffer (P312-OVR-10).
+        """Return source and buffer number of the first triggered instruction (P312-OVR-10).
 
-        The priority is position, evt0, evt1.
+        The priority is: position, evt0, evt1.
         """
         fifo, events = self._core.fifo, self._core.events
         waiting = [
@@ -160,7 +157,7 @@ class Unit:
     def _multiple_occurrence(self, t: int, waiting: tuple[Source, int]) -> None:
         """Process a multiple occurrence (P312-RSP-20).
 
-        The instruction is not executed, and the instructions that wait with it are discarded.
+        The instruction is not executed, and all instructions in the same buffer are discarded.
         """
         source, number = waiting
         if source is Source.EVENT:
@@ -193,10 +190,7 @@ class Unit:
         self._at(t + core_timing.check, lambda now: self._check(now, t, job))
 
     def _check_response_store(self, t: int, job: Job) -> None:
-        """Reject an instruction of a host that has not read its last response.
-
-        The instruction is not executed (P312-RSP-20).
-        """
+        """Do not execute an instruction if the host has not read its last response (P312-RSP-20)."""
         answer = self._core.responses.answer
         if answer and answer.source is Source.HOST:
             self._idle(t)
@@ -228,9 +222,9 @@ class Unit:
         self.response_pending = True
 
     def _proc_time_edge(self, t: int, work: Work) -> int:
-        """Return the edge that the original chip's time defines (P312-TIM-20).
+        """Return the edge at which the processing time of the original chip ends (P312-TIM-20).
 
-        The time counts from the start of processing.
+        This time is counted from the start of processing.
         """
         core = self._core
         if not core.context.datasheet or work.cycles is None:
@@ -245,7 +239,7 @@ class Unit:
         )
 
     def _execute(self, t: int, job: Job, work: Work) -> None:
-        """Execute the effect of a short instruction."""
+        """Process the edge at which a short instruction takes effect."""
         if work.begin:
             work.begin(t)
         finish_at = self._proc_time_edge(t + work.clk, work) if work.clk else t
@@ -255,7 +249,7 @@ class Unit:
         self.response_pending = False
         self._core.host.notify_response(t)
         if work.check:
-            # The check uses the levels of that edge.
+            # The check uses the levels at that edge.
             check_at = t + self._core.core_timing.limits
             self._core.context.queue.at(
                 check_at, Phase.COMMAND, lambda now: self._check_limits(now, job, work, finish_at)
@@ -303,9 +297,9 @@ class Unit:
         self._core.context.queue.at(stored, Phase.STORE, lambda now: self._store(now, block, source))
 
     def _enable_next(self, t: int) -> None:
-        """Enable the next instruction."""
+        """End the processing of an instruction, so that the next one can begin."""
         self._idle(t)
-        # While a response has to wait, other reports may be sent before it.
+        # While a response must wait because another one is unread, other reports may precede it.
         self.response_pending = self._core.responses.answer is None
         self._core.operation.motion.schedule_standstill_check(t)
         self.schedule(t)
@@ -314,7 +308,7 @@ class Unit:
         self._busy, self._job, self._free = False, None, t + self._core.core_timing.arbitration
 
     def answer_reset(self, t: int) -> None:
-        """Write the response to a reset by FF, the first one after it."""
+        """Write the response to FF, the first response after the reset."""
         self._busy = True
         self._answer(t, Source.HOST, [bytes([Source.HOST, 1, Code.RESET])])
 
@@ -330,7 +324,8 @@ class Unit:
             )
             return
         if not self._core.responses.post(t, ANSWER, [block], source):
-            # The response follows one to an event or an override, and the mailbox stays closed (P312-RSP-20).
+            # The store holds a response to an event or an override, so this response waits, and the mailbox
+            # stays closed (P312-RSP-20).
             self._waiting_block = block
             return
         self._waiting_block, self._storing, self.response_pending = None, False, bool(self._next_blocks)
@@ -342,7 +337,7 @@ class Unit:
         self._core.host.done(t)
 
     def was_read(self, t: int, report: Report) -> None:
-        """Process the read of a response; the waiting response, or its next block, follows."""
+        """Process the end of a read of a response; then store the waiting response or the next block."""
         if report.kind != ANSWER:
             return
         core_timing, queue, late = self._core.core_timing, self._core.context.queue, self._waiting_block
@@ -355,9 +350,9 @@ class Unit:
             self._write(t + core_timing.reading(following), following, Source.HOST)
 
     def _fetch(self, t: int) -> None:
-        """Assemble the next block of a table read.
+        """Begin to assemble the next block of a table read.
 
-        Instructions that are discarded at the same edge are processed before it.
+        A triggered instruction at the same edge is processed before, as a multiple occurrence.
         """
         if waiting := self._first_waiting(t):
             self._multiple_occurrence(t, waiting)

@@ -10,7 +10,7 @@ from ..front.responses import block
 
 
 class Rejection(Exception):  # noqa: N818 - an answer, not a fault of the program
-    """Rejection with an abnormality response.
+    """Rejection of an instruction, with an abnormality response.
 
     Args:
         number: error number, status or length byte, as the response requires.
@@ -23,16 +23,16 @@ class Rejection(Exception):  # noqa: N818 - an answer, not a fault of the progra
 
 
 class Work(NamedTuple):
-    """Instruction that has passed its checks.
+    """Work of an instruction that has passed its checks.
 
     Attributes:
         finish: finish(t) executes it at its edge. It returns the response without header and length, or
             several whole blocks; it may raise Rejection.
         clk: cycles from the effect of a short instruction to finish.
-        cycles: DATASHEET time in crystal cycles from the write of the header, or from the trigger; `None` for
-            the time of FAST.
-        starts: True if this time is that of pulse 1, which is TW after t0.
-        begin: begin(t) executes the immediate part, at the edge of the effect of a short instruction.
+        cycles: DATASHEET time in crystal cycles, from the write of the header or from the trigger; `None` if
+            the time is that of FAST.
+        starts: True if this time ends at pulse 1, which is TW after t0.
+        begin: begin(t) executes the first effect, at the edge at which a short instruction takes effect.
         check: check(t) checks the limits of a start before it is planned; it may raise Rejection.
     """
 

@@ -1,4 +1,4 @@
-"""Input levels of the PPMC-312 for decisions, and generalized input: P312-INP-01, P312-MON-10."""
+"""Input levels of the PPMC-312 that decisions use, and the generalized input: P312-INP-01, P312-MON-10."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ EVENT_PINS = ("evt0_n", "evt1_n")
 
 
 class Filters:
-    """Filters of the guarded pins. changed(t, pin): called when the level of a pin has changed.
+    """Filters of the guarded pins; changed(t, pin) is called when the filtered level of a pin has changed.
 
     Attributes:
-        levels: filtered levels. With DATASHEET timing a low level counts only when it has lasted for the
-            filter time; a high level counts immediately.
+        levels: filtered levels. With DATASHEET timing, a low level is accepted after the filter time, a high
+            level immediately.
     """
 
     def __init__(self, context: Context, changed: Callable[[int, str], None]) -> None:
@@ -48,7 +48,7 @@ class Filters:
             pending.cancel()
         if self.levels[pin] != level:
             self.levels[pin] = level
-            # All pins of one edge are updated before an action on any of them.
+            # All pins that change at the same edge are updated before any of them causes an action.
             self._context.queue.at(t, Phase.QUEUE, lambda now: self._changed(now, pin))
 
 
@@ -71,7 +71,7 @@ class InputChange:
             self._next = None
 
     def on_change(self, t: int) -> None:
-        """Process a change of auxi at edge t: the next sample compares it."""
+        """Process a change of auxi at edge t. The next sample compares the new levels."""
         if not self._mask or self._next:
             return
         timebase = self._context.timebase
@@ -95,7 +95,7 @@ class InputChange:
 
 
 class Outputs:
-    """Internal levels of the pins."""
+    """Terminal outputs: internal levels of the pins."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -105,7 +105,7 @@ class Outputs:
 
     def _after(self, name: str, t: int, cycles: int, action: Callable[[int], None]) -> None:
         self._cancel(name)
-        # The last cycle is that of the pin register.
+        # The pin register adds the last cycle.
         at = t + self._context.timebase.cyc(cycles - 1) + 1
         self._timers[name] = self._context.queue.at(at, Phase.CHOPPER, action)
 
@@ -115,7 +115,7 @@ class Outputs:
             event.cancel()
 
     def counter_clear(self, t: int) -> None:
-        """Execute instruction 22: the pulse begins, or starts again if it is active."""
+        """Execute instruction 22: start the pulse; if it is active already, start it again."""
         self.cclr_n = 0
         self._after("cclr", t, CLEAR_PULSE, self._counter_cleared)
 
@@ -135,16 +135,16 @@ class Outputs:
         self.zclmp_n = 0
 
     def begin(self) -> None:
-        """Process t0."""
+        """Process t0, the start of a motion."""
         self.zclmp_n = self.cd_n = 1
         self._cancel("cd")
 
     def pulses_ended(self, t: int) -> None:
-        """Start the time to the current reduction."""
+        """Start the time until the current reduction."""
         self._after("cd", t, CURRENT_DOWN, self.reduce)
 
     def reduce(self, t: int) -> None:
-        """Activate the current reduction: its time is over, or alm_n is low."""
+        """Activate the current reduction, because its time has expired or alm_n is low."""
         self.cd_n = 0
 
     @property

@@ -1,6 +1,7 @@
-"""Pulse output of the PPMC-312 in time: t0, intervals, pulse shape, immediate ends.
+"""Timing of the pulse output of the PPMC-312: t0, intervals, pulse shape, immediate ends.
 
-Rules: P312-MOT-01..07, -34. `sequence` has the rate of each pulse, `operation` the rest of an operation.
+Rules: P312-MOT-01..07, -34. `sequence` determines the rate of each pulse; `operation` contains all other
+functions of an operation.
 """
 
 from __future__ import annotations
@@ -44,9 +45,10 @@ class Motion:
         pins: levels of the guarded inputs for decisions.
         speed_limit: returns HSL.
         on_count: on_count(t, direction) is called when POS counts a pulse.
-        on_compare: on_compare(t, direction) is called when POS is compared; True means a stop at this
-            position (P312-OVR-12).
-        overrides_done: overrides_done() returns True if everything that such a stop waits for is done.
+        on_compare: on_compare(t, direction) is called when POS is compared; it returns True for a stop at
+            this position (P312-OVR-12).
+        overrides_done: overrides_done() returns True if all instructions are processed for which such a stop
+            waits.
         on_end: on_end(t, cause) is called when the pulse output has ended, or with Cause.RETURN after phase 1
             of a zero return.
     """
@@ -98,12 +100,12 @@ class Motion:
 
     @property
     def next_boundary(self) -> int | None:
-        """Edge of the next boundary, `None` if it is unknown."""
+        """Edge of the next boundary between two intervals, `None` if it is unknown."""
         return self._next_boundary if self.active and self._divider is not None else None
 
     @property
     def busy(self) -> bool:
-        """True while the pulse output is active: pulses may follow, or the last one is not over."""
+        """True while the pulse output is active: more pulses may follow, or the last pulse has not ended."""
         return self.active or self._ended is not None
 
     @property
@@ -127,7 +129,7 @@ class Motion:
         elif cause is Cause.ALARM and self._at_position and self._ended is Cause.STOP:
             self._replace_cause(t, cause)
         if cause is Cause.ALARM:
-            # An alarm does not wait for instructions that the position has released.
+            # In an alarm, a stop at a position no longer waits for the released instructions.
             self._context.queue.at(t + 1, Phase.BEGIN, self.check_standstill)
 
     def slow_stop(self, t: int) -> None:
@@ -141,7 +143,10 @@ class Motion:
             self._replace_cause(t, Cause.LOW)
 
     def _replace_cause(self, t: int, cause: Cause) -> None:
-        """Process a stop between the phases of a zero return, or an alarm after a stop at a position."""
+        """Replace the cause of an end.
+
+        The new cause is a stop between the phases of a zero return, or an alarm after a stop at a position.
+        """
         self._ended = cause
         self._standstill_at(t + 1)
 
@@ -152,7 +157,7 @@ class Motion:
                 self.sequence,
                 self._core_timing.ramp_lead if change.ramp else self._core_timing.change_lead,
             )
-            # A change that is still pending is removed before the new change takes effect.
+            # A pending change is discarded before the new change takes effect.
             self._flag(t + self._core_timing.drop_lead, lambda at: sequence.drop_change())
             self._changes.append((t, self._flag(t + lead, lambda at: sequence.change(change))))
             if change.ramp:
@@ -188,7 +193,7 @@ class Motion:
     def _check_slow_limit(self, t: int, low: bool) -> None:
         """Process the high-speed limit, which is a level (P312-INP-12).
 
-        The limit counts for boundaries `lead` cycles later.
+        The limit affects boundaries that are at least `lead` cycles later.
         """
         if t > self._limit_at:
             self._limit_before, self._limit_at = self._limit, t
@@ -203,7 +208,7 @@ class Motion:
     # ------------------------------------------------------------------ end
 
     def _end(self, t: int, cause: Cause) -> None:
-        """Cut the pulses from edge t on (P312-MOT-06, -34)."""
+        """End the pulse output: no pulse begins from edge t on (P312-MOT-06, -34)."""
         self._ended = Cause.NORMAL if self.sequence.complete else cause
         self.active = False
         self._cancel("pulse")
@@ -215,12 +220,12 @@ class Motion:
         self._context.queue.at(t, Phase.BEGIN, self.check_standstill)
 
     def schedule_standstill_check(self, t: int) -> None:
-        """Schedule a check at edge t, because a condition of a stop at a position may have become true."""
+        """Schedule a check, because a stop at a position may be complete at edge t."""
         if self._at_position and self._ended is not None:
             self._context.queue.at(t + 1, Phase.BEGIN, self.check_standstill)
 
     def check_standstill(self, t: int) -> None:
-        """End the motion if the last pulse is over and no condition is pending."""
+        """End the motion if the last pulse has ended and a stop at a position is complete."""
         cause = self._ended
         if (
             cause is None
@@ -263,8 +268,8 @@ class Motion:
         if isinstance(step, Cause):
             self._end(t, step)
             return
-        # A change that was requested in time for this boundary is discarded with the final deceleration, or
-        # dropped.
+        # Cancel changes that were requested early enough for this boundary, but are dropped, or discarded
+        # because a deceleration begins.
         lead = 1 if sequence.decel_begins else self._core_timing.change_lead
         if sequence.decel_begins or sequence.change_dropped:
             for since, event in self._changes:
@@ -298,9 +303,9 @@ class Motion:
             self._check_causes(t)
 
     def _plan_interval(self, t: int, rate: int, divider: int) -> None:
-        """Schedule the fall of pout and the next boundary.
+        """Schedule the falling edge of pout and the next boundary.
 
-        Both follow the prescaler, whose phase pulse 1 cleared.
+        Both are aligned to the prescaler, which pulse 1 has restarted.
         """
         timebase = self._context.timebase
         if self.sequence.done == 1:

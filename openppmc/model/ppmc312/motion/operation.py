@@ -27,14 +27,14 @@ class Operation:
     Args:
         pins: input levels for decisions.
         alarm: alarm(t, status) is called on a multiple occurrence.
-        on_pulses_ended: on_pulses_ended(t) is called when the position has changed, or the pulse output
+        on_pulses_ended: on_pulses_ended(t) is called when the position has changed, and when the pulse output
             has ended.
-        overrides_done: overrides_done() returns False while an instruction waits for which a position has
-            stopped the motor.
+        overrides_done: overrides_done() returns False while an instruction is not processed yet whose
+            position has already stopped the pulses.
         abnormal: abnormal() returns True in state ABN.
 
     Attributes:
-        run_level: level of RUN for decisions at this edge.
+        run_level: level of RUN that decisions at this edge use.
         end_monitored: True if a motion waits for END.
         run_ignored: True if RUN is ignored (setting CWS).
         speed_limit: rate HSL, which applies at the high-speed limits.
@@ -81,7 +81,7 @@ class Operation:
 
     @property
     def state(self) -> State | None:
-        """ACC, FIX or WRN; `None` if stopped."""
+        """State ACC, FIX or WRN; `None` at standstill."""
         if self._waiting_for_run:
             return State.WRN
         if self.motion.in_table:
@@ -90,7 +90,7 @@ class Operation:
 
     @property
     def waits_for_end(self) -> bool:
-        """True while it waits for END."""
+        """True while the operation waits for END."""
         return self._end_wait is not None
 
     @property
@@ -170,7 +170,8 @@ class Operation:
             self._start_phase_2(t)
             return
         self._outputs.pulses_ended(t)
-        # In ABN, END is not awaited, for any cause; ABN entered at this edge ends the wait immediately.
+        # In state ABN, no end waits for END, for any cause; if ABN begins at this edge, the wait ends
+        # immediately.
         waits = self.end_monitored and cause is not Cause.ALARM and self._pins["end_n"]
         if waits and not (self._abnormal() and self._alarm_at < t):
             self._end_wait = cause

@@ -15,7 +15,7 @@ from ..timing import CoreTiming
 
 _WRAP = (1 << 32) - 1
 _LONG, _SHORT = 14, 4
-"""Cycles until all comparisons are stable, with a monitor on and off."""
+"""Numbers of cycles until all comparisons are stable: with a monitor on, and with both off."""
 
 
 @dataclass
@@ -35,7 +35,7 @@ class Counters:
 
     @property
     def distance(self) -> int:
-        """Absolute value of POS - ENC, where the difference is a signed 32-bit number."""
+        """Absolute value of POS - ENC; the difference is a signed 32-bit number."""
         difference = self.pulse - self.encoder & _WRAP
         return min(difference, _WRAP + 1 - difference)
 
@@ -45,14 +45,14 @@ class Interlock:
     """Interlock.
 
     Attributes:
-        on: True if the interlock control is running, so that intlk_n is low.
+        on: True if the interlock control is active, so that intlk_n is low.
     """
 
     position: int = 0
     on: bool = False
 
     def arrives(self, position: int) -> bool:
-        """Process a count to this position; return True if it ends the control."""
+        """Process the arrival at this position; return True if it ends the interlock control."""
         ends = self.on and position == self.position
         self.on = self.on and not ends
         return ends
@@ -61,7 +61,7 @@ class Interlock:
 class Monitor:
     """In-position or encode monitor.
 
-    It sends reports of one class when the distance enters or leaves a range.
+    It sends reports of one class when the distance of POS and ENC enters or leaves a range.
 
     Attributes:
         enabled: bit EN of the status.
@@ -102,7 +102,7 @@ class Monitor:
     def clock(self, t: int, inside: bool, evaluate: bool) -> None:
         """Process one cycle (P312-RSP-22, P312-MON-05).
 
-        The reports depend on the state before edge t.
+        Reports depend on the state before edge t.
         """
         if t < self._report_from:
             return
@@ -126,10 +126,12 @@ class Monitor:
 
 
 class WindowMonitors:
-    """Both monitors on both counters.
+    """Both monitors, which compare both counters.
 
-    at_standstill(): returns True if the pulse output is inactive. clamp(): asserts zclmp_n (low). end_low():
-    returns True if end_n is low.
+    Args:
+        at_standstill: at_standstill() returns True if the pulse output is inactive.
+        clamp: clamp() asserts zclmp_n (low).
+        end_low: end_low() returns True if end_n is low.
     """
 
     def __init__(
@@ -162,7 +164,8 @@ class WindowMonitors:
     def evaluate(self, t: int) -> None:
         """Run the comparison after a change at edge t.
 
-        The change is a count, a position, a setting, the end of the pulse output, or end_n.
+        The change may be a count, a new position, a setting, the end of the pulse output, or a change of
+        end_n.
         """
         busy = self.in_position.enabled or self.encode.enabled
         self._until = max(self._until, t + (_LONG if busy else _SHORT))

@@ -1,6 +1,6 @@
 """Sequence of pulses and rates of the PPMC-312 with changes of speed: P312-MOT-20..33.
 
-This module contains no time: `boundary` is called at the end of every interval, and once before pulse 1.
+This module does not model time: `boundary` is called at the end of every interval, and once before pulse 1.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ class Sequence:
     """Pulses of an operation.
 
     Attributes:
-        done: pulses output.
+        done: number of pulses that were output.
         running: current pulse and interval, `None` before pulse 1.
-        decel_begins: True if the last boundary began the deceleration to the end.
+        decel_begins: True if a requested deceleration began at the last boundary.
         change_dropped: True if the last boundary discarded a waiting instruction 87.
-        was_searched: True if the constant rate of the last boundary was that of a stage, so t(x) had to be
-            searched for it.
+        was_searched: True if the constant rate at the last boundary had been that of a stage, so that a
+            search for t(x) was required.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -90,16 +90,16 @@ class Sequence:
         self._limit = active
 
     def announce_change(self) -> None:
-        """Record a waiting 87, which may soon take effect."""
+        """Record that an instruction 87 is waiting; it may take effect soon."""
         self._change_waits = True
 
     def change(self, change: Change) -> None:
-        """Process instruction 87 or 88 for the next boundary; it replaces a waiting one."""
+        """Record an instruction 87 or 88 for the next boundary. It replaces a waiting one."""
         self._change = change
         self._change_waits = change.ramp
 
     def drop_change(self) -> None:
-        """Discard a waiting change: a newer 87 or 88 follows, or changes do not count any more."""
+        """Discard a waiting change, because a newer one follows or changes are no longer possible."""
         self._change = None
         self._change_waits = False
 
@@ -112,7 +112,7 @@ class Sequence:
 
         Args:
             ramps: True if instruction 87 may take effect at this boundary.
-            found: True if the search for t(x) has ended; without effect if no search was required.
+            found: True if the search for t(x) has ended. It has no effect if no search was required.
         """
         self.decel_begins = self.change_dropped = False
         if self.complete:
@@ -123,7 +123,7 @@ class Sequence:
             causes = self._requests
             self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
         else:
-            causes = set()  # the first stage of the deceleration is not known yet, so the deceleration waits
+            causes = set()  # wait, because the first stage of the deceleration is not known yet
         if causes and self._mode is not _Mode.DECEL:
             end = self._decelerate(next(cause for cause in _ORDER if cause in causes))
             if end is not None:
@@ -144,7 +144,7 @@ class Sequence:
         return self.running
 
     def _decel_from(self, step: Step) -> list[list[int]]:
-        """Return stages and pulses of the deceleration from a step (P312-MOT-20).
+        """Return the stages of a deceleration from a step, with their pulses (P312-MOT-20).
 
         The list is empty if no deceleration is required.
         """
@@ -165,7 +165,7 @@ class Sequence:
         return None
 
     def _apply_change(self) -> None:
-        """Apply a waiting 87 or 88; 87 requires a constant speed before."""
+        """Apply a waiting 87 or 88. An 87 waits until the speed is constant."""
         change = self._change
         if change is None or (change.ramp and not self._ramps):
             return
