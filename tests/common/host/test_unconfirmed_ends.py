@@ -31,6 +31,7 @@ from openppmc.host import (
     PpmcBank,
     ProtocolError,
     Stmc,
+    Timeout,
 )
 from openppmc.host.model_port import ModelPort
 from openppmc.host.motion_result import decode_end
@@ -242,6 +243,17 @@ def test_a_floating_bus_is_no_motion_without_end(
     assert not motion.over
     monkeypatch.undo()
     assert motion.wait(5).complete
+
+
+def test_a_bus_that_reads_0_confirms_no_end(axis: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """If every read returns 0, as on a bus that is stuck low, BUSY = 0 is not reported as the end."""
+    motion = axis.start_move(1000)
+    board = port_of(axis).board
+    read = board.read
+    monkeypatch.setattr(board, "read", lambda a: read(a) & 0)  # the access takes its time
+    with pytest.raises(Timeout, match="the part did not react in time"):
+        motion.wait(5)
+    assert not motion.over and motion.result is None
 
 
 # ---------------------------------------------------------------------- several axes
