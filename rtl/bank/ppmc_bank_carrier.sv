@@ -3,7 +3,7 @@
 //         and its host interface. This is either the UART bridge, which accesses the registers of one
 //         selected axis, or an SPI slave, which accesses the complete window.
 // Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
-//         (from 0) uses bit a of each port; in s, it uses bits 5 a to 5 a + 4 (S1 to S5).
+//         (from 0) uses bit a of each port. In s, it uses bits 5 * a (S1) to 5 * a + 4 (S5).
 // Timing: as ppmc_bank. The inputs need no external synchroniser.
 `default_nettype none
 

@@ -85,7 +85,8 @@ package ppmc_bank_pkg;
     logic       slow_base;   // base clock; 1: 125 kHz
     logic       extra_time;  // 1: extra time of 7.5 us
     logic       decel;       // 1: the deceleration has begun
-    // Rate of the running interval. During acceleration, after the low time: rate of the next interval.
+    // Rate of the running interval. During acceleration, this is the rate of the next interval once the low
+    // time has ended.
     logic [7:0] rate;
   } interval_t;
 
@@ -106,7 +107,7 @@ package ppmc_bank_pkg;
     logic        pout_only;      // 1: POUT mode, the phases do not change
     logic        ccw;            // 1: CCW
     logic        silent;         // 1: no interrupt at the end
-    logic [24:0] decel_margin;   // pulses after the next pulse - 1 - index of the running interval
+    logic [24:0] decel_margin;   // (pulses after the next pulse) - 1 - (index of the running interval)
     logic [14:0] ramp_level;     // index of the running interval + 1
   } motion_state_t;
 
@@ -177,7 +178,7 @@ package ppmc_bank_pkg;
     logic       finish;         // end a motion
     logic       init_done;      // complete an initialisation
     logic       init;           // begin an initialisation
-    logic       first_init;     // with init: it is the first since reset or Excitation OFF
+    logic       first_init;     // with init: the first one since reset or Excitation OFF
     logic       exc_off;        // execute Excitation OFF
     logic       switching;      // set the times of the chopper
     logic       read;           // execute a read command

@@ -170,8 +170,8 @@ module ppmc_bank_plan
 
   // ---- cycles to the next edge ---------------------------------------------------------------------
 
-  // Low time at a rate, minus Round. With halves = 1 and a rate of 0 to 2, it is half of the interval;
-  // otherwise W.
+  // Low time at a rate, minus Round. If halves = 1 and the rate is 0 to 2, it is half of the interval.
+  // Otherwise it is the full pulse width.
   function automatic cycles_t low_time(logic [7:0] rate, logic halves);
     unique case ({
       halves && rate[7:2] == '0, rate[1:0]

@@ -40,7 +40,8 @@ module ppmc_bank_scheduler #(
 
   // Number of further cycles for which go_o and stop_o remain high.
   logic [RoundBits-1:0] go_left_q;
-  logic [RoundBits:0] stop_left_q;  // a round + 1 cycle: then the operation that started last is armed
+  // At most one round + 1 cycle. At the end of this time, the operation that started last is armed.
+  logic [RoundBits:0] stop_left_q;
   logic go_pending_q;  // GO was written again while go_o = 1
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -197,7 +197,7 @@ module ppmc_bank_window
     endcase
     collision_q <= done_axis_i == axis_s2;
     if (!collision_q) axis_regs_q2 <= axis_regs_q;
-    bank_reg_q2 <= bank_reg_q;  // also if collision_q = 1, because any visit may change the map
+    bank_reg_q2 <= bank_reg_q;  // loaded even if collision_q = 1, because any visit may change the map
   end
 
   // The new seq differs from the seq of the previous byte and from the seq of the last accepted byte.

@@ -49,7 +49,7 @@ module ppmc_axil #(
   logic [7:0] w_q;
   logic strobe_q;  // byte lane 0 of W is enabled
   logic busy_q, write_q;  // busy_q: a strobe access is in progress; write_q: this access is a write
-  logic write_next_q;  // 1: if a write and a read wait, the write is next
+  logic write_next_q;  // 1: if a write and a read wait, the write is executed next
   logic bridge_reg_q;  // 1: R returns the bridge register or 0, not data of the device
   logic flag_q, unused;
   assign unused = &{1'b0, awaddr_i[1:0], araddr_i[1:0], wdata_i[31:8], wstrb_i[3:1]};

@@ -78,7 +78,8 @@ module ppmc_bridge_exec
   result_e result_q;
   logic [8:0] length;  // number of data bytes in the answer
   logic [7:0] pos_q;
-  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: operand 1, then bytes left of the op; left_q: of the script
+  // n_q: operand 1, then remaining bytes of the op; left_q: remaining bytes of the script
+  logic [7:0] op_q, n_q, value_q, left_q;
   logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2, the results of the byte are valid
   logic script_end_q, too_short_q, is_zero_q, bad_arg_q, hit_q, compare_q, timeout;
   logic first_q, written_q, has_read_q;
@@ -257,7 +258,7 @@ module ppmc_bridge_exec
   assign answer_o   = state_q == StAnswer;
   assign rec_next_o = Recorder && state_q == StPut && fetch_q;
 
-  logic set, set_q;  // set: a valid op makes a setting; set_q: the same, one cycle later
+  logic set, set_q;  // set: a valid op changes a setting; set_q: set, one cycle later
   logic [7:0] straps_q;
   assign set = state_q == StCheck && byte_valid && system_q && !bad_arg_q;
 

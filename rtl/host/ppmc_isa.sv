@@ -11,8 +11,9 @@
 
 module ppmc_isa #(
     parameter int unsigned Parts  = 1,     // device p: data at Base + 2p, status, command at Base + 2p + 1
-    parameter bit          Source = 1'b0,  // 1: a source register follows, bit p: interrupt of device p;
-                                           // a write causes a new edge of irq_o if one is active
+    parameter bit          Source = 1'b0,  // 1: the next address is a source register (bit p: interrupt of
+                                           // device p); a write to it causes a new edge of irq_o if an
+                                           // interrupt is active
     parameter int unsigned Base   = 'h3B0  // base address, a multiple of the window's length
 ) (
     input  wire logic                  clk_i,

@@ -5,8 +5,8 @@
 //         begins 2 to 3 cycles after the last bit of its byte. A read begins 2 to 3 cycles after the first
 //         bit of the byte that requests it. At any frequency of sck, an access ends long before the next
 //         access can begin.
-// Assumes: the low time of sck is longer than 3 cycles plus the delay of the pads (with clk >= 8 sck, the
-//         pads have 1 cycle); the high time of sck is longer than 1 cycle.
+// Assumes: the low time of sck is longer than 3 cycles plus the delay of the pads (if clk is at least 8 times
+//         as fast as sck, this leaves 1 cycle for the pads). The high time of sck is longer than 1 cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 

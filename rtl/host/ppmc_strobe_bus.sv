@@ -77,10 +77,10 @@ module ppmc_strobe_bus (
     wr2    = is_write(s2, style_i);
   end
 
-  // Write: the byte of the last sample in which the strobe is active is used. a01 and d1 sample the pins.
-  // While wr1 is high, wr_a0_o and wr_data_o are loaded from a01 and d1. At the end of the strobe, wr1 may
-  // be metastable. In this case it does not matter whether the registers are loaded again, because address
-  // and data have been stable since the previous sample (P104-BUS-04).
+  // Write: the core receives the address and data of the last sample in which the strobe is active. a01 and
+  // d1 are samples of the pins. While wr1 is high, they are copied to wr_a0_o and wr_data_o. At the end of
+  // the strobe, wr1 may be metastable, so it is uncertain whether one more copy is made. This has no effect,
+  // because address and data have been stable since the previous sample (P104-BUS-04).
   logic wr_s3_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -29,7 +29,7 @@ module ppmc_axis
     parameter int unsigned ExtraQuanta = 30,  // extra time in quanta if base_i.extra = 1; 0: no extra time
     parameter int unsigned HalfRates = 3,  // number of rates whose pulse width is half an interval
     parameter bit StopAtSlow = 1'b0,  // 1: a deceleration request at the start-up rate is a stop
-    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits also act off the plateau in POUT mode
+    parameter bit SlowAlways = 1'b0,  // 1: in POUT mode, slow-down limits also act outside the plateau
     parameter bit SlowOrigin = 1'b0,  // 1: a slow-down limit ends an origin search immediately
     parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last pulse; 0: immediate end
     parameter bit PulsePin = 1'b1  // 0: no pulse output; low_o stays 0, the last pulse ends the motion

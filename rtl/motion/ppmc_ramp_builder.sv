@@ -81,12 +81,11 @@ module ppmc_ramp_builder
       .last_o  (last)
   );
 
-  // thr(r) requires four divisions by short numbers, in two pairs: by s and s, then by a - b and a + b. The
-  // subtraction is between the pairs, and the increment follows the second pair. It does not change the
-  // result that a quotient is rounded down before the next division, or before an integer is subtracted.
-  // All operations are bit-serial (ppmc_ramp_serial).
-  // Next pass: once per build, n is multiplied by b, b, 2a and 2a, with one pass per multiplier bit. Then
-  // four passes follow for each r.
+  // Each entry thr(r) requires four divisions by short numbers. The first two divide by s, then E is
+  // subtracted. The other two divide by a - b and by a + b, then 1 is added. A quotient may be rounded down
+  // before the next division, or before an integer is subtracted: this does not change the result. All
+  // operations are bit-serial (ppmc_ramp_serial). This block selects the next pass. Once per build, n is
+  // multiplied by b, b, 2a and 2a, with one pass per multiplier bit. Then four passes follow for each r.
   always_comb begin
     unique case (pass_q)
       PassInit:   pass = PassMulBit;

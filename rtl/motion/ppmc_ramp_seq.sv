@@ -103,8 +103,8 @@ module ppmc_ramp_seq #(
     end
   end
 
-  // The reset is synchronous, because this path also loads a single step. The reset of the core is long
-  // enough.
+  // The reset is synchronous, because the same input of the flip-flops also clears left_o for a single step.
+  // The reset of the core is long enough for this.
   always_ff @(posedge clk_i) begin
     if (!rst_ni || (load_i && single_i)) left_o <= '0;
     else if (load_i) left_o <= count_i;

@@ -5,10 +5,10 @@
 // Timing: a pass begins in the cycle after start_i. A pass over w words takes w + 2 cycles. last_o marks its
 //         last cycle, in which the next pass may be started. PassOutput outputs one bit per cycle from its
 //         third to its last cycle (use_o = 1).
-// How:    n is the numerator, u the subtrahend between the divisions, v a product, quotient or difference.
-//         Bit i is stored in word i. A quotient follows its dividend by two cycles and is written two words
-//         lower, so its lowest bits are stored in the last two words of the RAM. No pass ever writes a 1
-//         into u there.
+// How:    n is the numerator, u is the number that is subtracted between the divisions, and v is a product,
+//         quotient or difference. Bit i is stored in word i. A quotient follows its dividend by two cycles
+//         and is written two words lower, so its lowest bits are stored in the last two words of the RAM. No
+//         pass ever writes a 1 into u there.
 `default_nettype none
 
 module ppmc_ramp_serial
@@ -69,8 +69,8 @@ module ppmc_ramp_serial
   assign down     = pass_i inside {PassDivideSquare, PassDivide};
   assign use_o    = use_q;
   assign last_o   = use_q && !read_q;
-  // use_addr is the read_addr_q of two cycles before: minus 2 if the pass counts up, plus 2 if it counts
-  // down. It is built from gates.
+  // use_addr is the value of read_addr_q two cycles earlier. Gates compute it from read_addr_q: minus 2 if
+  // the pass counts up, plus 2 if it counts down.
   assign flip     = {{(AddrBits - 1) {!down}}, 1'b0};
   assign flipped  = read_addr_q ^ flip;
   assign use_addr = {(AddrBits - 1)'(ppmc_pkg::inc(32'(flipped[AddrBits-1:1]))), flipped[0]} ^ flip;

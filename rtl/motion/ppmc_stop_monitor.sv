@@ -12,7 +12,7 @@ module ppmc_stop_monitor
   import ppmc_motion_pkg::*;
 #(
     parameter bit StopAtSlow = 1'b0,  // 1: a deceleration request at the start-up rate is a stop
-    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits also act off the plateau in POUT mode
+    parameter bit SlowAlways = 1'b0,  // 1: in POUT mode, slow-down limits also act outside the plateau
     parameter bit SlowOrigin = 1'b0   // 1: a slow-down limit ends an origin search immediately
 ) (
     input  wire logic      clk_i,

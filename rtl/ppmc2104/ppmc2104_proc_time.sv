@@ -3,10 +3,10 @@
 //         chip, and samples limits only at the poll ticks of the old chip. With Datasheet = 0, actions are
 //         immediate and limits are always sampled.
 // Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (DATASHEET).
-// Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for its
-//         end take effect at that edge. The next byte may be accepted one cycle later. Poll ticks occur
-//         every ceil(35 us) cycles, counted from the end of the last window, or from the first rising edge
-//         without reset.
+// Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for the end
+//         of the window take effect at the edge that closes it. The next byte may be accepted one cycle
+//         later. Poll ticks occur every ceil(35 us) cycles, counted from the end of the last window, or from
+//         the first rising edge without reset.
 `default_nettype none
 
 module ppmc2104_proc_time
@@ -101,8 +101,8 @@ module ppmc2104_proc_time
 
     always_comb begin
       limit = Bits'(AuxXtal);
-      // Not a unique case, because before the first reset the flip-flops may request several actions at a
-      // time.
+      // This is not a unique case, because before the first reset the flip-flops may request several actions
+      // at a time.
       case (1'b1)
         any_act.init: limit = Bits'(SettingXtal);
         any_act.halt: limit = Bits'(HaltXtal);

@@ -20,7 +20,7 @@ module ppmc312_reset #(
     input wire logic [3:0] adr_i,  // pins: station number
     output logic rst_core_no,  // reset of the core, active low
     output logic rst_host_no,  // reset of the host-side registers, active low
-    output logic rst_bus_no,  // reset of the bus strobes, active low; by the pin only
+    output logic rst_bus_no,  // reset of the bus strobes, active low; only the pin asserts it
     output logic boot_o,  // 1: a reset instruction caused this reset of the core
     output logic ready_o,  // 1: the reset has ended
     output logic open_o,  // 1: the bus accepts instructions; 0 until 3 cycles after a reset instruction

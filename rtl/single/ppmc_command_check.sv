@@ -9,7 +9,7 @@
 module ppmc_command_check
   import ppmc_code_pkg::*;
 #(
-    parameter bit Aux = 1'b1  // Excitation OFF during a motion, 1: AUX ON, 0: rejected
+    parameter bit Aux = 1'b1  // 1: during a motion, Excitation OFF acts as AUX ON; 0: it is rejected
 ) (
     input wire logic take_i,  // strobe: a byte is accepted
     input wire logic command_i,  // 1: byte_i was written as a command, 0: as data

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // bridge_fuzz: the deframer of the UART bridge, for tb/fuzz/main.cpp.
-// what_o: 1, SEQ, length and digest of the script for a request; 2 and the code for a NAK.
+// For a request, what_o is 1, followed by SEQ, length and digest of the script. For a NAK, it is 2,
+// followed by the code.
 `default_nettype none
 
 module bridge_fuzz

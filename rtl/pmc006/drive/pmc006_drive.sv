@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_drive: electrical angle, standstill timer, current references and H-bridges of both motor phases.
-// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; pmc006_refs and pmc006_hbridge implement others.
+// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; pmc006_refs and pmc006_hbridge implement other
+//         rules.
 // Timing: the angle changes at the edge that ends the cycle of step_i. The references follow 25 to 56 cycles
 //         later (pmc006_refs). The bridge enables follow boot_i and settings_i.free by one cycle.
 `default_nettype none

@@ -71,7 +71,7 @@ module pmc006_reply
 
   always_ff @(posedge clk_i) if (sample_i) reply_q <= wide | 32'(narrow);
 
-  // The reply is either reply_q or value_i. The other one is 0.
+  // The reply is either reply_q or value_i. The value that is not used is 0.
   assign reply_o = reply_q | 32'(value_i);
 
 endmodule

@@ -76,7 +76,7 @@ package pmc006_calc_pkg;
     K3x2p16 = 7'h17,  // 196608
     K2p31   = 7'h18,
     // tables; bits 2:0 of the address are the coefficient
-    RRate   = 7'h20,  // 17 << na; if the ramp falls: 17 << nd
+    RRate   = 7'h20,  // 17 << na, or 17 << nd if the ramp falls
     RWay    = 7'h28,  // 3400 << na; with OperandDec: 3400 << nd
     // registers of the motion, and sampled settings
     RV      = 7'h40,

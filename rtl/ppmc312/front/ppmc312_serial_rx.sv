@@ -3,7 +3,7 @@
 //         checksum. Also detects silence.
 // Rules:  P312-SER-02, P312-SER-10..17, P312-BAD-16.
 // Timing: poll_o, run_o, fault_o, unknown_code_o and overrun_o are asserted in the cycle of the character
-//         that decides, or in the cycle in which 20 ms of silence are complete.
+//         that causes them, or in the cycle in which 20 ms of silence are complete.
 `include "ppmc_assert.svh"
 `default_nettype none
 

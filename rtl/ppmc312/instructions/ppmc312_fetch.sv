@@ -16,7 +16,7 @@ module ppmc312_fetch
     input  wire logic    [  BLOCK_BITS:0] size_i,       // with start_i: bytes that the host has written
     input  wire logic                     copy_i,       // strobe: copy an instruction
     input  wire logic                     inner_i,      // 1: copy only the embedded block
-    output logic                          busy_o,       // from the cycle after the start to that of done_o
+    output logic                          busy_o,       // 1: from the cycle after the start to done_o
     output logic                          done_o,       // strobe: the instruction is read or copied
     output block_t                        block_o,      // instruction; valid from done_o on
     // source of the instruction
@@ -47,7 +47,7 @@ module ppmc312_fetch
   assign copy_data_o = data_i;
 
   // Each parameter is stored at its position in the long form of the instruction. The position parameter of
-  // instructions 80 and 81 is stored at its position in 87 and 88.
+  // instructions 80 and 81 is stored at the place that it has in instructions 87 and 88.
   assign shifted = (block_o.code == I_INIT && block_o.len == 8'd9 && at_q >= 5'd6) ||
       (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);

@@ -50,9 +50,10 @@ module ppmc312_instr_check
   assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
   assign is_table_read = block_i.code == I_TABLE;
 
-  // One subtractor makes four comparisons one after the other: start-up rate and stop rate of an
-  // initialisation with its high-speed rate (a difference below 128 is near), and a rate with the fastest
-  // and the slowest rate of the table. All results are valid long before the block is complete.
+  // One subtractor makes four comparisons in sequence. The first two compare the start-up rate and the stop
+  // rate of an initialisation with its high-speed rate (`near`: the difference is below 128). The other two
+  // compare the rate of an instruction with the fastest and the slowest rate of the table. All results are
+  // valid long before the block is complete.
   assign start_rate = rate;
   assign stop_rate = {block_i.par[3], block_i.par[4]};
   assign high_rate = {block_i.par[5], block_i.par[6]};

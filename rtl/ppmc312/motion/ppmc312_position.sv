@@ -2,9 +2,9 @@
 // ppmc312_position: counts position and encoder position, releases the interlock at its position, and
 //         monitors positions.
 // Rules:  P312-MOT-05, P312-MON-01..06, P312-OUT-03, P312-CMD-04/43/44.
-// Timing: pos_o and counted_o follow count_i by one cycle. The monitors evaluate a position 3 cycles after
-//         it is valid on pos_o or enc_o. The in-position monitor evaluates only from 4 cycles after the end
-//         of pulse output on.
+// Timing: pos_o and counted_o follow count_i by one cycle. The monitors evaluate a position 3 cycles after it
+//         is valid on pos_o or enc_o. The in-position monitor does not evaluate while pulses are output, nor
+//         in the first 4 cycles after the end of pulse output.
 `default_nettype none
 
 module ppmc312_position
@@ -67,7 +67,7 @@ module ppmc312_position
       pos_o      <= '0;
       enc_o      <= '0;
       counted_o  <= 1'b0;
-      epin_q     <= 1'b1;  // so that a pin that is high after reset is not an edge
+      epin_q     <= 1'b1;  // a pin that is high after reset is then not an edge
       lock_pos_q <= '0;
       lock_o     <= 1'b0;
       unlock_o   <= 1'b0;

@@ -5,11 +5,11 @@
 // Timing: busy_o rises at the edge that ends the cycle of start_i. It falls when the table and its
 //         description are complete, after at most 127 * 300 cycles.
 // Assumes: curve_i is stable while busy_o = 1.
-// How:    the speed of stage i is D_i = K*RH + (Rs-RH)*W_i. W_i is the weight of the stage, K the weight of
-//         the last stage, Rs the larger of start_rate and stop_rate.
-//         First pass: R[i] = C/D_i rounded, with C = K*Rs*RH; the first stage of each side; the sum of D_i.
-//         Second pass: the pulses of each stage, in proportion to D_i; the remainder is added to the next
-//         stage.
+// How:    the speed of stage i is D_i = K*RH + (Rs-RH)*W_i. W_i is the weight of the stage, K is the weight
+//         of the last stage, RH is the high-speed rate, and Rs is the larger of start_rate and stop_rate.
+//         The first pass computes the rates R[i] = C/D_i, rounded, with C = K*Rs*RH. It also finds the first
+//         stage of each side, and adds up D_i. The second pass computes the pulses of each stage in
+//         proportion to D_i. The remainder of this division is added to the next stage.
 //         The multiplier computes all sums as h + operand * lo. A small RAM stores the intermediate values.
 `include "ppmc_assert.svh"
 `default_nettype none

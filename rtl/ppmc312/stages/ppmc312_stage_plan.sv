@@ -2,10 +2,10 @@
 // ppmc312_stage_plan: looks up a rate in the stage table, and plans operations with acceleration and
 //         deceleration.
 // Rules:  P312-MOT-10..13 (kinds, pulses of the sides), P312-GEN-06 (t(x)).
-// Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles. A plan with
-//         an end adds at most 7 cycles, a triangular plan 60. If the deceleration does not begin with a
-//         complete stage, this adds 5 cycles + the number of stages of the deceleration side. Results are
-//         valid until the next start.
+// Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles. The plan of an
+//         operation that is not endless adds at most 7 cycles, or 60 cycles for a triangular profile. If the
+//         deceleration does not begin with a complete stage, the search for its start adds 5 cycles + the
+//         number of stages of the deceleration side. Results are valid until the next start.
 // How:    one pass reads the table upward and adds the pulses of the sides. t(x) is the last stage that is
 //         not faster than rate_i; the outputs are t(x) and t(x) + 1. At t(x), the sums are stored: one for
 //         the stages that both sides have, one for the other stages. If no stage qualifies, t(x) is the
@@ -72,8 +72,8 @@ module ppmc312_stage_plan
   // valid_q[1] = 1: the table outputs stage `at`. in_acc_q, in_dec_q: the side contains [0]: stage `at`,
   // [1]: the stage before it.
   logic [1:0] valid_q, in_acc_q, in_dec_q;
-  // Signals of StSearch. over_none: no pulse remains. One cycle later: below_q: `ahead` is negative;
-  // begins_q: first cycle; counts_q: the stage counts.
+  // Signals of StSearch. over_none: no pulse remains. The registers are one cycle late. below_q: `ahead` is
+  // negative; begins_q: first cycle of the search; counts_q: the pulses of the stage are added.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
@@ -87,8 +87,8 @@ module ppmc312_stage_plan
 
   // ---- passes -------------------------------------------------------------------------------------
 
-  // The table outputs stage `at`. A look-up begins one stage before stage 0, because t(x) may be this
-  // stage.
+  // The table outputs stage `at`. A look-up begins with the address before stage 0, because t(x) may be this
+  // address.
   assign at = at_q[1];
   assign both = in_acc_q[0] && in_dec_q[0];
   assign step = valid_q[1];

@@ -3,14 +3,16 @@
 //         motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
 // Timing: next_* are valid from 4 cycles after a pulse on.
-//         Requests act at a boundary if slow_i is high 2 cycles before it, and if change_i occurs 5 cycles
-//         (constant rate) or 9 cycles (ramp) before it.
-//         When a stage becomes a constant rate, a search for t(rate) begins, which takes 129 cycles. A
-//         ramp begins at the earliest 136 cycles after that boundary. A deceleration to the end begins at
-//         the earliest 132 cycles after it; this occurs only where rates do not fall.
+//         A deceleration request acts at a boundary if slow_i is high 2 cycles before the boundary. A change
+//         acts at a boundary if change_i occurs at least 5 cycles (constant rate) or 9 cycles (change along
+//         the table) before the boundary.
+//         If the rate of a stage becomes a constant rate at a boundary, a search for t(rate) begins, which
+//         takes 129 cycles. A ramp then begins at the earliest 136 cycles after this boundary. A deceleration
+//         to the end begins at the earliest 132 cycles after it; such a deceleration is possible only where
+//         the rates of the table do not fall.
 // How:    the running interval is a stage (up or down) or a constant rate. The flags are compared in the
-//         first cycle of an interval. The decision follows. It is delayed by two cycles, while the table
-//         reads the stage for it.
+//         first cycle of an interval. The decision follows; it is delayed by two cycles, in which the table
+//         reads the stage that the decision needs.
 // Note:   a boundary is the end of an interval. With step_i = 1, a pulse begins at the boundary.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -36,8 +38,8 @@ module ppmc312_stage_seq
     input wire logic slow_i,  // 1: decelerate to the end
     // decision
     output logic next_end_o,  // no further pulse: the motion ends
-    output logic next_low_o,  // the end has the cause that there is nothing to decelerate
-    output logic next_count_o,  // the end has the cause that the last pulse has been output
+    output logic next_low_o,  // with next_end_o; cause: there is nothing to decelerate
+    output logic next_count_o,  // with next_end_o; cause: the last pulse has been output
     output logic next_slow_o,  // slow_i has been evaluated
     output logic next_final_decel_o,  // the deceleration to the end begins
     output logic [15:0] next_rate_o,  // rate of the next interval, base clocks
@@ -244,8 +246,9 @@ module ppmc312_stage_seq
 
   // ---- search -------------------------------------------------------------------------------------
 
-  // This search serves a constant rate that was the rate of a stage. It reads all stages upward, in cycles
-  // in which no decision needs the table. A pending change waits until this search has ended.
+  // This search determines t(rate) of a constant rate that was the rate of a stage. It reads all stages
+  // upward, in cycles in which no decision needs the table. A pending change waits until this search has
+  // ended.
   assign stage_ge = stage_i.rate >= rate_q;
   assign in_use = in_use_q || addr_q[1] == first_acc_i || addr_q[1] == first_dec_i;
 
@@ -324,8 +327,8 @@ module ppmc312_stage_seq
                  (action_q2.is_partial ? decel_start_q.pulses : stage_i.pulses) : more_q) - 1'b1;
       left_q <= left_q - 1'b1;
     end
-    // Before pulse 1, a pending change does not affect rate_q: another change may still replace it, and it
-    // is compared with the planned rate.
+    // Before pulse 1, a pending change does not affect rate_q. Another change may still replace the pending
+    // change, and each change is compared with the planned rate.
     if (step_i || (first_q && !action_q2.take_target)) rate_q <= next_rate_o;
   end
 

@@ -46,7 +46,8 @@ module ppmc_bank_fv
   logic [3:0] cycles_q;  // cycles since reset, saturates at 15
   logic pending_q, pout_q, dir_q, hold_q;
   logic [4:0] s_q;
-  logic cmd_executed_q, had_pulse_q;  // pin_cmd_q was executed one cycle ago; this command had a pulse
+  // cmd_executed_q: pin_cmd_q was executed one cycle ago; had_pulse_q: this command had a pulse
+  logic cmd_executed_q, had_pulse_q;
   logic [2:0] alarm_q, cw_q;  // alarm and CW limit of the watched axis in the last three cycles
   logic irq_changed_q;  // 1: an interrupt has begun or ended
   logic ends, visited_q;  // ends: visit of the watched axis in its last stage; visited_q: it has ended

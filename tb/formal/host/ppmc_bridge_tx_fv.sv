@@ -36,7 +36,8 @@ module ppmc_bridge_tx_fv
   `FV_ASSUME(start_when_idle, !start_i || idle_o)
   `FV_ASSUME(more_stands, ready_i || more_i == $past(more_i))
 
-  logic open_q, escape_q, taken_q;  // in a frame; the last character was an escape; byte_q is pending
+  // open_q: in a frame; escape_q: the last character was an escape; taken_q: byte_q is pending
+  logic open_q, escape_q, taken_q;
   logic [7:0] byte_q;  // pending byte
   logic [1:0] crc_q;  // number of bytes sent after the last byte of the message
 

@@ -32,7 +32,8 @@ module ppmc_host_port_fv (
   assign write  = !cs_ni && !wr_ni && rd_ni;
 
   logic w1_q, w2_q, w3_q, full_q;  // w…_q: write was high 1, 2, 3 cycles ago; full_q: a byte is pending
-  logic [8:0] at1_q, at2_q, last_q, held_q;  // register, data: 1, 2 cycles ago; last write; pending byte
+  // at1_q, at2_q: register and data 1 and 2 cycles ago; last_q: last write; held_q: pending byte
+  logic [8:0] at1_q, at2_q, last_q, held_q;
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {w1_q, w2_q, w3_q, full_q, at1_q, at2_q, last_q, held_q} <= '0;

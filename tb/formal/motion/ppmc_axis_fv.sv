@@ -150,7 +150,8 @@ module ppmc_axis_fv
 
   // ---- set-up, direction, low time -----------------------------------------------------------------
 
-  logic [2:0] setup_q, age_q;  // setup_q: cycles since start or end of gate; age_q: since a pulse; both <= 7
+  // setup_q: cycles since the start or the end of the gate; age_q: cycles since a pulse; both saturate at 7
+  logic [2:0] setup_q, age_q;
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {setup_q, age_q} <= '0;

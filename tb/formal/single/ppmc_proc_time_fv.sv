@@ -43,8 +43,8 @@ module ppmc_proc_time_fv
       .*
   );
 
-  // At most one action occurs, and only while the mailbox is open. There is no initialisation, because it
-  // takes too long.
+  // Stimulus: at most one action in a cycle, and only while the mailbox is open. No initialisation is
+  // requested, because it takes too long.
   always_comb begin
     act_i = '0;
     if (open_o && rst_ni) begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank, stub for the proof of the block that instantiates it: any pins, any read data. The outputs are
-// not driven.
+// ppmc_bank, stub for the proof of the block that instantiates it: its outputs are not driven, so the proof
+// holds for any pins and any read data.
 `default_nettype none
 
 module ppmc_bank

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine, stub for the proof of the block that instantiates it: any pin commands, interrupts and
-// responses. The outputs are not driven.
+// ppmc_bank_engine, stub for the proof of the block that instantiates it: its outputs are not driven, so
+// the proof holds for any pin commands, interrupts and responses.
 `default_nettype none
 
 module ppmc_bank_engine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_plan, stub for the proofs of the blocks that instantiate it: any decision. The outputs are not
-// driven.
+// ppmc_bank_plan, stub for the proofs of the blocks that instantiate it: its outputs are not driven, so the
+// proofs hold for any decision.
 `default_nettype none
 
 module ppmc_bank_plan

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_tables, stub for the proofs of the blocks that instantiate it: a builder that may be busy or
-// idle at any time, and any threshold. The outputs are not driven.
+// ppmc_bank_tables, stub for the proofs of the blocks that instantiate it: its outputs are not driven.
+// Therefore the proofs hold for any threshold, and for a builder that may be busy or idle at any time.
 `default_nettype none
 
 module ppmc_bank_tables #(

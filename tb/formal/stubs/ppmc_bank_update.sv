@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_update, stub for the proofs of the blocks that instantiate it: any result of a visit. The
-// outputs are not driven.
+// ppmc_bank_update, stub for the proofs of the blocks that instantiate it: its outputs are not driven, so
+// the proofs hold for any result of a visit.
 `default_nettype none
 
 module ppmc_bank_update

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_host, stub for the proof of the block that instantiates it: any strobes, any answer to the PC.
-// The outputs are not driven.
+// ppmc_board_host, stub for the proof of the block that instantiates it: its outputs are not driven, so the
+// proof holds for any strobes and any answer to the PC.
 `default_nettype none
 
 module ppmc_board_host #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial, stub for the proof of ppmc_ramp_builder: passes of two cycles, all sums zero.
-// ppmc_ramp_serial_fv proves the length of a real pass.
+// ppmc_ramp_serial, stub for the proof of ppmc_ramp_builder: each pass takes two cycles, and all sums are
+// 0. ppmc_ramp_serial_fv proves the length of a real pass.
 `default_nettype none
 
 module ppmc_ramp_serial
