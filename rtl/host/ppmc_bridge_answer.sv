@@ -22,7 +22,7 @@ module ppmc_bridge_answer
     input  wire logic   [        7:0] data_i,     // byte; valid with put_i
     input  wire logic                 ident_i,    // strobe: begin a block of 16 bytes
     input  wire block_e               block_i,    // block to be stored; stable while busy_o = 1
-    input  wire logic   [       63:0] info_i,     // data of RECORDED, which zeros follow
+    input  wire logic   [       63:0] info_i,     // data of RECORDED; the block appends zeros
     input  wire logic                 count_i,    // strobe: begin a block of COUNT
     input  wire logic                 second_i,   // 1: COUNT of axis 2; stable while busy_o = 1
     input  wire logic   [Axes*32-1:0] counter_i,  // pulse counters; axis 1 is in bits 31:0

@@ -9,11 +9,11 @@ module ppmc_uart_bridge
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned ClkHz     = 24_000_000,  // at least 5 * Baud
-    parameter int unsigned XtalHz    = 16_000_000,  // crystal; only for IDENT, as Part and Datasheet
+    parameter int unsigned XtalHz    = 16_000_000,  // in Hz; only IDENT uses XtalHz, Part and Datasheet
     parameter int unsigned Baud      = 115_200,     // baud rate after reset
     parameter int unsigned Part      = 104,
     parameter int unsigned Axes      = 1,           // number of pulse counters, 1 or 2
-    parameter bit          Counter   = 1'b1,        // 1: the pulses are counted; only for IDENT
+    parameter bit          Counter   = 1'b1,        // 1: the pulses are counted; only IDENT uses this
     parameter bit          Datasheet = 1'b0,
     parameter int unsigned Watch     = 1,           // number of recorded levels
     parameter int unsigned Record    = 0            // 4 .. 16: 2**Record records; 0: no recorder

@@ -31,7 +31,7 @@ module pmc006_carrier #(
     output logic            m20,
     output logic            m21,
     output logic            bridge_b_en,
-    output logic            pwm_a_ref,    // low-pass filtered, it is the reference of the comparator
+    output logic            pwm_a_ref,    // reference of the comparator, before the low-pass filter
     output logic            pwm_b_ref,
     input  wire logic       cmp_a,        // 1: the current has reached the reference
     input  wire logic       cmp_b,

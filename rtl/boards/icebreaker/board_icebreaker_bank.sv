@@ -2,9 +2,9 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc_bank_carrier.sv; change those, not this.
 // board_icebreaker_bank: PPMC bank with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/bank/pins.pcf. 24 pins: pulse, direction and CCW
-//         limit of 8 axes. An axis without an origin switch uses the CCW limit as its origin. The break-off section
-//         must not be attached.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/bank/pins.pcf. The 24 pins are pulse, direction
+//         and CCW limit of 8 axes. An axis without an origin switch uses the CCW limit as its origin. The break-off
+//         section must not be attached.
 // Timing: see ppmc_bank_carrier.
 `default_nettype none
 

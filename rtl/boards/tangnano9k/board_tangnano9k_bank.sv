@@ -3,8 +3,8 @@
 // board_tangnano9k_bank: PPMC bank with UART or SPI host on Tang Nano 9K (GW1NR-LV9QN88PC6/I5), clk 54 MHz from the
 //         27 MHz oscillator.
 // Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano9k/bank/pins.cst. Pulse and direction of 16 axes
-//         use 32 of the 37 pins with 3.3 V, SPI the rest: no switches, no phases. The crystal frequency is 13.5 MHz,
-//         so that times are exact: base clock 421.875 kHz.
+//         use 32 of the 37 pins with 3.3 V, and SPI uses the others. There are no pins for switches or phases. The
+//         crystal frequency is 13.5 MHz, so that times are exact. The base clock is 421.875 kHz.
 // Timing: see ppmc_bank_carrier.
 `default_nettype none
 

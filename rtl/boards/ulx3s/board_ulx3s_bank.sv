@@ -2,9 +2,9 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc_bank_carrier.sv; change those, not this.
 // board_ulx3s_bank: PPMC bank with UART or SPI host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/bank/pins.lpf. 25 of the 32 axes have pins: pulse and
-//         direction, no switches, no phases. The SPI host is wired to the pins of J1, or it is the ESP32 of the
-//         board, which has these pins as GPIO26, 25, 33, 35, 34.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/bank/pins.lpf. 25 of the 32 axes have pins for pulse
+//         and direction. No axis has pins for switches or phases. The SPI host is wired to the pins of J1, or it is
+//         the ESP32 of the board, which has these pins as GPIO26, 25, 33, 35, 34.
 // Timing: see ppmc_bank_carrier.
 `default_nettype none
 

@@ -31,7 +31,7 @@ module ppmc312_report_queue
     input wire logic aux_i,  // strobe: the generalized input has changed
     input wire logic [7:0] aux_data_i,  // changed bits; valid with aux_i
     input wire monitor_req_t monitor_req_i,  // classes 7 and 8: pending reports of the monitors
-    output monitor_ack_t monitor_ack_o,  // classes 7 and 8: a report is being loaded, has been read
+    output monitor_ack_t monitor_ack_o,  // classes 7 and 8: a report is being loaded, or has been read
     // front end
     input wire logic hold_i,  // 1: a response follows soon; only classes 1 and 2 are offered
     output logic rd_any_o,  // a report is pending

@@ -34,7 +34,7 @@ module ppmc312_axis
     output axis_state_t       state_o,         // state of the motor side
     output axis_event_t       axis_event_o,    // events to be reported
     output monitor_req_t      monitor_req_o,   // reports of the monitors
-    input  wire monitor_ack_t monitor_ack_i    // a report of a monitor is being loaded, has been read
+    input  wire monitor_ack_t monitor_ack_i    // a report of a monitor is being loaded, or has been read
 );
 
   logic [7:0] code;

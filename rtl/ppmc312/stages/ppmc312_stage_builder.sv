@@ -50,9 +50,9 @@ module ppmc312_stage_builder
     StCurve,   // C + D / 2
     StRate,    // R = (C + D / 2) / D
     StBegin,   // checks whether a side begins here
-    StSum,     // S + D
+    StSum,     // S + D; S: sum of D
     StProportion,   // P * D + remainder; P: pulses of the side
-    StPulses,  // divides this by S
+    StPulses,  // divides the result of StProportion by S
     StWrite,
     StNext
   } state_e;

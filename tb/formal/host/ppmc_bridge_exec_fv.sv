@@ -30,7 +30,7 @@ module ppmc_bridge_exec_fv
   logic [3:0] a_o;
   logic count_zero_o;
   script_result_t result_o;
-  logic [31:0] counter_q;  // constant here; it changes in ppmc_bridge_answer_fv
+  logic [31:0] counter_q;  // constant in this proof, but not in ppmc_bridge_answer_fv
 
   `FV_RESET
 
