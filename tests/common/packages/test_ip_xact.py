@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from importlib.util import find_spec
 from pathlib import Path
+from shutil import which
 
 import pytest
 
@@ -103,3 +105,49 @@ def test_package(tmp_path):
     assert "CLK_HZ     = 50000000" in own[2].read_text()
     with pytest.raises(ProjectError, match="CLOCK: ppmc104 has no such parameter"):
         ip.write_package("ppmc104_axil", tmp_path, parameters("CLOCK=5"))
+
+
+SESSIONS = {
+    "ppmc2104_axil": ((4, 0x00, 4, 0x80), (4, 0xC2, 4, 0x81)),  # an undefined code; the auxiliary inputs
+    "ppmc312_axil": ((0, 0xFF, 0, 0x74), (0xC, 0x1E, 0xC, 0x40)),  # enables in CSR; RAR without an answer
+    "ppmc_bank_axil": ((0x48, 0x02, 0x48, 0x02), (0x20, 0xFF, 0x30, 0x42)),  # CONFIG of axis 1; INFO
+}
+"""Package -> address and byte of a write, address and expected byte of a read after it."""
+BENCH = """
+module tb;
+  reg clk = 0, rst_n = 0, aw = 0, w = 0, ar = 0;
+  reg [15:0] at = 0;
+  reg [31:0] data = 0;
+  wire b, r, ready;
+  wire [31:0] got;
+  always #5 clk = !clk;
+  NAME dut (.s_axi_aclk(clk), .s_axi_aresetn(rst_n), .s_axi_awaddr(at[WIDTH:0]), .s_axi_awvalid(aw),
+    .s_axi_wdata(data), .s_axi_wstrb(4'hf), .s_axi_wvalid(w), .s_axi_bvalid(b), .s_axi_bready(1'b1),
+    .s_axi_araddr(at[WIDTH:0]), .s_axi_arvalid(ar), .s_axi_rvalid(r), .s_axi_rready(1'b1), .s_axi_rdata(got),
+    .s_axi_arready(ready));
+  task step(input [15:0] to, input [31:0] byte, input [15:0] from); begin
+    @(negedge clk) at = to; data = byte; aw = 1; w = 1;
+    @(negedge clk) aw = 0; w = 0; while (!b) @(negedge clk);
+    #9000 @(negedge clk) at = from; ar = 1; while (!ready) @(negedge clk);
+    @(negedge clk) ar = 0; while (!r) @(negedge clk);
+    $display("%0d", got);
+  end endtask
+  initial begin #99 rst_n = 1; #9000 STEPS $finish; end
+endmodule
+"""
+
+
+@needs_yosys
+@pytest.mark.skipif(which("iverilog") is None, reason="Icarus Verilog is not installed")
+@pytest.mark.parametrize("name", SESSIONS)
+def test_accesses(name, tmp_path):
+    """In simulation, AXI accesses write and read the registers of the part."""
+    folder = ip.write_package(name, tmp_path).parent
+    steps = " ".join(f"step({to}, {byte}, {start});" for to, byte, start, _ in SESSIONS[name])
+    text = BENCH.replace("NAME", name).replace("STEPS", steps)
+    (folder / "tb.v").write_text(text.replace("WIDTH", str(ip.FITS[ip.NAMES[name]].bits + 2)))
+    program = str(tmp_path / "tb")
+    subprocess.run(["iverilog", "-g2005", "-o", program, *map(str, folder.glob("*.v"))], check=True)
+    done = subprocess.run([program], capture_output=True, text=True, check=True, timeout=60)
+    read = [int(line) for line in done.stdout.splitlines() if line.isdigit()]
+    assert read == [wanted for *_, wanted in SESSIONS[name]]
