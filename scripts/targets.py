@@ -93,7 +93,7 @@ docs | sim | Write the pictures and tables of the manuals.
     {py} -m scripts.pages
 boards | dev | Write tops, constraints and tables of the boards.
     {py} -m scripts.fpga.boards
-packages | dev | Write FuseSoC cores and file lists.
+packages | dev | Write FuseSoC cores, file lists, register constants.
     {py} -m scripts.fpga.packages
 rom | dev | Assemble the planner's program of the PMC006B4.
     {py} -m scripts.fpga.rom.calc_rom

@@ -18,15 +18,21 @@
 extern "C" {
 #endif
 
-/** Registers: argument `reg` of the access functions. In a memory map, register n is at byte address 4 n. */
-#define PPMC104_REG_DATA 0u
-#define PPMC104_REG_STATUS 1u /**< read: status, write: command */
-
-/** Bits of the status register. */
-#define PPMC104_STATUS_OBF 0x01u  /**< a byte can be read */
-#define PPMC104_STATUS_IBF 0x02u  /**< wait before the next write */
-#define PPMC104_STATUS_BUSY 0x04u /**< an operation is running */
-#define PPMC104_STATUS_ERR 0x80u  /**< the last byte was rejected; bits 6..4: error number */
+/** @name Registers
+ * PPMC104_REG_...: the `reg` argument of the access functions. Memory mapped, register n is at byte address 4 n.
+ * PPMC104_STATUS_...: bits of the status register. @{ */
+/* Registers, written by `make packages` from packages/registers/mailbox.rdl. */
+#define PPMC104_REG_DATA 0x0u /**< read: byte of a response; write: data byte */
+#define PPMC104_REG_STATUS 0x1u /**< result of the last byte, state of part and buffers */
+#define PPMC104_REG_COMMAND 0x1u /**< command byte */
+#define PPMC104_STATUS_ERR 0x80u /**< the most recent byte, command or data, was faulty */
+/** ERR = 0: number of parameter bytes still expected, 0 to 4; ERR = 1: error number */
+#define PPMC104_STATUS_NUM 0x70u
+#define PPMC104_STATUS_BUSY 0x04u /**< an operation is running (not during initialisation) */
+#define PPMC104_STATUS_IBF 0x02u /**< the input buffer is full: do not write */
+#define PPMC104_STATUS_OBF 0x01u /**< the data register holds an unread byte */
+/* End of the registers. */
+/** @} */
 
 /** Result of each function that accesses the part. 1 .. 8 are the error numbers 0 .. 7 of the part, plus
  * one. */

@@ -19,10 +19,21 @@
 extern "C" {
 #endif
 
-/** Bits of the status register. IBF and OBF are those of ppmc104.h. Shift BUSY and CMND left by axis - 1. */
-#define PPMC2104_STATUS_BUSY 0x04u  /**< an operation of the axis is running, or waits for RUN */
-#define PPMC2104_STATUS_CMND 0x10u  /**< an instruction for the axis is incomplete or is being processed */
-#define PPMC2104_STATUS_ERROR 0x80u /**< an error register is not 0 */
+/* Registers, written by `make packages` from packages/registers/ppmc2104.rdl. */
+#define PPMC2104_REG_STATUS 0x1u /**< state of axes and buffers */
+#define PPMC2104_STATUS_ERROR 0x80u /**< an error register is not 0, of axis 1 or axis 2 */
+#define PPMC2104_STATUS_CMND2 0x20u /**< as CMND1, for axis 2 */
+/** an instruction for axis 1 is incomplete (data bytes awaited), or its ramp table is queued or being
+ * computed; in DATASHEET also while the instruction is processed */
+#define PPMC2104_STATUS_CMND1 0x10u
+#define PPMC2104_STATUS_BUSY2 0x08u /**< an operation of axis 2 is running or waits for RUN */
+#define PPMC2104_STATUS_BUSY1 0x04u /**< an operation of axis 1 is running or waits for RUN */
+#define PPMC2104_STATUS_IBF 0x02u /**< the input buffer is full: do not write */
+#define PPMC2104_STATUS_OBF 0x01u /**< the data register holds an unread byte */
+/* End of the registers. */
+/** Bits of axis 1; shift them left by axis - 1. */
+#define PPMC2104_STATUS_BUSY PPMC2104_STATUS_BUSY1
+#define PPMC2104_STATUS_CMND PPMC2104_STATUS_CMND1
 
 /** Levels of ppmc2104_inputs(), 0: active. */
 #define PPMC2104_IN_ORG 0x80u

@@ -3,15 +3,20 @@
 
 #include <stddef.h>
 
-/* Registers and bits of the bus. */
-#define REG_CSR 0u
-#define REG_CONTROL 2u
-#define REG_POINTER 3u
-#define REG_WRITE 5u
-#define REG_READ 7u
+/* Registers, written by `make packages` from packages/registers/ppmc312.rdl. */
+#define REG_CSR 0x0u /**< control and status */
+/** write: WCR, 0x20 opens the write window; read: RCR, rewinds the read window, reads as 0x00 */
+#define REG_CONTROL 0x2u
+#define REG_ADDRESS 0x3u /**< write: WAR, write pointer; read: RAR, read pointer */
+#define REG_WRITE 0x5u /**< DWR, a byte into the write window; reads as 0x00 */
+#define REG_READ 0x7u /**< DRR, the next byte of the read window */
+#define CSR_EWRQ 0x40u /**< `wrq_n` requests a faster host to wait */
+#define CSR_EWIRQ 0x20u /**< interrupt while MWEF = 0 */
+#define CSR_ERIRQ 0x10u /**< interrupt while MREF = 0 */
+#define CSR_MWEF 0x08u /**< the write window is closed: an instruction is being processed */
+#define CSR_MREF 0x04u /**< no answer or report is in the read window */
+/* End of the registers. */
 #define CSR_ZERO 0x83u
-#define CSR_NO_ANSWER 0x04u /* MREF */
-#define CSR_CLOSED 0x08u    /* MWEF */
 #define WINDOW 0x20u
 #define POINTER_EMPTY 0x40u
 #define BLOCK_MIN 3u
@@ -172,11 +177,11 @@ static void keep(ppmc312_t *dev, uint8_t source, uint8_t code, const uint8_t *da
 static ppmc104_result_t read_block(ppmc312_t *dev, block_t *block)
 {
     uint8_t raw[BLOCK_MAX];
-    unsigned count = POINTER_EMPTY - dev->bus.read(dev->bus.ctx, REG_POINTER), n;
+    unsigned count = POINTER_EMPTY - dev->bus.read(dev->bus.ctx, REG_ADDRESS), n;
 
     if (count < BLOCK_MIN || count > BLOCK_MAX) {
         (void)dev->bus.read(dev->bus.ctx, REG_CONTROL); /* partly read by another program: begin again */
-        count = POINTER_EMPTY - dev->bus.read(dev->bus.ctx, REG_POINTER);
+        count = POINTER_EMPTY - dev->bus.read(dev->bus.ctx, REG_ADDRESS);
         if (count < BLOCK_MIN || count > BLOCK_MAX) {
             return PPMC104_BAD_REPLY;
         }
@@ -224,7 +229,7 @@ static ppmc104_result_t collect_bus(ppmc312_t *dev)
         if ((csr & CSR_ZERO) != 0u) {
             return PPMC104_NO_PART;
         }
-        if ((csr & CSR_NO_ANSWER) != 0u) {
+        if ((csr & CSR_MREF) != 0u) {
             if (++empty > GAP_READS) {
                 return PPMC104_OK;
             }
@@ -250,20 +255,20 @@ static ppmc104_result_t exchange_bus(ppmc312_t *dev, uint8_t header, const uint8
     ppmc104_result_t result = collect_bus(dev);
 
     if (result == PPMC104_OK) {
-        result = ppmc104_poll(&dev->bus, CSR_CLOSED, 0u, 0u, &csr);
+        result = ppmc104_poll(&dev->bus, CSR_MWEF, 0u, 0u, &csr);
     }
     if (result != PPMC104_OK) {
         return result;
     }
     dev->bus.write(dev->bus.ctx, REG_CONTROL, WINDOW);
-    dev->bus.write(dev->bus.ctx, REG_POINTER, (uint8_t)(WINDOW - 2u - count));
+    dev->bus.write(dev->bus.ctx, REG_ADDRESS, (uint8_t)(WINDOW - 2u - count));
     for (n = count; n-- > 0u;) {
         dev->bus.write(dev->bus.ctx, REG_WRITE, body[n]);
     }
     dev->bus.write(dev->bus.ctx, REG_WRITE, (uint8_t)count);
     dev->bus.write(dev->bus.ctx, REG_WRITE, header);
     for (n = 0; n < 2u * BLOCK_MAX; ++n) {
-        result = ppmc104_poll(&dev->bus, CSR_NO_ANSWER, 0u, 0u, &csr);
+        result = ppmc104_poll(&dev->bus, CSR_MREF, 0u, 0u, &csr);
         if (result == PPMC104_OK) {
             result = read_block(dev, answer);
         }
@@ -682,7 +687,7 @@ ppmc104_result_t ppmc312_open(ppmc312_t *dev, uint8_t *version)
     clear(dev);
     if (dev->line == NULL) {
         /* After a reset with DATASHEET timing, the part does not accept blocks for 1.6 ms. */
-        result = ppmc104_poll(&dev->bus, CSR_CLOSED, 0u, 0u, &csr);
+        result = ppmc104_poll(&dev->bus, CSR_MWEF, 0u, 0u, &csr);
         (void)dev->bus.read(dev->bus.ctx, REG_CONTROL);
     }
     if (result == PPMC104_OK) {

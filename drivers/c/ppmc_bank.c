@@ -3,10 +3,6 @@
 
 #include <stddef.h>
 
-#define INFO_MARK 0x42u /* "B" */
-#define INFO_VERSION 0x01u
-#define CONFIG_FAST 0x01u
-#define CONFIG_PLAIN 0x02u
 #define ANY_AXIS 0u
 #define GO_READS 16u /* a read takes at least 9 cycles, and GO is active for up to 64 cycles */
 
@@ -81,7 +77,7 @@ ppmc104_result_t ppmc_bank_open(ppmc_bank_t *bank, uint8_t (*read)(void *ctx, un
     bank->ctx = ctx;
     bank->axes = 0u;
     bank->held = 0u;
-    if (peek(bank, 0u, PPMC_BANK_REG_INFO) != INFO_MARK || peek(bank, 1u, PPMC_BANK_REG_INFO) != INFO_VERSION ||
+    if (peek(bank, 0u, PPMC_BANK_REG_INFO) != PPMC_BANK_INFO_MARK || peek(bank, 1u, PPMC_BANK_REG_INFO) != PPMC_BANK_INFO_VERSION ||
         !size_legal(peek(bank, 2u, PPMC_BANK_REG_INFO))) {
         return PPMC104_NO_PART;
     }
@@ -95,7 +91,7 @@ ppmc104_result_t ppmc_bank_config(const ppmc_bank_t *bank, unsigned number, bool
     if (number >= bank->axes) {
         return PPMC104_BAD_ARGUMENT;
     }
-    poke(bank, number, PPMC_BANK_REG_CONFIG, (uint8_t)((fast ? CONFIG_FAST : 0u) | (plain ? CONFIG_PLAIN : 0u)));
+    poke(bank, number, PPMC_BANK_REG_CONFIG, (uint8_t)((fast ? PPMC_BANK_CONFIG_CSEL : 0u) | (plain ? PPMC_BANK_CONFIG_VSEL : 0u)));
     return PPMC104_OK;
 }
 

@@ -23,14 +23,23 @@ extern "C" {
  * it by 4. */
 #define PPMC_BANK_ADDRESS(axis, reg) ((unsigned)(axis) << 4 | (unsigned)(reg))
 
-/** Registers in addition to registers 0 and 1 of ppmc104.h. */
-#define PPMC_BANK_REG_CONFIG 0x2u
+/** @name Registers
+ * In addition to 0 and 1, which are those of ppmc104.h. @{ */
+/* Registers, written by `make packages` from packages/registers/ppmc_bank.rdl. */
+#define PPMC_BANK_REG_CONFIG 0x2u /**< levels of the pins of the old chip */
+/** position of the axis, low byte first; a read of the first byte latches the other three */
 #define PPMC_BANK_REG_POSITION 0x4u
-#define PPMC_BANK_REG_MASK 0x8u
-#define PPMC_BANK_REG_PENDING 0x9u
-#define PPMC_BANK_REG_GO 0xAu
-#define PPMC_BANK_REG_STOP 0xBu
-#define PPMC_BANK_REG_INFO 0xCu
+#define PPMC_BANK_REG_MASK 0x8u /**< byte k: members of the group */
+#define PPMC_BANK_REG_PENDING 0x9u /**< byte k: map of the interrupts pending */
+#define PPMC_BANK_REG_GO 0xAu /**< any byte: the held operations of the group continue; reads as 0x00 */
+#define PPMC_BANK_REG_STOP 0xBu /**< any byte: every motion ends; reads as 0x00 */
+#define PPMC_BANK_REG_INFO 0xCu /**< k = 0: 0x42 ("B"); 1: 0x01 (version); 2: N; else 0x00 */
+#define PPMC_BANK_CONFIG_VSEL 0x02u /**< intervals by the rate formula alone, else 7.5 us longer */
+#define PPMC_BANK_CONFIG_CSEL 0x01u /**< base clock XTAL / 32, else XTAL / 128 */
+#define PPMC_BANK_INFO_MARK 0x42u /**< byte 0 */
+#define PPMC_BANK_INFO_VERSION 0x01u /**< byte 1: version of the window */
+/* End of the registers. */
+/** @} */
 
 /** Set of axes: bit n is axis n. */
 typedef uint64_t ppmc_bank_set_t;

@@ -132,9 +132,6 @@ class Square:
         self.origin, self._n = origin, 1
 
 
-DATA, STATUS, COMMAND = 0, 1, 1
-
-
 class Chip(ABC):
     """One part. The model starts just after the release of reset, before edge 0.
 

@@ -1,7 +1,8 @@
 """`make verilog [TOP=…] [PARAMS=…]`: parts, bridges and boards as plain Verilog-2005, in build/verilog/.
 
 yosys' `read_verilog` and Verilator read each file before it is stored. Without TOP, the boards are written
-into a separate folder with a FuseSoC core that builds them (D-89).
+into a separate folder with a FuseSoC core that builds them (D-89). TOP=<part>_axil writes an IP-XACT package
+of a part with an AXI4-Lite bridge into ip/ (D-130).
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError, console
 from scripts.fpga.flow import plain
 from scripts.fpga.flow.plain_file import FOLDER, write
+from scripts.fpga.packages import ip
 from scripts.fpga.packages.plain_boards import write_library
 
 
@@ -40,8 +42,8 @@ def main() -> int:
     params = parameters(args.params)
     if params and not args.top:
         raise ProjectError("PARAMS needs TOP, the module with these parameters")
-    for top in [args.top] if args.top else plain.tops():
-        path = write(top, FOLDER, params)
+    for top in [args.top] if args.top else (*plain.tops(), *ip.NAMES):
+        path = ip.write_package(top, given=params) if top in ip.NAMES else write(top, FOLDER, params)
         lines = len(path.read_text(encoding="utf-8").splitlines())
         console.print(f"[green]ok[/]   {project.relative(path)}, {lines} lines")
     if not args.top:

@@ -46,7 +46,7 @@ BANKS = (
 """Checked combinations of AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
-TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
+TEXT_SUFFIXES = {".sv", ".svh", ".rdl", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
 BUILT = {".venv", "build", ".git", "node_modules"}
 MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA", "CK")))
 

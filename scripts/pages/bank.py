@@ -11,7 +11,21 @@ from matplotlib.figure import Figure
 
 from openppmc.check.records import level_at
 from openppmc.model.bank.chopper import VisitSchedule
-from openppmc.model.bank.window import CONFIG, DATA, GO, INFO, MAP, MASK, POSITION, STATUS, STOP
+from openppmc.model.bank.window import (
+    BUSY,
+    CONFIG,
+    DATA,
+    ERR,
+    GO,
+    IBF,
+    INFO,
+    MASK,
+    OBF,
+    PENDING,
+    POSITION,
+    STATUS,
+    STOP,
+)
 from scripts.demo.bank.session import READ_FINISH, Access, Session
 from scripts.measure.sizes import designs, figures, size_page
 from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED
@@ -20,7 +34,7 @@ from scripts.pages.pictures.tables import table
 
 SESSION_AXES = 32
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # 5 to 25 kpps within 100 pulses
-BITS = ((0x80, "ERR"), (4, "BUSY"), (2, "IBF"), (1, "OBF"))
+BITS = ((ERR, "ERR"), (BUSY, "BUSY"), (IBF, "IBF"), (OBF, "OBF"))
 Lines = list[tuple[str, int]]
 """Explanations, each with the number of accesses up to its end."""
 
@@ -30,8 +44,8 @@ def meaning(one: Access) -> str:
     names = {DATA: "data", CONFIG: "CONFIG", GO: "GO", STOP: "STOP"}
     if one.register == STATUS:
         return "command" if one.write else "status"
-    if one.register in (MASK, MAP, INFO):
-        name = {MASK: "MASK", MAP: "interrupt map", INFO: "INFO"}[one.register]
+    if one.register in (MASK, PENDING, INFO):
+        name = {MASK: "MASK", PENDING: "interrupt map", INFO: "INFO"}[one.register]
         return f"{name} byte {one.axis}"
     if POSITION <= one.register < POSITION + 4:
         return f"position byte {one.register - POSITION}"
@@ -97,7 +111,7 @@ def axis_session() -> str:
         host.run(host.t + 1000)
     host.poll(5)
     note("later: stopped; `int_n` is L")
-    host.read(0, MAP)
+    host.read(0, PENDING)
     note("bit 5: the motion of axis 5 ended")
     host.answer(5, READ_FINISH)
     note("finish status: a ramped move, complete; `int_n` = H")

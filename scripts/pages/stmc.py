@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import groupby, pairwise
 from typing import Any
 
+from openppmc.model.motion.codes import IBF
 from openppmc.model.stmc import pc104_board
 from openppmc.model.stmc.commands import profile
 from openppmc.model.stmc.part import Stmc
@@ -18,7 +19,6 @@ from scripts.pages.pictures.tables import spaced, table
 
 CLK_HZ = 16_000_000
 INTERNAL_HZ = 12_500
-IBF = 2
 FINISH = 0x80
 STANDARD = (20, 5, 8)
 

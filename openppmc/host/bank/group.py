@@ -14,10 +14,9 @@ from ..link import Link
 from ..motion import READ_FINISH
 from ..script import Script
 from .axis import BankAxis
-from .registers import GO, MASK, STATUS, GroupRefused, bit_bytes, go_error
+from .registers import BUSY, ERR, GO, MASK, STATUS, GroupRefused, bit_bytes, go_error
 from .window import visit
 
-BUSY, ERR = 0x04, 0x80
 _GO_READS = 8
 """Number of read accesses before MASK changes.
 

@@ -43,15 +43,29 @@ class GroupRefused(PpmcError):
         self.refusals = dict(refusals)
 
 
-STATUS, CONFIG, SELECT, POSITION = 0x1, 0x2, 0x3, 0x4
-"""Registers of an axis.
-
-SELECT is a register of the bridge. It selects the axis whose registers the other addresses access.
-"""
-MASK, PENDING, GO, STOP, INFO = 0x8, 0x9, 0xA, 0xB, 0xC
-"""Registers of the bank."""
-MARK, VERSION = 0x42, 0x01
-CSEL, VSEL = 0x01, 0x02
+# Registers, written by `make packages` from packages/registers/ppmc_bank.rdl.
+DATA = 0x0  # read: byte of a response; write: data byte
+STATUS = 0x1  # result of the last byte, state of part and buffers
+COMMAND = 0x1  # command byte
+CONFIG = 0x2  # levels of the pins of the old chip
+POSITION = 0x4  # position of the axis, low byte first; a read of the first byte latches the other three
+MASK = 0x8  # byte k: members of the group
+PENDING = 0x9  # byte k: map of the interrupts pending
+GO = 0xA  # any byte: the held operations of the group continue; reads as 0x00
+STOP = 0xB  # any byte: every motion ends; reads as 0x00
+INFO = 0xC  # k = 0: 0x42 ("B"); 1: 0x01 (version); 2: N; else 0x00
+ERR = 0x80  # the most recent byte, command or data, was faulty
+NUM = 0x70  # ERR = 0: number of parameter bytes still expected, 0 to 4; ERR = 1: error number
+BUSY = 0x04  # an operation is running (not during initialisation)
+IBF = 0x02  # the input buffer is full: do not write
+OBF = 0x01  # the data register holds an unread byte
+VSEL = 0x02  # intervals by the rate formula alone, else 7.5 us longer
+CSEL = 0x01  # base clock XTAL / 32, else XTAL / 128
+INFO_MARK = 0x42  # byte 0
+INFO_VERSION = 0x01  # byte 1: version of the window
+# End of the registers.
+SELECT = 0x3
+"""Register of the bridge, which selects the axis of all other registers."""
 POSITION_BYTES = 4
 
 

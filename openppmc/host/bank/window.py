@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from ..errors import WrongDevice
 from ..link import Link
 from ..script import LONGEST_SCRIPT, MOST_DATA, Answer, Identity, Result, Script
-from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, command_error
+from .registers import INFO, INFO_MARK, INFO_VERSION, SELECT, SIZES, Info, command_error
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]
@@ -132,15 +132,15 @@ def read_info(link: Link) -> Info:
     mark, version, axes = (
         value[0][0] for value in visit(link, [(k, Script().read(INFO)) for k in (1, 2, 3)])
     )
-    if mark != MARK:
+    if mark != INFO_MARK:
         raise WrongDevice(
-            f"{link.name}: INFO of the bank begins with {mark:#04x}, not with {MARK:#04x} (B): there is no "
-            "bank in this bitstream, or it is in reset"
+            f"{link.name}: INFO of the bank begins with {mark:#04x}, not with {INFO_MARK:#04x} (B): there is "
+            "no bank in this bitstream, or it is in reset"
         )
-    if version != VERSION:
-        newer = "this package" if version > VERSION else "the board's bitstream"
+    if version != INFO_VERSION:
+        newer = "this package" if version > INFO_VERSION else "the board's bitstream"
         raise WrongDevice(
-            f"{link.name}: the bank's window is of version {version}, this package knows {VERSION}: "
+            f"{link.name}: the bank's window is of version {version}, this package knows {INFO_VERSION}: "
             f"renew {newer}"
         )
     if axes not in SIZES:

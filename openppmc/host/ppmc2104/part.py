@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...lazy import Renamed
-from ...model.ppmc2104.codes import CMND
+from ...model.ppmc2104.codes import CMND, IBF
 from .. import speeds
 from ..axis import Axis, OnProgress
 from ..capabilities import AXIS_BIT
@@ -20,7 +20,6 @@ from .axis import Axis2104
 from .registers import BY_NUMBER, CAPABILITIES, Status, command_error
 
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
-IBF = 0x02
 ALL_HIGH = 0xFF
 CSEL, RUN, PINS_OF_1 = (0x01, 0x02), (0x04, 0x08), 0x80
 """Bits of the straps: csel and run of each axis; the axis whose pins PINS returns."""

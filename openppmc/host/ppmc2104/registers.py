@@ -15,8 +15,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from ...lazy import renamed
-from ...model.motion.codes import IBF, OBF
-from ...model.ppmc2104.codes import BUSY, CMND, ERROR, Error
+from ...model.ppmc2104.codes import BUSY, CMND, ERROR, IBF, OBF, Error
 from ...parts import part
 from ..capabilities import COILS_OFF, PULSE_ONLY, RateCapabilities
 from ..errors import (

@@ -18,8 +18,18 @@ from ..script import Answer, Result, Script
 from .answers import BadResponse, Response
 from .blocks import WINDOW, bus_order, start_address
 
-CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
-INTERRUPT_ON_RESPONSE, NOT_WRITABLE = 0x10, 0x08
+# Registers, written by `make packages` from packages/registers/ppmc312.rdl.
+CSR = 0x0  # control and status
+CONTROL = 0x2  # write: WCR, 0x20 opens the write window; read: RCR, rewinds the read window, reads as 0x00
+ADDRESS = 0x3  # write: WAR, write pointer; read: RAR, read pointer
+WRITE = 0x5  # DWR, a byte into the write window; reads as 0x00
+READ = 0x7  # DRR, the next byte of the read window
+EWRQ = 0x40  # `wrq_n` requests a faster host to wait
+EWIRQ = 0x20  # interrupt while MWEF = 0
+ERIRQ = 0x10  # interrupt while MREF = 0
+MWEF = 0x08  # the write window is closed: an instruction is being processed
+MREF = 0x04  # no answer or report is in the read window
+# End of the registers.
 EMPTY = 0x40
 """Value of RAR without a response.
 
@@ -57,8 +67,8 @@ class Window:
         self._bytes_left = 0
         # With DATASHEET timing, the part accepts no byte for 1.6 ms after a reset. If the wait fails, the
         # next access raises the error.
-        self._link.attempt(Script().timeout(READY_MS).wait(CSR, NOT_WRITABLE, 0))
-        self._link.execute(Script().write(CSR, INTERRUPT_ON_RESPONSE).read(CONTROL))
+        self._link.attempt(Script().timeout(READY_MS).wait(CSR, MWEF, 0))
+        self._link.execute(Script().write(CSR, ERIRQ).read(CONTROL))
         self._state_unknown = False
         self.collect()
 
@@ -77,7 +87,7 @@ class Window:
         """
         if self._state_unknown:
             self.open()
-        script = Script().wait(CSR, NOT_WRITABLE, 0)
+        script = Script().wait(CSR, MWEF, 0)
         script.write(CONTROL, WINDOW).write(ADDRESS, start_address(block))
         script.write_many(WRITE, bus_order(block)).timeout(milliseconds)
         answer = self._exchange(self._append_read(script, gives))

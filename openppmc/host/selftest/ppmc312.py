@@ -8,7 +8,7 @@ from typing import Any
 from ...model.ppmc312.codes import Code
 from ..ppmc312 import blocks
 from ..ppmc312.blocks import CCW, CW, WINDOW, block, bus_order, start_address
-from ..ppmc312.window import ADDRESS, CONTROL, CSR, EMPTY, INTERRUPT_ON_RESPONSE, READ, WRITE
+from ..ppmc312.window import ADDRESS, CONTROL, CSR, EMPTY, ERIRQ, READ, WRITE
 from ..script import Identity, Script
 from .plan import COMMANDS, MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire, timed
 
@@ -55,7 +55,7 @@ def read_responses(access: PartAccess, seconds: float) -> None:
 def prepare(access: PartAccess, setting: Sequence[bytes] = SETTING) -> None:
     """Enable the interrupt on responses, and load the ramps."""
     access.pause(0.005)
-    access.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
+    access.run(Script().write(CSR, ERIRQ))
     for instruction in setting:
         execute(access, instruction, 0.3)
 

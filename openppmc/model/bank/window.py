@@ -6,16 +6,33 @@ from collections.abc import Mapping, Sequence
 
 from ..chip import Phase
 from ..clock import EdgeLog, Event, Scheduler
-from ..motion.codes import IBF
 from ..single.hostport import strobes
 from .axis import Axis
 from .chopper import round_clk
 from .group import Group
 
-DATA, STATUS, CONFIG, POSITION = 0x0, 0x1, 0x2, 0x4
-MASK, MAP, GO, STOP, INFO = 0x8, 0x9, 0xA, 0xB, 0xC
+# Registers, written by `make packages` from packages/registers/ppmc_bank.rdl.
+DATA = 0x0  # read: byte of a response; write: data byte
+STATUS = 0x1  # result of the last byte, state of part and buffers
+COMMAND = 0x1  # command byte
+CONFIG = 0x2  # levels of the pins of the old chip
+POSITION = 0x4  # position of the axis, low byte first; a read of the first byte latches the other three
+MASK = 0x8  # byte k: members of the group
+PENDING = 0x9  # byte k: map of the interrupts pending
+GO = 0xA  # any byte: the held operations of the group continue; reads as 0x00
+STOP = 0xB  # any byte: every motion ends; reads as 0x00
+INFO = 0xC  # k = 0: 0x42 ("B"); 1: 0x01 (version); 2: N; else 0x00
+ERR = 0x80  # the most recent byte, command or data, was faulty
+NUM = 0x70  # ERR = 0: number of parameter bytes still expected, 0 to 4; ERR = 1: error number
+BUSY = 0x04  # an operation is running (not during initialisation)
+IBF = 0x02  # the input buffer is full: do not write
+OBF = 0x01  # the data register holds an unread byte
+VSEL = 0x02  # intervals by the rate formula alone, else 7.5 us longer
+CSEL = 0x01  # base clock XTAL / 32, else XTAL / 128
+INFO_MARK = 0x42  # byte 0
+INFO_VERSION = 0x01  # byte 1: version of the window
+# End of the registers.
 NOTHING = 0xFF
-INFO_START = (0x42, 0x01)
 
 _SYNC = 2
 _SHORTEST_READ = 3
@@ -127,9 +144,9 @@ class Window:
             return self._position >> 8 * (register - POSITION) & 0xFF
         if register == MASK:
             return self._group.mask >> 8 * k & 0xFF
-        if register == MAP:
+        if register == PENDING:
             group = self._axes[8 * k : 8 * k + 8]
             return sum(axis.context.interrupt << i for i, axis in enumerate(group))
         if register == INFO:
-            return (*INFO_START, len(self._axes), *[0] * 8)[k]
+            return (INFO_MARK, INFO_VERSION, len(self._axes), *[0] * 8)[k]
         return 0

@@ -7,7 +7,16 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
-OBF, IBF = 0x01, 0x02
+# Registers, written by `make packages` from packages/registers/mailbox.rdl.
+DATA = 0x0  # read: byte of a response; write: data byte
+STATUS = 0x1  # result of the last byte, state of part and buffers
+COMMAND = 0x1  # command byte
+ERR = 0x80  # the most recent byte, command or data, was faulty
+NUM = 0x70  # ERR = 0: number of parameter bytes still expected, 0 to 4; ERR = 1: error number
+BUSY = 0x04  # an operation is running (not during initialisation)
+IBF = 0x02  # the input buffer is full: do not write
+OBF = 0x01  # the data register holds an unread byte
+# End of the registers.
 
 SINGLE_STEP, ACC_DEC, CONSTANT = 0b010, 0b011, 0b100
 CONTINUOUS, HIGH_SPEED, ORIGIN = 0b101, 0b110, 0b111

@@ -12,8 +12,21 @@ from ..chip import Context, Phase
 from ..motion.codes import ORIGIN, RAMP_OPERATIONS, SINGLE_STEP, Command, GuardPins, Kind, operation_command
 from ..motion.motion import Setup
 
-ERROR = 0x80
-BUSY, CMND = (0x04, 0x08), (0x10, 0x20)
+# Registers, written by `make packages` from packages/registers/ppmc2104.rdl.
+DATA = 0x0  # read: byte of a response; write: data byte
+STATUS = 0x1  # state of axes and buffers
+COMMAND = 0x1  # command byte
+ERROR = 0x80  # an error register is not 0, of axis 1 or axis 2
+CMND2 = 0x20  # as CMND1, for axis 2
+# an instruction for axis 1 is incomplete (data bytes awaited), or its ramp table is queued or being computed;
+# in DATASHEET also while the instruction is processed
+CMND1 = 0x10
+BUSY2 = 0x08  # an operation of axis 2 is running or waits for RUN
+BUSY1 = 0x04  # an operation of axis 1 is running or waits for RUN
+IBF = 0x02  # the input buffer is full: do not write
+OBF = 0x01  # the data register holds an unread byte
+# End of the registers.
+BUSY, CMND = (BUSY1, BUSY2), (CMND1, CMND2)
 
 END_STATUS, CONTROL_INPUT, OUTPUT_SIGNAL, REMAINING, ERROR_CODE = 0, 1, 2, 3, 6
 SWITCH_MIN = 0x40

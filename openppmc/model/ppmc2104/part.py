@@ -13,11 +13,10 @@ from collections.abc import Mapping
 
 from ..chip import Chip, Context, PinRegister
 from ..clock import Latency, QuantumCounter
-from ..motion.codes import IBF, OBF
 from ..motion.motion import Interval
 from ..single.hostport import HostPort
 from .axis import Axis, Windows
-from .codes import AXES, HOST_PINS, INPUTS, OUTPUTS, WIDTHS, Interrupt, axis_levels, strobes
+from .codes import AXES, HOST_PINS, IBF, INPUTS, OBF, OUTPUTS, WIDTHS, Interrupt, axis_levels, strobes
 from .commands import CommandUnit
 
 

@@ -7,11 +7,9 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from ..motion.codes import IBF, OBF, RAMP_OPERATIONS, Command, Kind, operation_command
+from ..motion.codes import BUSY, ERR, IBF, OBF, RAMP_OPERATIONS, Command, Kind, operation_command
 
 __all__ = ["BUSY", "ERR", "IBF", "OBF", "Command", "Error", "Kind", "decode"]
-
-BUSY, ERR = 0x04, 0x80
 
 
 class Error(IntEnum):

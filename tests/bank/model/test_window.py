@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from openppmc.model.bank import PpmcBank
-from openppmc.model.bank.window import INFO, MAP
+from openppmc.model.bank.window import INFO, PENDING
 from tests.bank.model.host import CONFIG, DATA, GO, MASK, POSITION, STATUS, STOP, Host
 
 
@@ -86,15 +86,23 @@ def test_addresses():
     for register in range(16):
         host.write(16, register, 0)
         assert host.read(16, register) == 0xFF == host.read(63, register)
-    for register, value in ((DATA, 0), (STATUS, 0), (CONFIG, 3), (GO, 0), (STOP, 0), (POSITION, 0), (MAP, 0)):
+    for register, value in (
+        (DATA, 0),
+        (STATUS, 0),
+        (CONFIG, 3),
+        (GO, 0),
+        (STOP, 0),
+        (POSITION, 0),
+        (PENDING, 0),
+    ):
         assert host.read(2, register) == value
     assert [host.read(k, INFO) for k in range(9)] == [0x42, 1, 16, 0, 0, 0, 0, 0, 0x42]
     host.write(2, CONFIG, 0xFE)
     assert host.read(2, CONFIG) == 2 and host.read(3, CONFIG) == 3
     host.write(2, INFO, 0)
-    host.write(2, MAP, 0xFF)
+    host.write(2, PENDING, 0xFF)
     host.write(2, POSITION, 0xFF)
-    assert (host.read(2, INFO), host.read(2, MAP), host.read(2, POSITION)) == (16, 0, 0)
+    assert (host.read(2, INFO), host.read(2, PENDING), host.read(2, POSITION)) == (16, 0, 0)
 
 
 def test_mask_has_a_byte_for_eight_axes():
@@ -199,9 +207,9 @@ def test_interrupt_map():
     fall = host.idle(3)
     assert host.model.log.of("int_n") == [(fall, 0)]
     host.idle(12)
-    assert [host.read(k, MAP) for k in range(3)] == [0x08, 0x02, 0]
+    assert [host.read(k, PENDING) for k in range(3)] == [0x08, 0x02, 0]
     host.send(3, "c 80")
-    assert host.read(0, MAP) == 0 and host.model.outputs["int_n"] == 0
+    assert host.read(0, PENDING) == 0 and host.model.outputs["int_n"] == 0
     rise = host.send(9, "c 80")
-    assert host.model.log.of("int_n")[1:] == [(rise, 1)] and host.read(1, MAP) == 0
+    assert host.model.log.of("int_n")[1:] == [(rise, 1)] and host.read(1, PENDING) == 0
     assert host.read(12, STATUS) == 0

@@ -94,8 +94,18 @@ class Strobes:
             self._log.set(t, "d_o", self.registers.read_value(t, self._read_register))
 
 
-CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
-EWRQ, EWIRQ, ERIRQ, MWEF, MREF = 0x40, 0x20, 0x10, 0x08, 0x04
+# Registers, written by `make packages` from packages/registers/ppmc312.rdl.
+CSR = 0x0  # control and status
+CONTROL = 0x2  # write: WCR, 0x20 opens the write window; read: RCR, rewinds the read window, reads as 0x00
+ADDRESS = 0x3  # write: WAR, write pointer; read: RAR, read pointer
+WRITE = 0x5  # DWR, a byte into the write window; reads as 0x00
+READ = 0x7  # DRR, the next byte of the read window
+EWRQ = 0x40  # `wrq_n` requests a faster host to wait
+EWIRQ = 0x20  # interrupt while MWEF = 0
+ERIRQ = 0x10  # interrupt while MREF = 0
+MWEF = 0x08  # the write window is closed: an instruction is being processed
+MREF = 0x04  # no answer or report is in the read window
+# End of the registers.
 WINDOW = 0x20
 
 
