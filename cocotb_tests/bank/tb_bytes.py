@@ -251,7 +251,7 @@ async def bank_gen_03_data_bytes(dut):
 @directed("BANK-INI-01", "BANK-INI-02", "BANK-HSK-05", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_ini_02_shared_builder(dut):
     """During a long table build, the last initialisation bytes of other axes wait, and all other bytes are
-    accepted. After the build, the tables of the waiting axes are built (BANK-INI-02, BANK-HSK-05).
+    accepted. After this build, the tables of the waiting axes are built (BANK-INI-02, BANK-HSK-05).
     """
     env = await Env.start(dut)
     one, two, three = (env.axes[n] for n in (1, 2, 5))

@@ -294,8 +294,8 @@ async def bank_win_08_map_to_the_cycle(dut):
 
 
 async def _map_near_visits(env: Env, axes: list[Axis], address: int, step: int) -> None:
-    """Read the map step - 3 cycles after the first visit that sets a bit, then near each visit that clears a
-    bit.
+    """Read the map `step` - 3 cycles after the first visit that sets a bit, then near each visit that clears
+    a bit.
     """
     for axis in axes:
         await axis.command(0x42)

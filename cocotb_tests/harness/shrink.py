@@ -377,9 +377,9 @@ class Shrinker:
         return True
 
     async def _keep_the_end(self) -> None:
-        """Try only the last exchanges, soon after the reset, and add more of them until the list fails.
+        """Try only the last exchanges, moved to just after the reset; add more of them until the list fails.
 
-        An omission in the middle would change later reads; short lists at the end are quick to try.
+        Without exchanges in the middle, later reads would differ; short lists from the end are quick to try.
         """
         runs, count = exchanges(self.transactions), 1
         head = [txn for txn in self.transactions if txn.begin < PAUSE]

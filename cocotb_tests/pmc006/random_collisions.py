@@ -42,7 +42,7 @@ class CollisionHost(MotionHost):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.bench.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
-        # Number of cycles between edges at which a microsecond begins.
+        # Numbers of cycles from one edge at which a microsecond begins to the next.
         period = host.clk_hz // gcd(host.clk_hz, 1_000_000)
         for _ in range(4):
             if await host.busy() or not found["mon_busy"]:

@@ -190,8 +190,8 @@ async def p104_sw_05_sampled_at_phase_starts(dut):
 
 @directed("P104-SW-07", "P104-SW-01", "P104-SW-03")
 async def p104_sw_07_others_do_not_see_it(dut):
-    """Chopping at standstill does not change pout_n, dir, hold or 0x82; 0xC0 ends the chopping
-    (P104-SW-07).
+    """Chopping at standstill does not change pout_n, dir, hold or the answer to command 0x82; command 0xC0
+    ends the chopping (P104-SW-07).
     """
     env = await Env.start(dut, (0x2A, *A_VALUES))
     await env.move(0x4A)

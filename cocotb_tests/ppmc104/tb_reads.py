@@ -20,8 +20,8 @@ def output_signals(s: int, hold: int, direction: int) -> int:
 
 @directed("P104-RD-01", "P104-AUX-03")
 async def p104_rd_01_when_allowed(dut):
-    """Reads and 0x84 are rejected only while BUSY = 1; they are accepted before and after initialisation
-    (P104-RD-01).
+    """Reads and command 0x84 are rejected only while BUSY = 1; they are accepted before and after
+    initialisation (P104-RD-01).
     """
     env = await Env.start(dut, None)
     for phase in range(3):
@@ -108,7 +108,7 @@ async def p104_rd_06_output_bits(dut):
 
 @directed("P104-RD-03", "P104-RD-04", "P104-END-07", builds=(F16, F25))
 async def p104_rd_04_read_finish_status(dut):
-    """When 0x80 is accepted, INT is released without a data read, and bit 7 is set in this read only
+    """When command 0x80 is accepted, INT is released without a data read, and bit 7 is set in this read only
     (P104-RD-04).
     """
     env = await Env.start(dut, INIT_A)
@@ -182,7 +182,7 @@ async def p104_aux_02_all_values(dut):
 
 @directed("P104-AUX-03", "P104-SW-05", "P104-SW-04")
 async def p104_aux_03_switching_parameters(dut):
-    """0x84, before initialisation and while chopping, changes both times together at a phase boundary
+    """Command 0x84 changes both times together at a phase boundary, before initialisation and while chopping
     (P104-AUX-03).
     """
     env = await Env.start(dut, None)
@@ -207,7 +207,7 @@ async def p104_aux_03_switching_parameters(dut):
 
 @directed("P104-AUX-04", "P104-AUX-06", "P104-PHS-05", "P104-END-08")
 async def p104_aux_04_excitation_off(dut):
-    """0xC0 in an ON or OFF phase switches all phase pins off permanently; the hold timer continues
+    """Command 0xC0 in an ON or OFF phase switches all phase pins off permanently; the hold timer continues
     (P104-AUX-04).
     """
     env = await Env.start(dut, None)

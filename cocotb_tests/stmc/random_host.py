@@ -79,7 +79,7 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ commands without motion
 
     def ramp(self) -> tuple[int, int, int]:
-        """Return a legal (D1, D2, PA); most are small and build quickly."""
+        """Return a legal (D1, D2, PA); most are small, so that their tables are built quickly."""
         rng, least = self.rng, self.least
         kind = rng.random()
         slow = (5, 6, 10, 13, 20, 26) if self.external else (1, 2, 3, 4, 6)

@@ -56,7 +56,9 @@ def test_each_part_of_the_log_is_one_test(tmp_path: Path, log: str, kinds: str) 
 
 
 def test_a_process_that_ends_within_a_test(tmp_path: Path) -> None:
-    """If the process ends within a test, this test crashed, and the following tests did not run."""
+    """If the process ends within a test, this test is reported as crashed, and the following tests as not
+    run.
+    """
     found = read(tmp_path, part("a", "x\n"), None, "the simulator ended: -11")
     assert (found["a"].kind, found["b"].kind) == ("crashed", "did not run")
     assert found["a"].text.startswith("the simulator ended: -11\n")

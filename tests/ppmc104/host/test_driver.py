@@ -87,7 +87,7 @@ def test_initialise_tells_what_is_reached() -> None:
     ],
 )
 def test_the_motor_runs_at_the_speed_that_was_told(arguments: dict[str, object], base_hz: int) -> None:
-    """The intervals of a long constant-speed move in the part add up to the time that follows from the
+    """The intervals of a long move of the part at constant speed add up to the time that follows from the
     reported speed, for both base clocks, with and without long intervals.
     """
     with board(**arguments) as axis:

@@ -31,7 +31,7 @@ def stop_at(host: AnyHost, code: int, edge: int) -> None:
 
 @pytest.mark.parametrize("offset, pulses", [(-1, 5), (0, 5), (1, 6), (2, 6)])
 def test_cause_on_the_edge_of_a_pulse_event(offset, pulses):
-    """An immediate cause suppresses a pulse event on its own edge, but not one on the edge before it."""
+    """A cause of an immediate end suppresses a pulse event on the same edge, but not on the edge before."""
     for cause in ("limit", "stop"):
         host = moving(INIT_A + " c 45 d 13")
         event = host.fall(5) - 1 + 640
@@ -207,7 +207,8 @@ def test_external_clock_without_vsel_puts_the_pulse_off():
     host.pause(6)
     host.run("c 44 d 01 d 03 d 00 d 00")
     start = host.t + 200
-    # Rising edges of the clock; edge 0 makes pulse 1. The last interval is too long for the addition.
+    # Rising edges of the clock. The edge at time 0 causes pulse 1. In the last interval the clock is so slow
+    # that no extra time is added.
     for rise in (0, 50, 100, 260, 300, 340, 500, 700, 900, 1100, 1300):
         host.model.pins(start + rise, clock=1)
         host.model.pins(start + rise + 8, clock=0)

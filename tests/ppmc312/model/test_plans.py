@@ -1,4 +1,6 @@
-"""Worked examples E1 to E32 of the PPMC-312 without time: plans, and changes and stops at pulses."""
+"""Worked examples E1 to E32 of the PPMC-312 without time: plans of moves, and speed changes and stops at
+given pulses.
+"""
 
 from __future__ import annotations
 
