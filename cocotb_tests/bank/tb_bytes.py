@@ -207,7 +207,7 @@ async def bank_gen_03_all_codes_at_rest(dut):
 
 @directed("BANK-GEN-03", builds=(B8, B32))
 async def bank_gen_03_all_codes_while_busy(dut):
-    """During a motion, stops take effect, 0xC0 sets error 1, and each unsupported code sets error 0
+    """During a motion, stops take effect, command 0xC0 sets error 1, and each unsupported code sets error 0
     (BANK-GEN-03).
     """
     env = await Env.start(dut)

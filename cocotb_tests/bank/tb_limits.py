@@ -159,8 +159,8 @@ async def bank_mot_02_pins_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B4, B8, B32, B64, F100))
 async def bank_mot_02_pins_around_slower_pulses(dut):
-    """A limit, an alarm or the origin near a pulse also ends the motion on its edge of detection at a rate
-    whose low time is W, and in the other builds (BANK-MOT-02).
+    """At a rate whose low time is W, and in the other builds, a limit, an alarm or the origin near a pulse
+    also ends the motion on its edge of detection (BANK-MOT-02).
     """
     waves = await pin_waves(dut, 3, 2)
     assert waves.done >= 180
@@ -315,7 +315,7 @@ async def bank_mot_02_after_a_forced_end(dut):
     axis = await env.ready(2)
     for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
         edge0 = await axis.go(0x43, 100, poll=False)
-        last = axis.accepting_visit(edge0) + env.cfg.w  # a 0x41 before pulse 1 leaves only this pulse
+        last = axis.accepting_visit(edge0) + env.cfg.w  # command 0x41 before pulse 1 leaves only this pulse
         await axis.host.poll(2, 0)
         await axis.command(0x41)
         axis.at(last + offset - SYNC, l1_n=0)

@@ -64,9 +64,9 @@ class Train:
 def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterator[str]:
     """Yield each violation of the rules; `w` and `brisk` are CYC(80) and CYC(128).
 
-    An interval whose length by the formula is EXACT or more must match the formula to the cycle. So must the
-    low time at the start of such an interval; if edges are closer than EXACT_LOW, it may be longer, up to W.
-    A shorter interval may be longer than the formula by whole base periods.
+    An interval whose length by the formula is EXACT or more must match the formula to the cycle. The low time
+    at the start of such an interval must match, too; if edges are closer than EXACT_LOW, the low time may be
+    longer, up to W. A shorter interval may be longer than the formula by whole base periods.
     """
     edges, pulses, lows = train.edges, train.pulses, train.lows
     at = [bisect_left(edges, t) for t in pulses]

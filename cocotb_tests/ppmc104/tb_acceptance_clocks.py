@@ -141,8 +141,8 @@ async def p104_ac_51_no_drift(dut):
 
 @directed("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_ac_52_init_time(dut):
-    """In DATASHEET, if 0xC1 and 0xC2 are written while the mailbox is closed, only 0xC2 is accepted, 16.5 ms
-    after the initialisation (AC-52).
+    """In DATASHEET, if commands 0xC1 and 0xC2 are written while the mailbox is closed, only command 0xC2 is
+    accepted, 16.5 ms after the initialisation (AC-52).
     """
     env = await Env.start(dut, None)
     await env.host.run("c 0A d 09 d 04 d 04")

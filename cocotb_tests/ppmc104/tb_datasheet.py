@@ -54,8 +54,8 @@ async def p104_ds_02_init_time(dut):
 
 @directed("P104-DS-02", "P104-DS-13", "P104-INI-06", builds=(D16,))
 async def p104_ds_13_no_time_for_the_rest(dut):
-    """After a rejected initialisation, reads, 0x84 and errors, the next bytes are accepted as in FAST
-    (P104-DS-13).
+    """After a rejected initialisation, a read, command 0x84 or an error, the next bytes are accepted as in
+    FAST (P104-DS-13).
     """
     env = await DatasheetEnv.start(dut, None)
     got = []

@@ -68,7 +68,7 @@ async def p104_phs_02_idle_level(dut):
 
 @directed("P104-PHS-04", "P104-STP-01", "P104-END-02")
 async def p104_phs_04_held_at_every_stop(dut):
-    """After a stop by 0x40, 0x41, L1, ALM or CNP, the pattern stays on (P104-PHS-04)."""
+    """After a stop by command 0x40 or 0x41, or by L1, ALM or CNP, the pattern stays on (P104-PHS-04)."""
     env = await Env.start(dut, INIT_A)
     for stop in ("40", "41", "l1_n", "alm_n", "cnp_n"):
         await env.go(0x47, None, 9)

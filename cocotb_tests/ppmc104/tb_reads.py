@@ -11,7 +11,7 @@ READS = (0x80, 0x81, 0x82, 0x83, 0x85)
 
 
 def output_signals(s: int, hold: int, direction: int) -> int:
-    """Return the byte of 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, then HOLD, DIR
+    """Return the answer to command 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, then HOLD, DIR
     (P104-RD-06).
     """
     bits = sum((s >> i & 1) << (7 - i) for i in range(5))
@@ -59,8 +59,8 @@ async def p104_rd_02_sampled_at_the_c_event(dut):
 
 @directed("P104-RD-05", "P104-RD-08", "P104-LIM-10")
 async def p104_rd_05_input_bits(dut):
-    """For single inputs and random combinations, each bit of 0x81 and 0x85 is the level of its pin
-    (P104-RD-05, P104-RD-08).
+    """For single inputs and random combinations, each bit of the answers to commands 0x81 and 0x85 is the
+    level of its pin (P104-RD-05, P104-RD-08).
     """
     env = await Env.start(dut, None)
     place = {"cnp_n": 7, "alm_n": 6, "l1_n": 3, "l2_n": 2, "l3_n": 1, "l4_n": 0}
@@ -79,8 +79,8 @@ async def p104_rd_05_input_bits(dut):
 
 @directed("P104-RD-06", "P104-SW-07")
 async def p104_rd_06_output_bits(dut):
-    """For all patterns, both logics, and all levels of hold and dir, 0x82 returns the pin levels without
-    chopping (P104-RD-06).
+    """For all patterns, both logics, and all levels of hold and dir, command 0x82 returns the pin levels
+    without chopping (P104-RD-06).
     """
     env = await Env.start(dut, None)
     for name, code in STEP_CODES.items():
@@ -167,8 +167,8 @@ async def p104_aux_01_aux_pin(dut):
 
 @directed("P104-AUX-02")
 async def p104_aux_02_all_values(dut):
-    """For all 256 data bytes of 0x86, auxo is the inverted low nibble, and all bits change on one edge
-    (P104-AUX-02).
+    """For all 256 data bytes of command 0x86, auxo is the inverted low nibble, and all bits change on one
+    edge (P104-AUX-02).
     """
     env = await Env.start(dut, None)
     for byte in range(256):

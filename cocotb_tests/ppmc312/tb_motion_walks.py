@@ -165,7 +165,7 @@ WALKS = [
         0x40,
     ),
     # If a ramp ends at the deceleration point and no deceleration follows, the next instruction 87 starts
-    # from t(R_c), the stage of the current rate, not from the stage in which the ramp ended.
+    # from t(R_c), R_c being the last rate, and not from the stage in which the ramp ended.
     (
         SLOW_EQUAL,
         message(Code.RAMP, "00 0096 0000003C"),

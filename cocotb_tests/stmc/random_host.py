@@ -190,8 +190,8 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ bad input
 
     def random_write(self) -> tuple[int, int]:
-        """Return register and byte of a write; as a divisor, the byte does not make a constant-speed motion
-        too fast for the clock.
+        """Return the register and the byte of a write. If the byte is used as a divisor, a constant-speed
+        motion is not too fast for the clock.
         """
         rng = self.rng
         if rng.random() < 0.5:

@@ -174,7 +174,8 @@ async def axil_channel_order(dut):
         await with_timeout(event.wait(), 1, "ms")
         assert event.data.resp == AxiResp.OKAY
     want.append(("w", 2, 2))
-    # While the master does not accept R, R must keep its data; a write and another read wait or are executed.
+    # While the master does not accept R, R must keep its data. During this time a write and another read
+    # either wait or are executed.
     channel["r"].pause = True
     reads = [master.init_read(4 * n, 4) for n in (1, 2)]
     await write_bytes(master, 4 * 5, b"\x77")

@@ -103,8 +103,8 @@ class SequencerRun:
         return self.rand.getrandbits(90) << 38 | target
 
     def plan_requests(self) -> dict[int, str]:
-        """Return the requests in the next interval, with their numbers of cycles before its end as keys; at
-        most one of them is a change.
+        """Return the requests in the next interval; each key is the time before the end of the interval in
+        cycles.
         """
         rand, found = self.rand, {}
         if rand.random() < 0.08:
@@ -125,7 +125,7 @@ class SequencerRun:
         requests = self.plan_requests()
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
         if self.sequence.was_searched and self.rand.random() < 0.3:
-            # The boundary is on the last cycle that is too early for the result of the search, or one cycle
+            # The boundary is in the last cycle that is too early for the result of the search, or one cycle
             # later.
             cycles = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
             longest = max(longest, cycles - self.flat_for)

@@ -91,8 +91,8 @@ def test_go_refused():
 
 
 def test_held_operation_is_watched_and_stopped():
-    """Limits, alarm and stops act on a held operation; if its deceleration flag is set, it outputs only pulse
-    1 after GO (BANK-GRP-01).
+    """Limits, the alarm and stops take effect on a held operation; if its deceleration flag is set, it
+    outputs only pulse 1 after GO (BANK-GRP-01).
     """
     host = held(8, "c 43 d E7 d 03 d 00", 5)
     host.pin(host.t, 0, l1_n=0)

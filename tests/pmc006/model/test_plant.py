@@ -90,8 +90,8 @@ def test_every_change_of_the_comparator_is_there() -> None:
 
 
 def stated_ripple(ampere: float, motor: Motor) -> float:
-    """Return the highest ripple at standstill: the rise in a shortest pulse, counted for both directions,
-    plus the fall in the off-time.
+    """Return the highest ripple at standstill: the changes by one shortest pulse in each direction, plus the
+    fall in the off-time.
     """
     pulses = 2 * motor.volt / motor.henry * (T_BLANK + LATE)
     return pulses + motor.ohm * ampere / motor.henry * T_OFF
