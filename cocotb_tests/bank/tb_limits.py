@@ -75,7 +75,7 @@ class Waves:
         return self.edges(g)
 
     async def held(self, axis: Axis, code: int) -> None:
-        """Start an operation that is held: N pulses, or one without a pulse count."""
+        """Start an operation that is held, with N pulses or without a pulse count."""
         await (axis.go(code, N, self.rate) if code & 7 == 4 else axis.go(code, rate=self.rate))
 
     async def play(self, cases: list[Case]) -> None:

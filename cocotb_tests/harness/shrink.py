@@ -239,7 +239,8 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
 
 
 PAUSE = 20
-"""Cycles that remain between two transactions when a pause is removed; this is enough for every bus."""
+"""Number of cycles left between two transactions if the pause between them is removed; enough for every bus.
+"""
 
 
 def messages(transactions: Iterable[Transaction]) -> list[list[Transaction]]:

@@ -164,7 +164,7 @@ async def rate_counter_hit(dut):
 @cocotb.test()
 async def rate_counter_wait(dut):
     """While the rate is still rising, neither hit_o nor half_o is asserted. The base clocks during this time
-    count, up to the rate at that time.
+    are counted, up to the rate at that time.
     """
     rand = rng()
     u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")

@@ -43,8 +43,8 @@ async def p104_ex_04_stop_in_each_phase(dut):
 
 @directed("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04", builds=(F16, F100))
 async def p104_fdc_01_limit_in_each_interval(dut):
-    """In each interval of a phase-mode move, the slow-down limit of the direction mirrors the ramp
-    (P104-FDC-01).
+    """If the slow-down limit of the direction falls in any interval of a phase-mode move, the ramp is
+    mirrored (P104-FDC-01).
     """
     env = await Env.start(dut, INIT_B)
     for direction in (0, 1):

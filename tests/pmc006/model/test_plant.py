@@ -61,7 +61,7 @@ def test_diodes_end_at_zero() -> None:
 
 @verifies("P006-CHP-05", "P006-CHP-03")
 def test_every_change_of_the_comparator_is_there() -> None:
-    """The plant changes the comparators in the same cycles as a check of the currents in each cycle."""
+    """The plant changes the comparators in the same cycles as if it checked the currents in every cycle."""
     rig = BootedMotor(Case(cur=2000))
     pins, told = rig.part.pins, {"cmp_a": [(0, 0)], "cmp_b": [(0, 0)]}
 
