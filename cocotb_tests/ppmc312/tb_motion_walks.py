@@ -235,8 +235,8 @@ async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
     """If instruction 87 is accepted before the ramp of an earlier instruction 87 begins, the later one waits
     during this ramp and is then discarded.
 
-    It is too late for the boundary at which the earlier one takes effect. The remaining pulses are not
-    accelerated.
+    The later one is too late for the boundary at which the earlier one takes effect. The remaining pulses are
+    not accelerated.
     """
     for ahead in (30, 60, 100, 140):
         host = await Host.start(dut, *TF)
