@@ -51,7 +51,7 @@ async def p104_bck_05_sweep(dut):
 
 @directed("P104-TIM-05", builds=(F16, F8, F25))
 async def p104_tim_05_brisk_threshold(dut):
-    """At rate 0, the high time of the clock shortens the low time only for periods below CYC(128)
+    """At rate 0, the high time of the clock limits the low time only for periods below CYC(128)
     (P104-TIM-05).
 
     The test uses periods of CYC(128) - 1, CYC(128) and CYC(128) + 1 cycles.

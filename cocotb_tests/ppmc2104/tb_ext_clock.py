@@ -36,7 +36,7 @@ async def p2104_bck_04_sweep(dut: Any) -> None:
 
 @directed("P2104-TIM-05", builds=(F16, F8, F48))
 async def p2104_tim_05_brisk_threshold(dut: Any) -> None:
-    """At rate 0, the high time of the clock shortens the low time only for periods below CYC(128)
+    """At rate 0, the high time of the clock limits the low time only for periods below CYC(128)
     (P2104-TIM-05).
 
     The test uses periods of CYC(128) - 1, CYC(128) and CYC(128) + 1 cycles.
