@@ -64,7 +64,7 @@ class BankHost(RandomHost):
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
-        """Host of the base class `RandomHost`: this object, which has the bench."""
+        """Host that makes the accesses of `RandomHost`, which is this object itself."""
         return self
 
     def _pause(self) -> int:

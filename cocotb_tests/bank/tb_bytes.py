@@ -207,7 +207,7 @@ async def bank_gen_03_all_codes_at_rest(dut):
 
 @directed("BANK-GEN-03", builds=(B8, B32))
 async def bank_gen_03_all_codes_while_busy(dut):
-    """During a motion, stops take effect, 0xC0 sets error 1, and each unsupported code sets error 0
+    """During a motion, stops take effect, command 0xC0 sets error 1, and each unsupported code sets error 0
     (BANK-GEN-03).
     """
     env = await Env.start(dut)
@@ -251,7 +251,7 @@ async def bank_gen_03_data_bytes(dut):
 @directed("BANK-INI-01", "BANK-INI-02", "BANK-HSK-05", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_ini_02_shared_builder(dut):
     """During a long table build, the last initialisation bytes of other axes wait, and all other bytes are
-    accepted. After the build, the tables of the waiting axes are built (BANK-INI-02, BANK-HSK-05).
+    accepted. After this build, the tables of the waiting axes are built (BANK-INI-02, BANK-HSK-05).
     """
     env = await Env.start(dut)
     one, two, three = (env.axes[n] for n in (1, 2, 5))

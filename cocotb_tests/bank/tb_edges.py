@@ -23,8 +23,10 @@ def blip(axis: Axis, edge: int, **pins: int) -> None:
 
 @directed("BANK-MOT-02", "BANK-MOT-03", builds=(B8, B32))
 async def bank_mot_03_requests_around_an_end(dut):
-    """If an alarm decides the end on edge e, 0x41 and a slow-down limit at visits up to e + 4 set their
-    finish bits. An immediate stop sets its bit at visit e, but not at visits e + 1 to e + 4 (BANK-MOT-03)."""
+    """If an alarm causes the end of a motion on edge e, command 0x41 and a slow-down limit still set their
+    finish bits at visits up to e + 4. An immediate stop sets its bit at visit e, but not at visits e + 1 to e
+    + 4 (BANK-MOT-03).
+    """
     env = await Env.start(dut)
     axis = await env.ready(3)
     requests = ((0x40, 0x46), (0x40, 0x45), (0x41, 0x45), (0x41, 0x46), ("slow", 0x46))
@@ -39,7 +41,7 @@ async def bank_mot_03_requests_around_an_end(dut):
             env.at_event(visit - 7, axis.n << 4 | STATUS, request)
         await env.bench.until(visit + 1)
         await axis.idle()
-        # At constant speed 0x41 is an immediate stop too.
+        # At constant speed, command 0x41 is also an immediate stop.
         immediate = request == 0x40 or code == 0x45
         alarm = ALARM_BIT * (not immediate or late >= 0)
         bit = (SLOW_BIT if request == "slow" else STOP_BIT) * (late <= (0 if immediate else 4))
@@ -61,7 +63,8 @@ async def bank_mot_05_slow_down_limit_with_a_stop(dut):
         env.at_event(visit - 7, axis.n << 4 | STATUS, request)
         await env.bench.until(visit + env.round + 1)
         await axis.idle()
-        # A slow-down limit one visit earlier begins the deceleration: 0x41 is then rejected.
+        # A slow-down limit that is sampled one visit earlier begins the deceleration; command 0x41 is then
+        # rejected.
         bits = {-1: SLOW_BIT | (STOP_BIT if request == 0x40 else 0), 0: STOP_BIT | both, 1: STOP_BIT}[late]
         what = f"finish status, {request:02X}, slow-down limit {late:+} visits"
         env.check("BANK-MOT-05", what, await axis.finish(), 0x86 | bits)
@@ -123,8 +126,9 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
 
 @directed("BANK-HLD-01", builds=(B8,))
 async def bank_hld_01_read_at_the_visit_at_which_hold_rises(dut):
-    """At the visit at which hold rises, 0x82 returns HOLD = 0; at the next visit it returns HOLD = 1
-    (BANK-HLD-01)."""
+    """At the visit at which hold rises, command 0x82 returns HOLD = 0; at the next visit it returns HOLD = 1
+    (BANK-HLD-01).
+    """
     env = await Env.start(dut)
     reads = []
     for number, late in ((0, -1), (3, 0), (6, 1)):

@@ -75,7 +75,7 @@ class Waves:
         return self.edges(g)
 
     async def held(self, axis: Axis, code: int) -> None:
-        """Start an operation that is held: N pulses, or one without a pulse count."""
+        """Start an operation that is held, with N pulses or without a pulse count."""
         await (axis.go(code, N, self.rate) if code & 7 == 4 else axis.go(code, rate=self.rate))
 
     async def play(self, cases: list[Case]) -> None:
@@ -159,8 +159,8 @@ async def bank_mot_02_pins_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B4, B8, B32, B64, F100))
 async def bank_mot_02_pins_around_slower_pulses(dut):
-    """A cause near a pulse also ends the motion on its edge of detection at a rate whose low time is W, and
-    in the other builds (BANK-MOT-02).
+    """At a rate whose low time is W, and in the other builds, a limit, an alarm or the origin near a pulse
+    also ends the motion on its edge of detection (BANK-MOT-02).
     """
     waves = await pin_waves(dut, 3, 2)
     assert waves.done >= 180
@@ -189,8 +189,8 @@ async def bank_grp_04_stop_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-03", "BANK-WIN-07", builds=(B8, F100))
 async def bank_mot_02_stop_command_around_pulses(dut):
-    """A 0x40 or 0x41 that is accepted at a visit near a pulse suppresses exactly the pulses on the edge of
-    that visit or later (BANK-MOT-02).
+    """A stop command (0x40 or 0x41) that is accepted at a visit near a pulse suppresses exactly the pulses on
+    the edge of that visit or later (BANK-MOT-02).
     """
     env = await Env.start(dut)
     waves = Waves(env, 1)
@@ -216,8 +216,8 @@ async def bank_mot_02_stop_command_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-03", "BANK-GRP-04", "BANK-WIN-07", builds=(B8, B32))
 async def bank_mot_02_two_causes(dut):
-    """If two causes occur up to six cycles apart near a pulse, only the earlier one sets its finish bit; if
-    they occur on the same edge, both set their bits (BANK-MOT-02).
+    """If two causes of an end occur up to six cycles apart near a pulse, only the earlier one sets its finish
+    bit; if they occur on the same edge, both set their bits (BANK-MOT-02).
     """
     env = await Env.start(dut)
     waves = Waves(env, 0)
@@ -269,8 +269,8 @@ async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_02_what_is_ignored(dut):
-    """At constant speed, the origin, the limits of the other direction and the slow-down limits do not
-    end a motion; 0x81 reports their levels (BANK-MOT-02, BANK-MOT-05).
+    """At constant speed, the origin, the limits of the other direction and the slow-down limits do not end a
+    motion; command 0x81 reports their levels (BANK-MOT-02, BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)
@@ -292,8 +292,8 @@ async def bank_mot_02_what_is_ignored(dut):
 
 @directed("BANK-MOT-05", builds=(B8, B32, F100))
 async def bank_mot_05_inputs_to_the_clk(dut):
-    """If 0x81 is accepted at visit V, it reports an alarm that was detected on edge V - 4 or earlier, but not
-    one that was detected on edge V - 3 (BANK-MOT-05).
+    """If command 0x81 is accepted at visit V, it reports an alarm that was detected on edge V - 4 or earlier,
+    but not one that was detected on edge V - 3 (BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = env.axes[6]
@@ -315,7 +315,7 @@ async def bank_mot_02_after_a_forced_end(dut):
     axis = await env.ready(2)
     for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
         edge0 = await axis.go(0x43, 100, poll=False)
-        last = axis.accepting_visit(edge0) + env.cfg.w  # 0x41 before pulse 1: only this pulse is left
+        last = axis.accepting_visit(edge0) + env.cfg.w  # command 0x41 before pulse 1 leaves only this pulse
         await axis.host.poll(2, 0)
         await axis.command(0x41)
         axis.at(last + offset - SYNC, l1_n=0)

@@ -190,7 +190,7 @@ async def bank_mot_05_slow_down_limit(dut):
         await axis.pulse(2, env.cfg.w + 20)
         visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, l3_n=0)
-        axis.at(visit - early - SYNC + 1, l3_n=1)  # only this visit samples the level, or no visit does
+        axis.at(visit - early - SYNC + 1, l3_n=1)  # the level is sampled by this visit only, or by no visit
         if early == 4:
             await axis.idle()
             env.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)

@@ -45,8 +45,8 @@ async def bank_chp_01_phases(dut):
 @directed("BANK-CHP-01", "BANK-GEN-04", builds=(B8, F100))
 async def bank_chp_01_settings(dut):
     """Parameters and vsel set the durations of the chopper phases as the rules state. vsel applies to a phase
-    if it was written 7 cycles or more before the visit that orders the first edge of the phase (BANK-CHP-01,
-    BANK-GEN-04).
+    if it was written 7 cycles or more before the visit that schedules the first edge of the phase
+    (BANK-CHP-01, BANK-GEN-04).
     """
     env = await Env.start(dut)
     axis = await env.ready(3, CHOPPED)
@@ -86,7 +86,7 @@ async def bank_chp_01_settings(dut):
 
 @directed("BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_hsk_02_chopper_takes_the_visit(dut):
-    """A visit that orders an edge of the chopper does not accept a waiting byte; the next visit accepts it
+    """A visit that schedules an edge of the chopper does not accept a waiting byte; the next visit accepts it
     (BANK-HSK-02).
     """
     env = await Env.start(dut)
@@ -128,15 +128,15 @@ async def bank_ini_02_completion(dut):
 
 @directed("BANK-HLD-01", "BANK-CHP-01", builds=(B8,))
 async def bank_hld_01_hold(dut):
-    """After a motion, hold rises at the first visit that is at least 34 ms later and orders no edge of the
-    chopper (BANK-HLD-01).
+    """After a motion, hold rises at the first visit that is at least 34 ms later and does not schedule an
+    edge of the chopper (BANK-HLD-01).
     """
     env = await Env.start(dut)
     plain, chopped, again, low = env.axes[0], env.axes[3], env.axes[5], env.axes[7]
     for axis in (plain, chopped, again, low):
         await axis.init(*(CHOPPED if axis is chopped else (0x0A, 9, 4, 4)))
-    # 34 ms are 136 000 quanta: 60 chopper periods (700 + 1555 quanta) and one ON phase (700), so a chopper
-    # edge is ordered at this visit.
+    # 34 ms are 136 000 quanta: 60 chopper periods (700 + 1555 quanta) and one ON phase (700), so this visit
+    # schedules an edge of the chopper.
     await chopped.set_config(1, 0)
     await chopped.host.send(0x84, (50, 120))
     ends = {}

@@ -38,7 +38,9 @@ class Bridge:
         return data
 
     async def access(self, a: int, value: int | None = None, shown: int = 0) -> int:
-        """Make one access while the bank outputs `shown`; return the byte on the bus in the last cycle."""
+        """Make one access while the bank outputs the byte `shown`; return the byte on the bus in the last
+        cycle.
+        """
         data = 0
         await self._clk(a_i=a, d_i=value or 0, bank_d_i=shown)
         for _ in range(READ_CLK if value is None else WRITE_CLK):

@@ -278,8 +278,9 @@ async def bank_win_08_interrupts(dut):
 
 @directed("BANK-WIN-05", "BANK-WIN-08", builds=(B4, B8, B16, B32, B64))
 async def bank_win_08_map_to_the_cycle(dut):
-    """A read of the map returns each bit as it is after edge 2 of the read, at each address of the byte and
-    for each distance between the read and a visit that sets or clears bits (BANK-WIN-05, BANK-WIN-08).
+    """A read of the map returns each bit as it is after edge 2 of the read. This holds at each address of the
+    byte, and for each distance between the read and a visit that sets or clears bits (BANK-WIN-05,
+    BANK-WIN-08).
     """
     env = await Env.start(dut)
     await env.all_ready()
@@ -294,8 +295,8 @@ async def bank_win_08_map_to_the_cycle(dut):
 
 
 async def _map_near_visits(env: Env, axes: list[Axis], address: int, step: int) -> None:
-    """Read the map step - 3 cycles after the first visit that sets a bit, then near each visit that clears a
-    bit.
+    """Read the map `step` - 3 cycles after the first visit that sets a bit, then near each visit that clears
+    a bit.
     """
     for axis in axes:
         await axis.command(0x42)

@@ -136,7 +136,7 @@ async def tick_gen_exact(dut):
         u = unit(dut, f"tick{i}", "tick_o")
         period = Fraction(step * clk, xtal)
         await u.reset()
-        # The longest phase cycle of these settings has 1728 cycles.
+        # With these settings, the phase of the ticks repeats after at most 1728 cycles.
         for run in [2000] + [rand.randint(1, ceil(6 * period)) for _ in range(15)]:
             await u.clk(restart_i=1)
             n = 1

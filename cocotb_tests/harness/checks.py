@@ -62,11 +62,11 @@ class Train:
 
 
 def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterator[str]:
-    """Yield each contradiction to the rules; `w` and `brisk` are CYC(80) and CYC(128).
+    """Yield each violation of the rules; `w` and `brisk` are CYC(80) and CYC(128).
 
-    An interval whose length by the formula is EXACT or more must match the formula to the cycle. So must the
-    low time at the start of such an interval; if edges are closer than EXACT_LOW, it may be longer, up to W.
-    A shorter interval may be longer than the formula by whole base periods.
+    An interval whose length by the formula is EXACT or more must match the formula to the cycle. The low time
+    at the start of such an interval must match, too; if edges are closer than EXACT_LOW, the low time may be
+    longer, up to W. A shorter interval may be longer than the formula by whole base periods.
     """
     edges, pulses, lows = train.edges, train.pulses, train.lows
     at = [bisect_left(edges, t) for t in pulses]
@@ -111,7 +111,7 @@ class ExtMoves:
     async def of(
         cls, axis: AxisDriver, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
     ) -> ExtMoves:
-        """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, and the pin delay."""
+        """Measure `delay` on the active ramp: 2 to 3 cycles until an edge acts, plus the delay to the pin."""
         moves = cls(axis, slow_pin, lows, rate_of, 0)
         train = await moves._train(Move(2, (64,), 32, ramp))
         moves.delay = train.pulses[0] - max(t for t in train.edges if t < train.pulses[0] - 1)
@@ -129,7 +129,8 @@ class ExtMoves:
         axis, bench = self.axis, self.axis.bench
         expected = move.rates(self.rate_of)
         await axis.go(0x43 if move.rate is None else 0x44, move.n, move.rate)
-        # Allow for the set-up time, and for short intervals that become longer than the formula.
+        # Enough edges for the set-up time, and for short intervals, which may be longer than the formula
+        # states.
         count = axis.cfg.w // min(move.gaps) + sum(expected) + 8 * move.n + 8
         start = await bench.align() + 1
         rises = list(accumulate(islice(cycle(move.gaps), count), initial=start))

@@ -39,11 +39,11 @@ class StimulusLog:
         """Name -> number of its rows in the list, and the last of these rows."""
 
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
-        """Append the new rows of both arguments, which grow from call to call; return the whole list.
+        """Append the rows that both arguments have gained since the previous call; return all rows so far.
 
         Args:
-            made: name -> (edge, level), where the next edge is the first to sample the level. The last level
-                of the last edge may have changed since the previous call.
+            made: name -> (edge, level) of each change; edge + 1 is the first edge that samples the level. The
+                level of the last row may have changed since the previous call.
         """
         new, self._driven = list(driven[self._driven :]), len(driven)
         for name, rows in made.items():

@@ -239,7 +239,8 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
 
 
 PAUSE = 20
-"""Cycles that remain between two transactions when a pause is removed; this is enough for every bus."""
+"""Number of cycles left between two transactions if the pause between them is removed; enough for every bus.
+"""
 
 
 def messages(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
@@ -377,9 +378,9 @@ class Shrinker:
         return True
 
     async def _keep_the_end(self) -> None:
-        """Try only the last exchanges, soon after the reset, and add more of them until the list fails.
+        """Try only the last exchanges, moved to just after the reset; add more of them until the list fails.
 
-        An omission in the middle would change later reads; short lists at the end are quick to try.
+        Without exchanges in the middle, later reads would differ; short lists from the end are quick to try.
         """
         runs, count = exchanges(self.transactions), 1
         head = [txn for txn in self.transactions if txn.begin < PAUSE]

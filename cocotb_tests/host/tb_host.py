@@ -48,8 +48,8 @@ def levels(kind: str, style: int) -> dict[str, int]:
 
 @cocotb.test()
 async def bus_write_any_pins(dut):
-    """For random pins, a write strobe whose end is sampled at edge 0 causes a write event at edge 2, with the
-    byte that was sampled at the edge before the end.
+    """For random pins, a write strobe whose end is sampled at edge 0 causes a write event at edge 2. Its byte
+    is the one that was sampled at the edge before the end.
     """
     rand = rng()
     u = BlockDriver(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o")
@@ -156,8 +156,8 @@ async def bus_read_after_gap_of_one(dut):
 
 @cocotb.test()
 async def mailbox_random(dut):
-    """Under random traffic, the input buffer and output queue equal a simple model, including overwritten
-    bytes, accepted bytes and loaded answers.
+    """Under random traffic, the input buffer and the output queue behave as a simple model does, including
+    overwritten bytes, accepted bytes and loaded answers.
     """
     rand = rng()
     for name, size in (("mail3", 3), ("mail5", 5)):
@@ -204,7 +204,7 @@ async def mailbox_random(dut):
 
 @cocotb.test()
 async def mailbox_directed(dut):
-    """Each case in the header of the module occurs in the exact cycle."""
+    """In each case that the header of the module lists, the outputs change in the stated cycle."""
     u = BlockDriver(dut, "mail3", BLOCKS, "ibf_o ready_o byte_o")
     await u.reset()
     await u.clk(wr_i=1, wr_data_i=0x11)

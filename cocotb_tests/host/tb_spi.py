@@ -69,8 +69,8 @@ def any_word(rand: random.Random) -> int:
 
 @cocotb.test()
 async def spi_random_frames(dut):
-    """For random frames, truncated frames and legal times, accesses, miso and flags are as in
-    docs/bank/spi.md.
+    """For random frames, including truncated ones, with legal times, the accesses, miso and the flags are as
+    in docs/bank/spi.md.
     """
     rand = rng()
     host, book = await start(dut)

@@ -164,7 +164,7 @@ async def rate_counter_hit(dut):
 @cocotb.test()
 async def rate_counter_wait(dut):
     """While the rate is still rising, neither hit_o nor half_o is asserted. The base clocks during this time
-    count, up to the rate at that time.
+    are counted, up to the rate at that time.
     """
     rand = rng()
     u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")
@@ -184,7 +184,8 @@ async def rate_counter_wait(dut):
         for number in range(count, rate + 1):
             await u.clk(restart_i=0, tick_i=0, wait_i=0, rising_i=0)
             for _ in range(2):
-                # If base clock number half has already occurred, half_o is asserted immediately.
+                # If the base clock with the number `half` has already occurred, half_o is asserted
+                # immediately.
                 same("no tick", await u.clk(), (0, 2 * number >= rate))
             hit, _ = await u.clk(tick_i=1)
             same(f"rate {rate}, {passed} passed over, {number + 1} counted: hit", hit, number == rate)

@@ -283,7 +283,7 @@ class Walker:
 
 @cocotb.test()
 async def ramp_seq_walks(dut):
-    """For random ramps, pulse counts and times of stops, rates and counts are those of the model."""
+    """For random ramps, pulse counts and times of stops, the rates and the counts are those of the model."""
     rand = rng()
     u = BlockDriver(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()

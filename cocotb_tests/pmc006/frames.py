@@ -21,7 +21,7 @@ def command(address: int, code: str | int, data: int = 0) -> bytes:
 
 
 def of_reply(frame: bytes) -> tuple[int, int]:
-    """Return address and data of a reply; raise AssertionError if the bytes are not a valid reply."""
+    """Return the address and the data of a reply; raise AssertionError if the bytes are not a valid reply."""
     assert len(frame) == 8 and frame[:2] == bytes([HEAD, REPLY]), f"{frame.hex(' ')} is no reply"
     assert frame == checked(*frame[:7]), f"{frame.hex(' ')}: wrong check"
     return frame[2], int.from_bytes(frame[3:7], "little")

@@ -17,7 +17,7 @@ SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
 EASY = (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("o", 5))
 MOVE = (("v", 3000), ("L", 3000), ("S", 3000))
 RUN = (("v", 300), ("L", 300), ("S", 65))
-"""Settings with which the part accepts most motions of all kinds, which end soon: moves and speed runs."""
+"""Settings with which the part accepts most motions (moves and speed runs), and with which they end soon."""
 
 Course = tuple[tuple[str, int], ...]
 
@@ -42,7 +42,7 @@ class CollisionHost(MotionHost):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.bench.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
-        # Number of cycles between edges at which a microsecond begins.
+        # Numbers of cycles from one edge at which a microsecond begins to the next.
         period = host.clk_hz // gcd(host.clk_hz, 1_000_000)
         for _ in range(4):
             if await host.busy() or not found["mon_busy"]:

@@ -11,7 +11,7 @@ HOME = 64
 
 
 def sines(angle: int, peak: int) -> tuple[int, int, int, int]:
-    """Return reference and sign of phase A, then of phase B, at an angle (512 units per period,
+    """Return the reference and the sign of phase A, then of phase B, at an angle (512 units per period,
     P006-EXC-10..12).
     """
 

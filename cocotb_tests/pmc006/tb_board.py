@@ -89,7 +89,9 @@ async def start(dut: Any) -> Board:
 
 @cocotb.test()
 async def board006_both_lines(dut: Any) -> None:
-    """If either host sends a frame, both lines carry the reply, DE frames it, and the LED "line" is lit."""
+    """If either host sends a frame, both lines carry the reply, DE is asserted for its length, and the LED
+    "line" is lit.
+    """
     board = await start(dut)
     same("LED before", board.led(LINE), 0)
     for host, other in ((board.usb, board.rs485), (board.rs485, board.usb)):

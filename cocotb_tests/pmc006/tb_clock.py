@@ -1,4 +1,4 @@
-"""Times at a clock that is not a multiple of 1 MHz, each of which deviates by at most one cycle."""
+"""At a clock that is not a multiple of 1 MHz, each time deviates by at most one cycle."""
 
 from __future__ import annotations
 

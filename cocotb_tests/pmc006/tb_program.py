@@ -14,7 +14,7 @@ from .programs import END, WAIT_REST, Op, goto, out, rot
 JMP, JNE, JEQ, WAIT, OUT, CMP = 0x0D, 0x0E, 0x0F, 0x10, 0x11, 0x12
 HIGH = 0x1F
 SLOT = 64
-"""Maximum number of cycles of an instruction, and until WAIT samples its source."""
+"""Maximum duration of an instruction, and maximum time until WAIT samples its source, both in cycles."""
 
 
 async def go(host: Host, *program: Op) -> int:

@@ -18,7 +18,7 @@ FSET_US = 20_000
 
 
 def written(host: Host) -> list[tuple[int, bytes]]:
-    """Return address and bytes of all writes."""
+    """Return the address and the bytes of each write."""
     return [(write.address, write.data) for write in host.eeprom.writes]
 
 

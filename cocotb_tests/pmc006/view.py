@@ -89,7 +89,7 @@ class View(ABC):
         return [self.in_us(b - a) for a, b in zip(edges, edges[1:], strict=False)]
 
     async def next_steps(self, limit: int) -> list[int]:
-        """Run to the next step, which must occur before edge `limit`, and at least to the present edge.
+        """Run to the next step, which must occur before edge `limit`; process at least the present edge.
 
         Returns:
             The new steps, one or more.
@@ -103,7 +103,7 @@ class View(ABC):
     # ------------------------------------------------------------------ references
 
     async def refs(self) -> tuple[int, int, int, int]:
-        """Return reference and sign of phase A, then of phase B."""
+        """Return the reference and the sign of phase A, then of phase B."""
         await self.sync()
         level = self.bench.level
         return (

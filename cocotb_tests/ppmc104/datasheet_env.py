@@ -42,7 +42,7 @@ class DatasheetEnv(Env):
         return self.bench.now
 
     def full_on_phase(self, rule: str, start: int, off: int, slack: int = 0) -> None:
-        """Check that the first OFF phase begins one default ON phase after `start`, within 1 quantum
+        """Check that the first OFF phase begins one default ON phase after `start`, to within 1 quantum
         (P104-SW-06).
         """
         nominal, quantum = self.cfg.quanta(260), self.cfg.quanta(1) + 1

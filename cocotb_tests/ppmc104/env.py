@@ -40,9 +40,7 @@ class Env(AxisDriver):
         await self.built()
 
     async def built(self) -> None:
-        """Wait until the mailbox is open again: send a command that changes no state, and wait until it is
-        accepted.
-        """
+        """Wait until the mailbox is open again, by means of a command that changes no state."""
         await self.host.command(0xC2 if self.bench.level("aux_n") else 0xC1)
         if self.cfg.datasheet:
             # This command closes the mailbox again for 14 us.

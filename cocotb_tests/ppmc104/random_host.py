@@ -69,7 +69,7 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ set-up commands
 
     def ramp(self) -> tuple[int, int, int]:
-        """Return a legal (RL, RH, PA); most are small and build quickly."""
+        """Return a legal (RL, RH, PA); most are small, so that their tables are built quickly."""
         rng = self.rng
         kind = rng.random()
         if kind < 0.65:

@@ -1,5 +1,5 @@
-"""Puts the core into each state of the state table and keeps it there, by control of each external clock
-edge.
+"""Puts the core into each state of the state table and holds it there by driving each external clock edge
+separately.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ async def fresh(env: Env) -> None:
 
 
 async def enter(env: Env, state: str, ramp_code: int = 0x43, constant_code: int = 0x44) -> None:
-    """Reset and enter `state`. A moving state does not change until further clock edges are driven.
+    """Reset and enter `state`. A state of a motion does not change until the test drives further clock edges.
 
     The state FIN lasts only W cycles, the last low time, so use it immediately. Raises KeyError for an
     unknown state.

@@ -141,8 +141,8 @@ async def p104_ac_51_no_drift(dut):
 
 @directed("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_ac_52_init_time(dut):
-    """In DATASHEET, if 0xC1 and 0xC2 are written while the mailbox is closed, only 0xC2 is accepted, 16.5 ms
-    after the initialisation (AC-52).
+    """In DATASHEET, if commands 0xC1 and 0xC2 are written while the mailbox is closed, only command 0xC2 is
+    accepted, 16.5 ms after the initialisation (AC-52).
     """
     env = await Env.start(dut, None)
     await env.host.run("c 0A d 09 d 04 d 04")
@@ -162,8 +162,8 @@ async def p104_ac_52_init_time(dut):
 
 @directed("AC-53", "P104-DS-03", "P104-DS-04", "P104-DS-07", builds=(D16,))
 async def p104_ac_53_constant_speed_times(dut):
-    """In DATASHEET, after a 0x44 with 3 pulses, BUSY, pulse 1, INT and the acceptance of the next command
-    occur at their documented times (AC-53).
+    """In DATASHEET, after command 0x44 with 3 pulses, BUSY, pulse 1, INT and the acceptance of the next
+    command occur at their documented times (AC-53).
     """
     env = await Env.start(dut, INIT_A)
     env.since = env.bench.now
@@ -189,7 +189,7 @@ async def p104_ac_53_constant_speed_times(dut):
 
 @directed("AC-54", "P104-DS-06", builds=(D16,))
 async def p104_ac_54_single_step_times(dut):
-    """In DATASHEET, the pulse of 0x42 occurs after 86 us, and INT after 112 us (AC-54)."""
+    """In DATASHEET, command 0x42 outputs its pulse after 86 us and asserts INT after 112 us (AC-54)."""
     env = await Env.start(dut, INIT_A)
     event = await env.go(0x42, poll=False) + 2
     env.window("AC-54", "pulse", await env.pulse(1) - event, 1376, 1392)
@@ -212,8 +212,8 @@ async def p104_ac_55_ramp_times(dut):
 
 @directed("AC-56", "P104-DS-12", builds=(D16,))
 async def p104_ac_56_too_fast_for_commands(dut):
-    """In DATASHEET with intervals of 20 us, a 0xC1 waits for the end of the move; a 0x40 does not wait
-    (AC-56).
+    """In DATASHEET with intervals of 20 us, command 0xC1 waits for the end of the move; command 0x40 does not
+    wait (AC-56).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 100, rate=9)
@@ -270,7 +270,7 @@ async def p104_ac_58_both_strobes(dut):
 
 @directed("AC-59", "P104-OPR-06", "P104-TIM-02")
 async def p104_ac_59_single_step_needs_no_clock(dut):
-    """The pulse of 0x42 occurs even if the external clock is stopped (AC-59)."""
+    """Command 0x42 outputs its pulse even if the external clock is stopped (AC-59)."""
     env = await Env.start(dut, (0x1A, *A_DATA))
     await env.move(0x42)
     env.window("AC-59", "hold fall to pulse", env.pulses[0] - env.bench.falls("hold")[0], 80, 82)

@@ -97,7 +97,7 @@ async def p104_ac_05_init_counts_down(dut):
 
 @directed("AC-06", "P104-INI-05", "P104-RD-06")
 async def p104_ac_06_first_pattern(dut):
-    """When initialisation A has been accepted, s has pattern 0, and 0x82 returns it (AC-06)."""
+    """When initialisation A has been accepted, s has pattern 0, and command 0x82 returns it (AC-06)."""
     env = await Env.start(dut, None)
     await env.host.run(f"c 0A {A_DATA}")
     env.check("AC-06", "s", env.bench.level("s"), 0b00011)
@@ -106,7 +106,7 @@ async def p104_ac_06_first_pattern(dut):
 
 @directed("AC-07", "P104-PHS-01")
 async def p104_ac_07_negative_logic(dut):
-    """With negative logic, s is inverted, and 0x82 returns the pin levels (AC-07)."""
+    """With negative logic, s is inverted, and command 0x82 returns the pin levels (AC-07)."""
     env = await Env.start(dut, None)
     await env.host.run(f"c 02 {A_DATA}")
     env.check("AC-07", "s", env.bench.level("s"), 0b11100)
@@ -211,7 +211,7 @@ async def p104_ac_16_latched_at_start(dut):
 
 @directed("AC-17", "P104-END-01", "P104-RD-03", "P104-RD-04")
 async def p104_ac_17_int_and_finish(dut):
-    """At the end of a move of two pulses, INT falls with BUSY, and 0x80 releases it (AC-17)."""
+    """At the end of a move of two pulses, INT falls with BUSY, and command 0x80 releases it (AC-17)."""
     env = await Env.start(dut, INIT_A)
     await env.go(0x43, 2)
     await env.busy_until(lambda: env.bench.level("int_n") == 0, "AC-17")
@@ -236,7 +236,9 @@ async def p104_ac_18_masked_interrupt(dut):
 
 @directed("AC-19", "P104-END-07")
 async def p104_ac_19_pending_interrupt(dut):
-    """A pending INT stays pending until 0x80, also during a single step with I = 1 (AC-19)."""
+    """A pending INT stays pending until command 0x80 is executed, also during a single step with I = 1
+    (AC-19).
+    """
     env = await Env.start(dut, INIT_A)
     await env.move(0x42)
     await env.move(0x52)
@@ -247,8 +249,8 @@ async def p104_ac_19_pending_interrupt(dut):
 
 @directed("AC-20", "P104-EX-10", "P104-END-06")
 async def p104_ac_20_immediate_stop(dut):
-    """In a move of 1000 pulses, 0x40 after pulse 10 ends the move, and the remaining pulses read as 989
-    (AC-20).
+    """In a move of 1000 pulses, command 0x40 after pulse 10 ends the move, and the remaining pulses read as
+    989 (AC-20).
     """
     env = await Env.start(dut, INIT_A)
     await stopped_after_ten(env)
@@ -259,7 +261,7 @@ async def p104_ac_20_immediate_stop(dut):
 
 @directed("AC-40", "P104-HSK-08", "P104-HSK-06")
 async def p104_ac_40_queue_replaced(dut):
-    """If 0x80 is executed after the stimulus of AC-20, while two bytes of an answer are unread, its byte
+    """After the stimulus of AC-20, while two bytes of an answer are unread, the answer to command 0x80
     replaces them (AC-40).
     """
     env = await Env.start(dut, INIT_A)
@@ -273,8 +275,8 @@ async def p104_ac_40_queue_replaced(dut):
 
 @directed("AC-21", "P104-END-06")
 async def p104_ac_21_one_left(dut):
-    """In a move of 2 pulses, 0x40 after pulse 1 ends the move with one pulse left, which reads as 0
-    (AC-21).
+    """In a move of 2 pulses, command 0x40 after pulse 1 ends the move. One pulse is left, for which the
+    remaining count is 0 (AC-21).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 2, rate=0x63)
@@ -285,7 +287,7 @@ async def p104_ac_21_one_left(dut):
 
 @directed("AC-22", "P104-FDC-02", "P104-EX-04")
 async def p104_ac_22_forced_in_acceleration(dut):
-    """With initialisation B, 0x41 after pulse 4 or 1 mirrors the ramp, which results in 8 or 2 pulses
+    """With initialisation B, command 0x41 after pulse 4 or 1 mirrors the ramp, which results in 8 or 2 pulses
     (AC-22).
     """
     env = await Env.start(dut, INIT_B)
@@ -299,8 +301,8 @@ async def p104_ac_22_forced_in_acceleration(dut):
 
 @directed("AC-23", "P104-EX-04", "P104-STP-04")
 async def p104_ac_23_forced_from_plateau(dut):
-    """With initialisation B, 0x41 after pulse 29 results in 40 pulses; another 0x41 after pulse 33 returns
-    error 7 (AC-23).
+    """With initialisation B, command 0x41 after pulse 29 results in 40 pulses; another one after pulse 33
+    returns error 7 (AC-23).
     """
     env = await Env.start(dut, INIT_B)
     await env.go(0x43, 1000)
@@ -315,8 +317,8 @@ async def p104_ac_23_forced_from_plateau(dut):
 
 @directed("AC-24", "P104-PRO-05", "P104-STP-04")
 async def p104_ac_24_natural_deceleration(dut):
-    """With initialisation A and N = 14, 0x41 after pulse 11 returns error 7, and the move outputs all pulses
-    (AC-24).
+    """With initialisation A and N = 14, command 0x41 after pulse 11 returns error 7, and the move outputs all
+    pulses (AC-24).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x43, 14)

@@ -13,7 +13,9 @@ A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]
 
 @directed("AC-25", "P104-STP-05")
 async def p104_ac_25_decelerating_stop_at_constant_speed(dut):
-    """During 0x45, 0x41 after pulse 5 ends the motion immediately without an error (AC-25)."""
+    """During an operation 0x45, command 0x41 after pulse 5 ends the motion immediately without an error
+    (AC-25).
+    """
     env = await Env.start(dut, INIT_A)
     await env.go(0x45, rate=0x63)
     await env.pulse(5, 400)
@@ -45,7 +47,7 @@ async def p104_ac_27_short_slow_down_limit(dut):
 
 @directed("AC-28", "P104-EX-05")
 async def p104_ac_28_pout_mode_limit(dut):
-    """In POUT mode with L3 always low, 0xC3 reaches the plateau before L3 takes effect (AC-28)."""
+    """In POUT mode with L3 always low, operation 0xC3 reaches the plateau before L3 takes effect (AC-28)."""
     env = await Env.start(dut, INIT_B)
     env.bench.set(l3_n=0)
     await env.go(0xC3, 1000)
@@ -83,8 +85,8 @@ async def p104_ac_30_limits_of_the_direction(dut):
 
 @directed("AC-31", "P104-LIM-03", "P104-END-02")
 async def p104_ac_31_hard_limit(dut):
-    """During 0x45, L1 after pulse 5 ends the motion within 8 cycles; afterwards only CCW operations output
-    pulses (AC-31).
+    """During an operation 0x45, L1 after pulse 5 ends the motion within 8 cycles; afterwards only CCW
+    operations output pulses (AC-31).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x45, rate=0x63)
@@ -103,7 +105,7 @@ async def p104_ac_31_hard_limit(dut):
 
 @directed("AC-32", "P104-LIM-05")
 async def p104_ac_32_alarm(dut):
-    """ALM after pulse 6 of 0x46 ends the operation with 6 pulses (AC-32)."""
+    """ALM after pulse 6 of an operation 0x46 ends the operation with 6 pulses (AC-32)."""
     env = await Env.start(dut, INIT_A)
     await env.go(0x46)
     await env.pulse(6, 100)
@@ -113,8 +115,8 @@ async def p104_ac_32_alarm(dut):
 
 @directed("AC-33", "P104-LIM-07", "P104-LIM-09")
 async def p104_ac_33_causes_at_start(dut):
-    """With L1 and ALM low at the start, 0x43 and 0x42 output no pulse. Each operation sets both cause bits,
-    the full remaining count, and INT (AC-33).
+    """With L1 and ALM low at the start, the operations 0x43 and 0x42 output no pulse. Each of them sets both
+    cause bits, leaves the full remaining count, and asserts INT (AC-33).
     """
     env = await Env.start(dut, INIT_A)
     env.bench.set(l1_n=0, alm_n=0)
@@ -129,7 +131,7 @@ async def p104_ac_33_causes_at_start(dut):
 
 @directed("AC-34", "P104-LIM-06")
 async def p104_ac_34_origin(dut):
-    """CNP after pulse 7 ends 0x47 without a cause bit; 0x44 ignores CNP (AC-34)."""
+    """CNP after pulse 7 ends an operation 0x47 without a cause bit; an operation 0x44 ignores CNP (AC-34)."""
     env = await Env.start(dut, INIT_A)
     await env.go(0x47, rate=0x63)
     await env.pulse(7, 400)

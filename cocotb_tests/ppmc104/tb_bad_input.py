@@ -270,8 +270,8 @@ async def abuse(env: Env, rng: random.Random, rounds: int) -> None:
 
 @directed("P104-BAD-23", "P104-FSM-01", builds=(F8, F16, F100, D16))
 async def p104_bad_23_always_a_way_back(dut):
-    """After random input, with or without an external clock, 0x40, 0xC0 and an initialisation make the core
-    work again (P104-BAD-23).
+    """After random input, with or without an external clock, commands 0x40 and 0xC0 and an initialisation
+    make the core work again (P104-BAD-23).
     """
     env = await Env.start(dut, None)
     rng = env.bench.rng

@@ -214,8 +214,8 @@ async def p104_fsm_01_parameters_of_refused_operations(dut):
 
 @directed("P104-FSM-03", "P104-AUX-02")
 async def p104_fsm_03_parameter_across_the_end(dut):
-    """If 0x86 is accepted during a move and the next data byte is sent after its end, the byte is still the
-    parameter of 0x86 (P104-FSM-03).
+    """If command 0x86 is accepted during a move, a data byte that is sent after the end of the move is still
+    its parameter (P104-FSM-03).
     """
     env = await Env.start(dut, INIT_A)
     await env.go(0x44, 2, rate=99)

@@ -54,8 +54,8 @@ async def p104_ds_02_init_time(dut):
 
 @directed("P104-DS-02", "P104-DS-13", "P104-INI-06", builds=(D16,))
 async def p104_ds_13_no_time_for_the_rest(dut):
-    """After a rejected initialisation, reads, 0x84 and errors, the next bytes are accepted as in FAST
-    (P104-DS-13).
+    """After a rejected initialisation, a read, command 0x84 or an error, the next bytes are accepted as in
+    FAST (P104-DS-13).
     """
     env = await DatasheetEnv.start(dut, None)
     got = []
@@ -165,8 +165,8 @@ async def p104_ds_05_long_triangles(dut):
 
 @directed("P104-DS-03", "P104-HSK-01", builds=(D16,))
 async def p104_ds_03_closed_until_busy(dut):
-    """If AUX ON waits for the start of an operation, it is accepted when BUSY has risen; the chopper is off
-    then (P104-DS-03).
+    """If AUX ON waits for the start of an operation, the command is accepted when BUSY has risen; at that
+    time the chopper is off (P104-DS-03).
     """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))
     for code, n, rate, busy in ((0x44, 3, 99, 27), (0x43, 9, None, 112)):
@@ -183,8 +183,8 @@ async def p104_ds_03_closed_until_busy(dut):
 
 @directed("P104-DS-06", "P104-SW-02", builds=(D16, D25X8))
 async def p104_ds_06_single_step(dut):
-    """The pulse of 0x42 occurs after 86 us; INT falls, chopping begins, and the mailbox opens after 112 us
-    (P104-DS-06).
+    """Command 0x42 outputs its pulse after 86 us. After 112 us, INT falls, chopping begins, and the mailbox
+    opens (P104-DS-06).
     """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))
     event = await env.event(0x42)
@@ -223,8 +223,8 @@ async def p104_ds_07_normal_end(dut):
 
 @directed("P104-DS-08", "P104-DS-14", "P104-END-02", builds=(D16, D11))
 async def p104_ds_08_immediate_end(dut):
-    """After 0x40, ALM, or 0x41 at constant speed decides the end, INT falls 26 or 200 us later, and the
-    mailbox opens 156 or 200 us later (P104-DS-08).
+    """If command 0x40, ALM, or command 0x41 at constant speed ends the motion, INT falls 26 or 200 us later,
+    and the mailbox opens 156 or 200 us later (P104-DS-08).
     """
     env = await DatasheetEnv.start(dut, INIT_A)
     for code, n, rate, quiet, closed in (

@@ -13,8 +13,8 @@ from .expected_timing import INIT_B, forced, rates
 
 @directed("P104-DS-08", "P104-DS-10", "P104-END-03", "P104-FDC-02", builds=(D16, D11))
 async def p104_ds_10_decelerating_stop(dut):
-    """The flag of 0x41 in I(4) is set 17 us later, so I(4) or I(5) is the last interval of the acceleration.
-    INT follows the end by 200 us (P104-DS-10).
+    """If command 0x41 is sent in I(4), its flag is set 17 us later, so I(4) or I(5) is the last interval of
+    the acceleration. INT follows the end by 200 us (P104-DS-10).
     """
     # All intervals are long enough to keep the mailbox open (P104-DS-12).
     ramp = (60, 30, 10)
@@ -42,7 +42,7 @@ async def p104_ds_10_decelerating_stop(dut):
 
 @directed("P104-DS-10", "P104-FDC-01", "P104-LIM-04", builds=(D16,))
 async def p104_ds_10_slow_down_limit(dut):
-    """L3 low for 10 cycles sets the flag 12 us later in START or ACC, and 17 us later in HIGH
+    """If L3 is low for 10 cycles, the flag is set 12 us later in START or ACC, and 17 us later in HIGH
     (P104-DS-10).
     """
     env = await DatasheetEnv.start(dut, INIT_B)
@@ -68,8 +68,8 @@ async def p104_ds_10_slow_down_limit(dut):
 
 @directed("P104-DS-10", "P104-END-05", "P104-FDC-05", builds=(D16,))
 async def p104_ds_10_flag_too_late(dut):
-    """If 0x41 or L3 would set the flag only after the natural deceleration or the end has begun, it has no
-    effect on this operation or the next one (P104-DS-10).
+    """If the flag of command 0x41 or L3 is set only after the natural deceleration or the end has begun, it
+    has no effect on this operation or the next one (P104-DS-10).
     """
     env = await DatasheetEnv.start(dut, INIT_B)
     for cause in ("41", "l3_n", "none"):
@@ -93,8 +93,8 @@ async def p104_ds_10_flag_too_late(dut):
 
 @directed("P104-DS-11", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05", builds=(D16, D11))
 async def p104_ds_11_aux_times(dut):
-    """AUX ON/OFF, auxiliary outputs and 0xC0 change their pins 14 or 18 us after the write; until then the
-    mailbox is closed (P104-DS-11).
+    """AUX ON/OFF, the command for the auxiliary outputs, and command 0xC0 change their pins 14 or 18 us after
+    the write; until then the mailbox is closed (P104-DS-11).
     """
     env = await DatasheetEnv.start(dut, (0x02, 9, 4, 4))
     for code, pin in ((0xC1, "aux_n"), (0xC2, "aux_n")):
@@ -122,8 +122,8 @@ async def p104_ds_11_aux_times(dut):
 
 @directed("P104-DS-12", "P104-STP-01", builds=(D16,))
 async def p104_ds_12_speed_limit(dut):
-    """0xC1 waits during intervals below 148 q (phase mode) or 100 q (POUT mode); it is accepted in longer
-    intervals (P104-DS-12).
+    """Command 0xC1 waits during intervals below 148 q (phase mode) or 100 q (POUT mode); it is accepted in
+    longer intervals (P104-DS-12).
     """
     env = await DatasheetEnv.start(dut, None)
     # The intervals are just below and just above the limit: 144 q and 152 q in phase mode, 96 q and 104 q in
@@ -154,8 +154,8 @@ async def p104_ds_12_speed_limit(dut):
 
 @directed("P104-DS-12", "P104-LIM-01", "P104-STP-04", builds=(D16,))
 async def p104_ds_12_ends_with_the_fast_part(dut):
-    """If 0xC1 waits during a fast plateau, it is accepted in the first slow interval; 0x41 and limits take
-    effect immediately (P104-DS-12).
+    """If command 0xC1 waits during a fast plateau, it is accepted in the first slow interval; command 0x41
+    and limits take effect immediately (P104-DS-12).
     """
     env = await DatasheetEnv.start(dut, INIT_B)
     await env.event(0x43, 60)

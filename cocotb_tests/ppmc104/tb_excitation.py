@@ -68,7 +68,7 @@ async def p104_phs_02_idle_level(dut):
 
 @directed("P104-PHS-04", "P104-STP-01", "P104-END-02")
 async def p104_phs_04_held_at_every_stop(dut):
-    """After a stop by 0x40, 0x41, L1, ALM or CNP, the pattern stays on (P104-PHS-04)."""
+    """After a stop by command 0x40 or 0x41, or by L1, ALM or CNP, the pattern stays on (P104-PHS-04)."""
     env = await Env.start(dut, INIT_A)
     for stop in ("40", "41", "l1_n", "alm_n", "cnp_n"):
         await env.go(0x47, None, 9)
@@ -190,8 +190,8 @@ async def p104_sw_05_sampled_at_phase_starts(dut):
 
 @directed("P104-SW-07", "P104-SW-01", "P104-SW-03")
 async def p104_sw_07_others_do_not_see_it(dut):
-    """Chopping at standstill does not change pout_n, dir, hold or 0x82; 0xC0 ends the chopping
-    (P104-SW-07).
+    """Chopping at standstill does not change pout_n, dir, hold or the answer to command 0x82; command 0xC0
+    ends the chopping (P104-SW-07).
     """
     env = await Env.start(dut, (0x2A, *A_VALUES))
     await env.move(0x4A)

@@ -13,7 +13,7 @@ LIMITS = {0: "l3_n", 1: "l4_n"}
 
 @directed("P104-EX-04", "P104-FDC-02", "P104-FDC-03")
 async def p104_ex_04_stop_in_each_phase(dut):
-    """0x41 or L3 in the acceleration, in I(1), on the plateau or in START results in the values of
+    """Command 0x41 or L3 in the acceleration, in I(1), on the plateau or in START results in the values of
     P104-EX-04.
     """
     env = await Env.start(dut, INIT_B)
@@ -43,8 +43,8 @@ async def p104_ex_04_stop_in_each_phase(dut):
 
 @directed("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04", builds=(F16, F100))
 async def p104_fdc_01_limit_in_each_interval(dut):
-    """In each interval of a phase-mode move, the slow-down limit of the direction mirrors the ramp
-    (P104-FDC-01).
+    """If the slow-down limit of the direction falls in any interval of a phase-mode move, the ramp is
+    mirrored (P104-FDC-01).
     """
     env = await Env.start(dut, INIT_B)
     for direction in (0, 1):
@@ -80,7 +80,7 @@ async def p104_fdc_01_running_interval_unaltered(dut):
 
 @directed("P104-FDC-03", "P104-LIM-04", "P104-EX-04")
 async def p104_fdc_03_flag_in_start(dut):
-    """With 0x41 or the slow-down limit in START, exactly one pulse is output (P104-FDC-03)."""
+    """With command 0x41 or the slow-down limit in START, exactly one pulse is output (P104-FDC-03)."""
     env = await Env.start(dut, INIT_B)
     for code, n in ((0x43, 50), (0x46, None), (0xC3, 50), (0x43, 1)):
         await env.go(code, n)
@@ -113,8 +113,8 @@ async def p104_fdc_04_never_withdrawn(dut):
 
 @directed("P104-FDC-05", "P104-END-05", "P104-PRO-04")
 async def p104_fdc_05_complete_all_the_same(dut):
-    """If N equals the length of the mirrored ramp, 0x41 or L3 is accepted, and the motion is nevertheless
-    complete (P104-FDC-05).
+    """If N equals the length of the mirrored ramp, command 0x41 or L3 is accepted, and the motion is
+    nevertheless complete (P104-FDC-05).
     """
     env = await Env.start(dut, INIT_B)
     for j in (1, 4, 10):
@@ -160,8 +160,8 @@ async def p104_fdc_06_latency(dut):
 
 @directed("P104-FDC-06", "P104-STP-03")
 async def p104_fdc_06_latency_of_the_command(dut):
-    """If the C-event of 0x41 occurs at least 4 cycles before a pulse event, the deceleration begins with this
-    event (P104-FDC-06).
+    """If the C-event of command 0x41 occurs at least 4 cycles before a pulse event, the deceleration begins
+    with this event (P104-FDC-06).
     """
     env = await Env.start(dut, INIT_B)
     fifth = 32 * (20 + 18 + 16 + 15)

@@ -114,8 +114,8 @@ async def p104_ini_09_reinit(dut):
 
 @directed("P104-INI-05", "P104-PHS-03", "P104-PHS-04", "P104-PHS-05", "P104-AUX-04")
 async def p104_ini_05_index_kept(dut):
-    """A re-initialisation does not change index and pattern; an initialisation after 0xC0 begins with index 0
-    (P104-INI-05).
+    """A re-initialisation does not change index and pattern; an initialisation after command 0xC0 begins with
+    index 0 (P104-INI-05).
     """
     env = await Env.start(dut, INIT_A)
     await env.move(0x44, 3, rate=5)
@@ -214,7 +214,7 @@ async def p104_ini_10_leaves_the_rest(dut):
 
 @directed("P104-AUX-06", "P104-PHS-02", builds=(F16, F16X1))
 async def p104_aux_06_off_before_init(dut):
-    """0xC0 before the first initialisation has no visible effect (P104-AUX-06)."""
+    """Command 0xC0 before the first initialisation has no visible effect (P104-AUX-06)."""
     env = await Env.start(dut, None)
     env.check("P104-AUX-06", "status", await env.host.command(0xC0), 0x00)
     await env.bench.clocks(20)

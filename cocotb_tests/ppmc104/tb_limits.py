@@ -96,8 +96,8 @@ async def p104_lim_02_matrix_in_motion(dut):
     builds=(F16, F50),
 )
 async def p104_lim_07_matrix_at_start(dut):
-    """If an input is low at the start, the operation outputs no pulse, one pulse or all pulses, as the rules
-    state (P104-LIM-07).
+    """If an input is low at the start of an operation, the operation outputs no pulse, one pulse or all
+    pulses, as the rules state (P104-LIM-07).
     """
     env = await Env.start(dut, INIT_A)
     for base, n, rate in OPERATIONS:
@@ -152,8 +152,8 @@ async def p104_lim_03_every_phase(dut):
 
 @directed("P104-LIM-04", "P104-FDC-01", "P104-FDC-04")
 async def p104_lim_04_per_state(dut):
-    """L3 low for 3 cycles takes effect in exactly the states that P104-LIM-04 lists, in phase mode and in
-    POUT mode.
+    """If L3 is low for 3 cycles, it takes effect in exactly the states that P104-LIM-04 lists, in phase mode
+    and in POUT mode.
     """
     env = await Env.start(dut, None)
     for code in (0x43, 0x46, 0xC3, 0xC6):
@@ -232,7 +232,7 @@ async def p104_lim_01_two_clk_levels(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-LIM-01")
 async def p104_lim_09_priority_at_a_pulse(dut):
-    """If ALM falls in any cycle near a pulse event, either the pulse or the alarm has priority, and no other
+    """If ALM falls in any cycle near a pulse event, the pulse is either output or suppressed, and no other
     result occurs (P104-LIM-09).
     """
     env = await Env.start(dut, INIT_A)
@@ -256,8 +256,8 @@ async def p104_lim_09_priority_at_a_pulse(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-FDC-01", "P104-STP-04")
 async def p104_lim_09_two_requests_on_one_edge(dut):
-    """If 0x41 and L3 occur some cycles apart, only the first sets its bit; on the same edge, both bits are
-    set, without an error (P104-LIM-09).
+    """If command 0x41 and L3 occur some cycles apart, only the earlier one sets its bit. If they occur on the
+    same edge, both bits are set, without an error (P104-LIM-09).
     """
     env = await Env.start(dut, INIT_B)
     kinds = []
@@ -318,8 +318,8 @@ async def p104_lim_09_causes_on_the_external_clock(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-STP-03")
 async def p104_lim_09_stop_command_and_hard_limit(dut):
-    """If a stop command and L1 take effect on the same edge of a ramped move, 0x40 sets its bit in addition
-    to the bit of the limit; 0x41 is too late to set its bit (P104-LIM-09).
+    """If a stop command and L1 take effect on the same edge of a ramped move, command 0x40 sets its bit in
+    addition to the bit of the limit; command 0x41 is too late to set its bit (P104-LIM-09).
     """
     env = await Env.start(dut, INIT_B)
     kinds = {}

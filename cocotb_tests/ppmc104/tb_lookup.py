@@ -26,7 +26,7 @@ async def p104_ds_12_opens_in_a_steep_deceleration(dut):
 
 @directed("P104-TIM-05", "P104-BCK-04", builds=(F16, F8))
 async def p104_tim_05_external_cuts_on_steep_ramps(dut):
-    """With external clocks of short high times, every low time of a ramp that skips rates is correct
+    """With external clocks that have short high times, every low time of a ramp that skips rates is correct
     (P104-TIM-05).
     """
     bench = await start_bench(dut, PPMC104)

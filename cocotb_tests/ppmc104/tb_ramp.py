@@ -157,8 +157,8 @@ async def p104_pro_04_forced_coincides_with_the_end(dut):
 
 @directed("P104-PRO-05", "P104-STP-04")
 async def p104_pro_05_natural_deceleration_begins(dut):
-    """For several N, the first interval in which 0x41 returns error 7 is the one that P104-PRO-05 states; in
-    all later intervals it returns the error, too.
+    """For several N, the first interval in which command 0x41 returns error 7 is the one that P104-PRO-05
+    states; in all later intervals it returns the error, too.
     """
     env = await Env.start(dut, INIT_A)
     for n in (5, 8, 10, 12):

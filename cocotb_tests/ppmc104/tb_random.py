@@ -50,7 +50,7 @@ async def random_host(dut: Any, seed: int) -> None:
     uncompared=UNCOMPARED,
 )
 async def random_noise(dut: Any, seed: int) -> None:
-    """After noise on all input pins, 0x40, 0xC0 and an initialisation make the core work again."""
+    """After noise on all inputs, commands 0x40 and 0xC0 and an initialisation make the core work again."""
     bench = await RtlBench.start(dut, PPMC104, seed=seed)
     noise = make_noise(bench)
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))

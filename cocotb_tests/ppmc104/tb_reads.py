@@ -11,7 +11,7 @@ READS = (0x80, 0x81, 0x82, 0x83, 0x85)
 
 
 def output_signals(s: int, hold: int, direction: int) -> int:
-    """Return the byte of 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, then HOLD, DIR
+    """Return the answer to command 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, then HOLD, DIR
     (P104-RD-06).
     """
     bits = sum((s >> i & 1) << (7 - i) for i in range(5))
@@ -20,8 +20,8 @@ def output_signals(s: int, hold: int, direction: int) -> int:
 
 @directed("P104-RD-01", "P104-AUX-03")
 async def p104_rd_01_when_allowed(dut):
-    """Reads and 0x84 are rejected only while BUSY = 1; they are accepted before and after initialisation
-    (P104-RD-01).
+    """Reads and command 0x84 are rejected only while BUSY = 1; they are accepted before and after
+    initialisation (P104-RD-01).
     """
     env = await Env.start(dut, None)
     for phase in range(3):
@@ -59,8 +59,8 @@ async def p104_rd_02_sampled_at_the_c_event(dut):
 
 @directed("P104-RD-05", "P104-RD-08", "P104-LIM-10")
 async def p104_rd_05_input_bits(dut):
-    """For single inputs and random combinations, each bit of 0x81 and 0x85 is the level of its pin
-    (P104-RD-05, P104-RD-08).
+    """For single inputs and random combinations, each bit of the answers to commands 0x81 and 0x85 is the
+    level of its pin (P104-RD-05, P104-RD-08).
     """
     env = await Env.start(dut, None)
     place = {"cnp_n": 7, "alm_n": 6, "l1_n": 3, "l2_n": 2, "l3_n": 1, "l4_n": 0}
@@ -79,8 +79,8 @@ async def p104_rd_05_input_bits(dut):
 
 @directed("P104-RD-06", "P104-SW-07")
 async def p104_rd_06_output_bits(dut):
-    """For all patterns, both logics, and all levels of hold and dir, 0x82 returns the pin levels without
-    chopping (P104-RD-06).
+    """For all patterns, both logics, and all levels of hold and dir, command 0x82 returns the pin levels
+    without chopping (P104-RD-06).
     """
     env = await Env.start(dut, None)
     for name, code in STEP_CODES.items():
@@ -108,7 +108,7 @@ async def p104_rd_06_output_bits(dut):
 
 @directed("P104-RD-03", "P104-RD-04", "P104-END-07", builds=(F16, F25))
 async def p104_rd_04_read_finish_status(dut):
-    """When 0x80 is accepted, INT is released without a data read, and bit 7 is set in this read only
+    """When command 0x80 is accepted, INT is released without a data read, and bit 7 is set in this read only
     (P104-RD-04).
     """
     env = await Env.start(dut, INIT_A)
@@ -167,8 +167,8 @@ async def p104_aux_01_aux_pin(dut):
 
 @directed("P104-AUX-02")
 async def p104_aux_02_all_values(dut):
-    """For all 256 data bytes of 0x86, auxo is the inverted low nibble, and all bits change on one edge
-    (P104-AUX-02).
+    """For all 256 data bytes of command 0x86, auxo is the inverted low nibble, and all bits change on one
+    edge (P104-AUX-02).
     """
     env = await Env.start(dut, None)
     for byte in range(256):
@@ -182,7 +182,7 @@ async def p104_aux_02_all_values(dut):
 
 @directed("P104-AUX-03", "P104-SW-05", "P104-SW-04")
 async def p104_aux_03_switching_parameters(dut):
-    """0x84, before initialisation and while chopping, changes both times together at a phase boundary
+    """Command 0x84 changes both times together at a phase boundary, before initialisation and while chopping
     (P104-AUX-03).
     """
     env = await Env.start(dut, None)
@@ -207,7 +207,7 @@ async def p104_aux_03_switching_parameters(dut):
 
 @directed("P104-AUX-04", "P104-AUX-06", "P104-PHS-05", "P104-END-08")
 async def p104_aux_04_excitation_off(dut):
-    """0xC0 in an ON or OFF phase switches all phase pins off permanently; the hold timer continues
+    """Command 0xC0 in an ON or OFF phase switches all phase pins off permanently; the hold timer continues
     (P104-AUX-04).
     """
     env = await Env.start(dut, None)

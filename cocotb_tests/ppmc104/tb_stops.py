@@ -12,8 +12,8 @@ ALL = 1 << 24
 
 @directed("P104-STP-01", "P104-END-02", "P104-PHS-04", "P104-TIM-01", builds=(F16, F100))
 async def p104_stp_01_immediate(dut):
-    """0x40 during the high or low time of a pulse ends each kind of move at this pulse, with bit 6, and the
-    phases stay energised (P104-STP-01).
+    """If command 0x40 occurs in the high or low time of a pulse, each kind of move ends at this pulse, with
+    bit 6, and the phases stay energised (P104-STP-01).
     """
     env = await Env.start(dut, INIT_A)
     w = env.cfg.w
@@ -43,8 +43,8 @@ async def p104_stp_01_immediate(dut):
 
 @directed("P104-STP-01", "P104-LIM-09")
 async def p104_stp_01_no_pulse_after_the_c_event(dut):
-    """With 0x40 in each cycle near a pulse event, no pulse is output after the C-event, and the remaining
-    count is correct (P104-STP-01).
+    """With command 0x40 in each cycle near a pulse event, no pulse is output after the C-event, and the
+    remaining count is correct (P104-STP-01).
     """
     env = await Env.start(dut, INIT_A)
     seen = set()
@@ -96,8 +96,8 @@ async def p104_stp_02_at_rest(dut):
     builds=(F16, F8),
 )
 async def p104_stp_03_decelerating(dut):
-    """0x41 in any interval of 0x43 and 0x46 mirrors the ramp, in phase mode and in POUT mode
-    (P104-STP-03).
+    """Command 0x41 in any interval of the operations 0x43 and 0x46 mirrors the ramp, in phase mode and in
+    POUT mode (P104-STP-03).
     """
     env = await Env.start(dut, INIT_B)
     ramp = INIT_B[1:]
@@ -118,7 +118,9 @@ async def p104_stp_03_decelerating(dut):
 
 @directed("P104-STP-05", "P104-OPR-09", "P104-OPR-11", "P104-OPR-08")
 async def p104_stp_05_decelerating_at_constant_speed(dut):
-    """During 0x42, 0x44, 0x45 and 0x47, 0x41 has the effect of 0x40, without an error (P104-STP-05)."""
+    """During the operations 0x42, 0x44, 0x45 and 0x47, command 0x41 has the effect of command 0x40, without
+    an error (P104-STP-05).
+    """
     env = await Env.start(dut, INIT_A)
     for code, n, rate in ((0x44, 300, 30), (0x45, None, 30), (0x47, None, 30)):
         await env.go(code, n, rate)
@@ -268,8 +270,8 @@ async def p104_opr_06_single_step(dut):
 
 @directed("P104-OPR-11", "P104-LIM-06", "P104-END-06")
 async def p104_opr_11_origin_search(dut):
-    """CNP, at the start or between pulses, ends 0x47 CW and CCW without a cause bit; the remaining count is
-    correct (P104-OPR-11).
+    """CNP, at the start or between pulses, ends operation 0x47 in either direction without a cause bit; the
+    remaining count is correct (P104-OPR-11).
     """
     env = await Env.start(dut, INIT_A)
     for code in (0x47, 0x4F):

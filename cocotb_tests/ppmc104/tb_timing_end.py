@@ -172,7 +172,7 @@ async def p104_end_01_normal_end(dut):
 
 @directed("P104-END-01", "P104-END-05", "P104-LIM-01", "P104-LIM-09")
 async def p104_end_05_too_late(dut):
-    """Causes that occur after pulse event N have no effect (P104-END-05)."""
+    """Causes of an end that occur after pulse event N have no effect (P104-END-05)."""
     env = await Env.start(dut, INIT_A)
     for pin in ("l1_n", "l3_n", "alm_n", "cnp_n"):
         for delay in (2, 30, 76):
@@ -187,8 +187,8 @@ async def p104_end_05_too_late(dut):
 
 @directed("P104-END-02", "P104-LIM-01", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", builds=(F16, F100))
 async def p104_end_02_reaction_time(dut):
-    """A cause ends the motion within 8 cycles if pout_n is high, and otherwise within 4 cycles of the rise of
-    pout_n (P104-END-02).
+    """A limit, an alarm or the origin ends the motion within 8 cycles if pout_n is high, and otherwise within
+    4 cycles of the rise of pout_n (P104-END-02).
     """
     env = await Env.start(dut, INIT_A)
     w = env.cfg.w
@@ -225,7 +225,7 @@ async def p104_end_04_cause_bits(dut):
         env.bench.set(**dict.fromkeys(pins, 1))
         await env.result("P104-END-04", 3, 0x83 | bits, 96)
     # If the hard limit occurs while the motor decelerates for L3, bits 3 and 4 are set. If ALM occurs while
-    # it decelerates for 0x41, bits 6 and 5 are set.
+    # it decelerates for command 0x41, bits 6 and 5 are set.
     await env.go(0x43, 100)
     await env.pulse(5, 100)
     env.bench.set(l3_n=0)
@@ -242,7 +242,8 @@ async def p104_end_04_cause_bits(dut):
     await env.idle()
     env.bench.set(alm_n=1)
     await env.result("P104-END-04", 7, 0xE3, 92)
-    # A slow-down limit that was released again has set bit 3; 0x40 during the deceleration also sets bit 6.
+    # A slow-down limit that was released again has set bit 3; command 0x40 during the deceleration also sets
+    # bit 6.
     await env.go(0x43, 100)
     await env.pulse(5, 100)
     await env.bench.pulse_pin("l3_n", 0, 5)
@@ -272,7 +273,7 @@ async def p104_end_06_one_left_or_none(dut):
 
 @directed("P104-END-07", "P104-CMD-02")
 async def p104_end_07_int(dut):
-    """After ends with I = 0 and I = 1 in any order, only 0x80 or reset releases a pending INT
+    """After ends with I = 0 and I = 1 in any order, only command 0x80 or a reset releases a pending INT
     (P104-END-07).
     """
     env = await Env.start(dut, INIT_A)

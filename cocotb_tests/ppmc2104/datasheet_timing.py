@@ -35,15 +35,15 @@ def detection(processing: int, first: int, second: int, period: int = 0) -> int:
 
 
 def after(env: Env, rule: str, what: str, got: int, edge0: int, micros: int, extra: int = 0) -> None:
-    """Check that edge `got` is `micros` us plus `extra` cycles after the C-event of the byte with this edge
-    0.
-    """
+    """Check that `got` is `micros` us plus `extra` cycles after the C-event of the byte with `edge0`."""
     nominal = env.cfg.us(micros) + extra
     env.window(rule, what, got - edge0, WRITE_EVENT + nominal, C_EVENT_LATEST + nominal + TOLERANCE + PIN)
 
 
 async def opens(env: Env, rule: str, edge0: int, micros: int) -> None:
-    """Write a byte now and check that it waits until `micros` us have passed since the C-event."""
+    """Write a byte now and check that it waits until `micros` us after the C-event of the byte written at
+    `edge0`.
+    """
     nominal = edge0 + WRITE_EVENT + env.cfg.us(micros)
     # An undefined code is rejected without a processing window.
     await env.host.command(0x87, poll=False)

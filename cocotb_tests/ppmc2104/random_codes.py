@@ -45,7 +45,7 @@ class Codes:
         return code | (axis - 1) << 5, [rl, rh, pa & 0xFF, pa >> 8]
 
     def _ramp(self, lowest: int) -> tuple[int, int, int]:
-        """Return a legal (RL, RH, PA); most are small and build quickly."""
+        """Return a legal (RL, RH, PA); most are small, so that their tables are built quickly."""
         rng = self.rng
         kind = rng.random()
         if self.datasheet and kind < 0.8:  # near the rate limits

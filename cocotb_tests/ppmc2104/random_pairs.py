@@ -14,7 +14,8 @@ from cocotb_tests.ppmc2104.random_codes import Codes
 from cocotb_tests.ppmc2104.random_host import SWITCHES
 
 SLOT = 24_000
-# An instruction of axis 2 is complete long before this time; switches and stops follow it.
+# An instruction of axis 2 is complete long before this time, from which on switches change and stops are
+# sent.
 FIRST_EVENT = 400
 
 Write = tuple[int, int]

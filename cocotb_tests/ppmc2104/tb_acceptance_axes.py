@@ -363,7 +363,7 @@ async def p2104_ac_62_what_waits(dut: Any) -> None:
 
 @directed("AC-63", "P2104-HSK-02", "P2104-BAD-08")
 async def p2104_ac_63_written_over(dut: Any) -> None:
-    """If code 52 replaces a waiting code 42, one pulse and no interrupt follow (AC-63)."""
+    """If code 52 replaces a waiting code 42, one pulse follows, and no interrupt (AC-63)."""
     env = await Env.start(dut)
     axis = env.x1
     await env.run(B1)

@@ -127,8 +127,8 @@ async def p2104_bad_23_reset_anywhere(dut: Any) -> None:
     uncompared="the bus style changes inside strobes, which no rule fixes",
 )
 async def p2104_bad_26_recovery(dut: Any) -> None:
-    """After noise on all pins, any code, then codes 40 and C0 and a setting make both axes work again
-    (P2104-BAD-26).
+    """After noise on all pins, both axes work again if they receive any code, then codes 40 and C0 and a
+    setting (P2104-BAD-26).
 
     The test is not compared with the model, because the noise switches the bus style within strobes.
     """

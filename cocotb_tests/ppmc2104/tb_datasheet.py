@@ -37,7 +37,7 @@ async def p2104_ac_73_setting(dut: Any) -> None:
     low, high = nominal + 2 + q(2 * ON) - q(1) - 1, nominal + 10 + q(2 * ON) + q(1) + 1 + TOLERANCE + PIN
     env.window("P2104-DS-01", "last byte to the first OFF", off - edge0, low, high)
     env.check("AC-73", "CMND afterwards", await env.host.status() & axis.cmnd, 0)
-    # F1 is accepted at the end of this window and takes effect at the end of its own window.
+    # Code F1 is accepted at the end of this window and takes effect at the end of its own window.
     auxo = env.bench.edges("auxo", edge0)
     if not auxo:
         await env.bench.edge("auxo")
@@ -145,7 +145,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     env.check("AC-72", "status just before", await env.host.status() & (IBF | axis.busy), IBF | axis.busy)
     end = await axis.wait_end()
     after(env, "AC-72", "end", end, edge0, 400)
-    # BUSY fell at the latest on the edge before int_n; D1 is accepted then.
+    # BUSY falls one edge before int_n or earlier, and the waiting code D1 is then accepted.
     env.check("AC-72", "BUSY", await env.host.status() & axis.busy, 0)
     aux = await env.bench.edge("auxo")
     env.window("AC-72", "auxo after the end", aux - end, env.cfg.us(40) - 4, env.cfg.us(40) + TOLERANCE + 8)

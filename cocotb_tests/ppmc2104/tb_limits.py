@@ -260,8 +260,8 @@ async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
 
 @directed("P2104-LIM-09", "P2104-END-04", "P2104-END-05", "P2104-LIM-01")
 async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
-    """If a cause falls in any cycle near the last pulse event, either the pulse or the cause has priority,
-    and no other result occurs (P2104-LIM-09).
+    """If an input that ends the motion falls in any cycle near the last pulse event, the pulse is either
+    output or suppressed, and no other result occurs (P2104-LIM-09).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_A)
@@ -282,7 +282,7 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
                 env.check("P2104-LIM-09", f"pulses, {pin} {before} cycles before", count, 3)
         env.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
         env.check("P2104-LIM-09", "both results occurred", set(outcomes), {3, 4})
-    # If the cause occurs at the end of START, the pulse at this transition is also suppressed.
+    # If the input falls at the end of START, the pulse at this transition is also suppressed.
     counts = []
     for after in range(env.cfg.w - 6, env.cfg.w + 10):
         edge0 = await axis.go(0x42, poll=False)

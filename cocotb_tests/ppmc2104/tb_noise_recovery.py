@@ -26,7 +26,7 @@ RAMP = (0x33, 0x25, 4)
     uncompared=UNCOMPARED,
 )
 async def p2104_random_noise(dut: Any, seed: int) -> None:
-    """After noise on all pins, stops, Excitation OFF and a setting make both axes work again."""
+    """After noise on all pins, both axes work again if they receive stops, Excitation OFF and a setting."""
     bench = await RtlBench.start(dut, PPMC2104, seed=seed, busc=seed & 1)
     din = noise(bench)
     await din.make(bench.rng.choice((2_000, 10_000, 40_000)))

@@ -133,7 +133,7 @@ async def p2104_rd_07_error_code_read(dut: Any) -> None:
 
 @directed("P2104-INT-03", "P2104-INT-05", "P2104-INT-01", builds=(F16, F11, F48, F100))
 async def p2104_int_03_release_window(dut: Any) -> None:
-    """A cause that occurs during a release of int_n does not shorten the release: int_n is high for W, then
+    """A new interrupt cause during a release of int_n does not shorten the release: int_n is high for W, then
     low again (P2104-INT-03).
     """
     env = await Env.start(dut)

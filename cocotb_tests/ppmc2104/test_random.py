@@ -1,4 +1,5 @@
-"""Compares random hosts with the golden model and axis 2 with and without axis 1; tests noise on all pins.
+"""Compares random hosts with the golden model, and runs of axis 2 with and without traffic to axis 1; also
+tests noise on all pins.
 
 The seeds are fixed lists, or one seed with `--seed N`. `make soak PART=ppmc2104` runs any number of other
 seeds.

@@ -217,8 +217,8 @@ class ScenarioHost(MisuseHost):
         await self.attend(6_000)
 
     async def changes_near_deceleration(self) -> None:
-        """Change to a rate with a long ramp (instruction 88), then send 87 twice shortly before the
-        deceleration point.
+        """Change to a rate with a long ramp (instruction 88), then send instruction 87 twice shortly before
+        the deceleration point.
         """
         host, rng, table = self.host, self.rng, self.model.core.table
         if table is None:

@@ -18,7 +18,7 @@ FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 
 
 def at(position: int, code: int = 0x80) -> str:
-    """Return the block of an instruction 80 or 81 that is triggered at a position."""
+    """Return the block that registers instruction 80 or 81 for a position."""
     return message(code, f"04 {position:08X}")
 
 

@@ -290,8 +290,8 @@ async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> No
 @cocotb.parametrize(shift=range(-3, 5))
 @directed("P312-OVR-12", "P312-MOT-34", "P312-RSP-20")
 async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
-    """An event triggers instruction 80 near the pulse at which a position triggers another 80: the motion
-    stops at pulse 9 or 10.
+    """An event triggers instruction 80 near the pulse at which a position triggers another instruction 80:
+    the motion stops at pulse 9 or 10.
     """
     setting = (message(Code.STOP, "04 0000000A"), message(Code.EVENT_SET, "00", message(Code.STOP, "00")))
     host = await Host.start(dut, *TF, *setting)

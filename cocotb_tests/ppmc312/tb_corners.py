@@ -311,7 +311,7 @@ async def p312_version_of_the_build(dut: Any) -> None:
 @cocotb.parametrize(form=[message(Code.STEP, "00"), message(Code.RAMP, "00 0000 00000003")])
 @directed("P312-INP-20", "P312-TIM-12", builds=(F16, D16))
 async def p312_run_is_sampled_in_one_cycle(dut: Any, form: str) -> None:
-    """RUN low for one cycle holds the operation only in the cycle before t0."""
+    """If RUN is low for one cycle, it holds the operation only if this is the cycle before t0."""
     host = await Host.start(dut, *TF)
     await host.issue(form)
     start = await host.pulse(1) - 80

@@ -18,7 +18,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 @directed("P312-CMD-01", "P312-CMD-FC-1", "P312-CMD-FC-10", "P312-CMD-41")
 async def p312_a_combined_curve_may_be_announced_with_four_bytes(dut: Any) -> None:
-    """With LE = 0 and length 04, the last byte is ignored; 03 and 04 are the only legal lengths."""
+    """With LE = 0 and length 04, the last byte is ignored. The only legal lengths are 03 and 04."""
     for last in ("00", "01", "02", "7F", "80", "FF"):
         host = await Host.start(dut)
         assert await host.ask(f"02 04 01 01 03 {last}") == message(Code.FREE_CURVE, "00 03")

@@ -165,7 +165,7 @@ WALKS = [
         0x40,
     ),
     # If a ramp ends at the deceleration point and no deceleration follows, the next instruction 87 starts
-    # from t(R_c), not from the stage in which the ramp ended.
+    # from t(R_c), R_c being the last rate, and not from the stage in which the ramp ended.
     (
         SLOW_EQUAL,
         message(Code.RAMP, "00 0096 0000003C"),
@@ -232,10 +232,11 @@ async def p312_walks_and_changes(dut: Any, case: Any) -> None:
 
 @directed("P312-MOT-33", "P312-MOT-32", "P312-OVR-11", "P312-STA-01")
 async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
-    """If an instruction 87 is accepted before the ramp of another 87 begins, it waits during that ramp and is
-    then discarded.
+    """If instruction 87 is accepted before the ramp of an earlier instruction 87 begins, the later one waits
+    during this ramp and is then discarded.
 
-    It is too late for the boundary of the first 87. The remaining pulses are not accelerated.
+    The later one is too late for the boundary at which the earlier one takes effect. The remaining pulses are
+    not accelerated.
     """
     for ahead in (30, 60, 100, 140):
         host = await Host.start(dut, *TF)
@@ -255,8 +256,8 @@ async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
 
 @directed("P312-MOT-32", "P312-OVR-03", "P312-OVR-11", "P312-STA-01")
 async def p312_an_override_with_a_ramp_waits_for_the_end_of_another_ramp(dut: Any) -> None:
-    """If an override with instruction 87 is accepted before the ramp of a direct 87 begins, it waits until
-    that ramp ends.
+    """If an override with instruction 87 is accepted before the ramp of a direct instruction 87 begins, the
+    override waits until this ramp ends.
     """
     for ahead in (40, 60, 100, 140):
         host = await Host.start(dut, *TF, message(Code.RAMP_CHANGE, "05 0190"))

@@ -140,7 +140,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
     await host.ask(message(Code.CONSTANT, "00 0190 00000004"))
     mark = host.mark
     await host.pulse(3, 20)
-    # The distance is now outside the window, but it is not compared. It is inside again when the pulse output
+    # The distance is now outside the window, but is not compared. It is inside again when the pulse output
     # ends.
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "08 08 00")
     host.mark = mark

@@ -245,7 +245,7 @@ async def p312_serial_registrations_that_fail(dut: Any) -> None:
 async def p312_serial_states(dut: Any) -> None:
     """The reply is 43 in every state in which the table does not allow the instruction.
 
-    4E and 4F are accepted only in INI and NOR; 40 is always accepted.
+    Instructions 4E and 4F are accepted only in INI and NOR; instruction 40 is always accepted.
     """
     initial = ("05 012C", "80", "81", "82", "83 0000 00000005", "84 0000 00000005", "85 0000", "86 0000")
     initial += ("87 0190", "88 0190", "89 0190", "8A 0190", "44", "45", "69", "90 00000005", "A0")

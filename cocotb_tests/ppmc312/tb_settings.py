@@ -17,8 +17,8 @@ T5 = message(Code.INITIAL, "09 2000 0040 00EA60")
 
 
 def weighted(values: list[int]) -> int:
-    """Return the sum of (i + 1) x value over the stages, slowest first; `values` begin with the fastest
-    stage.
+    """Return the sum of (i + 1) x value over the stages, where stage i = 0 is the slowest; `values` begin
+    with the fastest stage.
     """
     return sum((i + 1) * value for i, value in enumerate(reversed(values)))
 

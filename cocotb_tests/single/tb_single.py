@@ -111,7 +111,7 @@ def judge_code(kind: str, params: int, state: dict[str, int]) -> tuple[int | Non
 
 @cocotb.test()
 async def command_random(dut):
-    """For random codes, data and states, status, actions and parameters are those of the tables."""
+    """For random codes, data and states, the status, actions and parameters are those of the tables."""
     rand = rng()
     u = BlockDriver(dut, "command", BLOCKS, "take_o act_o")
     await u.reset()
@@ -198,7 +198,7 @@ async def setup_frozen(dut, idle):
 @cocotb.test()
 @cocotb.parametrize(unread_flag=[0, 1])
 async def finish_answers(dut, unread_flag):
-    """For random motions and reads, status, answers and interrupt equal those of a plain model."""
+    """For random motions and reads, the status, answers and interrupt equal those of a plain model."""
     rand = rng()
     u = BlockDriver(dut, f"finish{unread_flag}", BLOCKS, "answer_o int_no")
     await u.reset()
@@ -232,7 +232,7 @@ async def finish_answers(dut, unread_flag):
 
 
 async def clk_to_action(u: BlockDriver, where: str, closed: bool) -> int:
-    """Return the number of clock edges until act_o outputs an action.
+    """Return the number of clock edges until an action appears on act_o.
 
     If `closed` is set, check that the mailbox is closed until then.
     """

@@ -79,7 +79,7 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ commands without motion
 
     def ramp(self) -> tuple[int, int, int]:
-        """Return a legal (D1, D2, PA); most are small and build quickly."""
+        """Return a legal (D1, D2, PA); most are small, so that their tables are built quickly."""
         rng, least = self.rng, self.least
         kind = rng.random()
         slow = (5, 6, 10, 13, 20, 26) if self.external else (1, 2, 3, 4, 6)
@@ -190,8 +190,8 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ bad input
 
     def random_write(self) -> tuple[int, int]:
-        """Return register and byte of a write; as a divisor, the byte does not make a constant-speed motion
-        too fast for the clock.
+        """Return the register and the byte of a write. If the byte is used as a divisor, a constant-speed
+        motion is not too fast for the clock.
         """
         rng = self.rng
         if rng.random() < 0.5:

@@ -148,7 +148,7 @@ async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
 
 @directed("AC-44", "STMC-RD-01", "STMC-BAD-01")
 async def stmc_ac_44_family_codes(dut: Any) -> None:
-    """By default, codes 81, 82 and 83 return inputs, outputs and three bytes; code 84 is error 0 (AC-44,
+    """By default, codes 81, 82 and 83 return inputs, outputs and three bytes; code 84 returns error 0 (AC-44,
     R-01).
     """
     env = await Env.start(dut)
@@ -158,7 +158,7 @@ async def stmc_ac_44_family_codes(dut: Any) -> None:
 
 @directed("AC-45", "STMC-RD-01", "STMC-BAD-01", builds=(SHEET,))
 async def stmc_ac_45_data_sheet_codes(dut: Any) -> None:
-    """With READ_MAP "SHEET", code 81 is error 0, and code 84 returns three bytes (AC-45)."""
+    """With READ_MAP "SHEET", code 81 returns error 0, and code 84 returns three bytes (AC-45)."""
     env = await Env.start(dut)
     env.check("AC-45", "answers", await env.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])
 

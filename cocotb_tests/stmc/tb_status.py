@@ -199,8 +199,8 @@ async def stmc_rd_01_reads(dut: Any) -> None:
 
 @directed("STMC-FSM-01", "STMC-FSM-04", "STMC-STP-03")
 async def stmc_fsm_04_stops_before_step_0(dut: Any) -> None:
-    """In state S of commands 2 to 7, codes 40 and 41 prevent all steps, but code 41 leaves one step in
-    commands 3 and 6 (STMC-FSM-04).
+    """In state S of commands 2 to 7, codes 40 and 41 prevent all steps. Exception: in commands 3 and 6, one
+    step follows code 41 (STMC-FSM-04).
     """
     env = await Env.start(dut, clock=0)
     for code, n, divisor, number in (

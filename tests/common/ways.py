@@ -48,7 +48,9 @@ def files(words: list[str]) -> list[str]:
 
 
 def frames(words: list[str]) -> list[list[str]]:
-    """Return file and function of each project frame from `main` to `Link._run`, at the deepest call."""
+    """Return the file and the function of each frame of the project between `main` and the deepest
+    `Link._run`.
+    """
     from openppmc.cli import main
     from openppmc.host import Link
 

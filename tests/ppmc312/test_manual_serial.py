@@ -64,8 +64,8 @@ def test_session(title):
 def test_reply_times():
     """For each speed, the page states the times of a reply.
 
-    They are half a bit to snd and 1.5 bits to the start bit, both rounded down to 0.1 µs, and one bit between
-    them.
+    These are half a bit to the rise of snd, 1.5 bits to the start bit, both rounded down to 0.1 µs, and one
+    bit between the two.
     """
     rows = re.findall(r"^\| ([\d ]+) \| ([\d.]+) µs \| ([\d.]+) µs \| ([\d.]+) µs \|$", TEXT, re.M)
     assert [row[0].replace(" ", "") for row in rows] == [str(int(speed)) for speed in SPEEDS.values()]

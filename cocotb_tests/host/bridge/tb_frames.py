@@ -134,8 +134,8 @@ async def frames_faults(dut):
 @cocotb.test()
 @configs(SLOW)
 async def frames_silence(dut):
-    """After 100 ms of silence within a frame, the bridge sends NAK 5 and then ignores bytes until a flag. It
-    does neither of these earlier, or between frames (UB-FRM-06).
+    """After 100 ms of silence within a frame, the bridge sends NAK 5 and then ignores bytes until a flag. The
+    bridge does neither before 100 ms have passed, nor between frames (UB-FRM-06).
     """
     bench = await Bench.start(dut)
     line = encode(b"\x06\x12\x34")

@@ -114,8 +114,8 @@ class Pair:
 @cocotb.test()
 @configs(FAST, TWO)
 async def random_scripts(dut):
-    """For 250 random scripts, some repeated, some with SEQ 0 or SEQ >= 128, answers and accesses equal those
-    of the model (UB-ANS-01 to UB-ANS-05, UB-OPS-02).
+    """For 250 random scripts, some of them repeated or with SEQ 0 or SEQ >= 128, the answers and the accesses
+    equal those of the model (UB-ANS-01 to UB-ANS-05, UB-OPS-02).
     """
     bench = await Bench.start(dut)
     rng = bench.rng

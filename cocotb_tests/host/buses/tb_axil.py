@@ -62,7 +62,9 @@ async def write_bytes(master: AxiLiteMaster, address: int, data: bytes) -> int:
 @cocotb.test()
 @configs(F16, TEN_LINES)
 async def axil_random_accesses(dut):
-    """For random accesses with stalls on all channels, data, responses and strobes match the register map."""
+    """With random accesses and stalls on all channels, the data, the responses and the strobes match the
+    register map.
+    """
     rng, count = await start(dut), count_of(dut)
     bridge = 4 * count
     slave, master = StrobeSlave(dut, "model_axil_bus", count, rng), make_master(dut, "model_axil")
@@ -107,7 +109,7 @@ async def axil_random_accesses(dut):
 
 @cocotb.test()
 async def axil_reads_and_writes_at_once(dut):
-    """Parallel queues of reads and of writes each keep their order, and both progress."""
+    """Parallel queues of reads and of writes each keep their order, and neither blocks the other."""
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_axil_bus", COUNT, rng), make_master(dut, "model_axil")
     written = [(rng.randrange(4), rng.getrandbits(8)) for _ in range(150)]
@@ -172,7 +174,8 @@ async def axil_channel_order(dut):
         await with_timeout(event.wait(), 1, "ms")
         assert event.data.resp == AxiResp.OKAY
     want.append(("w", 2, 2))
-    # While the master does not accept R, R must keep its data; a write and another read wait or are executed.
+    # While the master does not accept R, R must keep its data. During this time a write and another read
+    # either wait or are executed.
     channel["r"].pause = True
     reads = [master.init_read(4 * n, 4) for n in (1, 2)]
     await write_bytes(master, 4 * 5, b"\x77")

@@ -20,7 +20,9 @@ WRITE_LATENCY, READ_LATENCY, QUICK_LATENCY = 6, 8, 1
 @cocotb.test()
 @configs(F16, TEN_LINES)
 async def wishbone_random_accesses(dut):
-    """For random accesses with and without pauses, data, responses and strobes match the register map."""
+    """With random accesses, with and without pauses, the data, the responses and the strobes match the
+    register map.
+    """
     rng, count = await start(dut), count_of(dut)
     bridge = 4 * count
     slave, master = StrobeSlave(dut, "model_wb_bus", count, rng), WishboneMaster(dut, "model_wb")

@@ -138,7 +138,7 @@ async def two_masters(master: Master, rng: random.Random) -> None:
 
 
 async def out_of_turn(master: Master, rng: random.Random) -> None:
-    """The master sends while a station replies: to the same station, which is an overrun, and to other
+    """While a station replies, the master sends to the same station, which is an overrun, and to other
     stations.
 
     Each of the two frames to the station that replies counts as one overrun.

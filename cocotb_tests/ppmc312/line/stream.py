@@ -143,7 +143,9 @@ async def _noisy(master: Master, rng: random.Random, frame: bytes) -> int:
 
 
 def pins_of(seed: int) -> dict[str, int]:
-    """Return the pins that select the drivers that a station receives in addition to the master."""
+    """Return random levels of the two pins that select whether a station receives the other drivers and its
+    own driver in addition to the master.
+    """
     rng = random.Random(f"pins {seed}")
     return {"hear_others": int(rng.random() < 0.8), "hear_self": int(rng.random() < 0.2)}
 

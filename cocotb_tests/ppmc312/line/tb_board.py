@@ -88,7 +88,7 @@ async def start(dut: Any, **straps: int) -> Board:
 async def board312_serial_open_straps(dut: Any) -> None:
     """Open straps select 83 333 baud and station 15.
 
-    The station answers either master on both lines, and DE frames the answer.
+    The station answers either master on both lines, and DE is asserted for the length of the answer.
     """
     board = await start(dut)
     same("LED before", board.led(LINK), 0)

@@ -260,7 +260,7 @@ def operation(rand: random.Random, table: Table) -> tuple[int, int | None]:
 
 @cocotb.test()
 async def stage_plans_exact(dut):
-    """For random curves, rates and pulse counts, profiles and rate look-ups equal those of the model."""
+    """For random curves, rates and pulse counts, the profiles and rate look-ups equal those of the model."""
     rand = rng()
     u = BlockDriver(dut, "unit", BLOCKS)
     await u.reset()

@@ -25,7 +25,9 @@ SHORTEST, TARGET_CLK = 4, 2
 profile_i.
 """
 FLAT, SEARCH, FOUND = 7, 129, 3
-"""Cycles: of constant rate before a ramp can begin; of a search; from its end to the final deceleration."""
+"""Cycles of constant rate before a ramp can begin; length of a search in cycles; cycles from the end of a
+search to the final deceleration.
+"""
 WATCH = "next_end_o next_low_o next_count_o next_rate_o"
 
 
@@ -101,8 +103,8 @@ class SequencerRun:
         return self.rand.getrandbits(90) << 38 | target
 
     def plan_requests(self) -> dict[int, str]:
-        """Return the requests in the next interval, by their lead in cycles; at most one of them is a
-        change.
+        """Return the requests in the next interval; each key is the time before the end of the interval in
+        cycles.
         """
         rand, found = self.rand, {}
         if rand.random() < 0.08:
@@ -123,7 +125,8 @@ class SequencerRun:
         requests = self.plan_requests()
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
         if self.sequence.was_searched and self.rand.random() < 0.3:
-            # At this boundary, the result of the search just takes effect, or just does not.
+            # The boundary is in the last cycle that is too early for the result of the search, or one cycle
+            # later.
             cycles = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
             longest = max(longest, cycles - self.flat_for)
         self.flat_for += longest
@@ -201,7 +204,9 @@ class CollisionRun(SequencerRun):
     """A ramp of instruction 87 reaches the deceleration point; random requests follow."""
 
     def plan_requests(self) -> dict[int, str]:
-        """Request an 88 (change) some pulses before the deceleration point, and an 87 (ramp) closer to it."""
+        """Request instruction 88 (change) some pulses before the deceleration point, and 87 (ramp) closer to
+        it.
+        """
         plan = self.plan
         before = (plan.n or 0) - plan.down - self.sequence.done
         if before in (self.jump, self.ramp):
@@ -225,7 +230,8 @@ class CollisionRun(SequencerRun):
             n = plan.up + sum(table.pd[table.sd : table.stage(rate) + 1]) + rand.randint(12, 18)
             plan = ramped(table, rate, n)
             if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
-                # often, only the acceleration ramp has some stages, in which no final deceleration starts
+                # often, only the acceleration ramp contains some stages; no final deceleration starts in
+                # these
                 break
         run = cls(u, table, plan, rand)
         run.jump, run.ramp, run.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
@@ -251,11 +257,11 @@ class LateStopRun(SequencerRun):
     """A change is decided during a search, and a deceleration stop follows.
 
     A stage of the acceleration ramp becomes a constant rate. Instruction 88 is decided during the search for
-    this rate, and 81 arrives before the boundary.
+    this rate, and instruction 81 arrives before the boundary.
     """
 
     def plan_requests(self) -> dict[int, str]:
-        """Request an 88 and an 87, which begin the search, then an 88 and an 81 during the search."""
+        """Request instructions 88 and 87, which begin the search, then 88 and 81 during the search."""
         if self.sequence.was_searched and self.jump:
             requests = {self.jump: "jump", LEADS["slow"]: "slow"}
             self.jump = 0
@@ -269,9 +275,9 @@ class LateStopRun(SequencerRun):
 
 @cocotb.test()
 async def stage_seq_stop_during_a_search_for_a_change(dut):
-    """Instruction 81 discards an 88 that was decided during a search if the search has ended.
+    """If a search has ended, instruction 81 discards an instruction 88 that was decided during this search.
 
-    If the search has not ended, 81 waits until the 88 has taken effect.
+    If the search has not ended, instruction 81 waits until instruction 88 has taken effect.
     """
     rand = rng()
     u = BlockDriver(dut, "seq", BLOCKS, WATCH)
@@ -284,6 +290,6 @@ async def stage_seq_stop_during_a_search_for_a_change(dut):
         await run.load()
         end = await run.run(80)
         ends.add((end, run.searched > 0))
-    # If 81 waits for the 88, the rate 363 is loaded, at which no deceleration is left; the final deceleration
-    # then lasts until the end of the count.
+    # If instruction 81 waits for instruction 88, the rate 363 is loaded, at which no deceleration is left;
+    # the final deceleration then lasts until the end of the count.
     same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])

@@ -183,7 +183,7 @@ def _defined(code: int) -> bool:
 
 
 def test_codes():
-    """An axis without initialisation accepts exactly the defined ones of all 256 codes (BANK-GEN-03)."""
+    """Of all 256 codes, an axis without an initialisation accepts exactly the defined ones (BANK-GEN-03)."""
     host = Host()
     for code in range(256):
         host.send(code % 8, f"c {code:02X}")

@@ -91,8 +91,8 @@ def test_go_refused():
 
 
 def test_held_operation_is_watched_and_stopped():
-    """Limits, alarm and stops act on a held operation; if its deceleration flag is set, it outputs only pulse
-    1 after GO (BANK-GRP-01).
+    """Limits, the alarm and stops take effect on a held operation; if its deceleration flag is set, it
+    outputs only pulse 1 after GO (BANK-GRP-01).
     """
     host = held(8, "c 43 d E7 d 03 d 00", 5)
     host.pin(host.t, 0, l1_n=0)
@@ -122,7 +122,7 @@ def test_go_and_the_end_of_a_held_operation():
 
 
 def test_mask_taken_away_from_a_held_operation():
-    """While a GO acts, each visit uses the value that MASK had 5 cycles earlier (BANK-GRP-02,
+    """While a GO is active, each visit uses the value that MASK had 5 cycles earlier (BANK-GRP-02,
     BANK-GRP-03).
     """
     host = held(64)
@@ -155,7 +155,7 @@ def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
 
 @pytest.mark.parametrize("gap, acts_at", [(5, 64), (63, 64), (64, 64), (65, 65)])
 def test_second_go_waits(gap, acts_at):
-    """A second GO that is written while the first one acts has the same effect as one R cycles after the
+    """A second GO that is written while the first one is active has the same effect as one R cycles after the
     first (BANK-GRP-03).
     """
     host, go = not_found_by_the_first((gap,))
@@ -165,8 +165,8 @@ def test_second_go_waits(gap, acts_at):
 
 @pytest.mark.parametrize("third, status", [(20, 0x04), (63, 0x04), (64, 0x94), (70, 0x94)])
 def test_third_go(third, status):
-    """A third GO has no effect while the second one waits; written later, it acts after the second one
-    (BANK-GRP-03).
+    """A third GO has no effect if it is written while the second one waits; if it is written later, it takes
+    effect after the second one (BANK-GRP-03).
     """
     host, go = not_found_by_the_first((5, third))
     host.go(go + 6 + 64)

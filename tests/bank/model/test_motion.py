@@ -39,7 +39,7 @@ def test_pins_change_on_the_edge_of_their_event(axes, clk_hz):
 @pytest.mark.parametrize("pin, status", [("l1_n", 0x97), ("alm_n", 0xA7), ("cnp_n", 0x87)])
 @pytest.mark.parametrize("offset, pulses", [(-1, 4), (0, 4), (1, 5)])
 def test_switches_act_to_the_clk(pin, status, offset, pulses):
-    """A pulse is not output if a cause is detected on the edge of the pulse (BANK-MOT-02)."""
+    """A pulse is not output if a cause of an end is detected on the edge of the pulse (BANK-MOT-02)."""
     host = Host()
     visit = start(host, 5, "c 47 d 13")
     due = visit + host.w + 4 * 160 * 25
@@ -51,8 +51,8 @@ def test_switches_act_to_the_clk(pin, status, offset, pulses):
 
 
 def test_bits_belong_to_the_deciding_clk():
-    """The finish status has only the causes that are detected on the deciding edge; one that is detected a
-    cycle later sets no bit (BANK-MOT-02).
+    """Only the causes that are detected on the edge that decides the end set their finish bits; a cause that
+    is detected a cycle later sets no bit (BANK-MOT-02).
     """
     for late, status in ((0, 0xB5), (1, 0x95)):
         host = Host()
@@ -64,7 +64,7 @@ def test_bits_belong_to_the_deciding_clk():
 
 @pytest.mark.parametrize("early, busy_until", [(6, 0), (5, 0), (4, 8)])
 def test_end_without_low_time(early, busy_until):
-    """If pout_n is high when the end is decided on edge e, the first visit V >= e + 5 ends the motion
+    """If the end is decided on edge e while pout_n is high, the first visit V >= e + 5 ends the motion
     (BANK-MOT-04, BANK-MOT-03).
     """
     host = Host()
@@ -251,7 +251,7 @@ def test_stop_and_limit_on_one_edge():
 
 @pytest.mark.parametrize("early, inputs", [(5, 0xC7), (4, 0xC7), (3, 0xCF)])
 def test_read_of_the_switches(early, inputs):
-    """0x81 at visit V returns the levels of the switches detected on edge V - 4 (BANK-MOT-05)."""
+    """Command 0x81 at visit V returns the levels of the switches detected on edge V - 4 (BANK-MOT-05)."""
     host = Host()
     visit = host.visit(5)
     host.write_at(visit - 8, 5, STATUS, 0x81)
@@ -291,8 +291,8 @@ def test_slow_limit_between_visits_is_not_seen(first, length, status):
 
 
 def test_slow_limit_before_the_start_and_in_pulse_mode():
-    """With a slow-down limit that is active before the start, a move has one pulse; in POUT mode the limit
-    acts from the plateau on (BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05).
+    """If a slow-down limit is active before the start, a move has one pulse; in POUT mode the limit takes
+    effect from the plateau on (BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05).
     """
     for script, pulses in (("c 43 d E7 d 03 d 00", 1), ("c C3 d E7 d 03 d 00", 22)):
         host = Host()
@@ -303,7 +303,7 @@ def test_slow_limit_before_the_start_and_in_pulse_mode():
 
 
 def test_slow_limit_of_the_high_part():
-    """A slow-down limit that becomes active in the state HIGH acts in POUT mode, too (P104-LIM-04,
+    """A slow-down limit that becomes active in the state HIGH also takes effect in POUT mode (P104-LIM-04,
     BANK-MOT-05).
     """
     host = Host()

@@ -137,7 +137,7 @@ def test_hold_on_an_edge_of_the_chopper(hit):
 
 
 def test_excitation_off_and_second_initialisation():
-    """On an axis of a bank, excitation off acts immediately and does not change the other axes
+    """On an axis of a bank, excitation off takes effect immediately and does not change the other axes
     (P104-INI-05, P104-AUX-04).
     """
     host = Host()

@@ -51,7 +51,7 @@ def test_busy_port(board: SimBoard) -> None:
 
 
 class NonBridgeDevice:
-    """A pseudo-terminal with a device that is not a board."""
+    """A pseudo-terminal with a foreign device, that is, one that is not a board."""
 
     def __init__(self, reply: Reply) -> None:
         self._reply = reply
@@ -81,7 +81,7 @@ class NonBridgeDevice:
 
 @pytest.fixture
 def foreign_device() -> Iterator[MakeForeignDevice]:
-    """Create pseudo-terminals with such a device and remove them after the test."""
+    """Create pseudo-terminals with a foreign device and remove them after the test."""
     made: list[NonBridgeDevice] = []
 
     def make(reply: Reply) -> str:

@@ -1,4 +1,6 @@
-"""Captures of all devices compared with the golden model: complete, jittery, partial, late, wrong ones."""
+"""Captures of all devices are compared with the golden model: complete, jittery, partial, late and wrong
+captures.
+"""
 
 from __future__ import annotations
 

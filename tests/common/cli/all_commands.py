@@ -132,5 +132,7 @@ def without_line() -> set[str]:
 
 
 def _names(name: str, command: Any) -> list[str]:
-    """Return the command, or the commands of a group after its name."""
+    """Return the name of the command; for a group, the names of its commands, each after the name of the
+    group.
+    """
     return [f"{name} {one}" for one in command.commands] if hasattr(command, "commands") else [name]

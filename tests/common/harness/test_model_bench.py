@@ -31,7 +31,7 @@ def new_bench(part: str = "ppmc104", **pins: int) -> ModelBench:
 
 
 def test_time_goes_forward_only() -> None:
-    """Waits advance the time; a wait for, or a pin change at, a time in the past is rejected."""
+    """Waits advance the time. A wait or a pin change for a time in the past is rejected."""
     bench = new_bench()
     assert bench.now == 4 and on_model(bench.until(10)) == 10 and on_model(bench.clocks(5)) == 15
     with pytest.raises(ValueError, match="already edge 15"):

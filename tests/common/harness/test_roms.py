@@ -1,4 +1,4 @@
-"""`make lint` compares each table of the RTL with the contents in the netlist; no table is missing there."""
+"""`make lint` compares the tables of the RTL with the netlist; its list of tables is complete."""
 
 from __future__ import annotations
 

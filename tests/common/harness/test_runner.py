@@ -56,7 +56,9 @@ def test_each_part_of_the_log_is_one_test(tmp_path: Path, log: str, kinds: str) 
 
 
 def test_a_process_that_ends_within_a_test(tmp_path: Path) -> None:
-    """If the process ends within a test, this test crashed, and the following tests did not run."""
+    """If the process ends within a test, this test is reported as crashed, and the following tests as not
+    run.
+    """
     found = read(tmp_path, part("a", "x\n"), None, "the simulator ended: -11")
     assert (found["a"].kind, found["b"].kind) == ("crashed", "did not run")
     assert found["a"].text.startswith("the simulator ended: -11\n")
@@ -92,7 +94,9 @@ def test_failure_text_shows_the_exception() -> None:
 
 
 def test_groups_keep_the_order_and_are_even() -> None:
-    """Tests with the same key are split evenly in their order; tests without a key form groups of one."""
+    """Tests with the same key are split evenly into groups and keep their order. Each test without a key is a
+    separate group.
+    """
     made = groups_of(range(100), lambda n: n % 2 or None)
     assert [len(group) for group in made] == [1, 25, 25] + [1] * 49
     assert made[1] == tuple(range(1, 50, 2)) and sorted(n for group in made for n in group) == list(

@@ -1,4 +1,5 @@
-"""Our main program of simulations and that of cocotb produce the same pins, accesses and output edges.
+"""The project's own simulation main program and that of cocotb produce the same pins, accesses and output
+edges.
 
 `python -m scripts.measure.sim_mains WORD` compares any other test in the same way.
 """

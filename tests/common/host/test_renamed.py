@@ -83,7 +83,7 @@ USED = sorted({*CLASSES, *(name for _, name in OTHERS)} - {"End"})
 
 @pytest.mark.parametrize(("old", "new"), CLASSES.items())
 def test_a_class_of_the_package_warns(old: str, new: str) -> None:
-    """Each use of the old name of a class emits one warning and returns the class."""
+    """Each use of an old class name of the package emits one warning and returns the class."""
     with pytest.warns(DeprecationWarning) as seen:
         found = getattr(host, old)
     assert found is getattr(host, new)
@@ -95,7 +95,7 @@ def test_a_class_of_the_package_warns(old: str, new: str) -> None:
 
 @pytest.mark.parametrize(("place", "new"), MODULES.items(), ids=lambda one: str(one))
 def test_a_class_of_a_module_warns(place: tuple[str, str], new: str) -> None:
-    """Each use of the old name of a class in a module emits one warning and returns the class."""
+    """Each use of an old class name of a module emits one warning and returns the class."""
     module = import_module(f"openppmc.host.{place[0]}")
     with pytest.warns(DeprecationWarning, match=f"{place[1]} is now {new};") as seen:
         assert getattr(module, place[1]) is getattr(module, new)
@@ -106,8 +106,8 @@ def test_a_class_of_a_module_warns(place: tuple[str, str], new: str) -> None:
 
 @pytest.mark.parametrize(("owner", "old", "new"), METHODS)
 def test_an_attribute_of_a_driver_warns(owner: type, old: str, new: str) -> None:
-    """The old name of a method or attribute of a driver warns and returns that of the new name, which
-    exists.
+    """The old name of a method or attribute of a driver emits a warning and returns the method or attribute
+    with the new name, which exists.
     """
     alias = owner.__dict__[old]
     assert isinstance(alias, Renamed)
@@ -120,7 +120,9 @@ def test_an_attribute_of_a_driver_warns(owner: type, old: str, new: str) -> None
 
 @pytest.mark.parametrize(("one", "old", "new"), VALUES, ids=lambda one: one if isinstance(one, str) else "")
 def test_an_attribute_of_a_result_warns(one: Any, old: str, new: str) -> None:
-    """The old name of an attribute of a result warns and returns the value of the new name."""
+    """The old name of an attribute of a result emits a warning and returns the value of the attribute with
+    the new name.
+    """
     with pytest.warns(DeprecationWarning, match=f"^{type(one).__name__}.{old} is now {new};") as seen:
         assert getattr(one, old) is getattr(one, new)
     assert len(seen) == 1 and seen[0].filename == __file__

@@ -486,9 +486,9 @@ def test_a_status_of_no_motion(finish: int) -> None:
 
 
 def test_a_search_through_all_pulses_is_no_origin() -> None:
-    """A search that ends after all pulses is complete, not an origin.
+    """A search that ends after all its pulses is reported as complete, not as ended at the origin.
 
-    Its status and remaining pulses are the same as those of an origin one pulse before the end.
+    The status and the remaining pulses are the same if the origin ends the search one pulse before.
     """
     assert decode_end(0x87, 0, ENDLESS, CW, None, 7).cause is Cause.ORIGIN
     assert decode_end(0x87, 0, ENDLESS, CCW, -5, 7, 1 - ENDLESS).cause is Cause.ORIGIN

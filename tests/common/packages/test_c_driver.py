@@ -255,8 +255,8 @@ def test_busy_right_behind_the_last_byte(lines):
 
 
 def test_the_gap_before_busy_is_met(lines, request):
-    """With DATASHEET timing, a read of the status in the test above is before BUSY rises; with FAST it is
-    not.
+    """In the test above, the status is read before BUSY rises if the timing is DATASHEET, but after it with
+    FAST.
     """
     gap = request.node.callspec.params["lines"] == "DATASHEET"
     assert next(line["bare"] for line in lines["G look"] if "bare" in line) == str(int(not gap))

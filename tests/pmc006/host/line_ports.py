@@ -84,12 +84,12 @@ def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[byt
 
 
 def one(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
-    """Return such a port and the driver of one controller on it."""
+    """Return a port that damages frames, and the driver of one controller on it."""
     port = SpoiledLine(text)
     return port, Pmc006.open(port, address)
 
 
 def several(text: str = "address=1..2") -> tuple[SpoiledLine, Pmc006Bus]:
-    """Return such a port and the driver of the bus on it."""
+    """Return a port that damages frames, and the driver of the bus on it."""
     port = SpoiledLine(text)
     return port, Pmc006Bus.open(port)

@@ -85,8 +85,8 @@ def test_comparator_ends_the_pulse_after_blanking() -> None:
     phases = Phases()
     phases.at(0, "enable", True)
     phases.at(0, "reference", 100, 1)
-    # The new sign acts one cycle later. If the comparator is already high during blanking, the pulse ends at
-    # the end of blanking; if it becomes high later, the pulse ends immediately.
+    # The new sign takes effect one cycle later. If the comparator is already high during blanking, the pulse
+    # ends at the end of blanking; if it becomes high later, the pulse ends immediately.
     phases.at(325, "compare", 1)
     phases.at(338, "compare", 0)
     assert phases.run(656) == [(321, 0, 1), (337, 0, 0)]
@@ -121,8 +121,8 @@ def test_changes_of_the_reference() -> None:
 
 @verifies("P006-CHP-04", "P006-CHP-03")
 def test_a_reference_of_0_lets_the_current_fall() -> None:
-    """A reference of 0 does not end a pulse, and the comparator still acts; but an off state is followed by
-    another off state, not by an on state.
+    """A reference of 0 does not end a pulse, and the comparator still takes effect; but an off state is
+    followed by another off state, not by an on state.
     """
     phases = Phases()
     phases.at(0, "enable", True)

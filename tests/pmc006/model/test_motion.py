@@ -231,7 +231,7 @@ def test_compensation_in_a_ramp_is_one_update_old() -> None:
 
 @verifies("P006-STL-01")
 def test_steady_speed() -> None:
-    """The constant-speed output follows by one update, so it does not depend on the duration of the
+    """The constant-speed output changes one update later, so it does not depend on the duration of the
     calculation.
     """
     bench = Bench(**SETUP)

@@ -61,7 +61,7 @@ def test_diodes_end_at_zero() -> None:
 
 @verifies("P006-CHP-05", "P006-CHP-03")
 def test_every_change_of_the_comparator_is_there() -> None:
-    """The plant changes the comparators in the same cycles as a check of the currents in each cycle."""
+    """The plant changes the comparators in the same cycles as if it checked the currents in every cycle."""
     rig = BootedMotor(Case(cur=2000))
     pins, told = rig.part.pins, {"cmp_a": [(0, 0)], "cmp_b": [(0, 0)]}
 
@@ -90,8 +90,8 @@ def test_every_change_of_the_comparator_is_there() -> None:
 
 
 def stated_ripple(ampere: float, motor: Motor) -> float:
-    """Return the highest ripple at standstill: a shortest pulse in each direction, and the fall in the
-    off-time.
+    """Return the highest ripple at standstill: the changes by one shortest pulse in each direction, plus the
+    fall in the off-time.
     """
     pulses = 2 * motor.volt / motor.henry * (T_BLANK + LATE)
     return pulses + motor.ohm * ampere / motor.henry * T_OFF

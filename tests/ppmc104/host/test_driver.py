@@ -87,8 +87,8 @@ def test_initialise_tells_what_is_reached() -> None:
     ],
 )
 def test_the_motor_runs_at_the_speed_that_was_told(arguments: dict[str, object], base_hz: int) -> None:
-    """The intervals of a long constant-speed move in the part add up to the time that follows from the
-    reported speed, for both base clocks, with and without long intervals.
+    """In a long move at constant speed, the intervals that the part outputs add up to the time that follows
+    from the reported speed. This holds for both base clocks, with and without long intervals.
     """
     with board(**arguments) as axis:
         assert axis.setup is not None

@@ -172,8 +172,8 @@ def test_end(move, pulses, disturb, end, opened):
 
 
 def test_auxiliary_output_and_excitation_off_roles():
-    """AUX outputs change after 14 us. Excitation off acts after 18 us, or after 14 us if it is executed as
-    AUX ON (P104-DS-11).
+    """AUX outputs change after 14 us. Excitation off takes effect after 18 us, or after 14 us if it is
+    executed as AUX ON (P104-DS-11).
     """
     host = ready()
     host.run("c 86 d 0A")

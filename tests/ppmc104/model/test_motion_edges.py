@@ -31,7 +31,7 @@ def stop_at(host: AnyHost, code: int, edge: int) -> None:
 
 @pytest.mark.parametrize("offset, pulses", [(-1, 5), (0, 5), (1, 6), (2, 6)])
 def test_cause_on_the_edge_of_a_pulse_event(offset, pulses):
-    """An immediate cause suppresses a pulse event on its own edge, but not one on the edge before it."""
+    """A cause of an immediate end suppresses a pulse event on the same edge, but not on the edge before."""
     for cause in ("limit", "stop"):
         host = moving(INIT_A + " c 45 d 13")
         event = host.fall(5) - 1 + 640
@@ -49,7 +49,7 @@ def test_cause_on_the_edge_of_a_pulse_event(offset, pulses):
 
 @pytest.mark.parametrize("lead, honoured", [(0, [0, 0]), (1, [-1, 0]), (4, [-4, -3])])
 def test_flag_close_to_a_pulse_event(lead, honoured):
-    """A deceleration flag acts on a pulse event if it is set at least `flag_lead` cycles before it
+    """A deceleration flag takes effect at a pulse event if it is set at least `flag_lead` cycles before it
     (P104-FDC-06).
     """
     latest, too_late = honoured
@@ -207,7 +207,8 @@ def test_external_clock_without_vsel_puts_the_pulse_off():
     host.pause(6)
     host.run("c 44 d 01 d 03 d 00 d 00")
     start = host.t + 200
-    # Rising edges of the clock; edge 0 makes pulse 1. The last interval is too long for the addition.
+    # Rising edges of the clock. The edge at time 0 causes pulse 1. In the last interval the clock is so slow
+    # that no extra time is added.
     for rise in (0, 50, 100, 260, 300, 340, 500, 700, 900, 1100, 1300):
         host.model.pins(start + rise, clock=1)
         host.model.pins(start + rise + 8, clock=0)
@@ -269,8 +270,8 @@ def test_flagged_move_that_reaches_all_pulses_is_complete():
 
 @pytest.mark.parametrize("move, status", [("c 43 d 02 d 00 d 00", 0xF4), ("c 44 d 13 d 02 d 00 d 00", 0x04)])
 def test_stops_in_the_last_low_time(move, status):
-    """In the last low time of a ramped move, 0x41 returns error 7; other stops are accepted and have no
-    effect (P104-STP-08).
+    """In the last low time of a ramped move, command 0x41 returns error 7; other stops are accepted and have
+    no effect (P104-STP-08).
     """
     host = moving(INIT_B + " " + move)
     host.fall(3, 8)
@@ -280,8 +281,8 @@ def test_stops_in_the_last_low_time(move, status):
 
 
 def test_limit_on_the_edge_of_the_start_acts_as_one_that_was_there_before():
-    """A limit that becomes active on the start edge acts like one that was active before, because the limits
-    are evaluated from the next cycle on.
+    """A limit that becomes active on the start edge has the effect of one that was active before, because the
+    limits are evaluated from the next cycle on.
     """
     ends = []
     for early in (True, False):

@@ -150,7 +150,7 @@ def test_a_motion_of_another_program_goes_on() -> None:
 def test_ends_that_nobody_read_hide_no_other(early: bool) -> None:
     """While the end of another program's motion is unread, int_n stays low; this does not hide other ends.
 
-    It may have ended before or after the opening.
+    The motion may end before or after this program opens the part.
     """
     first = Ppmc2104.open("model:part=ppmc2104,speed=max")
     first.x.initialise(**SETUP)

@@ -108,7 +108,9 @@ def test_immediate_stop_in_fin_does_not_delay_the_end():
 @verifies("P2104-DS-03")
 @pytest.mark.parametrize("lead, pulses", [(512, 10), (511, 12)])
 def test_deceleration_stop_acts_at_the_end_of_its_window(lead, pulses):
-    """A deceleration stop acts on pulse 6 if its window ends before this pulse event, else on a later one."""
+    """A deceleration stop takes effect at pulse 6 if its window ends before this pulse event, else at a later
+    pulse.
+    """
     host = ready()
     host.run(LONG)
     sixth = host.fall(5) - 1 + 992
@@ -221,8 +223,8 @@ def test_immediate_stop_while_pout_is_low():
 @verifies("P2104-DS-20")
 @pytest.mark.parametrize("early, ends", [(0, 0), (1, 688 - 1 + 560)])
 def test_tick_on_the_edge_on_which_a_window_opens(early, ends):
-    """A polling tick on the edge that opens a window still acts; if the window opens one cycle earlier, the
-    tick is delayed until after the window.
+    """A polling tick on the edge that opens a window still takes effect; if the window opens one cycle
+    earlier, the tick is delayed until after the window.
     """
     host = ready(B1 + " ready " + B2)
     host.run("c 45 d FF")

@@ -141,7 +141,7 @@ def test_error_number(lines, name, number):
 
 
 def test_stop_with_an_unfinished_instruction(lines):
-    """A stop acts even if it drops an unfinished instruction (P2104-STP-07)."""
+    """A stop takes effect even if it drops an unfinished instruction (P2104-STP-07)."""
     assert result(lines, "E half stop")[0] == OK
     assert ending(lines, "E half")["raw"] == 0xC3
 

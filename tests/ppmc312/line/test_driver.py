@@ -323,7 +323,7 @@ def test_checksums_of_characters_and_echo() -> None:
 
 
 def test_a_slower_crystal() -> None:
-    """All speeds are proportional to the crystal frequency, also the baud rate of the line."""
+    """All speeds, including the baud rate of the line, are proportional to the crystal frequency."""
     with Ppmc312Bus.open("model:speed=max,stations=1,xtal=8000000", xtal_hz=8_000_000) as bus:
         axis = bus.axis(0)
         assert bus.line.baud == 9600

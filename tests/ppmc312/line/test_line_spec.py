@@ -86,7 +86,9 @@ def test_replies_of_two_stations_collide() -> None:
 
 
 def test_stations_run_while_others_are_asked() -> None:
-    """A station that receives no frames runs up to the time of the line when its state is read."""
+    """A read of a station's state first runs the station up to the time of the line, even if it receives no
+    frames.
+    """
     line = StationLine(parse_line("stations=2,clk=16000000"))
     line.run(1000)
     for data in ("0001" + "03e8" + "00c8" + "0007d0", "85" + "03e8"):

@@ -1,4 +1,6 @@
-"""Worked examples E1 to E32 of the PPMC-312 without time: plans, and changes and stops at pulses."""
+"""Worked examples E1 to E32 of the PPMC-312 without time: plans of moves, and speed changes and stops at
+given pulses.
+"""
 
 from __future__ import annotations
 
@@ -77,7 +79,7 @@ Act = tuple[int, object]
 def walk(plan: Plan, *acts: Act, limit: int = 10_000) -> tuple[list[Step], Cause]:
     """Run a sequence; return its pulses and the reason of its end.
 
-    Each act takes place in the interval of its number; interval 0 is before pulse 1.
+    Each action takes place in the interval of its number; interval 0 is before pulse 1.
     """
     sequence, steps = Sequence(plan), []
     for number in range(limit):

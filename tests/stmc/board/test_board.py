@@ -63,7 +63,7 @@ def test_edges_exact(start_board: StartBoard, tmp_path: Path) -> None:
 
 
 def test_switches(start_board: StartBoard) -> None:
-    """Reference point, limits and MON act on the part, and the bridge reports its identity."""
+    """The reference point, the limits and MON take effect, and the bridge reports its identity."""
     board = start_board(part="stmc", speed="max", start=500, ccw=-400, alarm="700..800")
     with Stmc.open(board.port) as axis:
         assert (axis.link.identity.part, axis.link.identity.counter, axis.read_map) == (105, True, "FAMILY")

@@ -116,8 +116,8 @@ def test_interrupt_served_after_the_restart(lines):
     ],
 )
 def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
-    """If a switch acts after 30 of 100 steps, cause, remaining count and steps agree with each other and with
-    the model.
+    """If a switch becomes active after 30 of 100 steps, cause, remaining count and steps agree with each
+    other and with the model.
     """
     end, (cw, back, got) = ending(lines, name), pulses(lines, name)
     # The motion stops immediately, or after the current gap and the eight gaps of the ramp (STMC-DEC-04).
