@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -12,11 +13,13 @@ from typing import Any
 
 import pytest
 
-from openppmc import host
+from cocotb_tests.harness.paths import ROOT
+from openppmc import host, linuxcnc
 from openppmc.cli import main
 from openppmc.cli.common import hal as command
 
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "bank", "ppmc312-serial", "pmc006")
+EXAMPLE = ROOT / "examples" / "linuxcnc"
 LINES = ("ppmc312-serial", "pmc006")
 MOST_CYCLES = 5000
 Run = Callable[..., str]
@@ -94,7 +97,7 @@ class Axis:
     """Pins of one axis, with _ in place of - and a prefix."""
 
     def __init__(self, pins: Component, number: int) -> None:
-        vars(self).update(pins=pins, prefix=f"{number}.")
+        vars(self).update(pins=pins, number=number, prefix=f"{number}.")
 
     def __getattr__(self, name: str) -> Any:
         return self.pins[self.prefix + name.replace("_", "-")]
@@ -342,9 +345,50 @@ def test_group(part: str, hal: Run, devices: list[Any], monkeypatch: pytest.Monk
     hal(story, f"model:speed=max{words}", f"--part {part} | --axes 1,2")
 
 
+def test_group_of_64_axes(hal: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All axes of the largest bank start with one call of the library, so in the same cycle (BANK-GRP-02)."""
+    groups: list[dict[int, int]] = []
+    start_moves = host.PpmcBank.start_moves.function
+    monkeypatch.setattr(
+        host.PpmcBank,
+        "start_moves",
+        lambda bank, moves: groups.append(dict(moves)) or start_moves(bank, moves),
+    )
+
+    def story(pins: Component) -> Iterator[Callable[[], object]]:
+        axes = [Axis(pins, number) for number in range(1, 65)]
+        for axis in axes:
+            axis.arm = axis.enable = True
+            axis.position_cmd = 10.0 * (axis.number - 32)
+        yield cycles(2)
+        pins["group-start"] = True
+        yield lambda: pins["group-done"]
+        assert [axis.position_fb for axis in axes] == [10 * (number - 32) for number in range(1, 65)]
+
+    hal(story, "model:speed=max,axes=64,clk=64000000", "--part bank | --ramp 100")
+    assert groups == [{number: 10 * (number - 32) for number in range(1, 65) if number != 32}]
+
+
 def test_without_linuxcnc(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the module `hal`, the command prints one line."""
     monkeypatch.setitem(sys.modules, "hal", None)
     assert main(["--port", "model:", "hal"]) == 1
     error = capsys.readouterr().err
     assert error.startswith("error: LinuxCNC's Python module hal cannot") and error.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", ("indexer.hal", "index.ngc"))
+def test_page_quotes_the_example(name: str) -> None:
+    """docs/coming_from.md contains the files of the example, which `make test WITH=linuxcnc` runs."""
+    page = (ROOT / "docs/coming_from.md").read_text(encoding="utf-8")
+    assert page.split(f"```text {name}\n")[1].split("```")[0] == (EXAMPLE / name).read_text(encoding="utf-8")
+
+
+def test_page_names_every_pin() -> None:
+    """The tables of the page have all pins, parameters and fault codes."""
+    page = (ROOT / "docs/coming_from.md").read_text(encoding="utf-8")
+    rows = " ".join(re.findall(r"^\| (.*?) \|", page, re.M))
+    names = {*linuxcnc.INPUTS, *linuxcnc.OUTPUTS, *linuxcnc.PARAMETERS, "group-start", "group-done"}
+    assert {name for name in names if f"`{name}`" not in rows} == set()
+    assert re.findall(r"^\| ([\d, ]+) \|", page, re.M) == ["1", "2", "3, 4", "5", "6", "7", "8", "9", "10"]
+    assert len(linuxcnc.FAULTS) == 10

@@ -82,7 +82,7 @@ class Session:
         self.halcmd("setp", pin, str(value))
 
     def until(self, pin: str, condition: Callable[[str], bool]) -> str:
-        """Wait until the value of a pin meets the condition, and return it."""
+        """Wait until the condition is true for the value of a pin, and return this value."""
         end = time.monotonic() + PATIENCE
         while not condition(value := self.halcmd("getp", pin)):
             assert time.monotonic() < end, (pin, value, self._log.read_text(encoding="utf-8"))
