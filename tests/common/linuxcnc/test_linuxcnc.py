@@ -20,7 +20,6 @@ EXAMPLE = ROOT / "examples" / "linuxcnc"
 SYSTEM_PYTHON = Path("/usr/bin/python3")
 PATIENCE = 60.0
 MISSING = "LinuxCNC is not installed (Debian: apt-get install linuxcnc-uspace)"
-pytestmark = pytest.mark.skipif(not shutil.which("halrun") or not SYSTEM_PYTHON.exists(), reason=MISSING)
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +29,10 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, 
     Its packages are those of this environment instead of `pip install`. LinuxCNC runs as root only with
     RTAPI_UID, another user for its realtime part, and this user needs a folder.
     """
+    if not shutil.which("halrun") or not SYSTEM_PYTHON.exists():
+        pytest.skip(MISSING)
+    if Path("/tmp/linuxcnc.lock").exists():
+        pytest.skip("LinuxCNC is running; a second one would end it")
     folder = tmp_path_factory.mktemp("linuxcnc")
     venv = folder / "venv"
     subprocess.run([SYSTEM_PYTHON, "-m", "venv", "--system-site-packages", "--without-pip", venv], check=True)
