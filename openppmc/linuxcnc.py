@@ -362,11 +362,10 @@ class Controller:
             self._axes[number].motion = motion
 
     def _end_group(self, reason: str) -> None:
-        """Stop the members that still move."""
+        """Fail the members that still move; without `on`, the next cycle stops them."""
         members, self._members, error = self._members, (), GroupEndedError(reason)
         for axis in members:
             if axis.motion and not axis.stopping:
-                self._attempt([axis], axis.stop)
                 self._fail(axis, error)
 
     def _home(self, axis: HalAxis) -> None:

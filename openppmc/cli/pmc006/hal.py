@@ -29,6 +29,7 @@ class Pmc006Drive:
         self._before = {}
         if self._applied == (start, velocity, acceleration):
             return
+        self.axis.enable_stops()
         if velocity:
             self.axis.max_speed = round(velocity)
         if start:

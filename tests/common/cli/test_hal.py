@@ -123,6 +123,8 @@ def test_axis_of_every_part(part: str, hal: Run) -> None:
         axis.position_cmd = 5.0
         yield cycles(3)
         assert not (axis.busy or axis.in_position or axis.homed or axis.fault) and axis.position_fb == 0
+        axis.position_cmd = 0.0
+        yield cycles(1)
         axis.enable = True
         yield cycles(3)
         assert not axis.busy and not axis.in_position and axis.position_fb == 0
@@ -138,7 +140,10 @@ def test_axis_of_every_part(part: str, hal: Run) -> None:
         yield lambda: axis.in_position
         assert axis.position_fb == -30 and not axis.fault
         axis.home = True
+        yield lambda: axis.busy
+        axis.position_cmd = 7.0
         yield lambda: axis.homed or axis.fault
+        yield cycles(2)
         assert axis.position_fb == 0 and not axis.busy and not axis.in_position and not axis.fault
         axis.position_cmd = -3.04
         yield lambda: axis.in_position
@@ -199,6 +204,10 @@ def test_faults(words: str, position: float, code: int, positive: bool, homed: b
         yield lambda: axis.fault
         yield cycles(2)
         assert (axis.fault_code, axis.limit_pos, axis.homed, axis.busy) == (code, positive, homed, False)
+        axis.scale = -1.0
+        yield cycles(1)
+        assert (axis.limit_neg, axis.limit_pos) == (positive, False)
+        axis.scale = 1.0
         axis.position_cmd = 7.0
         yield cycles(3)
         assert axis.fault and not axis.busy and not axis.in_position
@@ -226,6 +235,9 @@ def test_parameters(hal: Run, devices: list[Any]) -> None:
         yield lambda: axis.in_position
         setup = devices[0].setup
         assert (setup.high.requested, setup.start.requested, setup.ramp_pulses) == (1000, 700, 300)
+        axis.velocity, axis.position_cmd = 60.0, 2.0
+        yield lambda: axis.in_position
+        assert devices[0].setup.start.requested == devices[0].setup.high.requested == 600
         axis.velocity, axis.position_cmd = 1e6, 4.0
         yield lambda: axis.fault_code == 6
 
@@ -282,6 +294,12 @@ def test_homing_of_two_axes(hal: Run) -> None:
         one.enable = two.enable = three.enable = one.home = two.home = True
         one.home_velocity = -600.0
         yield lambda: one.busy and two.busy
+        three.home = True
+        yield lambda: three.busy
+        three.enable = False
+        yield lambda: not three.busy
+        three.enable, three.home = True, False
+        yield cycles(1)
         three.position_cmd = 100.0
         yield lambda: three.in_position
         assert one.busy and two.busy and not (one.homed or two.homed) and one.position_fb < 0
@@ -295,7 +313,9 @@ def test_homing_of_two_axes(hal: Run) -> None:
         yield lambda: two.busy and two.position_fb < 2900
         two.enable = False
         yield lambda: not two.busy
-        assert not two.homed and not two.fault and two.position_fb > 1000
+        assert not two.homed and not two.fault and (begin := two.position_fb) > 1000 and not three.homed
+        yield cycles(10)
+        assert two.position_fb == begin
         three.home, three.home_velocity = True, 500.0
         yield lambda: three.fault
         assert (three.fault_code, three.homed) == (7, False)
@@ -343,6 +363,63 @@ def test_group(part: str, hal: Run, devices: list[Any], monkeypatch: pytest.Monk
 
     words = ",address=1..2" if part == "pmc006" else ""
     hal(story, f"model:speed=max{words}", f"--part {part} | --axes 1,2")
+
+
+def test_group_waits(hal: Run) -> None:
+    """A group starts after the end of a motion of its members."""
+
+    def story(pins: Component) -> Iterator[Callable[[], object]]:
+        one, two = Axis(pins, 1), Axis(pins, 2)
+        one.enable = two.enable = two.arm = True
+        yield cycles(1)
+        one.position_cmd, two.position_cmd = 2000.0, 300.0
+        yield lambda: one.position_fb > 100
+        one.arm = True
+        one.position_cmd = 2100.0
+        pins["group-start"] = True
+        yield lambda: two.position_fb > 0
+        assert 2000 <= one.position_fb < 2100 and two.busy and not one.fault
+        yield lambda: pins["group-done"]
+        assert (one.position_fb, two.position_fb) == (2100, 300)
+
+    hal(story, "model:speed=max", "--part ppmc2104 |")
+
+
+def test_pmc006(hal: Run) -> None:
+    """EXT1 and EXT2 are the limits, `reset` clears their flags, and homing restores speeds if abandoned."""
+
+    def story(pins: Component) -> Iterator[Callable[[], object]]:
+        axis = Axis(pins, 1)
+        axis.enable, axis.velocity, axis.start_velocity, axis.acceleration = True, 1500.0, 700.0, 4000.0
+        yield cycles(1)
+        axis.position_cmd = 9000.0
+        yield lambda: axis.fault
+        assert (axis.fault_code, axis.limit_pos, axis.limit_neg) == (3, True, False)
+        axis.reset = True
+        yield lambda: not axis.fault
+        axis.home = True
+        yield lambda: axis.position_fb < 2500
+        axis.enable = axis.home = False
+        yield lambda: not axis.busy
+        axis.enable = True
+        yield cycles(1)
+        motor = devices[0].axis(1)
+        speeds = motor.max_speed, motor.start_speed, motor.stop_speed, motor.acceleration, motor.stops
+        assert speeds == (1500, 700, 700, 1, 3)
+        axis.position_cmd = 400.0
+        yield lambda: axis.in_position
+        axis.acceleration, axis.position_cmd = 1000.0, 500.0
+        yield lambda: axis.fault_code == 6
+
+    devices: list[Any] = []
+    connect = host.Pmc006Bus.open
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            host.Pmc006Bus,
+            "open",
+            lambda *words, **more: devices.append(connect(*words, **more)) or devices[0],
+        )
+        hal(story, "model:speed=max,address=1,low=0,high=3000,start=100", "--part pmc006 |")
 
 
 def test_group_of_64_axes(hal: Run, monkeypatch: pytest.MonkeyPatch) -> None:
