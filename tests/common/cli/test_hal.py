@@ -8,6 +8,7 @@ import re
 import signal
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from types import ModuleType
 from typing import Any
 
@@ -85,11 +86,12 @@ def devices(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Collect the devices that the command opens."""
     found: list[Any] = []
 
-    def open_part(*words: Any) -> Any:
-        found.append(host.open_part(*words))
+    def collect(connect: Any, *words: Any, **options: Any) -> Any:
+        found.append(connect(*words, **options))
         return found[-1]
 
-    monkeypatch.setattr(command, "open_part", open_part)
+    for owner, name in ((command, "open_part"), (host.Pmc006Bus, "open")):
+        monkeypatch.setattr(owner, name, partial(collect, getattr(owner, name)))
     return found
 
 
@@ -385,7 +387,7 @@ def test_group_waits(hal: Run) -> None:
     hal(story, "model:speed=max", "--part ppmc2104 |")
 
 
-def test_pmc006(hal: Run) -> None:
+def test_pmc006(hal: Run, devices: list[Any]) -> None:
     """EXT1 and EXT2 are the limits, `reset` clears their flags, and homing restores speeds if abandoned."""
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
@@ -397,6 +399,8 @@ def test_pmc006(hal: Run) -> None:
         assert (axis.fault_code, axis.limit_pos, axis.limit_neg) == (3, True, False)
         axis.reset = True
         yield lambda: not axis.fault
+        axis.position_cmd = 2800.0
+        yield lambda: axis.in_position
         axis.home = True
         yield lambda: axis.position_fb < 2500
         axis.enable = axis.home = False
@@ -411,15 +415,26 @@ def test_pmc006(hal: Run) -> None:
         axis.acceleration, axis.position_cmd = 1000.0, 500.0
         yield lambda: axis.fault_code == 6
 
-    devices: list[Any] = []
-    connect = host.Pmc006Bus.open
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            host.Pmc006Bus,
-            "open",
-            lambda *words, **more: devices.append(connect(*words, **more)) or devices[0],
-        )
-        hal(story, "model:speed=max,address=1,low=0,high=3000,start=100", "--part pmc006 |")
+    hal(story, "model:speed=max,address=1,low=0,high=3000,start=100", "--part pmc006 |")
+
+
+def test_group_start_fails(hal: Run, devices: list[Any]) -> None:
+    """If a station of a group rejects its start, those that have started are stopped."""
+
+    def story(pins: Component) -> Iterator[Callable[[], object]]:
+        one, two = Axis(pins, 1), Axis(pins, 2)
+        one.enable = two.enable = one.arm = two.arm = True
+        one.position_cmd = two.position_cmd = 9000.0
+        yield cycles(1)
+        devices[0].axis(2).free = 1
+        pins["group-start"] = True
+        yield lambda: one.fault and two.fault and not one.busy
+        assert (one.fault_code, two.fault_code, two.position_fb) == (8, 8, 0)
+        begin = one.position_fb
+        yield cycles(10)
+        assert one.position_fb == begin < 9000
+
+    hal(story, "model:speed=max,address=1..2", "--part pmc006 |")
 
 
 def test_group_of_64_axes(hal: Run, monkeypatch: pytest.MonkeyPatch) -> None:
