@@ -4,26 +4,24 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from types import FrameType
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import typer
 
 from ...errors import PpmcError
-from ...host import open_part
 from ...host.axis import CCW, CW, OnProgress
-from ...host.link import DEFAULT_BAUD
+from ...host.part import Device
 from ...host.stopping import name_of
 from ...linuxcnc import PERIOD, Controller, Machine, Reading
-from ...parts import part as row_of
 from . import output
-from .board import BOARD
 from .line_session import parse_numbers
 from .options import MOST_AXES, SetupValues, with_setup
 from .presenter import presenter_of
-from .session import Guard, Interrupted, setup_values
+from .session import Guard, Interrupted, note_mismatch, open_board, setup_values
 
 SHORTEST_RAMP = 4
 Name = Annotated[str, typer.Option(metavar="NAME", help="name of the component, as in loadusr -Wn")]
@@ -62,6 +60,19 @@ class RampDrive:
         return Reading(self.axis.position, inputs.limit_cw, inputs.limit_ccw)
 
 
+DeviceT = TypeVar("DeviceT", bound=Device)
+
+
+@contextmanager
+def closed_on_error(device: DeviceT) -> Iterator[DeviceT]:
+    """Close a device if the block, which examines it, fails, so that it can be opened again."""
+    try:
+        yield device
+    except BaseException:
+        device.close()
+        raise
+
+
 class HalGuard(Guard):
     """Guard for which repeated SIGTERMs are one: halcmd may send several during a deceleration."""
 
@@ -85,6 +96,10 @@ def serve(name: str, connect: Callable[[], Machine]) -> None:
 
     with HalGuard() as guard:
         machine = connect()
+        if not machine.drives:
+            raise PpmcError(
+                f"{machine.device.link.name}: no station replies; check power, baud rate and wires"
+            )
         component = hal.component(name)
         controller = Controller(component, hal, machine.drives, report, guard.check)
         component.ready()
@@ -125,16 +140,17 @@ def hal(typed: dict[str, Any], axes: Axes = None, name: Name = "openppmc") -> No
         numbers = parse_numbers("--axes", axes, range(1, MOST_AXES + 1), f"axes are 1 to {MOST_AXES}", "1-4")
 
     def connect() -> Machine:
-        part = open_part(
-            BOARD.spec, BOARD.baud or DEFAULT_BAUD, None if BOARD.part is None else row_of(BOARD.part).number
-        )
-        xtal_hz = part.link.identity.xtal_hz
-        drives = {
-            number: RampDrive(
-                part.axes[part.kind.check_axis(number) - 1], setup_values(typed, number), xtal_hz
-            )
-            for number in numbers or range(1, len(part.axes) + 1)
-        }
-        return Machine(part, drives, partial(presenter_of(part.kind).start_together, part))
+        nonlocal numbers
+        with closed_on_error(open_board()) as part:
+            note_mismatch(part)
+            numbers = numbers or list(range(1, len(part.axes) + 1))
+            xtal_hz = part.link.identity.xtal_hz
+            drives = {
+                number: RampDrive(
+                    part.axes[part.kind.check_axis(number) - 1], setup_values(typed, number), xtal_hz
+                )
+                for number in numbers
+            }
+            return Machine(part, drives, partial(presenter_of(part.kind).start_together, part))
 
     serve(name, connect)

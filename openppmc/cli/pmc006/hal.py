@@ -6,7 +6,7 @@ from ...host import BACKWARD, FORWARD, OutOfRange, Pmc006
 from ...host.axis import OnProgress
 from ...host.pmc006.settings import LEAST_ACCELERATION, mean_acceleration
 from ...linuxcnc import Machine, Reading
-from ..common.hal import Axes, Name, serve
+from ..common.hal import Axes, Name, closed_on_error, serve
 from .session import open_bus, parse_addresses
 
 HOME_PPS, SLOW_PPS = 1000, 200
@@ -67,9 +67,10 @@ def hal(axes: Axes = None, name: Name = "openppmc") -> None:
     numbers = None if axes is None else parse_addresses(axes)
 
     def connect() -> Machine:
-        bus = open_bus()
-        found = numbers or [one.address for one in bus.scan()]
-        bus.check(found)
-        return Machine(bus, {number: Pmc006Drive(bus.axis(number)) for number in found})
+        nonlocal numbers
+        with closed_on_error(open_bus()) as bus:
+            numbers = numbers or [one.address for one in bus.scan()]
+            bus.check(numbers)
+            return Machine(bus, {number: Pmc006Drive(bus.axis(number)) for number in numbers})
 
     serve(name, connect)

@@ -90,7 +90,7 @@ def devices(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
         found.append(connect(*words, **options))
         return found[-1]
 
-    for owner, name in ((command, "open_part"), (host.Pmc006Bus, "open")):
+    for owner, name in ((command, "open_board"), (host.Pmc006Bus, "open")):
         monkeypatch.setattr(owner, name, partial(collect, getattr(owner, name)))
     return found
 
@@ -459,6 +459,20 @@ def test_group_of_64_axes(hal: Run, monkeypatch: pytest.MonkeyPatch) -> None:
 
     hal(story, "model:speed=max,axes=64,clk=64000000", "--part bank | --ramp 100")
     assert groups == [{number: 10 * (number - 32) for number in range(1, 65) if number != 32}]
+
+
+@pytest.mark.parametrize(
+    ("part", "message"),
+    (("ppmc104", "axis 5: a PPMC-104 has one axis"), ("pmc006", "controller 5: no reply")),
+)
+def test_no_such_axis(
+    part: str, message: str, hal: Run, devices: list[Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An axis that does not exist is one line, and the port is closed, so that it can be opened again."""
+    with pytest.raises(AssertionError, match=message):
+        hal(lambda pins: iter(()), "model:speed=max", f"--part {part} | --axes 5")
+    with pytest.raises(host.Disconnected):
+        devices[0].link.port.read(0)
 
 
 def test_without_linuxcnc(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

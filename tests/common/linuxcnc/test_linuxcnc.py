@@ -131,9 +131,10 @@ def test_group_on_a_model(environment: dict[str, str], tmp_path: Path) -> None:
 
 
 def test_virtual_board(environment: dict[str, str], start_board: StartBoard, tmp_path: Path) -> None:
-    """On the RTL, an axis homes and moves; a lost board is a fault, and the pins stay."""
-    board = start_board()
-    hal = Session(environment, tmp_path / "board.log", f"-W openppmc --port {board.port} hal")
+    """On the RTL, an axis homes and moves. A lost board is a fault; `reset` opens the port again."""
+    board, port = start_board(), tmp_path / "port"
+    port.symlink_to(board.port)
+    hal = Session(environment, tmp_path / "board.log", f"-W openppmc --port {port} hal")
     hal.until("openppmc.1.position-fb", bool)
     for name, value in (("scale", 10), ("enable", 1), ("home", 1)):
         hal.set(f"openppmc.1.{name}", value)
@@ -148,7 +149,15 @@ def test_virtual_board(environment: dict[str, str], start_board: StartBoard, tmp
         name: hal.halcmd("getp", f"openppmc.1.{name}") for name in ("fault-code", "homed", "position-fb")
     }
     assert state == {"fault-code": "2", "homed": "FALSE", "position-fb": "123.4"}
-    assert "fault 2" in hal.close()
+    port.unlink()
+    port.symlink_to(start_board().port)
+    hal.set("openppmc.1.reset", 1)
+    hal.until("openppmc.1.fault", lambda value: value == "FALSE")
+    assert float(hal.halcmd("getp", "openppmc.1.position-fb")) == 0
+    hal.set("openppmc.1.position-cmd", 20)
+    hal.until("openppmc.1.in-position", true)
+    text = hal.close()
+    assert text.count("fault 2") == 1 and "SIGTERM: nothing was moving, position 200" in text
 
 
 def test_mdi(environment: dict[str, str], tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from ....host import PpmcError, Station312
 from ....linuxcnc import Machine
 from ...common import output, show
 from ...common.board import BOARD
-from ...common.hal import Axes, Name, RampDrive, serve
+from ...common.hal import Axes, Name, RampDrive, closed_on_error, serve
 from ...common.line_session import ending_after
 from ...common.options import Direction, Json, check_seconds, with_setup
 from ...common.session import setup_values, store_setup, stores_setup
@@ -211,14 +211,19 @@ def hal(typed: dict[str, Any], axes: Axes = None, name: Name = "openppmc") -> No
     numbers = None if axes is None else parse_stations(axes)
 
     def connect() -> Machine:
-        bus = open_bus()
-        found = numbers or [one.station for one in bus.scan()]
-        bus.check(found)
-        xtal_hz = bus.line.identity.xtal_hz
-        return Machine(
-            bus,
-            {number: RampDrive(bus.axis(number), setup_values(typed, number), xtal_hz) for number in found},
-        )
+        nonlocal numbers
+        with closed_on_error(open_bus()) as bus:
+            numbers = numbers or [one.station for one in bus.scan()]
+            bus.check(numbers)
+            xtal_hz = bus.line.identity.xtal_hz
+            stations = {number: bus.axis(number) for number in numbers}
+            return Machine(
+                bus,
+                {
+                    number: RampDrive(axis, setup_values(typed, number), xtal_hz)
+                    for number, axis in stations.items()
+                },
+            )
 
     serve(name, connect)
 
