@@ -53,6 +53,8 @@ class RampDrive:
 
     def clear(self) -> None:
         self._applied = None
+        if hasattr(self.axis, "clear_alarm") and self.axis.status().in_alarm:
+            self.axis.clear_alarm()
 
     def read(self) -> Reading:
         """Read position and limits."""

@@ -223,6 +223,31 @@ def test_faults(words: str, position: float, code: int, positive: bool, homed: b
     assert error.startswith(f"openppmc: axis 1: fault {code}: ")
 
 
+def test_alarm_state(hal: Run, devices: list[Any]) -> None:
+    """A PPMC-312 keeps its alarm state after the alarm; `reset` ends it."""
+
+    def story(pins: Component) -> Iterator[Callable[[], object]]:
+        axis = Axis(pins, 1)
+        axis.enable = True
+        yield cycles(1)
+        axis.position_cmd = 9000.0
+        yield lambda: axis.position_fb > 100
+        devices[0].link.port.board.set_pins(alm_n=0)
+        yield lambda: axis.fault
+        assert (axis.fault_code, axis.homed, axis.in_position) == (4, False, False)
+        axis.reset = True
+        yield lambda: axis.fault_code == 8
+        devices[0].link.port.board.set_pins(alm_n=1)
+        axis.reset = False
+        yield cycles(1)
+        axis.reset = True
+        yield lambda: not axis.fault
+        axis.position_cmd = 1000.0
+        yield lambda: axis.in_position
+
+    hal(story, "model:speed=max", "--part ppmc312 |")
+
+
 def test_parameters(hal: Run, devices: list[Any]) -> None:
     """Velocities and accelerations in units are those of the set-up; an impossible one is a fault."""
 
