@@ -68,6 +68,8 @@ test WITH=campaign | campaign | Test the campaign runner.
     {pytest} tests/*/campaign [-k {T/or}]
 test WITH=ophyd | ophyd | Test openppmc.ophyd with bluesky.
     {pytest} tests/*/lab -n {J:2} [-k {T/or}]
+test WITH=linuxcnc | sim | Test openppmc hal in LinuxCNC, if it is installed.
+    {pytest} tests/*/linuxcnc -n 0 [-k {T/or}]
 test WITH=litex | litex dev | Test openppmc.litex; needs riscv64-unknown-elf-gcc.
     {pytest} tests/*/litex [-k {T/or}]
 test WITH=fusesoc | dev | Build the bitstream of a board with FuseSoC and edalize.
@@ -161,7 +163,7 @@ SEED | 0..4294967295 | (first) random seed; for bitstream: of place and route
 COUNT | 1..1000000000 | number of seeds, characters, or mutants of a folder
 CLK_HZ | 8000000..200000000 | only tests with this clock rate
 J | 1..64 | number of workers
-WITH | campaign ophyd litex fusesoc versions | tests that need other packages
+WITH | campaign ophyd linuxcnc litex fusesoc versions | tests that need other packages
 WAVES | 0..1 | 1: keep the waveforms of passing tests
 PROBE | 0..1 | 1: make internal signals visible to tests, and record them in the waveforms
 MODEL | 0..1 | 1: run directed tests on the golden model

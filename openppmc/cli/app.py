@@ -54,6 +54,11 @@ class Commands(PartGroup):
             "Compare every pin edge of a board with the golden model. Writes a page for an issue.",
         ),
         Command(
+            "hal",
+            "common.hal:hal",
+            "Serve axes as a component of LinuxCNC's HAL, loaded by loadusr -W.",
+        ),
+        Command(
             "decode",
             "common.decode:decode_capture",
             "Decode a capture of an old chip: bytes, moves, comparison with the golden model.",
@@ -83,6 +88,7 @@ class Commands(PartGroup):
         Command("jog", "ppmc312.line.commands:jog", parts=(SERIAL,)),
         Command("home", "ppmc312.line.commands:home", parts=(SERIAL,)),
         Command("stop", "ppmc312.line.commands:stop", parts=(SERIAL,)),
+        Command("hal", "ppmc312.line.commands:hal", parts=(SERIAL,)),
         Command("info", "ppmc312.line.status_commands:info", parts=(SERIAL,)),
         Command("monitor", "ppmc312.line.status_commands:monitor", parts=(SERIAL,)),
         Command("script", "ppmc312.line.script:script", parts=(SERIAL,)),
@@ -97,6 +103,7 @@ class Commands(PartGroup):
         ),
         Command("stop", "pmc006.moves:stop", parts=(PMC,)),
         Command("home", "pmc006.moves:home", parts=(PMC,)),
+        Command("hal", "pmc006.hal:hal", parts=(PMC,)),
         Command("scan", "pmc006.moves:scan", parts=(PMC,)),
         Command("info", "pmc006.moves:info", parts=(PMC,)),
         Command("status", "pmc006.moves:status", parts=(PMC,)),

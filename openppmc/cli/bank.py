@@ -7,6 +7,7 @@ from typing import Any
 
 from ..host import MotionResult, NothingToStop, PpmcBank
 from ..host.axis import OnProgress
+from ..host.motion import AnyMotion
 from ..host.part import AnyAxis
 from .common.presenter import RampPresenter
 
@@ -44,6 +45,9 @@ class BankPresenter(RampPresenter[PpmcBank]):
         pulse_only: bool = False,
     ) -> Sequence[MotionResult]:
         return list(part.move_together(pulses, pps, progress, pulse_only).values())
+
+    def start_together(self, part: PpmcBank, pulses: Mapping[int, int]) -> Mapping[int, AnyMotion]:
+        return part.start_moves(pulses)
 
     def halt_all(self, part: PpmcBank) -> list[MotionResult]:
         ends = part.stop_all()

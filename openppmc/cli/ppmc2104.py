@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ..host import MotionResult, Ppmc2104
 from ..host.axis import OnProgress
+from ..host.motion import AnyMotion
 from ..host.ppmc2104.registers import Status
 from .common.presenter import RampPresenter
 
@@ -25,6 +26,9 @@ class PartPresenter(RampPresenter[Ppmc2104]):
         pulse_only: bool = False,
     ) -> Sequence[MotionResult]:
         return part.move_together(pulses[1], pulses[2], pps, pps, progress, pulse_only)
+
+    def start_together(self, part: Ppmc2104, pulses: Mapping[int, int]) -> Mapping[int, AnyMotion]:
+        return dict(zip((1, 2), part.start_moves(pulses[1], pulses[2]), strict=True))
 
 
 PRESENTER = PartPresenter()

@@ -2,7 +2,7 @@
 
 yosys' `read_verilog` and Verilator read each file before it is stored. Without TOP, the boards are written
 into a separate folder with a FuseSoC core that builds them (D-89). TOP=<part>_axil writes an IP-XACT package
-of a part with an AXI4-Lite bridge into ip/ (D-130).
+of a part with an AXI4-Lite bridge into ip/ (D-126).
 """
 
 from __future__ import annotations

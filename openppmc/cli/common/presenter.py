@@ -22,6 +22,7 @@ from ...host.axis import OnProgress
 from ...host.capabilities import Capabilities
 from ...host.errors import OutOfRange
 from ...host.link import Link
+from ...host.motion import AnyMotion
 from ...host.part import AnyAxis
 from ...model.motion.codes import ENDLESS
 from ...model.motion.ramp import profile_index
@@ -251,6 +252,14 @@ class Presenter(ABC, Generic[PartT, SetupT]):
 
         Args:
             pulses: pulses of each axis, by its number.
+        """
+        raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
+
+    def start_together(self, part: PartT, pulses: Mapping[int, int]) -> Mapping[int, AnyMotion]:
+        """Start moves of several axes with ramps in the same cycle, and return the motions.
+
+        Args:
+            pulses: by axis number.
         """
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
 

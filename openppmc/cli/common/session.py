@@ -292,20 +292,26 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
     return SetupValues().merged(load_setup(BOARD.port, axis)).merged(typed)
 
 
+def open_board() -> Part:
+    """Open the board."""
+    number = None if BOARD.part is None else parts.part(BOARD.part).number
+    return open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number)
+
+
+def note_mismatch(part: Part) -> None:
+    """Print a note if bitstream and package do not match."""
+    if line := mismatch(part.link.build(), part.link.identity.part):
+        output.note(f"note: {line}")
+
+
 @contextmanager
 def opened() -> Iterator[Session]:
     """Open the board; a signal n stops the motors, and the exit status is 128 + n.
 
     The motors are also stopped if stdout is lost.
     """
-    number = None if BOARD.part is None else parts.part(BOARD.part).number
-    with (
-        open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part,
-        Guard() as guard,
-        guard.stop_motors_on_exit(part),
-    ):
-        if line := mismatch(part.link.build(), part.link.identity.part):
-            output.note(f"note: {line}")
+    with open_board() as part, Guard() as guard, guard.stop_motors_on_exit(part):
+        note_mismatch(part)
         yield Session(part, guard)
 
 

@@ -81,13 +81,18 @@ class Session:
         self.guard.count_bar("words of the program", done, of)
 
 
-@contextmanager
-def opened() -> Iterator[Session]:
-    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
+def open_bus() -> Pmc006Bus:
+    """Open the line."""
     options = line_options(BOARD.line, LINE_WORDS)
     if BOARD.baud is not None:
         options["baud"] = BOARD.baud
-    with guarded(lambda: Pmc006Bus.open(BOARD.port, **options)) as (bus, guard):
+    return Pmc006Bus.open(BOARD.port, **options)
+
+
+@contextmanager
+def opened() -> Iterator[Session]:
+    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
+    with guarded(open_bus) as (bus, guard):
         yield Session(bus, guard)
 
 

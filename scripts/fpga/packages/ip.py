@@ -1,4 +1,4 @@
-"""IP-XACT packages: a part with an AXI4-Lite bridge as plain Verilog, for a vendor's IP catalogue (D-130).
+"""IP-XACT packages: a part with an AXI4-Lite bridge as plain Verilog, for a vendor's IP catalogue (D-126).
 
 A package is a folder with plain Verilog and two descriptions: component.xml in the version that Vivado
 reads, IEEE 1685-2009, and component_2014.xml, IEEE 1685-2014.

@@ -1,4 +1,4 @@
-"""Constants and tables from packages/registers/*.rdl for C, Python and the manuals (D-130)."""
+"""Constants and tables from packages/registers/*.rdl for C, Python and the manuals (D-126)."""
 
 from __future__ import annotations
 

@@ -10,7 +10,11 @@ from openppmc.cli.app import Commands
 from tests.common.capture import sessions
 from tests.common.capture.analyser import probe, write_saleae
 
-REJECTED = {"stop": 1, "table": 1, "selftest": 1}
+REJECTED = {
+    **{"stop": 1, "table": 1, "selftest": 1},
+    # The tests have no LinuxCNC.
+    **{"hal": 1, "ppmc312-serial hal": 1, "pmc006 hal": 1},
+}
 """Commands that an idle model rejects, with their exit status; they print nothing to stdout."""
 # Device ("" for those accessed through the bridge) -> command -> arguments. A word in braces is a key of the
 # result of `files`.
@@ -29,6 +33,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "table": "",
         "script": "{script}",
         "selftest": "--yes",
+        "hal": "",
         "decode": "{ppmc104} --part ppmc104 --compare --timing FAST",
     },
     "ppmc312-serial": {
@@ -41,6 +46,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "jog": "cw --axis 1 --seconds 0.1",
         "home": "--axis 1 --search 4000",
         "stop": "--axis 1",
+        "hal": "--axes 1",
         "info": "",
         "monitor": "--axis 1 --count 2",
         "script": "{stations}",
@@ -54,6 +60,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "speed": "800",
         "stop": "",
         "home": "--speed 3000 --slow 1000",
+        "hal": "",
         "scan": "",
         "info": "",
         "status": "",

@@ -47,7 +47,7 @@ WRONG = {
     "test CLK_HZ=16e6": "CLK_HZ=16e6: expected a whole number from 8000000 to 200000000",
     "test J=65": "J=65: expected a whole number from 1 to 64",
     "test J=²": "J=²: expected a whole number from 1 to 64",
-    "test WITH=lab": "WITH=lab: expected campaign or ophyd or litex or fusesoc or versions",
+    "test WITH=lab": "WITH=lab: expected campaign or ophyd or linuxcnc or litex or fusesoc or versions",
     "test WAVES=yes": "WAVES=yes: expected a whole number from 0 to 1",
     "test PROBE=2": "PROBE=2: expected a whole number from 0 to 1",
     "test MODEL=": "MODEL=: expected a whole number from 0 to 1",

@@ -1,4 +1,4 @@
-"""IP-XACT packages: valid by the schema, and with ports and registers of part and bridge (D-130)."""
+"""IP-XACT packages: valid by the schema, and with ports and registers of part and bridge (D-126)."""
 
 from __future__ import annotations
 

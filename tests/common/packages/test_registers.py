@@ -1,4 +1,4 @@
-"""Registers in SystemRDL: generated files are fresh, and RTL and pictures have the same numbers (D-130)."""
+"""Registers in SystemRDL: generated files are fresh, and RTL and pictures have the same numbers (D-126)."""
 
 from __future__ import annotations
 

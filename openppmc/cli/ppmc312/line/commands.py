@@ -7,14 +7,16 @@ from typing import Annotated, Any
 import typer
 
 from ....host import PpmcError, Station312
+from ....linuxcnc import Machine
 from ...common import output, show
 from ...common.board import BOARD
+from ...common.hal import Axes, Name, RampDrive, closed_on_error, serve
 from ...common.line_session import ending_after
 from ...common.options import Direction, Json, check_seconds, with_setup
 from ...common.session import setup_values, store_setup, stores_setup
 from ..presenter import PRESENTER
 from . import show as show_line
-from .session import Session, opened
+from .session import Session, open_bus, opened, parse_stations
 
 Axis = Annotated[
     str, typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3, 0,2,5 or 0-7")
@@ -201,6 +203,29 @@ def home(
             one.home(direction.code, search, fast, to_limit, progress=session.guard.progress, index=index)
             session.guard.bar_off()
             output.print_line(f"station {one.number}: position {one.position}: origin found")
+
+
+@with_setup
+def hal(typed: dict[str, Any], axes: Axes = None, name: Name = "openppmc") -> None:
+    """Serve axes as a component of LinuxCNC's HAL, loaded by loadusr -W."""
+    numbers = None if axes is None else parse_stations(axes)
+
+    def connect() -> Machine:
+        nonlocal numbers
+        with closed_on_error(open_bus()) as bus:
+            numbers = numbers or [one.station for one in bus.scan()]
+            bus.check(numbers)
+            xtal_hz = bus.line.identity.xtal_hz
+            stations = {number: bus.axis(number) for number in numbers}
+            return Machine(
+                bus,
+                {
+                    number: RampDrive(axis, setup_values(typed, number), xtal_hz)
+                    for number, axis in stations.items()
+                },
+            )
+
+    serve(name, connect)
 
 
 def stop(

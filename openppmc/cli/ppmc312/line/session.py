@@ -57,11 +57,16 @@ class Session:
         self.guard.count_bar("looking for stations", number, STATIONS)
 
 
-@contextmanager
-def opened() -> Iterator[Session]:
-    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
+def open_bus() -> Ppmc312Bus:
+    """Open the line."""
     options = line_options(BOARD.line)
     if BOARD.baud is not None:
         options["speed"] = BOARD.baud
-    with guarded(lambda: Ppmc312Bus.open(BOARD.port, **options)) as (bus, guard):
+    return Ppmc312Bus.open(BOARD.port, **options)
+
+
+@contextmanager
+def opened() -> Iterator[Session]:
+    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
+    with guarded(open_bus) as (bus, guard):
         yield Session(bus, guard)

@@ -1,0 +1,1 @@
+"""`openppmc hal` in LinuxCNC itself, `make test WITH=linuxcnc`."""
