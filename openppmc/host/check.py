@@ -36,14 +36,14 @@ def exact(value: Any, what: str) -> Fraction:
     """Return a finite real number of any type as a fraction.
 
     Raises:
-        OutOfRange: the value is no finite number; also for text, bool and `None`.
+        OutOfRange: the value is not a finite number; also for text, bool and `None`.
     """
     try:
         if not isinstance(value, bool):
             top, bottom = (value, 1) if _is_index(value) else value.as_integer_ratio()
             return Fraction(int(top), int(bottom))
     except (AttributeError, TypeError, ValueError, OverflowError):
-        pass  # text, `None`, a list; nan; infinite
+        pass  # text, `None`, a list, nan, or an infinite value
     raise OutOfRange(f"{what} {value!r} is not a number")
 
 
@@ -51,7 +51,7 @@ def whole(value: Any, what: str) -> int:
     """Return an integer of any type, also a float without a fraction.
 
     Raises:
-        OutOfRange: the value is no whole number; also for text, bool and `None`.
+        OutOfRange: the value is not a whole number; also for text, bool and `None`.
     """
     if type(value) is int:
         return value

@@ -42,7 +42,7 @@ class LinkError(PpmcError):
 class PortError(LinkError):
     """The port cannot be opened.
 
-    It does not exist, is in use, is not permitted, or is no serial port.
+    It does not exist, is in use, is not permitted, or is not a serial port.
     """
 
 

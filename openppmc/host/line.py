@@ -315,7 +315,7 @@ class Master(Generic[Answer]):
                     return MissingReply(fault, bytes(received) + data[place + 1 :] + self._read_until_idle())
 
     def _missing_reply(self, listener: ReplyReceiver[Answer], received: bytes) -> MissingReply:
-        """Return the MissingReply after no bytes, or after bytes that do not belong to a reply."""
+        """Return the MissingReply: no byte was received, or only bytes that belong to no reply."""
         return MissingReply(Fault.NOISE if received else None, received)
 
     def _read_until_idle(self) -> bytes:

@@ -25,13 +25,13 @@ if TYPE_CHECKING:
 class ModelLine:
     """Line that needs no hardware.
 
-    Attributes:
-        text: options of the virtual line of the part.
+    Args:
+        text: options of the virtual line (the text after `model:`).
         baud: line rate in bit/s.
-        part: part of the stations.
+        part: name of the device in each station.
 
     Raises:
-        PortError: text is invalid.
+        PortError: `text` is invalid.
     """
 
     def __init__(self, text: str, baud: int, part: str) -> None:

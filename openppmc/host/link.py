@@ -51,12 +51,12 @@ class LinkProtocol(Protocol):
 
 
 class Link:
-    """Open link to a bridge, at the selected line rate. A context manager.
+    """Connection to a bridge at the selected line rate, which is a context manager.
 
     Attributes:
         spec: device path, `sim:…` or `model:…`.
-        baud: line rate, one of those of the bridge (115200 to 3000000). If board or adapter does not support
-            it, the link works at 115200.
+        baud: one of the line rates of the bridge (115200 to 3000000). If board or adapter does not support
+            this rate, the link works at 115200.
         part: number that the part must have, `None` for any.
 
     Raises:

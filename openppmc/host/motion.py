@@ -323,7 +323,7 @@ class Homing:
         """Find the switch and set the position to 0 at its edge.
 
         First approach the switch at high speed if requested. If the switch is active then, move away from it.
-        At last search its edge.
+        Finally, search for the edge of the switch.
         """
         if (fast or to_limit) and not self._axis.inputs().origin:
             self._approach(to_limit)

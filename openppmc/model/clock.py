@@ -48,7 +48,7 @@ class Latency:
         lookup_start, lookup_per_rate: the core looks up the rate of an interval that is slower than the
             previous one while the previous interval runs. The look-up takes lookup_start, plus
             lookup_per_rate for each rate. The mailbox opens when the look-up has passed the limit.
-        lookup_first: look-up for the first such interval, whose rate is already known.
+        lookup_first: length of the look-up for the first such interval, whose rate is already known.
     """
 
     c_event: int = 2

@@ -70,7 +70,7 @@ DEFAULT_QUANTA = (260, 435)
 
 
 class ChopperTimes:
-    """Chopper times: the defaults until the first 0x84, then its two values.
+    """Chopper times: the defaults until the first command 0x84, then the two values of the command.
 
     They are longer if vsel is low.
     """
@@ -80,7 +80,10 @@ class ChopperTimes:
         self._parameters: tuple[int, int] | None = None
 
     def set(self, p_on: int, p_off: int) -> None:
-        """Execute 0x84. Both values, 0..255, are used from the next phase boundary on (P104-AUX-03)."""
+        """Execute command 0x84.
+
+        Both values, 0..255, are used from the next phase boundary on (P104-AUX-03).
+        """
         self._parameters = (p_on, p_off)
 
     def quanta(self, on: bool) -> int:

@@ -232,7 +232,7 @@ def flags(chip: Any) -> Levels:
 
 @dataclass(frozen=True)
 class BlockStart(Start):
-    """The model at the beginning of a diagram; it adds the action block, whose header ends at the edge."""
+    """The model at the beginning of a diagram, with the action `block`, whose header ends at its edge."""
 
     def action(self, edge: int, what: str, *values: Any) -> Schedule:
         """Return the pin changes of an action, whose registers may be given by name."""

@@ -62,8 +62,8 @@ def accesses(
         whole = np.flatnonzero(turned[:-1] & 3)
         begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1 == 1
         # Sample the bus while the strobe is still active. Wires that change together may differ by one
-        # sample. Therefore, use the value before the last sample of the strobe, or the value in its middle if
-        # that is later.
+        # sample. Therefore, use the value just before the last sample of the strobe. If the middle of the
+        # strobe is later, use the value in the middle.
         seen = np.maximum((begin + end) // 2, end - wires.sample - 1)
         place = where.at_all(seen) if where else seen & 0
         byte = np.where(write, data[True].at_all(seen), data[False].at_all(seen))

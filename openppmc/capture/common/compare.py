@@ -268,7 +268,7 @@ def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]
 
 
 class _Outputs:
-    """Outputs of a model in columns. Fetching them clears the list of edges in the model."""
+    """Outputs of a model in columns. `take` moves edges from the list of the model to these columns."""
 
     def __init__(self, model: Any, decoder: PartDecoder, lead: int, stamp: Callable[[int], int]) -> None:
         self.model, self.decoder, self.lead, self.stamp = model, decoder, lead, stamp

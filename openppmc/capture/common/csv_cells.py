@@ -32,7 +32,7 @@ _SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
 
 
 def text_of(data: bytes) -> str:
-    """Return text in UTF-8, or in Latin-1 if it is no UTF-8."""
+    """Return text in UTF-8, or in Latin-1 if it is not UTF-8."""
     try:
         return data.decode()
     except UnicodeDecodeError:

@@ -1,4 +1,4 @@
-"""Rows of a capture in CSV. The usual lines of a block are read together, all others one by one."""
+"""Rows of a CSV capture: regular rows are converted in blocks, irregular rows one by one."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ class Move:
 
 
 def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
-    """Return groups of pulses; each group has one direction and no pause (in ps)."""
+    """Return groups of consecutive pulses in one direction, with no gap longer than `pause` ps."""
     np = numpy()
     times = train.times
     if not len(times):
@@ -118,7 +118,7 @@ def phase_train(wires: Wires, axis: int, port: str) -> PulseTrain | None:
     """Return the steps of an axis whose phases were all captured.
 
     Wires change one after the other within a few samples, so the levels 1 µs after a change are the pattern.
-    All phases off or all on is not a step, but the chopper.
+    A pattern with all phases off or all on is not a step; the chopper causes it.
     """
     phases = wires.ports.get(port)
     if phases is None:

@@ -40,7 +40,7 @@ def rate_in(line: str) -> Fraction | None:
 def hertz(text: str) -> Fraction | None:
     """Return the rate in Hz of `24 MHz`, `24000000` or `1.5k`.
 
-    The result is `None` if the text is no rate from 1 mHz to 1 THz.
+    The result is `None` if the text is not a rate from 1 mHz to 1 THz.
     """
     match = re.fullmatch(rf"\s*{_NUMBER}", text, re.I)
     if match is None:

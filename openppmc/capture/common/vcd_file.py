@@ -422,8 +422,7 @@ class _Body:
     def _pairs(self, first: Any, size: Any) -> Any:
         """Return a mask of the tokens after which the code of the variable is a separate token.
 
-        These tokens are vectors, real numbers, texts, and levels that are not directly followed by
-        the code.
+        These tokens are vectors, real numbers, texts, and levels that are separated from the code.
         """
         np = self.np
         pair = np.isin(first, np.frombuffer(b"bBrR", np.uint8)) & (size > 1)
@@ -432,7 +431,8 @@ class _Body:
         pair |= (self.level[first] != 255) & (size == 1)
         if not pair.any():
             return pair
-        # A code may look like a value. In a sequence of such tokens, every second token is a code.
+        # An identifier code after a value may itself look like a value; in a run of such words, every second
+        # one is a code.
         which = np.flatnonzero(pair)
         begins = np.concatenate(([True], np.diff(which) > 1))
         origin = np.maximum.accumulate(np.where(begins, np.arange(len(which)), 0))

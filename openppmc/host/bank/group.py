@@ -56,7 +56,7 @@ def numbers_of(kind: RateCapabilities, axes: Iterable[int]) -> tuple[int, ...]:
 def write_mask(kind: RateCapabilities, numbers: tuple[int, ...]) -> list[tuple[int, Script]]:
     """Return the scripts that write MASK.
 
-    Byte k is written at axis k + 1. Every bank with this number of MASK bytes has this axis.
+    Byte k is written at axis k + 1. This axis exists in every bank that has a MASK byte k.
     """
     raw = bit_bytes(numbers, kind.axes)
     return [(k + 1, Script().write(MASK, byte)) for k, byte in enumerate(raw)]
@@ -145,7 +145,7 @@ class Group(Checked):
         return motion.over and not (motion.result and motion.result.complete)
 
     def _cancel(self) -> None:
-        """Cancel all motions of this group. Before the group, all its axes were stopped."""
+        """Cancel all motions of this group, whose axes were all stopped when the group was opened."""
         link, kind = self._bank.link, self._bank.kind
         try:
             for number in self.numbers:

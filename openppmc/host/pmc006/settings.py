@@ -104,7 +104,10 @@ class Setting:
             node.unsaved[self.name] = value
 
     def _plausible(self, data: int) -> bool:
-        """Return True if a reply can have this value: a value of the setting, or a word that contains one."""
+        """Return True if a reply can have this value.
+
+        The value is that of the setting, or a word with the setting in some of its bits.
+        """
         return data == 0 or (data in self.accepts if self.word == 32 else 0 < data < 1 << self.word)
 
     def data(self, value: int) -> int:

@@ -22,16 +22,16 @@ from .errors import command_error
 
 @dataclass(frozen=True)
 class Status:
-    """Response to 4D.
+    """Response to instruction 4D: state, monitors and registered instructions.
 
     Attributes:
-        raw: its condition byte.
+        raw: condition byte of the response.
         run_monitored: starts wait for RUN.
         interlock: True if the interlock control is active.
         encoder_watched, position_watched: True if this monitor is on.
         encoder_outside, position_outside: True if this monitor reports a deviation.
         overrides: number of registered overrides, 0 to 8.
-        override_events: event inputs (1, 2) for which at least one of them waits.
+        override_events: event inputs (1, 2) for which at least one override waits.
         events: numbers (1, 2) of the event buffers that are not empty.
     """
 
@@ -104,7 +104,7 @@ class Inputs:
 
     @classmethod
     def parse(cls, data: bytes) -> Inputs:
-        """Decode the two bytes of the response to 27, which contain pin levels.
+        """Decode the two bytes of the response to instruction 27, which contain pin levels.
 
         >>> Inputs.parse(bytes.fromhex("FD E0")).active
         ['limit cw', 'run']
@@ -133,7 +133,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class EventBuffer:
-    """Response to 47.
+    """Response to instruction 47: content of an event buffer.
 
     Attributes:
         following: number of the instruction that the next event executes, 0 to 3.
@@ -166,7 +166,7 @@ def signed(position: int) -> int:
 
 @dataclass(frozen=True)
 class Stopped:
-    """E0: the motion has ended.
+    """Report E0: the motion has ended.
 
     Attributes:
         position: signed position in pulses.
@@ -178,31 +178,31 @@ class Stopped:
 
 @dataclass(frozen=True)
 class InterlockEnded:
-    """E1: the interlock position was reached."""
+    """Report E1: the interlock position was reached."""
 
 
 @dataclass(frozen=True)
 class HoldExecuted:
-    """E2: a start that waited for RUN has begun."""
+    """Report E2: a start that waited for RUN has begun."""
 
 
 @dataclass(frozen=True)
 class EncoderChange:
-    """E3: the encoder has left the permitted range (outside is True) or has returned to it."""
+    """Report E3: the encoder has left the permitted range (outside is True) or has returned to it."""
 
     outside: bool
 
 
 @dataclass(frozen=True)
 class InPositionChange:
-    """E4: the deviation has left the in-position range (outside is True) or has returned to it."""
+    """Report E4: the deviation has left the in-position range (outside is True) or has returned to it."""
 
     outside: bool
 
 
 @dataclass(frozen=True)
 class InputChange:
-    """E9: inputs that have changed.
+    """Report E9: inputs that have changed.
 
     Attributes:
         lost: True if an earlier change could not be reported.
@@ -214,7 +214,7 @@ class InputChange:
 
 @dataclass(frozen=True)
 class Alarm:
-    """F4: alarm. 0 = alarm input, 1 to 3 = a report was not read in time."""
+    """Report F4: alarm. Status 0: alarm input; status 1 to 3: a report was not read in time."""
 
     status: int
 
@@ -232,7 +232,7 @@ class Executed:
 
     Attributes:
         code: code of the instruction, `None` in serial mode, where it is not reported.
-        data: data of its response.
+        data: data of the response to this instruction.
     """
 
     by: Source
@@ -244,7 +244,7 @@ class Executed:
 class Failed:
     """An override or an event did not execute its instruction.
 
-    The response is F8, F9, or an error with the header of an event.
+    The report is response F8 or F9, or an error response with the header of an event.
     """
 
     by: Source

@@ -153,7 +153,7 @@ def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = F
 
 
 def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
-    """Return instruction 03: report as for instruction 02, but also during motions.
+    """Return instruction 03: report as instruction 02 does, but also while the motor is moving.
 
     >>> encoder_watch(True, 20).hex(" ")
     '03 04 03 03 00 14'

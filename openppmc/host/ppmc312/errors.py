@@ -17,7 +17,7 @@ from ..errors import AxisBusy, CommandRefused, NothingToStop, NotInitialised, St
 
 
 class ParameterRefused(CommandRefused):
-    """F0: the part does not accept a value.
+    """Error F0: the part does not accept a value.
 
     Attributes:
         number: error number of the value.
@@ -28,55 +28,55 @@ class ParameterRefused(CommandRefused):
 
 
 class RateRefused(ParameterRefused):
-    """F0 01, 20: a rate is out of range."""
+    """Errors F0 01 and F0 20: a rate is out of range."""
 
 
 class TableRefused(ParameterRefused):
-    """F0 02 to 05: the speeds are too close or in the wrong order, or the ramp has too few pulses."""
+    """Errors F0 02 to 05: the speeds are too close or in the wrong order, or the ramp has too few pulses."""
 
 
 class CurveRefused(ParameterRefused):
-    """F0 10 to 1A: a free curve is invalid. The part has no table afterwards."""
+    """Errors F0 10 to 1A: a free curve is invalid. The part has no table afterwards."""
 
 
 class UnexpectedInstruction(CommandRefused):
-    """F1 01, 02: a data block outside a free curve, or an instruction within a free curve."""
+    """Errors F1 01 and F1 02: a data block outside a free curve, or an instruction within a free curve."""
 
     text = "the part did not expect this block: another program may be using it; send the command again"
 
 
 class InAlarm(CommandRefused):
-    """F1 in state ABN: the part is in alarm."""
+    """Error F1 in state ABN: the part is in alarm."""
 
     text = "the part is in alarm: remove the cause, then clear the alarm (or reset)"
 
 
 class HeldByRun(CommandRefused):
-    """F1 in state WRN: a start waits for RUN."""
+    """Error F1 in state WRN: a start waits for RUN."""
 
     text = "a start waits for RUN: activate RUN, switch its monitor off, or reset the part"
 
 
 class InvalidBlockLength(CommandRefused):
-    """F6: the length byte does not match the block."""
+    """Error F6: the length byte does not match the block."""
 
     text = "the part could not make sense of the block (its length): send the command again"
 
 
 class RegistrationRefused(CommandRefused):
-    """F7: an override could not be registered."""
+    """Error F7: an override could not be registered."""
 
 
 class OverrideFailed(CommandRefused):
-    """F9: a registered override was not executed. All other overrides are discarded."""
+    """Report F9: a registered override was not executed. All other overrides are discarded."""
 
 
 class EventFailed(CommandRefused):
-    """F8: an instruction of an event buffer was not executed. The buffer is now empty."""
+    """Report F8: an instruction of an event buffer was not executed. The buffer is now empty."""
 
 
 class AlarmRaised(CommandRefused):
-    """F4: the part stopped the pulses and entered the alarm state."""
+    """Report F4: the part stopped the pulses and entered the alarm state."""
 
 
 _PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {

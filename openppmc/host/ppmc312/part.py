@@ -309,7 +309,7 @@ class Axis(Overrides[MotionT]):
         return motion.wait() if wait else None
 
     def _start(self, block: bytes, direction: int, requested: int | None = None) -> MotionT:
-        """Start a motion. One message may contain both the response and the report of its end."""
+        """Start a motion. One message may contain both the response and the report of the end."""
         before, begin = self._motion, self.position
         self._mark = self.window.answers
         self._motion = motion = self._make_motion(requested, direction, begin)

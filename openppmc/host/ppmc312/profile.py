@@ -120,7 +120,7 @@ def plan_stages(
 
 
 def _side(values: Sequence[int | None], name: str) -> list[int]:
-    """Return the pulses from the first stage on that has pulses."""
+    """Return the pulses of the stages, beginning with the first stage that has pulses."""
     given = [place for place, pulses in enumerate(values) if pulses is not None]
     if not given:
         return []

@@ -36,7 +36,8 @@ def speed_mode(context: ExecutionContext, data: int) -> Effect:
     if data != 1 or context.speed_on:
         return answer
     if context.motion.busy:
-        # A move rejects N = 1. In a free run that is decelerating after N = 0, N = 1 resumes the run.
+        # Instruction N with data 1 is rejected during a move. During a free run that decelerates after N
+        # with data 0, it resumes the run.
         return (
             answer._replace(early_action=lambda context, t: context.speed(t, True))
             if context.running
@@ -55,7 +56,7 @@ def freerun(context: ExecutionContext, data: int) -> Effect:
 
 
 def offline(context: ExecutionContext, data: int) -> Effect:
-    """Execute instruction F. F 0 also ends a program and the key functions."""
+    """Execute instruction F. With data 0, it also ends a program and the key functions."""
     if data not in LEGAL["offline"]:
         return Effect(context.settings.offline)
     return Effect(

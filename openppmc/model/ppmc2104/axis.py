@@ -190,7 +190,7 @@ class Motion(motion.Motion):
 
     @property
     def can_decelerate(self) -> bool:
-        """True in state START, ACC or HIGH of 011 or 110.
+        """True in state START, ACC or HIGH of operation 011 or 110.
 
         These states accept a deceleration stop (P2104-STP-02, -03).
         """

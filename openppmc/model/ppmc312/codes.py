@@ -97,10 +97,10 @@ SPONTANEOUS = 0x23
 
 
 class Cause(IntEnum):
-    """Cause of the end of the pulses; the value is the bit of E0 (docs/ppmc312/README.md, 6.1).
+    """Cause of the end of the pulses; the value is the bit of report E0 (docs/ppmc312/README.md, 6.1).
 
     Attributes:
-        RETURN: phase 1 of a zero return.
+        RETURN: phase 1 of a zero return has ended.
     """
 
     RETURN = 0x00

@@ -390,7 +390,9 @@ def constant(table: Table, rate: int, n: int | None = None) -> Plan:
 
 
 def ramped(table: Table, rate: int, n: int | None) -> Plan:
-    """Return a plan with ramps: with n pulses for instruction 82, without n for 85 and for phase 1 of 11.
+    """Return a plan with ramps.
+
+    Instruction 82 has n pulses. For instruction 85 and phase 1 of instruction 11, n is `None`.
 
     Args:
         rate: target rate.

@@ -31,27 +31,29 @@ class CoreTiming:
         limits: from the effect to the limit check of a start, which uses the levels at its edge.
         answer: from the effect to the stored response, without its bytes (one cycle each).
         done: from the stored response to MWEF = 0.
-        reset: from the start of processing to the reset by FF.
-        reboot: from the reset by FF to its effect.
-        reopen: from the reset by FF to MWEF = 0.
+        reset: from the start of processing to the reset by instruction FF.
+        reboot: from this reset to its effect.
+        reopen: from this reset to MWEF = 0.
         alarm: from a multiple occurrence to its alarm.
-        halt: from the effect of 80 to its stop.
+        halt: from the effect of instruction 80 to the stop of the pulses.
         next_response: responses: from the read of a response to the store of the response that waited for it
             (P312-RSP-20, <= 4).
         load: from the store of a response to its load.
         show: from the load to MREF = 0.
         reload: from MREF = 1 to the next load (P312-PAR-08).
         rest: motion: from the end of the pulses, or the falling edge of pout, to standstill.
-        report: from standstill to E0 (<= 64).
+        report: from standstill to report E0 (<= 64).
         turn_back: from the end of phase 1 of a zero return to t0 of phase 2 (<= 64).
         run_to_t0: from RUN to t0 of an operation that waits for RUN.
         count: from a pulse to the change of POS.
         compare: from a pulse to the actions that the position triggers (P312-MOT-05, P312-OVR-12).
-        unlock: from a pulse to E1.
+        unlock: from a pulse to report E1.
         lead, slow_lead, change_lead, ramp_lead, origin_lead: shortest time to a boundary that is affected,
-            from (in this order) the high-speed limit, 81, 88, 87, and the level of the origin.
-        drop_lead: shortest time from a newer 87 or 88 to a boundary at which it replaces a waiting change.
-        const_rate_lead: time for which the rate must be constant before 87 takes effect.
+            from (in this order) the high-speed limit, the instructions 81, 88 and 87, and the level of the
+            origin.
+        drop_lead: shortest time from a newer instruction 87 or 88 to a boundary at which it replaces a
+            waiting change.
+        const_rate_lead: time for which the rate must be constant before instruction 87 takes effect.
         search: addition to const_rate_lead if the rate of a stage has become the constant rate, because its
             t(x) must be searched first.
         scan: one pass over the table.
@@ -66,7 +68,7 @@ class CoreTiming:
         sampling: from the last character to the sampling of reports, state and counters.
         reply: from that sampling, or from the stored response, to the rising edge of snd.
         clear: shortest time from the middle of the stop bit to the rising edge of snd, minus one bit.
-        silence: addition to the 20 ms.
+        silence: addition to the 20 ms without a character that end a frame.
         early: crystal cycles that are subtracted from a DATASHEET time, because this time has already passed.
         proc_time: from the end of a DATASHEET time to the effect.
         pins: from an internal level to irq_n and intlk_n.
@@ -129,7 +131,8 @@ class CoreTiming:
     def look_up(self) -> int:
         """Return the cycles of one look-up in the table.
 
-        This is the time from the effect of 87 or 88 to the change, or, for a start without a plan, to t0.
+        This is the time from the effect of instruction 87 or 88 to the change, or, for a start without a
+        plan, to t0.
         """
         return self.scan + 4
 
@@ -158,7 +161,7 @@ class CoreTiming:
         return clk + part * (5 + max(0, end - table.sd))
 
     def filling(self, table: Table) -> int:
-        """Return the cycles from the effect of 00 to the last word of the table.
+        """Return the cycles from the effect of instruction 00 to the last word of the table.
 
         An operation of n steps takes n + 4 cycles, a division takes one cycle more. The numbers of steps are
         in parentheses. First, K RH and K Rs are calculated (24 each). Then, for each stage, the speed D (24),

@@ -48,7 +48,10 @@ class TimedMotion(Motion):
 
     @abstractmethod
     def slow_stop(self, t: int, reference: int) -> None:
-        """Process a deceleration stop, accepted at edge t in state START, ACC or HIGH of 011 or 110."""
+        """Process a deceleration stop.
+
+        Edge t accepted the stop in state START, ACC or HIGH of operation 011 or 110.
+        """
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, reference: int) -> None:
         """Process the C-event of an operation's last byte (P104-OPR-01, P104-BCK-02, P104-DS-03..06)."""
@@ -248,7 +251,10 @@ class ByteUnit(ABC):
         self._context.queue.at(done, Phase.BEGIN, self._complete)
 
     def _complete(self, t: int) -> None:
-        """Process the end of the table build; now bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""
+        """Process the end of the table build; from now on, the motor current is chopped if bit 5 is set.
+
+        Rules: P104-INI-07/08, STMC-CHP-01/02.
+        """
         assert self.setup is not None
         if self.setup.chopping:
             self._chopper.start(t)

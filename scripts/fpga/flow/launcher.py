@@ -25,7 +25,7 @@ BESIDE = {
     "gowin_pack": "gowin_pack",
 }
 """Program that edalize starts -> program in the folder of this Python."""
-OURS = {"procs": "proc", "renames": "rename"}  # names in place of commands that Tcl also has
+OURS = {"procs": "proc", "renames": "rename"}  # name in Tcl -> yosys command whose name Tcl uses, too
 
 
 def run_tcl(script: str) -> None:

@@ -18,7 +18,7 @@ from scripts.measure.campaign.store import RESULTS, Store
 from scripts.measure.campaign.tree import tree
 
 AHEAD = 3
-"""Submitted jobs for each worker: enough to keep it busy, and few, because Ctrl-C drops them."""
+"""Submitted jobs for each worker: enough to keep it busy, but not more, because Ctrl-C drops them."""
 LOST = "its workers were lost"
 
 

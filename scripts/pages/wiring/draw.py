@@ -143,7 +143,7 @@ def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
 
 
 def _opto(sheet: Any, use: Use, y: float) -> float:
-    """Draw one optocoupler channel completely; it represents all pins with such a channel."""
+    """Draw one optocoupler channel completely, as an example for all pins with such a channel."""
     failsafe = use.circuit.chip == "opto"
     height = max(4.5, ROW * len(use.pads) + 0.35)
     _box(sheet, BOARD, y, WIRE - BOARD, height, LOW)

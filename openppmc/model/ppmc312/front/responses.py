@@ -94,7 +94,10 @@ class Responses:
         return self.post(t, kind, [block(SPONTANEOUS, code, *content)])
 
     def input_change(self, t: int, data: int) -> None:
-        """Store E9. If a second report is already waiting, the new data replace its data (P312-RSP-21)."""
+        """Store report E9. If two are waiting already, the new data replace those of the second.
+
+        Rule: P312-RSP-21.
+        """
         if not self.report(t, INPUT, Answer.INPUT_CHANGE, 0, data):
             self._stores[INPUT][1].blocks = [block(SPONTANEOUS, Answer.INPUT_CHANGE, 1, data)]
 

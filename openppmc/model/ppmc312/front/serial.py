@@ -205,10 +205,10 @@ ERRORS = {
     Answer.REGISTRATION: ReportCode.REGISTRATION,
 }
 _TRIGGERS = {0x00: (0x00, 0), 0x10: (OV, 4), 0x20: (OV | 1, 0), 0x30: (OV | 3, 0)}
-"""Flag byte and number of further bytes, by bits 5:4 of 80, 81, 89, 8A (P312-SER-40)."""
+"""Flag byte and number of further bytes, by bits 5:4 of the codes 80, 81, 89, 8A (P312-SER-40)."""
 _AUTO = 0x02
 _REJECTED = (1, 2, 5)
-"""Status bytes of 49: trigger in use, buffer full, nothing to delete (P312-SER-43)."""
+"""Status bytes of instruction 49: trigger in use, buffer full, nothing to delete (P312-SER-43)."""
 
 
 class SerialInstruction(NamedTuple):

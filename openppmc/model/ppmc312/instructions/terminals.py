@@ -27,7 +27,7 @@ def _bits(values: Sequence[int | bool]) -> int:
 
 
 def terminals(core: Core) -> bytes:
-    """Return the parameters of the response to 27: unfiltered pin levels (P312-CMD-27)."""
+    """Return the parameters of the response to instruction 27: unfiltered pin levels (P312-CMD-27)."""
     levels = core.context.levels
     return bytes(_bits([pin is not None and levels[pin] for pin in pins]) for pins in _TERMINALS)
 
@@ -160,7 +160,10 @@ _ACTIONS: dict[int, Callable[[Core, int, bytes], bytes]] = {
 
 
 def _check_event(data: bytes) -> None:
-    """Check the parameters of 49: an embedded block, or a deletion without a block (P312-CMD-49)."""
+    """Check the parameters of instruction 49: an embedded block, or a deletion without a block.
+
+    Rule: P312-CMD-49.
+    """
     if data and data[0] & 2:
         legal = len(data) == 1
     else:

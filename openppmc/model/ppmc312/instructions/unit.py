@@ -190,7 +190,7 @@ class Unit:
         self._at(t + core_timing.check, lambda now: self._check(now, t, job))
 
     def _check_response_store(self, t: int, job: Job) -> None:
-        """Do not execute an instruction if the host has not read its last response (P312-RSP-20)."""
+        """Do not execute an instruction if the host has not read the last response (P312-RSP-20)."""
         answer = self._core.responses.answer
         if answer and answer.source is Source.HOST:
             self._idle(t)
@@ -308,7 +308,7 @@ class Unit:
         self._busy, self._job, self._free = False, None, t + self._core.core_timing.arbitration
 
     def answer_reset(self, t: int) -> None:
-        """Write the response to FF, the first response after the reset."""
+        """Write the response to instruction FF, the first response after the reset."""
         self._busy = True
         self._answer(t, Source.HOST, [bytes([Source.HOST, 1, Code.RESET])])
 

@@ -120,7 +120,7 @@ class Motion:
         self._context.queue.at(t, Phase.GUARD, self._check_causes)
 
     def stop(self, t: int, cause: Cause) -> None:
-        """Process an immediate stop by 80 or by an alarm (P312-MOT-34)."""
+        """Process an immediate stop by instruction 80 or by an alarm (P312-MOT-34)."""
         if self.active:
             self._requested_causes.add(cause)
             self.schedule_check(t)

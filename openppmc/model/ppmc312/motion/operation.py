@@ -170,8 +170,8 @@ class Operation:
             self._start_phase_2(t)
             return
         self._outputs.pulses_ended(t)
-        # In state ABN, no end waits for END, for any cause; if ABN begins at this edge, the wait ends
-        # immediately.
+        # In state ABN, a motion ends without a wait for END, for any cause of the end. If ABN begins at this
+        # edge, the wait ends immediately.
         waits = self.end_monitored and cause is not Cause.ALARM and self._pins["end_n"]
         if waits and not (self._abnormal() and self._alarm_at < t):
             self._end_wait = cause

@@ -16,7 +16,7 @@ _ORDER = (Cause.LIMIT_SLOW, Cause.SLOW, Cause.RETURN)
 
 
 class Change(NamedTuple):
-    """Change of speed: 87 (ramp) or 88, and the target rate."""
+    """Change of speed: target rate, with a ramp (instruction 87) or immediately (instruction 88)."""
 
     rate: int
     ramp: bool
@@ -74,7 +74,10 @@ class Sequence:
     # ------------------------------------------------------------------ requests
 
     def request(self, cause: Cause) -> None:
-        """Request a deceleration for 81 or for the origin of a zero return (P312-MOT-30, -43)."""
+        """Request a deceleration for instruction 81, or at the origin of a zero return.
+
+        Rules: P312-MOT-30, -43.
+        """
         if self._mode is _Mode.DECEL:
             if self._decel_cause is Cause.RETURN and cause in _DECELERATING:
                 self._decel_cause = cause
@@ -94,7 +97,7 @@ class Sequence:
         self._change_waits = True
 
     def change(self, change: Change) -> None:
-        """Record an instruction 87 or 88 for the next boundary. It replaces a waiting one."""
+        """Record an instruction 87 or 88 for the next boundary. It replaces one that is waiting."""
         self._change = change
         self._change_waits = change.ramp
 
@@ -165,7 +168,7 @@ class Sequence:
         return None
 
     def _apply_change(self) -> None:
-        """Apply a waiting 87 or 88. An 87 waits until the speed is constant."""
+        """Apply a waiting instruction 87 or 88. Instruction 87 waits until the speed is constant."""
         change = self._change
         if change is None or (change.ramp and not self._ramps):
             return

@@ -94,8 +94,8 @@ class Suites:
             points = Points.unpack(done.data["points"])
             self._reached.append(_Reach(known[key], done.seconds, _lines(points), _weights(points)))
         self._new = [group for key, group in known.items() if key not in latest]
-        # The stored coverage may lack a few groups that are newer than the campaign. If it is only that of a
-        # sample, it lacks too many groups.
+        # The stored coverage may lack a few groups that are newer than the campaign. The coverage of a sample
+        # lacks too many groups, so it is not used.
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
