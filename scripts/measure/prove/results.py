@@ -25,7 +25,7 @@ PROVED = DOCS / "proved.json"
 
 
 def digest(proof: Proof) -> str:
-    """Return the digest of all that decides the result of a proof; comments do not change it."""
+    """Return the digest of all that decides the result of a proof; comments of the RTL do not change it."""
     headers = [path for folder in (*include_dirs(), FORMAL) for path in sorted(folder.glob("*.svh"))]
     what = (proof.bound, proof.induct, proof.cover, proof.only, importlib.metadata.version("pyosys"))
     sha = hashlib.sha256(repr(what).encode())
