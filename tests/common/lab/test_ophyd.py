@@ -66,7 +66,7 @@ def test_a_reset_during_a_move(part):
     """If a device is reset during a move, the Status fails, because the device does not confirm the end."""
     with started(part) as device:
         motor = PpmcPositioner(device, 1, name="theta", pulses_per_unit=100)
-        with motor._lock:
+        with motor._positioner.lock:
             status = motor.set(50)
             device.link.pause(0.1)
             device.link.port.board.reset()
