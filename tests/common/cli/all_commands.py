@@ -10,8 +10,10 @@ from openppmc.cli.app import Commands
 from tests.common.capture import sessions
 from tests.common.capture.analyser import probe, write_saleae
 
-REJECTED = {"stop": 1, "table": 1, "selftest": 1}
-"""Commands that an idle model rejects, and their exit status: they print nothing to stdout."""
+REJECTED = {"stop": 1, "table": 1, "selftest": 1} | dict.fromkeys(
+    ("ioc", "ppmc312-serial ioc", "pmc006 ioc"), 2
+)
+"""Command lines that are rejected, and their exit status: they print nothing to stdout."""
 # Device ("" for those accessed through the bridge) -> command -> arguments. Words in braces are files of
 # `files`.
 ARGUMENTS: dict[str, dict[str, str]] = {
@@ -29,6 +31,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "table": "",
         "script": "{script}",
         "selftest": "--yes",
+        "ioc": "--prefix µ:",
         "decode": "{ppmc104} --part ppmc104 --compare --timing FAST",
     },
     "ppmc312-serial": {
@@ -44,6 +47,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "info": "",
         "monitor": "--axis 1 --count 2",
         "script": "{stations}",
+        "ioc": "--prefix µ:",
         "ports": "",
         "plan": "1000",
         "decode": "{ppmc312-serial}",
@@ -59,6 +63,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "status": "",
         "monitor": "--count 2",
         "script": "{controllers}",
+        "ioc": "--prefix µ:",
         "set": "current microsteps",
         "io": "gpo1=1",
         "address": "3",

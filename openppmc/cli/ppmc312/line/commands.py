@@ -9,6 +9,7 @@ import typer
 from ....host import PpmcError, Station312
 from ...common import output, show
 from ...common.board import BOARD
+from ...common.ioc import Prefix, check_prefix, serve, with_units
 from ...common.line_session import ending_after
 from ...common.options import Direction, Json, check_seconds, with_setup
 from ...common.session import setup_values, store_setup, stores_setup
@@ -215,6 +216,18 @@ def stop(
             output.print_line(show.end_line(end))
         if not ends:
             output.print_line("nothing was moving")
+
+
+@with_setup
+@with_units
+def ioc(typed: dict[str, Any], units: dict[str, str], prefix: Prefix, axis: AnyAxis = None) -> None:
+    """Serve a motor record for each station to EPICS clients."""
+    check_prefix(prefix)
+    with opened() as session:
+        axes = session.selected_axes(axis)
+        _initialise(session, axes, typed)
+        requests = {one.number: setup_values(typed, one.number).request(one.number) for one in axes}
+        serve(session.bus, session.guard, prefix, units, requests)
 
 
 def _list(axes: list[Station312]) -> str:
