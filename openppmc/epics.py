@@ -114,9 +114,9 @@ class Motor(PVGroup):  # type: ignore[misc]
         get = self._get
         self._puts: dict[str, Callable[[Any], Awaitable[None]]] = {
             "VAL": self._put_position,
-            "RLV": lambda value: self._go(get("VAL") + value),
-            "TWF": lambda value: self._go(get("VAL") + get("TWV")),
-            "TWR": lambda value: self._go(get("VAL") - get("TWV")),
+            "RLV": lambda value: self._go_by(value),
+            "TWF": lambda value: self._go_by(get("TWV")),
+            "TWR": lambda value: self._go_by(-get("TWV")),
             "HOMF": lambda value: self._go_home(True),
             "HOMR": lambda value: self._go_home(False),
             "STOP": self._stop,
@@ -375,15 +375,20 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._forward = position > self._seen
         await self._run(partial(self._move, position), VAL=position, LVIO=0)
 
+    async def _go_by(self, distance: float) -> None:
+        if self._unknown:
+            raise PpmcError("the position is not known; home first")
+        await self._go(self._get("VAL") + distance)
+
     async def _go_home(self, forward: bool) -> None:
         self._check_mode("Stop", "Pause")
         self._forward = forward
         await self._run(partial(self._home, forward), LVIO=0)
 
     async def _stop(self, value: Any = 1) -> None:
-        if self._moving:
-            self._next, self._positioner.stop_requested = None, True
-            await self._checked(self._positioner.send_stop)
+        # After an error of the line, a motor may move although the record does not follow it.
+        self._next, self._positioner.stop_requested = None, True
+        await self._checked(self._positioner.send_stop)
 
     async def _put_spmg(self, value: Any) -> None:
         modes = self._channels["SPMG"].enum_strings
@@ -398,6 +403,7 @@ class Motor(PVGroup):  # type: ignore[misc]
 
     async def _put_position(self, value: float) -> None:
         if self._get("SET") == "Set":
+            self._problem = None if self._unknown else self._problem
             await self._put_offset(value - self._seen + self._get("OFF"))
         else:
             await self._go(value)

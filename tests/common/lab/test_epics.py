@@ -201,6 +201,18 @@ def test_limit_switch():
         assert not ioc.get("MSTA") & (PROBLEM | PLUS_LS) and ioc.get("HLS") == 0
 
 
+def test_limit_switch_of_a_pmc006():
+    """EXT2 of a PMC006B4 is the high limit; a move away clears its flag, a move further fails."""
+    with records("speed=max,start=0,high=2000", part="pmc006") as ioc:
+        with ioc.motors[f"{ioc.prefix}m1"][0].lock:
+            ioc.device.axis(1).stops = 3
+        ioc.rejected("VAL", 5000.0, "EXT2 ended the motion at position 2")
+        assert ioc.get("HLS") == 1 and ioc.alarm() == "HIGH MAJOR_ALARM" and ioc.get("VAL") == ioc.get("RBV")
+        ioc.rejected("VAL", 6000.0, "EXT2")
+        assert ioc.put("VAL", 100.0) and (ioc.get("RBV"), ioc.get("HLS")) == (100, 0)
+        assert ioc.put("HOMF", 1) and ioc.get("RBV") == 0 and ioc.alarm() == "NO_ALARM NO_ALARM"
+
+
 def test_stop():
     """After STOP, VAL is RBV with severity MINOR, and the put of VAL fails. SPMG pauses and resumes."""
     with records("speed=1") as ioc:
@@ -264,6 +276,8 @@ def test_unconfirmed_end():
         ioc.rejected("VAL", 30_000.0, "the end of the motion is not confirmed")
         assert math.isnan(ioc.get("RBV")) and ioc.get("DMOV") == 1 and ioc.get("MSTA") & PROBLEM
         assert ioc.alarm() == "STATE INVALID_ALARM" and len(ioc.logged) == 1
+        ioc.put("TWV", 5.0)
+        ioc.rejected("TWF", 1, "the position is not known; home first")
         ioc.put("HOMR", 1)
         assert ioc.get("RBV") == 0 and ioc.alarm() == "NO_ALARM NO_ALARM" and ioc.get("MSTA") & HOMED
 
