@@ -6,6 +6,7 @@ import fcntl
 import itertools
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -23,7 +24,8 @@ from caproto.threading.client import Context
 from ophyd import EpicsMotor
 from ophyd.utils import LimitError
 
-from openppmc.epics import COMM_ERR, HOMED, MOVING, PLUS_LS, PROBLEM, Units, serve
+from cocotb_tests.harness.paths import ROOT
+from openppmc.epics import COMM_ERR, COMMANDS, HOMED, IN_UNITS, MOVING, PLUS_LS, PROBLEM, Units, serve
 from openppmc.host import Pmc006Bus, Ppmc312Bus, open_part
 from openppmc.host.capabilities import SetupRequest
 from openppmc.host.part import Device
@@ -145,6 +147,19 @@ def test_every_part(part, count):
             assert ioc.get("VAL", axis) == 10 * axis and not ioc.get("MSTA", axis) & (PROBLEM | MOVING)
             assert ioc.get("RRBV", axis) == -100 * axis and ioc.get("EGU", axis) == b"deg"
         assert ioc.logged == []
+
+
+def test_manual():
+    """The record has all fields of the table in docs/host.md, and the table has all fields with puts."""
+    page = (ROOT / "docs/host.md").read_text(encoding="utf-8").partition("## 17 EPICS")[2]
+    rows = [row.split(" | ")[0] for row in page.splitlines() if row.startswith("| `.")]
+    fields = {field for row in rows for field in re.findall(r"`\.(\w+)`", row)}
+    with records() as ioc:
+        for field in fields:
+            ioc.get(field)
+        (pv,) = CLIENT.get_pvs(f"{ioc.prefix}m1.RTYP", timeout=10)
+        assert pv.read().data[0] == b"motor"
+    assert {*COMMANDS, *IN_UNITS} < fields and len(fields) > 35
 
 
 def test_fields():
