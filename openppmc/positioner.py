@@ -214,7 +214,8 @@ class Positioner:
             MotionError: the motion ended differently from its request.
             EndUnknown: the part does not confirm how it ended.
         """
-        self._access.moving += 1
+        with self.lock:
+            self._access.moving += 1
         try:
             while True:
                 with self.lock:
@@ -225,7 +226,8 @@ class Positioner:
                 report(self.to_units(now.position))
                 time.sleep(FREE)
         finally:
-            self._access.moving -= 1
+            with self.lock:
+                self._access.moving -= 1
         report(self.position)
         assert motion.result is not None
         motion.result.check(motion.requested)

@@ -1,1 +1,1 @@
-"""openppmc.ophyd on golden models, `make test WITH=ophyd`."""
+"""openppmc.ophyd and the EPICS IOC on golden models, `make test WITH=ophyd`."""

