@@ -21,7 +21,7 @@ from .positioner import Positioner, Speeds, Switches, finite
 
 needs("epics", "the IOC", "caproto")
 
-from caproto import AlarmSeverity, AlarmStatus, CAStatus, ChannelAlarm, SkipWrite  # noqa: E402
+from caproto import AlarmSeverity, AlarmStatus, CaprotoError, CAStatus, ChannelAlarm, SkipWrite  # noqa: E402
 from caproto.asyncio.server import Context  # noqa: E402
 from caproto.server import PVGroup, PvpropertyDouble, pvproperty  # noqa: E402
 from caproto.server.records import MotorFields, register_record  # noqa: E402
@@ -480,7 +480,10 @@ class Ioc:
         """
         for motor in self.motors:
             await motor.start()
-        context = Context({name: pv for motor in self.motors for name, pv in motor.pvdb.items()})
+        try:
+            context = Context({name: pv for motor in self.motors for name, pv in motor.pvdb.items()})
+        except CaprotoError as error:
+            raise PpmcError(f"Channel Access: {error}") from error
 
         async def started(library: Any) -> None:
             ready(context.port)

@@ -443,6 +443,16 @@ def test_wrong_words(words, text, code):
         assert text in line and line.startswith("error: ") and line.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("name", "value"), [("EPICS_CA_SERVER_PORT", "x"), ("EPICS_CAS_INTF_ADDR_LIST", "203.0.113.9")]
+)
+def test_wrong_variables(name, value):
+    """A variable of EPICS with an invalid value, or an address of another computer, is one line."""
+    with command("--port", "model:", "ioc", "--prefix", "a:", exits=1, **{name: value}) as process:
+        line = process.stderr.read()
+        assert line.startswith("error: Channel Access: ") and line.count("\n") == 1
+
+
 def test_busy_port():
     """A port that another program uses is one line."""
     master, slave = os.openpty()
