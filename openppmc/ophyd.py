@@ -13,32 +13,20 @@ RE(scan([detector], theta, 0, 30, 61))
 
 from __future__ import annotations
 
-import math
 import threading
 import time
-from numbers import Real
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from .errors import needs
-from .host.errors import AxisBusy, LinkError, NothingToStop, OutOfRange, PpmcError
+from .host.errors import AxisBusy, LinkError, PpmcError
 from .host.motion import AnyMotion
 from .host.motion_result import StoppedByCommand
 from .host.part import Device
+from .positioner import Positioner, finite
 
 needs("ophyd", "openppmc.ophyd", "ophyd")
 
 from ophyd import SoftPositioner  # noqa: E402
-
-POLL = 0.03
-"""Time between two polls of a motion, in seconds of the board."""
-FREE = 0.01
-"""Pause in s after each poll, so that other threads can use the port.
-
-The pause is necessary because a lock does not serve waiting threads in order.
-"""
-
-_locks: WeakKeyDictionary[Device, threading.RLock] = WeakKeyDictionary()
 
 
 class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
@@ -70,12 +58,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
         limits: tuple[float, float] = (0, 0),
         **others: Any,
     ) -> None:
-        _number(pulses_per_unit, "pulses_per_unit")
-        if not pulses_per_unit:
-            raise OutOfRange("pulses_per_unit 0: not supported; use the number of pulses in a unit")
-        self._scale = pulses_per_unit
-        self._device, self._axis = device, _axis(device, axis)
-        self._lock = _locks.setdefault(device, threading.RLock())
+        self._positioner = Positioner(device, axis, pulses_per_unit)
         self._stopped_well = False
         super().__init__(
             name=name, egu=egu, limits=limits, source=f"{device.link.name}, axis {axis}", **others
@@ -111,7 +94,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             OutOfRange: the position is not a finite number.
             LimitError: the position is outside the soft limits (error of ophyd).
         """
-        super().check_value(_number(pos, "position"))
+        super().check_value(finite(pos, "position"))
 
     def move(
         self, position: float, wait: bool = True, timeout: float | None = None, moved_cb: Any = None
@@ -132,26 +115,21 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             success: True if the Status of the move must succeed.
         """
         self._stopped_well = success
-        with self._lock:
-            if self._moving:
-                try:
-                    self._axis.stop(wait=False)
-                except NothingToStop:
-                    pass  # the motor has just stopped
+        if self._moving:
+            self._positioner.stop()
 
     # ------------------------------------------------------------------ internal
 
     def _ask(self) -> float:
-        with self._lock:
-            self._position = self._axis.position / self._scale
+        self._position = self._positioner.position
         return float(self._position)
 
     def _setup_move(self, position: float, status: Any) -> None:
-        self._moving, self._stopped_well = True, False
+        self._moving, self._stopped_well, self._positioner.stop_requested = True, False, False
         try:
-            with self._lock:
-                pulses = round(position * self._scale) - round(self._ask() * self._scale)
-                motion = self._axis.start_move(pulses) if pulses else None
+            with self._positioner.lock:
+                self._ask()
+                motion = self._positioner.start_move(position)
         except PpmcError as error:
             self._over(status, error)
             return
@@ -164,17 +142,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     def _watch(self, motion: AnyMotion, status: Any) -> None:
         """Report the position until the motion has ended."""
         try:
-            while True:
-                with self._lock:
-                    now = motion.poll()
-                    if now is None:
-                        break
-                    self._device.process_reports(POLL)
-                self._set_position(now.position / self._scale)
-                time.sleep(FREE)
-            self._ask()
-            assert motion.result is not None
-            motion.result.check(motion.requested)
+            self._positioner.follow(motion, self._set_position)
         except StoppedByCommand as error:
             self._over(status, None if self._stopped_well else error)
         except Exception as error:
@@ -196,19 +164,3 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
         self._moving = False
         self._run_subs(sub_type=self.SUB_DONE, timestamp=time.time())
         status.set_finished()
-
-
-def _axis(device: Device, number: int) -> Any:
-    """Return an axis of a part by its number, or a station of a line."""
-    station = getattr(device, "axis", None)
-    if callable(station):
-        return station(number)
-    if not 1 <= number <= len(device.axes):
-        raise OutOfRange(f"axis {number}: {device.link.name} has axes 1 to {len(device.axes)}")
-    return device.axes[number - 1]
-
-
-def _number(value: Any, what: str) -> float:
-    if not isinstance(value, Real) or isinstance(value, bool) or not math.isfinite(value):
-        raise OutOfRange(f"{what} {value!r} is not a finite number")
-    return float(value)

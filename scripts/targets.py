@@ -66,7 +66,7 @@ site | site | Build all documents and the playground; needs Node.js.
 work
 test WITH=campaign | campaign | Test the campaign runner.
     {pytest} tests/*/campaign [-k {T/or}]
-test WITH=ophyd | ophyd | Test openppmc.ophyd with bluesky.
+test WITH=ophyd | ophyd | Test the EPICS IOC, and openppmc.ophyd with bluesky.
     {pytest} tests/*/lab -n {J:2} [-k {T/or}]
 test WITH=linuxcnc | sim | Test openppmc hal in LinuxCNC, if it is installed.
     {pytest} tests/*/linuxcnc -n 0 [-k {T/or}]

@@ -48,6 +48,7 @@ class Commands(PartGroup):
             "Read the ramps of a PPMC-312 as a CSV file for --curve.",
         ),
         Command("script", "common.script:script", "Execute a file of commands."),
+        Command("ioc", "common.ioc:ioc", "Serve a motor record for each axis to EPICS clients."),
         Command(
             "selftest",
             "common.selftest:selftest",
@@ -92,6 +93,7 @@ class Commands(PartGroup):
         Command("info", "ppmc312.line.status_commands:info", parts=(SERIAL,)),
         Command("monitor", "ppmc312.line.status_commands:monitor", parts=(SERIAL,)),
         Command("script", "ppmc312.line.script:script", parts=(SERIAL,)),
+        Command("ioc", "ppmc312.line.commands:ioc", parts=(SERIAL,)),
         Command("move", "pmc006.moves:move", parts=(PMC,), numbers=True),
         Command("jog", "pmc006.moves:jog", parts=(PMC,)),
         Command(
@@ -109,6 +111,7 @@ class Commands(PartGroup):
         Command("status", "pmc006.moves:status", parts=(PMC,)),
         Command("monitor", "pmc006.moves:monitor", parts=(PMC,)),
         Command("script", "pmc006.script:script", parts=(PMC,)),
+        Command("ioc", "pmc006.moves:ioc", parts=(PMC,)),
         Command(
             "set",
             "pmc006.moves:set_values",

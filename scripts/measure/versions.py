@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "versions"
-EXTRAS = "[decode,ophyd,plot]"
+EXTRAS = "[decode,epics,ophyd,plot]"
 TOOLS = re.compile(r"(?:cocotb|find_libpython|hypothesis|pytest[\w-]*)==.*")
 """Lines of requirements.lock for packages that only the tests need."""
 TESTS = ("tests/*/host", "tests/*/cli", "tests/common/capture", "tests/common/lab")

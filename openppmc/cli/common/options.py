@@ -79,9 +79,9 @@ class SetupValues:
         """Return the values for the state file."""
         return asdict(self)
 
-    def plan(self, xtal_hz: int, kind: Capabilities, axis: int = 1) -> AnySetup:
-        """Return the plan of an axis with this crystal. Raise OutOfRange for unsupported values."""
-        request = SetupRequest(
+    def request(self, axis: int = 1) -> SetupRequest:
+        """Return the request for an axis."""
+        return SetupRequest(
             self.start,
             self.high,
             self.ramp,
@@ -98,7 +98,10 @@ class SetupValues:
             self.sigmoid,
             self.curve,
         )
-        return kind.plan(xtal_hz, request)
+
+    def plan(self, xtal_hz: int, kind: Capabilities, axis: int = 1) -> AnySetup:
+        """Return the plan of an axis with this crystal. Raise OutOfRange for unsupported values."""
+        return kind.plan(xtal_hz, self.request(axis))
 
 
 def _option(*names: str, text: str, metavar: str | None = None) -> Any:
@@ -152,32 +155,50 @@ _OPTIONS: dict[str, Any] = {
 
 
 def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the set-up options to a command. It receives the options that were typed as the dict `typed`."""
+    """Add the set-up options to a command, which receives the typed ones as the dict `typed`."""
+    return with_options("typed", _OPTIONS, _setup_values)(command)
 
-    @functools.wraps(command)
-    def wrapper(**arguments: Any) -> Any:
-        typed = {name: arguments.pop(name) for name in _OPTIONS}
-        typed = {name: value for name, value in typed.items() if value is not None}
-        if "logic" in typed:
-            typed["logic"] = typed["logic"].value
-        if "curve" in typed:
-            # `init` stores the path, and later commands may run in another folder.
-            typed["curve"] = os.path.abspath(typed["curve"])
-        return command(**arguments, typed=typed)
 
-    # get_type_hints is not used, because in Python 3.10 it removes Annotated from an option with default
-    # None.
-    own = [
-        parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-        for name, parameter in inspect.signature(command, eval_str=True).parameters.items()
-        if name != "typed"
-    ]
-    added = [
-        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
-        for name, annotation in _OPTIONS.items()
-    ]
-    seen: Any = wrapper  # typer reads this signature
-    del seen.__wrapped__
-    seen.__signature__ = inspect.Signature([*own, *added])
-    seen.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}
-    return wrapper
+def _setup_values(typed: dict[str, Any]) -> dict[str, Any]:
+    if "logic" in typed:
+        typed["logic"] = typed["logic"].value
+    if "curve" in typed:
+        # `init` stores the path, and later commands may run in another folder.
+        typed["curve"] = os.path.abspath(typed["curve"])
+    return typed
+
+
+def with_options(
+    parameter: str, options: dict[str, Any], finish: Callable[[dict[str, Any]], Any]
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return a decorator that adds options to a command; those that were typed become one parameter.
+
+    Args:
+        options: annotation of each option, by its name; the default is None.
+        finish: returns the value of the parameter for the typed options.
+    """
+
+    def decorator(command: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(command)
+        def wrapper(**arguments: Any) -> Any:
+            values = {name: arguments.pop(name) for name in options}
+            typed = {name: value for name, value in values.items() if value is not None}
+            return command(**arguments, **{parameter: finish(typed)})
+
+        # get_type_hints is not used: on Python 3.10 it hides the Annotated of options with default None.
+        own = [
+            one.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+            for name, one in inspect.signature(command, eval_str=True).parameters.items()
+            if name != parameter
+        ]
+        added = [
+            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+            for name, annotation in options.items()
+        ]
+        seen: Any = wrapper  # typer reads its signature
+        del seen.__wrapped__
+        seen.__signature__ = inspect.Signature([*own, *added])
+        seen.__annotations__ = {one.name: one.annotation for one in (*own, *added)}
+        return wrapper
+
+    return decorator

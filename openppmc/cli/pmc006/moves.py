@@ -13,6 +13,7 @@ from ...host.axis import OnProgress
 from ...host.pmc006.motion import Motion
 from ...host.pmc006.settings import setting
 from ..common import output
+from ..common.ioc import Prefix, check_prefix, serve, with_units
 from ..common.line_session import ending_after
 from ..common.options import Json, check_seconds
 from ..common.show import Count, Every, watch
@@ -153,6 +154,15 @@ def home(
             output.print_line(
                 f"{prefix(part)}position {part.position}: {off} steps from the edge of EXT{switch}"
             )
+
+
+@with_units
+def ioc(units: dict[str, str], prefix: Prefix, address: Address = None) -> None:
+    """Serve a motor record for each controller to EPICS clients."""
+    check_prefix(prefix)
+    with opened() as session:
+        parts = session.selected_axes(address)
+        serve(session.bus, session.guard, prefix, units, {part.address: None for part in parts})
 
 
 # ---------------------------------------------------------------------- scan and status

@@ -14,6 +14,8 @@ REJECTED = {
     **{"stop": 1, "table": 1, "selftest": 1},
     # The tests have no LinuxCNC.
     **{"hal": 1, "ppmc312-serial hal": 1, "pmc006 hal": 1},
+    # The prefix is not ASCII.
+    **{"ioc": 2, "ppmc312-serial ioc": 2, "pmc006 ioc": 2},
 }
 """Commands that an idle model rejects, with their exit status; they print nothing to stdout."""
 # Device ("" for those accessed through the bridge) -> command -> arguments. A word in braces is a key of the
@@ -34,6 +36,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "script": "{script}",
         "selftest": "--yes",
         "hal": "",
+        "ioc": "--prefix µ:",
         "decode": "{ppmc104} --part ppmc104 --compare --timing FAST",
     },
     "ppmc312-serial": {
@@ -50,6 +53,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "info": "",
         "monitor": "--axis 1 --count 2",
         "script": "{stations}",
+        "ioc": "--prefix µ:",
         "ports": "",
         "plan": "1000",
         "decode": "{ppmc312-serial}",
@@ -66,6 +70,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
         "status": "",
         "monitor": "--count 2",
         "script": "{controllers}",
+        "ioc": "--prefix µ:",
         "set": "current microsteps",
         "io": "gpo1=1",
         "address": "3",

@@ -1,1 +1,1 @@
-"""Tests of openppmc.ophyd on golden models; `make test WITH=ophyd`."""
+"""Tests of openppmc.ophyd and the EPICS IOC on golden models; `make test WITH=ophyd`."""

@@ -24,6 +24,7 @@ from openppmc.host import (
 )
 from openppmc.host.part import Device
 from openppmc.ophyd import PpmcPositioner
+from openppmc.positioner import Positioner
 
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "bank")
 PATIENCE = 60.0
@@ -66,7 +67,7 @@ def test_a_reset_during_a_move(part):
     """If a device is reset during a move, the Status fails, because the end of the move is not confirmed."""
     with started(part) as device:
         motor = PpmcPositioner(device, 1, name="theta", pulses_per_unit=100)
-        with motor._lock:
+        with motor._positioner.lock:
             status = motor.set(50)
             device.link.pause(0.1)
             device.link.port.board.reset()
@@ -115,6 +116,24 @@ def test_stop_in_motion(success):
         assert error is None if success else isinstance(error, StoppedByCommand)
         assert 0 < motor.position < 30_000 and not motor.moving
         assert ends(motor, 10) is None
+
+
+def test_stop_before_the_start():
+    """After a stop, neither a move nor homing starts until the caller resets the request."""
+    with started() as device:
+        positioner = Positioner(device)
+        positioner.stop()
+        with pytest.raises(StoppedByCommand, match="at position 0 after 0 of 100 pulses"):
+            positioner.start_move(100)
+        with pytest.raises(StoppedByCommand):
+            positioner.home(False, print)
+        assert device.axes[0].position == 0
+        positioner.stop_requested = False
+        positioner.follow(positioner.start_move(100), print)
+        assert positioner.position == 100 and positioner.start_move(100) is None
+        # A request between two motions of homing stops the next one.
+        with pytest.raises(StoppedByCommand):
+            positioner.home(False, lambda position: setattr(positioner, "stop_requested", True))
 
 
 def test_bad_positions():

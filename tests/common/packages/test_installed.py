@@ -83,7 +83,7 @@ def test_commands_load_what_always_comes_along_only():
         for extra in PROJECT["optional-dependencies"].values()
         for name in (re.split(r"\W", text)[0] for text in extra)
     }
-    assert extras == {"litex", "matplotlib", "migen", "numpy", "ophyd", "vcd", "yaml"}
+    assert extras == {"caproto", "litex", "matplotlib", "migen", "numpy", "ophyd", "vcd", "yaml"}
     assert not (extras | {"serial"}) & set(foreign(COMMANDS))
 
 

@@ -10,7 +10,10 @@ from ....host import PpmcError, Station312
 from ....linuxcnc import Machine
 from ...common import output, show
 from ...common.board import BOARD
-from ...common.hal import Axes, Name, RampDrive, closed_on_error, serve
+from ...common.hal import Axes, Name, RampDrive, closed_on_error
+from ...common.hal import serve as serve_hal
+from ...common.ioc import Prefix, check_prefix, with_units
+from ...common.ioc import serve as serve_ioc
 from ...common.line_session import ending_after
 from ...common.options import Direction, Json, check_seconds, with_setup
 from ...common.session import setup_values, store_setup, stores_setup
@@ -225,7 +228,7 @@ def hal(typed: dict[str, Any], axes: Axes = None, name: Name = "openppmc") -> No
                 },
             )
 
-    serve(name, connect)
+    serve_hal(name, connect)
 
 
 def stop(
@@ -240,6 +243,18 @@ def stop(
             output.print_line(show.end_line(end))
         if not ends:
             output.print_line("nothing was moving")
+
+
+@with_setup
+@with_units
+def ioc(typed: dict[str, Any], units: dict[str, str], prefix: Prefix, axis: AnyAxis = None) -> None:
+    """Serve a motor record for each station to EPICS clients."""
+    check_prefix(prefix)
+    with opened() as session:
+        axes = session.selected_axes(axis)
+        _initialise(session, axes, typed)
+        requests = {one.number: setup_values(typed, one.number).request(one.number) for one in axes}
+        serve_ioc(session.bus, session.guard, prefix, units, requests)
 
 
 def _list(axes: list[Station312]) -> str:

@@ -1,0 +1,303 @@
+"""One axis of a device in engineering units, for adapters to control systems.
+
+`openppmc.ophyd` and `openppmc.epics` use it. Several threads may use the positioners of one device.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from numbers import Real
+from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
+
+from .host.axis import CCW, CW
+from .host.capabilities import SetupRequest
+from .host.errors import NothingToStop, OutOfRange
+from .host.motion import AnyMotion, Progress
+from .host.motion_result import Cause, MotionResult
+from .host.part import Device
+from .host.pmc006.settings import mean_acceleration
+
+POLL = 0.03
+"""Time between two polls of a motion, in seconds of the board; moving axes of a device share it."""
+FREE = 0.01
+"""Pause in seconds after each poll, so that other threads can use the port.
+
+A lock does not serve waiting threads in turn.
+"""
+
+
+class _Access:
+    """Access of threads to a device.
+
+    Attributes:
+        lock: held during each exchange with the device.
+        moving: number of motions that threads follow.
+    """
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self.moving = 0
+
+
+_accesses: WeakKeyDictionary[Device, _Access] = WeakKeyDictionary()
+
+
+class Switches(NamedTuple):
+    """Hard limit switches in the direction of the position, and the origin switch; True = active."""
+
+    low: bool
+    high: bool
+    origin: bool
+
+
+class Speeds(NamedTuple):
+    """Speeds of moves.
+
+    Attributes:
+        base, top: speeds at the start and between the ramps in pps.
+        seconds: duration of the acceleration in s.
+    """
+
+    base: float
+    top: float
+    seconds: float
+
+
+class Positioner:
+    """One axis of a part or of a bank, or a station of a line.
+
+    A position is pulses / `pulses_per_unit` + `offset`. Other code must not use the device while a thread
+    uses a positioner.
+
+    Args:
+        device: the opened device.
+        axis: number of the axis from 1 on, or the station.
+        pulses_per_unit: negative if the position decreases with CW.
+        request: set-up of the axis for `initialise` and `set_speeds`; a PMC006B4 needs none.
+
+    Attributes:
+        stop_requested: True after `stop`. No motion starts until the caller resets it.
+
+    Raises:
+        OutOfRange: the axis does not exist, or the scale is 0 or not finite.
+    """
+
+    def __init__(
+        self, device: Device, axis: int = 1, pulses_per_unit: float = 1, request: SetupRequest | None = None
+    ) -> None:
+        self.pulses_per_unit = finite(pulses_per_unit, "pulses_per_unit")
+        if not pulses_per_unit:
+            raise OutOfRange("pulses_per_unit 0: not supported; use the number of pulses in a unit")
+        self.offset = 0.0
+        self.device, self.axis, self.request = device, _axis(device, axis), request
+        self.stop_requested = False
+        self._access = _accesses.setdefault(device, _Access())
+        self._stopped: AnyMotion | None = None
+
+    @property
+    def lock(self) -> threading.RLock:
+        """Lock of the device."""
+        return self._access.lock
+
+    @property
+    def position(self) -> float:
+        """Position, read from the part."""
+        with self.lock:
+            return self.to_units(self.axis.position)
+
+    def to_units(self, pulses: int) -> float:
+        """Return a pulse count as a position."""
+        return pulses / self.pulses_per_unit + self.offset
+
+    def to_pulses(self, position: float) -> int:
+        """Return the pulse count nearest to a position."""
+        return round((position - self.offset) * self.pulses_per_unit)
+
+    def switches(self) -> Switches:
+        """Read the switches. EXT1 of a PMC006B4 is the limit backward, EXT2 forward."""
+        with self.lock:
+            if _is_pmc006(self.axis):
+                ports, rising = self.axis.ports(), self.axis.trigger
+                ccw, cw = ports.ext1 is bool(rising & 1), ports.ext2 is bool(rising & 2)
+                origin = False
+            else:
+                pins = self.axis.inputs()
+                ccw, cw, origin = pins.limit_ccw, pins.limit_cw, pins.origin
+        return Switches(ccw, cw, origin) if self.pulses_per_unit > 0 else Switches(cw, ccw, origin)
+
+    # ------------------------------------------------------------------ set-up
+
+    def initialise(self) -> None:
+        """Initialise the axis with its set-up; the axis must be stopped."""
+        if self.request is not None:
+            with self.lock:
+                self._apply(self.request)
+
+    def speeds(self) -> Speeds:
+        """Return the speeds that are reached."""
+        with self.lock:
+            if _is_pmc006(self.axis):
+                base, top = self.axis.start_speed, self.axis.max_speed
+                return Speeds(base, top, (top - base) / mean_acceleration(self.axis.acceleration))
+            setup = self.axis.setup
+        base, top = float(setup.start.reached), float(setup.high.reached)
+        return Speeds(base, top, 2 * setup.ramp_pulses / (base + top))
+
+    def set_speeds(self, speeds: Speeds) -> None:
+        """Initialise the axis with other speeds; the axis must be stopped.
+
+        Raises:
+            OutOfRange: the part does not support them; the former speeds are kept.
+        """
+        base, top, seconds = (finite(value, name) for name, value in speeds._asdict().items())
+        if not 0 < base <= top or seconds < 0:
+            text = f"speeds {base:g} to {top:g} pps in {seconds:g} s: use 0 < base <= top and 0 s or more"
+            raise OutOfRange(text)
+        with self.lock:
+            if _is_pmc006(self.axis):
+                self.axis.max_speed = round(top)
+                self.axis.start_speed = self.axis.stop_speed = round(base)
+                if seconds:
+                    rise = (top - base) / seconds
+                    nearest = min(range(6), key=lambda n: abs(mean_acceleration(n) - rise))
+                    self.axis.acceleration = self.axis.deceleration = nearest
+            elif self.request is not None:
+                ramp = round(seconds * (base + top) / 2)
+                self._apply(replace(self.request, start_pps=base, high_pps=top, ramp_pulses=ramp))
+
+    def _apply(self, request: SetupRequest) -> None:
+        self.axis.apply(self.axis.kind.plan(self.axis.link.identity.xtal_hz, request))
+        self.request = request
+
+    # ------------------------------------------------------------------ motions
+
+    def start_move(self, position: float) -> AnyMotion | None:
+        """Start a move with ramps to the pulse nearest to a position.
+
+        It returns None if the motor is there.
+
+        Raises:
+            StoppedByCommand: `stop_requested` is True.
+        """
+        with self.lock:
+            begin = self.axis.position
+            pulses = self.to_pulses(position) - begin
+            if not pulses:
+                return None
+            self._check_stop(begin, abs(pulses))
+            return self.axis.start_move(pulses)  # type: ignore[no-any-return]
+
+    def leave_limit(self, position: float) -> None:
+        """Clear the flag of the EXT input of a PMC006B4 that a move to a position leaves.
+
+        The limits of the other parts do not prevent such a move.
+        """
+        if _is_pmc006(self.axis):
+            with self.lock:
+                forward = position > self.position
+                leaves = 1 if forward is (self.pulses_per_unit > 0) else 2
+                if leaves in self.axis.flags().stops:
+                    self.axis.clear_stops((leaves,))
+
+    def follow(self, motion: AnyMotion, report: Callable[[float], None]) -> None:
+        """Report the position until the motion has ended, and at its end.
+
+        Args:
+            report: an exception of it ends the call; the motion continues.
+
+        Raises:
+            MotionError: the motion ended differently from its request.
+            EndUnknown: the part does not confirm how it ended.
+        """
+        with self.lock:
+            self._access.moving += 1
+        try:
+            while True:
+                with self.lock:
+                    now = motion.poll()
+                    if now is None:
+                        break
+                    self.device.process_reports(POLL / max(1, self._access.moving))
+                report(self.to_units(now.position))
+                time.sleep(FREE)
+        finally:
+            with self.lock:
+                self._access.moving -= 1
+        report(self.position)
+        assert motion.result is not None
+        motion.result.check(motion.requested)
+
+    def home(self, forward: bool, report: Callable[[float], None]) -> None:
+        """Find the origin switch in the direction of increasing or decreasing positions; its edge is pulse 0.
+
+        A PMC006B4 searches EXT2 or EXT1.
+
+        Args:
+            report: called about ten times a second, as in `follow`.
+
+        Raises:
+            OriginNotFound, LimitReached, AlarmStop, StoppedByCommand: homing did not succeed.
+        """
+        cw = forward is (self.pulses_per_unit > 0)
+
+        def progress(now: Progress) -> None:
+            report(self.to_units(now.position))
+            self.send_stop()
+            self.lock.release()
+            time.sleep(FREE)
+            self.lock.acquire()
+
+        with self.lock:
+            self._check_stop(self.axis.position, 0)
+            if _is_pmc006(self.axis):
+                self.axis.home(2 if cw else 1, 1 if cw else -1, progress=progress)
+            else:
+                self.axis.home(CW if cw else CCW, progress=progress)
+
+    def stop(self) -> None:
+        """Decelerate the motion in progress, if any, and prevent the start of another one."""
+        self.stop_requested = True
+        self.send_stop()
+
+    def send_stop(self) -> None:
+        """Send one stop to the motion in progress if `stop_requested` is True. Homing has several motions."""
+        with self.lock:
+            motion = self.axis.motion
+            if not self.stop_requested or motion is None or motion.over or motion is self._stopped:
+                return
+            self._stopped = motion
+            try:
+                self.axis.stop(wait=False)
+            except NothingToStop:
+                pass  # the motor has just stopped
+
+    def _check_stop(self, position: int, pulses: int) -> None:
+        """Raise StoppedByCommand if a stop was requested before the start of a motion."""
+        if self.stop_requested:
+            MotionResult(Cause.STOP, 0, pulses, position, 0).check(pulses)
+
+
+def finite(value: Any, what: str) -> float:
+    """Return a number as float. Raises OutOfRange if it is not a finite number."""
+    if not isinstance(value, Real) or isinstance(value, bool) or not math.isfinite(value):
+        raise OutOfRange(f"{what} {value!r} is not a finite number")
+    return float(value)
+
+
+def _is_pmc006(axis: Any) -> bool:
+    return hasattr(axis, "on_switch")
+
+
+def _axis(device: Device, number: int) -> Any:
+    """Return an axis of a part by its number, or a station of a line."""
+    station = getattr(device, "axis", None)
+    if callable(station):
+        return station(number)
+    if not 1 <= number <= len(device.axes):
+        raise OutOfRange(f"axis {number}: {device.link.name} has axes 1 to {len(device.axes)}")
+    return device.axes[number - 1]
