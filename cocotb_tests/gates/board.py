@@ -9,6 +9,7 @@ from cocotb_tests.harness.collect import Item
 
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
+PART_TESTS = "cocotb_tests.gates.tb_parts"
 # Clock frequency of the iCEBreaker's bitstream.
 B24 = Config("b24m", clk_hz=24_000_000)
 
@@ -30,3 +31,9 @@ def items() -> list[Item]:
     """Return the tests of the board."""
     params = cocotb_items("cocotb_tests.gates", "tb_board", part=PARTS["ppmc104"])
     return [param.values[0] for param in params]
+
+
+def part_test(part: str, config: Config) -> Item:
+    """Return the test of a bitstream with a part."""
+    name = {"bank": "board_bank", "pmc006": "board_pmc006"}.get(part, "board_selftest")
+    return Item(PART_TESTS, name, config, part, ())
