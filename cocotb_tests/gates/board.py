@@ -9,7 +9,7 @@ from cocotb_tests.harness.collect import Item
 
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
-PART_TESTS = "cocotb_tests.gates.tb_parts"
+PART_TESTS, PMC006 = "cocotb_tests.gates.tb_parts", "cocotb_tests.pmc006.tb_bits"
 # Clock frequency of the iCEBreaker's bitstream.
 B24 = Config("b24m", clk_hz=24_000_000)
 
@@ -35,5 +35,6 @@ def items() -> list[Item]:
 
 def part_test(part: str, config: Config) -> Item:
     """Return the test of a bitstream with a part."""
-    name = {"bank": "board_bank", "pmc006": "board_pmc006"}.get(part, "board_selftest")
-    return Item(PART_TESTS, name, config, part, ())
+    if part == "pmc006":
+        return Item(PMC006, "board_pmc006", config, part, ())
+    return Item(PART_TESTS, "board_bank" if part == "bank" else "board_selftest", config, part, ())

@@ -1,7 +1,7 @@
-"""The bitstream of a board with each part: self-test, bank, PMC006B4.
+"""The bitstream of a board with each part on the UART bridge: self-test, bank.
 
 The self-test is that of the host package; it compares every edge in the recorder with the golden model. A
-bank leaves no block RAM for a recorder, and the PMC006B4 has none.
+bank leaves no block RAM for a recorder.
 """
 
 from __future__ import annotations
@@ -10,15 +10,13 @@ from pathlib import Path
 from typing import Any
 
 import cocotb
-from cocotb.clock import Clock
 from cocotb.task import bridge, resume
-from cocotb.triggers import Event, FallingEdge, First, RisingEdge, Timer, with_timeout
+from cocotb.triggers import Event, First, Timer
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.gates.tb_board import CW, INIT, RESET_MS, Golden, between, present, start
-from cocotb_tests.harness import PARTS, RtlBench, same
+from cocotb_tests.harness import PARTS, RtlBench
 from cocotb_tests.harness.line import UartBfm
-from cocotb_tests.pmc006.tb_board import ACCEPTED, Host
 from openppmc import parts
 from openppmc.host.bank.registers import SELECT
 from openppmc.host.link import Link
@@ -28,10 +26,6 @@ from openppmc.host.selftest.run import SelfTest
 
 BAUD = 3_000_000
 AXES, PULSES = 8, 30
-IDLE_006 = {"rst_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "cmp_a": 0, "cmp_b": 0, "ext1": 1, "ext2": 1}
-IDLE_006 |= {"gpi": 0b111, "fset_n": 1, "scl": 1, "sda": 0}
-"""There is no EEPROM: SDA is low, so that the part boots immediately."""
-CLOCK_PS, STEPS = 41_666, 100
 
 
 class LinePort(UartBfm):
@@ -119,35 +113,3 @@ async def board_bank(dut: Any) -> None:
         bench.check("bank", "pulses", falls, [PULSES * (n == axis) for n in range(AXES)])
         answer = await uart.ask(Script().call(0x80).get(1))
         bench.check("bank", "finish status", answer.byte(1), golden.finish())
-
-
-@cocotb.test()
-async def board_pmc006(dut: Any) -> None:
-    """After a boot, both lines return replies; a move has its steps, and the button stops the bridges."""
-    for name, level in IDLE_006.items():
-        getattr(dut, name).value = level
-    Clock(dut.clk, CLOCK_PS, "ps").start()
-    await with_timeout(RisingEdge(dut.bridge_a_en), 60, "ms")
-    await Timer(10, "us")
-    usb = Host(dut.uart_rxd, dut.uart_txd, dut.rs485_de)
-    rs485 = Host(dut.rs485_rxd, dut.rs485_txd, dut.rs485_de)
-    usb.listen()
-    rs485.listen()
-    for host, other in ((usb, rs485), (rs485, usb)):
-        other.bytes.clear()
-        same("microstepping", await host.ask("k"), 16)
-        same("the other line", bytes(other.bytes), bytes(host.bytes))
-    same("y", await usb.ask("y", 0b10110 << 3), 0b10110 << 3)
-    same("gpo", int(dut.gpo.value), 0b110)
-    same("LED", int(dut.ledr_n.value), 1)
-    same("step", await usb.ask("s", STEPS), ACCEPTED)
-    same("LED", int(dut.ledr_n.value), 0)
-    levels = set()
-    while not dut.ledr_n.value:
-        await Timer(100, "us")
-        levels.add(tuple(int(getattr(dut, name).value) for name in ("m10", "m11", "m20", "m21")))
-    assert len(levels) >= 4, levels
-    same("position", await usb.ask("c"), STEPS)
-    dut.rst_n.value = 0
-    await with_timeout(FallingEdge(dut.bridge_a_en), 1, "us")
-    same("the other bridge", int(dut.bridge_b_en.value), 0)

@@ -69,7 +69,7 @@ class GateTest:
     @property
     def on_board(self) -> bool:
         """Whether the test is one of a board, not of a part."""
-        return self.item.module in (board.MODULE, board.PART_TESTS)
+        return self.item.module in (board.MODULE, board.PART_TESTS, board.PMC006)
 
     @property
     def top(self) -> str:
