@@ -82,6 +82,8 @@ test-gates | dev campaign | Run the part tests on netlists; T=quick: a sample.
     [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.gates {on} [-k {T}] [--seed {SEED}]
 test-verilog | dev campaign | Run the part tests on plain Verilog; T=quick: a sample.
     [SIM_MAIN={SIM}] {py} -m scripts.measure.gates --plain {on} [-k {T}] [--seed {SEED}]
+test-bits | dev campaign | Run the tests on bitstreams; T=quick: a sample.
+    [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.gates --bits {on} [-k {T}] [--seed {SEED}]
 test-web | site | Test the playground under node and in Chromium.
     rm -f build/site/figures.txt; {pytest} tests/*/web -n {J:2} [-k {T/or}]; code=$?;
     cat build/site/figures.txt 2>/dev/null; exit $code
@@ -129,9 +131,9 @@ soak | campaign | Compare random hosts with the golden model; PART=all: each par
     --seed {SEED:1} --count {COUNT:1000} {on}
 fuzz | campaign | Send random characters to each deframer and its model.
     {py} -m scripts.measure.fuzz [--seed {SEED}] [--count {COUNT}] {on}
-nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates and prove for hours.
+nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates, test-bits and prove.
     code=0; for work in 'fuzz --count 100000000' 'soak all --seed {SEED:1000000} --count {COUNT:2000}'
-    coverage mutants.made gates; do echo "== nightly: $work";
+    coverage mutants.made gates 'gates --bits'; do echo "== nightly: $work";
     {py} -m scripts.measure.$work {on} || code=1; done;
     echo '== nightly: proofs'; {py} -m scripts.measure.prove --night -n {J:2} || code=1; exit $code
 replay | sim | Repeat a failed random test on the RTL and the golden model.

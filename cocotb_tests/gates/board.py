@@ -9,6 +9,7 @@ from cocotb_tests.harness.collect import Item
 
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
+PART_TESTS, PMC006 = "cocotb_tests.gates.tb_parts", "cocotb_tests.pmc006.tb_bits"
 # Clock frequency of the bitstream for the iCEBreaker.
 B24 = Config("b24m", clk_hz=24_000_000)
 
@@ -30,3 +31,10 @@ def items() -> list[Item]:
     """Return the tests of the board."""
     params = cocotb_items("cocotb_tests.gates", "tb_board", part=PARTS["ppmc104"])
     return [param.values[0] for param in params]
+
+
+def part_test(part: str, config: Config) -> Item:
+    """Return the test of a bitstream with a part."""
+    if part == "pmc006":
+        return Item(PMC006, "board_pmc006", config, part, ())
+    return Item(PART_TESTS, "board_bank" if part == "bank" else "board_selftest", config, part, ())

@@ -17,13 +17,22 @@ from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.gate_tests import PartTests
 from cocotb_tests.harness.project import ProjectError
 from openppmc import parts
-from scripts.fpga.flow import gates, plain
+from scripts.fpga.flow import bits, boards, gates, plain
 
 QUICK = "quick"
 # The quick subset: the tests that each part lists, on one family; each family has some of the parts. Most of
 # its time is synthesis.
 QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
 QUICK_DEFAULT = "ecp5"
+
+RECORDER = (("RECORD", 10),)
+"""Parameters of the bitstreams for the self-test: a larger recorder is not in block RAM."""
+PARAMS = {"bank": (), "pmc006": (("BAUD", 115_200),)}
+"""Part -> parameters of the bitstream, for tests without a recorder."""
+TARGETS = {plain.FAMILY: "test-verilog", gates.BITS: "test-bits"}
+"""Family -> make target that repeats a test; the default is test-gates."""
+WRONG_EDGE = "first wrong edge"
+"""Part of the message of a test that has found a difference from the golden model."""
 
 TOO_BIG = "the part does not fit in this family"
 
@@ -36,7 +45,8 @@ def suites() -> list[PartTests]:
 def families(of: PartTests) -> list[str]:
     """Return the FPGA families for which the part has netlists, and plain Verilog."""
     made = project.part(of.name).families if of.netlists else ()
-    return [*(family for family in gates.FAMILIES if family in made), plain.FAMILY]
+    of_bits = [gates.BITS] if "ice40" in made else []
+    return [*(family for family in gates.FAMILIES if family in made), *of_bits, plain.FAMILY]
 
 
 @dataclass(frozen=True)
@@ -46,6 +56,7 @@ class GateTest:
     Attributes:
         params: parameters of the part's top.
         probes: as in `PartTests`.
+        flipped: True if one bit of the bitstream is flipped, so that the test must find a wrong edge.
     """
 
     family: str
@@ -54,15 +65,27 @@ class GateTest:
     params: tuple[tuple[str, Any], ...] = ()
     probes: tuple[str, ...] = ()
     four_state: bool = False
+    flipped: bool = False
+
+    @property
+    def on_board(self) -> bool:
+        """Whether the test is one of a board, not of a part."""
+        return self.item.module in (board.MODULE, board.PART_TESTS, board.PMC006)
 
     @property
     def top(self) -> str:
         """Top module of the netlist."""
+        if self.family == gates.BITS and self.on_board:
+            return boards.board(bits.BOARD, self.item.part).top["uart"]
         return board.TOP if self.item.module == board.MODULE else project.part(self.item.part).top
 
     def design(self) -> Design:
         """Return the design to be simulated; its netlist is synthesised if it is missing."""
         config = self.item.config
+        if self.family == gates.BITS:
+            if self.on_board:
+                return bits.board_design(self.item.part, dict(self.params), self.flipped)
+            return bits.part_design(self.item.part, dict(self.params))
         if self.top == board.TOP:
             folder = gates.netlist(self.family, board.TOP, board.sources(), board.params(config))
             return gates.design(self.family, board.TOP, folder)
@@ -71,7 +94,14 @@ class GateTest:
     @property
     def group(self) -> tuple[str, str]:
         """Family, and name of the top with its configuration."""
-        return self.family, f"{self.top} {self.item.config.name}"
+        return self.family, f"{self.top} {self.item.config.name}{', one bit flipped' if self.flipped else ''}"
+
+    def result(self, message: str) -> str:
+        """Return the message of a failed simulation; for a flipped bit, one that has not found the bit."""
+        if self.flipped:
+            found = WRONG_EDGE in message
+            return "" if found else f"{self.item.id}: the flipped bit was not found: {message or 'passed'}"
+        return message
 
 
 def left_out() -> dict[str, str]:
@@ -106,7 +136,7 @@ def _is_quick(name: str, family: str) -> bool:
 
 def _tagged(item: Item, family: str) -> Item:
     tag = f"{item.tag}-{family}" if item.tag else family
-    return replace(item, tag=tag, target="test-verilog" if family == plain.FAMILY else "test-gates")
+    return replace(item, tag=tag, target=TARGETS.get(family, "test-gates"))
 
 
 def _test(part: PartTests, item: Item, family: str) -> GateTest:
@@ -127,8 +157,27 @@ def _random(part: PartTests, family: str, seed: int | None) -> list[GateTest]:
 
 
 def _board(family: str) -> list[GateTest]:
+    if family == gates.BITS:
+        return _boards()
     quick = _is_quick(board.TOP, family)
     return [GateTest(family, _tagged(item, family), quick=quick) for item in board.items()]
+
+
+def _boards() -> list[GateTest]:
+    """Return the tests of the bitstreams of the board: those of the quick sample, then one of each part."""
+    config = replace(bits.config("ppmc104"), name=f"{bits.BOARD}-shipped")
+    items = [replace(item, config=config) for item in board.items()]
+    tests = [GateTest(gates.BITS, _tagged(item, gates.BITS), quick=True) for item in items]
+    moves = next(item for item in items if item.test.startswith("board_moves"))
+    flipped = _tagged(replace(moves, tag="flipped"), gates.BITS)
+    tests.append(GateTest(gates.BITS, flipped, quick=True, flipped=True))
+    for on in bits.DESCRIPTION.parts:
+        if "uart" in on.hosts:
+            item = board.part_test(on.part, bits.config(on.part, **(on.set or {})))
+            tests.append(
+                GateTest(gates.BITS, _tagged(item, gates.BITS), params=PARAMS.get(on.part, RECORDER))
+            )
+    return tests
 
 
 def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> list[GateTest]:

@@ -1,7 +1,8 @@
 """`make test-gates`: the part tests on the netlists of both FPGA families, and the tests of the board top.
 
 The board top is tested through its UART. `make test-verilog` (--plain) runs the same tests on the plain
-Verilog of `make verilog`.
+Verilog of `make verilog`. `make test-bits` (--bits) runs board tests on bitstreams that are converted back to
+netlists.
 
 First, the netlists and simulators for the selected tests are built. Then the tests run, J at a time, as a
 campaign: after an interruption, the next run continues. Finally, a table lists the results of each netlist.
@@ -24,7 +25,7 @@ from cocotb_tests.harness import project
 from cocotb_tests.harness.build import ICARUS, ICARUS_MISSING, SimError, build, icarus_installed, sim_main
 from cocotb_tests.harness.project import ProjectError, console
 from cocotb_tests.harness.runner import SimOptions, attempt
-from scripts.fpga.flow import gates, plain
+from scripts.fpga.flow import bits, gates, plain
 from scripts.measure.campaign.cluster import Workers, add_arguments, workers_of
 from scripts.measure.campaign.jobs import Campaign, Done, Job, Result
 from scripts.measure.campaign.run import run
@@ -81,7 +82,8 @@ def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
 
     def work() -> str:
         try:
-            return attempt(test.item, SimOptions(seed=seed, waves_on_failure=waves), LIMIT, test.design())
+            options = SimOptions(seed=seed, waves_on_failure=waves and not test.flipped)
+            return test.result(attempt(test.item, options, LIMIT, test.design()))
         except ProjectError as error:
             return str(error)
 
@@ -172,7 +174,9 @@ def arguments() -> argparse.Namespace:
     )
     add_arguments(parser)
     parser.add_argument("-k", metavar="T", help="only tests whose name contains T; quick: the sample of CI")
-    parser.add_argument("--plain", action="store_true", help="plain Verilog instead of netlists")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--plain", action="store_true", help="plain Verilog instead of netlists")
+    which.add_argument("--bits", action="store_true", help="bitstreams of the iCEBreaker instead of netlists")
     parser.add_argument(
         "--seed", type=int, help="seed of all simulations; only the random host with this seed"
     )
@@ -189,13 +193,18 @@ def main() -> int:
     if four_state and not icarus_installed():
         console.print(f"skipped: {ICARUS_MISSING}")
         return 0
+    if args.bits and not bits.installed():
+        console.print(f"skipped: {bits.MISSING}")
+        return 0
     workers = workers_of(args)
-    families = (plain.FAMILY,) if args.plain else gates.FAMILIES
-    what = "tests on plain Verilog" if args.plain else "gate-level tests"
+    families = (plain.FAMILY,) if args.plain else (gates.BITS,) if args.bits else gates.FAMILIES
+    what = {plain.FAMILY: "tests on plain Verilog", gates.BITS: "tests on bitstreams"}.get(
+        families[0], "gate-level tests"
+    )
     tests = chosen(everything(args.seed, families), args.k, four_state)
     if not tests:
         raise ProjectError(f"{what}: no test matches T={args.k}")
-    reasons = left_out()
+    reasons = {} if args.bits else left_out()
     begin = time.monotonic()
     rows = run_all(tests, args.seed, workers, args.fresh)
     console.print(table(rows, what))

@@ -32,8 +32,11 @@ class Routed:
     ram: tuple[int, int]
 
 
-def run(command: list[str], folder: Path, what: str) -> None:
-    """Run one tool in `folder`; raise ProjectError with its error lines if it fails or is not installed."""
+def run(command: list[str], folder: Path, what: str) -> str:
+    """Run one tool in `folder` and return its output.
+
+    Raises ProjectError with its error lines if it fails or is not installed.
+    """
     try:
         done = subprocess.run(
             [tool(command[0]), *command[1:]],
@@ -49,6 +52,7 @@ def run(command: list[str], folder: Path, what: str) -> None:
         lines = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
         errors = [line for line in lines if "error" in line.lower()][:4] or lines[-4:]
         raise ProjectError("\n".join([f"{command[0]} failed for {what} (in {relative(folder)})", *errors]))
+    return done.stdout
 
 
 def options(on: Board, constraints: Path) -> list[str]:

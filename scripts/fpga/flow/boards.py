@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 import subprocess
@@ -100,6 +101,17 @@ def board_job(on: Board, host: str, params: Mapping[str, int | str] | None = Non
     }
 
 
+def inputs_digest(on: Board, host: str, params: Mapping[str, int | str] | None = None) -> str:
+    """Return the digest of the sources, constraints and parameters of a bitstream, without its build ID."""
+    job = board_job(on, host, params)
+    files = [*(project.ROOT / name for name in job["sources"]), CONSTRAINTS / on.constraints[host]]
+    files += [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
+    sha = hashlib.sha256(repr((sorted(job["params"].items()), on.recipe or BEST[on.family])).encode())
+    for path in files:
+        sha.update(path.read_bytes())
+    return sha.hexdigest()[:16]
+
+
 def synthesize_board(
     on: Board, host: str, params: dict[str, int | str] | None = None, known: bool = False
 ) -> Path:
@@ -157,7 +169,17 @@ def build_board(
     If `seed` is None, the seeds 1 to SEEDS are tried until timing is met. ProjectError is raised if timing is
     not met or a tool fails. `notify` is called with the current step.
     """
-    on = board(name, part)
+    return build_on(board(name, part), host, seed, params, notify)
+
+
+def build_on(
+    on: Board,
+    host: str,
+    seed: int | None = None,
+    params: dict[str, int | str] | None = None,
+    notify: Callable[[str], None] = lambda text: None,
+) -> dict:
+    """Do the same as `build_board` for a row of the table."""
     check_host(on, host)
     check_parameters(on, host, params or {})
     folder = on.folder(host)
@@ -175,7 +197,7 @@ def build_board(
         seen.append(f"{figures['fmax']:.1f} MHz with seed {number}")
     else:
         raise ProjectError(
-            f"{name}: timing missed, {on.clk_hz / 1e6:g} MHz needed: {', '.join(seen)}. "
+            f"{on.name}: timing missed, {on.clk_hz / 1e6:g} MHz needed: {', '.join(seen)}. "
             f"Try another seed, such as SEED={(seed or SEEDS) + 1}"
         )
     notify("bitstream")
@@ -184,6 +206,7 @@ def build_board(
         "file": project.relative(on.file(host)),
         "bytes": on.file(host).stat().st_size,
         "params": params or {},
+        "inputs": inputs_digest(on, host, params),
     }
     (folder / "report.json").write_text(json.dumps(figures, indent=1) + "\n")
     return figures

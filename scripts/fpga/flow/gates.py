@@ -23,6 +23,8 @@ from scripts.fpga.flow.yosys_job import BEST, RECIPES
 
 FAMILIES = ("ice40", "ecp5")
 """Families of netlists; plain Verilog (`plain.FAMILY`) is made and tested in the same way."""
+BITS = "bits"
+"""Family of bitstreams that are converted back to netlists (`bits`)."""
 NETLISTS = project.BUILD / "gates"
 # yosys has no simulation models for the RAM and the multiplier of the ECP5.
 OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
@@ -31,6 +33,8 @@ OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
 # vectors whose bits depend on each other (the check of the RTL finds real loops). No other warning is waived.
 WAIVED = {
     "ice40": (("UNOPTFLAT", "*"),),
+    # icebox_vlog does not declare the second port of a net that has two.
+    BITS: (("UNOPTFLAT", "*"), ("IMPLICIT", "*")),
     "ecp5": (
         ("UNOPTFLAT", "*"),
         ("MODDUP", "*"),
@@ -140,7 +144,7 @@ def design(family: str, top: str, folder: Path) -> Design:
     sources = [folder / "netlist.v", folder / "netlist.vlt"]
     if family == plain.FAMILY:
         return Design(top, sources, args=ARGS)
-    library = models(family)
+    library = models("ice40" if family == BITS else family)
     own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS.get(family, ())]
     # If a module is defined twice, the first definition is used.
     return Design(top, [*own, library / "cells_sim.v", *sources], [library], args=ARGS)

@@ -18,7 +18,7 @@ EVERYTHING = gate_suite.everything()
 SUITES = gate_suite.suites()
 
 
-@pytest.mark.parametrize("family", [*gates.FAMILIES, plain.FAMILY])
+@pytest.mark.parametrize("family", [*gates.FAMILIES, gates.BITS, plain.FAMILY])
 def test_all_directed_tests_run_on_each_family(family: str) -> None:
     items = [(part, param.values[0]) for part in SUITES for param in part.directed.ITEMS]
     items = [(part, item) for part, item in items if family in gate_suite.families(part)]
