@@ -32,13 +32,13 @@ module ppmc_bridge_rate_fv (
     else if (answered_i) trial_q <= dut.change_q;
     else if (good_i) trial_q <= 1'b0;
 
-  `FV_ASSERT(ub_lin_03_changes_at_an_answer, dut.code_q == $past(dut.code_q) || dut.code_q == '0 || $past
+  `FV_ASSERT(ub_lin_07_changes_at_an_answer, dut.code_q == $past(dut.code_q) || dut.code_q == '0 || $past
              (answered_i))
-  `FV_ASSERT(ub_lin_07_break_leads_back, !$past(rst_ni && break_i) || dut.code_q == '0)
-  `FV_ASSERT(ub_lin_06_not_given_up_early, !($past(rst_ni && !break_i && !answered_i)
+  `FV_ASSERT(ub_lin_06_break_leads_back, !$past(rst_ni && break_i) || dut.code_q == '0)
+  `FV_ASSERT(ub_lin_07_not_given_up_early, !($past(rst_ni && !break_i && !answered_i)
              && dut.code_q == '0 && $past(dut.code_q) != '0) || $past(ms_q) == 10'd1000)
-  `FV_ASSERT(ub_lin_06_given_up_in_time, !(trial_q && ms_q > 10'd1001) || dut.code_q == '0)
-  `FV_ASSERT(ub_lin_06_kept_when_used, !$past(rst_ni && good_i && !break_i && !answered_i)
+  `FV_ASSERT(ub_lin_07_given_up_in_time, !(trial_q && ms_q > 10'd1001) || dut.code_q == '0)
+  `FV_ASSERT(ub_lin_07_kept_when_used, !$past(rst_ni && good_i && !break_i && !answered_i)
              || dut.code_q == $past(dut.code_q))
   `FV_ASSERT(lemma_left, !dut.trial_q || (ms_q <= 10'd1000 && dut.left_q == 10'd1000 - ms_q))
   `FV_ASSERT(lemma_trial, (dut.trial_q || dut.code_q == '0 || !trial_q) && (trial_q || !dut.trial_q))
