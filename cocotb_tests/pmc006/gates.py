@@ -7,7 +7,7 @@ from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
 from . import test_part, test_random
 from .builds import F8B
 
-SAME_BLOCKS = "2 to 15 million clk a module; tb_sequence, tb_bridge and random hosts have the same blocks"
+SAME_BLOCKS = "2 to 15 million cycles a module; tb_sequence, tb_bridge and random hosts have the same blocks"
 SHORT = ("tb_sequence", "tb_bridge", "tb_current", "tb_streams")
 
 PART = PartTests(

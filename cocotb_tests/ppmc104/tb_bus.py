@@ -88,7 +88,7 @@ async def p104_bus_02_overlapping_strobes(dut):
     env.check("P104-BUS-02", "aux_n after the read", bench.edges("aux_n"), [])
 
 
-@rtl_only("strobes at any phase to clk, and the model counts in clk")
+@rtl_only("strobes at any phase to clk, and the model counts in cycles")
 @directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
 async def p104_bus_03_shortest_strobes(dut):
     """With the shortest legal strobes at any phase to `clk`, no byte is missed or corrupted (P104-BUS-03)."""
@@ -293,7 +293,7 @@ async def p104_port_04_tied_inputs(dut):
         env.check("P104-PORT-04", "input signals", await env.host.fetch(0x81), [0xCF])
 
 
-@rtl_only("strobes at any phase to clk, and the model counts in clk")
+@rtl_only("strobes at any phase to clk, and the model counts in cycles")
 @directed("P104-BAD-09")
 async def p104_bad_09_too_short_strobes(dut):
     """If strobes and gaps are shorter than the limits, at any phase, each byte is either stored completely or

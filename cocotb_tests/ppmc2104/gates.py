@@ -21,9 +21,9 @@ PART = PartTests(
         "test_scenarios_are_reproducible_and_varied": GENERATOR,
     },
     too_long={
-        "p2104_ac_12_largest_ramp": "15 million clk; p2104_rmp_02_long_ramp_up has the same ramp",
+        "p2104_ac_12_largest_ramp": "15 million cycles; p2104_rmp_02_long_ramp_up has the same ramp",
         "p2104_ac_68_ramps_and_two_axes": (
-            "12 million clk in settings; p2104_ac_67_rate_bytes has the comparison"
+            "12 million cycles in settings; p2104_ac_67_rate_bytes has the comparison"
         ),
     },
     quick=frozenset({"tb_acceptance_errors"}),

@@ -47,7 +47,7 @@ async def p2104_ac_02_reads_after_reset(dut: Any) -> None:
         env.check("AC-02", f"reads of axis {axis.n}", reads, [[0], [0xCF], [0xFC], [0, 0, 0], [0]])
 
 
-@rtl_only("nanoseconds of the bus, which the model counts in clk")
+@rtl_only("nanoseconds of the bus, which the model counts in cycles")
 @directed("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
 async def p2104_ac_03_write_times_of_the_data_sheet(dut: Any) -> None:
     """Writes with strobes of 120 ns and data valid for 80 ns are accepted at any phase, in both styles
@@ -66,7 +66,7 @@ async def p2104_ac_03_write_times_of_the_data_sheet(dut: Any) -> None:
                 env.check("AC-03", what, env.bench.level("auxo"), auxo)
 
 
-@rtl_only("nanoseconds of the bus, which the model counts in clk")
+@rtl_only("nanoseconds of the bus, which the model counts in cycles")
 @directed("AC-04", "P2104-BUS-06", "P2104-BUS-20", "P2104-BUS-21")
 async def p2104_ac_04_read_times_of_the_data_sheet(dut: Any) -> None:
     """In read strobes of 120 ns, the status is valid from 100 ns to the end (AC-04)."""
@@ -81,7 +81,7 @@ async def p2104_ac_04_read_times_of_the_data_sheet(dut: Any) -> None:
             env.check("AC-04", f"busc {busc}, phase {phase}/16", samples, [(1, 0x80)] * 2)
 
 
-@rtl_only("nanoseconds of the bus, which the model counts in clk")
+@rtl_only("nanoseconds of the bus, which the model counts in cycles")
 @directed("AC-05", "P2104-BUS-07", "P2104-STA-03")
 async def p2104_ac_05_no_invisible_write(dut: Any) -> None:
     """If the status is read 75 ns after an unexpected data byte, IBF or ERROR is 1 (AC-05)."""

@@ -191,7 +191,7 @@ async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
     env.check("P2104-BUS-08", "both orders were met", seen >= {(0, 1), (0xCF, 0)}, True)
 
 
-@rtl_only("strobes at any phase to clk, and the model counts in clk")
+@rtl_only("strobes at any phase to clk, and the model counts in cycles")
 @directed("P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-05", builds=(F8, F11, F16, F48, F100))
 async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
     """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is missed (P2104-BUS-20)."""
@@ -232,7 +232,7 @@ async def p2104_bus_23_two_clk_cycles(dut: Any) -> None:
         env.check("P2104-BUS-09", "status", await env.host.status(), 0x00)
 
 
-@rtl_only("strobes at any phase to clk, and the model counts in clk")
+@rtl_only("strobes at any phase to clk, and the model counts in cycles")
 @directed("P2104-BUS-10", "P2104-BAD-14", builds=(F16, F48))
 async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
     """With strobes shorter than a cycle, at any phase, each byte is either stored completely or not at all

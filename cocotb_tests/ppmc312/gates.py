@@ -7,7 +7,7 @@ from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PARAMETERS
 from . import test_part, test_random
 
 SAME_BLOCKS = (
-    "4 to 15 million clk; p312_serial_sequence and the random hosts of the line have the same blocks"
+    "4 to 15 million cycles; p312_serial_sequence and the random hosts of the line have the same blocks"
 )
 OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "motions", "polls", "resets")
 
@@ -29,11 +29,11 @@ PART = PartTests(
         "test_hosts_on_the_line_are_rich": GENERATOR,
     },
     too_long={
-        "tb_transactions": "8 million clk; the other modules have the same instructions",
-        "tb_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
-        "tb_positions": "1 million clk; the other modules have positions and their reports, too",
+        "tb_transactions": "8 million cycles; the other modules have the same instructions",
+        "tb_terminals": "3 million cycles, mostly waits for clear pulses and the current reduction",
+        "tb_positions": "1 million cycles; the other modules have positions and their reports, too",
         **{f"tb_serial_{name}": SAME_BLOCKS for name in OF_THE_LINE},
-        "tb_checks_motion": "15 million clk; tb_motion_walks, tb_time_limits have shorter moves of all kinds",
+        "tb_checks_motion": "15 million cycles; tb_motion_walks and tb_time_limits have all kinds of moves",
     },
     quick=frozenset(
         {

@@ -96,7 +96,7 @@ async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
         await env.host.command(0xC0)
 
 
-@rtl_only("strobes at any phase to clk, and the model counts in clk")
+@rtl_only("strobes at any phase to clk, and the model counts in cycles")
 @directed("STMC-BUS-11", builds=(F16, F8X20, F200))
 async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
     """In the shortest legal accesses, at any phase to clk, no byte is missed (STMC-BUS-11)."""
@@ -213,7 +213,7 @@ async def stmc_bus_21_answers(dut: Any) -> None:
     env.check("STMC-BUS-22", "status", await host.status(), 0)
 
 
-@rtl_only("strobes at any phase to clk, and the model counts in clk")
+@rtl_only("strobes at any phase to clk, and the model counts in cycles")
 @directed("STMC-BAD-13")
 async def stmc_bad_13_short_strobes(dut: Any) -> None:
     """Strobes that are too short, at any phase, cause either no write or one complete write (STMC-BAD-13)."""

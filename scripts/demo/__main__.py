@@ -146,7 +146,7 @@ def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]
             console.print(
                 f"{chapter['title']}{who}: [bold]{demo.words.count(len(falls))}[/] "
                 f"in {(falls[-1] - falls[0]) * 1e3 / clk_hz:.3f} ms, "
-                f"intervals {spread(max(gaps), min(gaps))} clk, "
+                f"intervals {spread(max(gaps), min(gaps))} cycles, "
                 f"{spread(clk_hz / max(gaps) / 1e3, clk_hz / min(gaps) / 1e3)} {demo.words.speed}"
             )
 

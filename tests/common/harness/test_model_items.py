@@ -18,8 +18,8 @@ SAMPLES = {
 }
 RTL_ONLY = {
     "ppmc104": ("p104_port_02_registers_only", "glitches between two clk edges"),
-    "ppmc2104": ("p2104_bus_10", "the model counts in clk"),
-    "stmc": ("stmc_bad_13_short_strobes", "the model counts in clk"),
+    "ppmc2104": ("p2104_bus_10", "the model counts in cycles"),
+    "stmc": ("stmc_bad_13_short_strobes", "the model counts in cycles"),
 }
 
 

@@ -14,7 +14,7 @@ def left_out(part: str, ends: Sequence[int], most: int, why: str) -> str:
     """Return a note on the sessions that last `most` cycles or longer; "" if there is none."""
     titles = [session.name for session in sessions(part)]
     every = zip(titles, ends, strict=True)
-    long = [f"{name} ({end // 10**6} million clk)" for name, end in every if end >= most]
+    long = [f"{name} ({end // 10**6} million cycles)" for name, end in every if end >= most]
     return f"; without {', '.join(long)}: {why}" if long else ""
 
 

@@ -123,7 +123,7 @@ def test_speed():
     part = WEB_PARTS["ppmc104"]
     native, module_speed = speed(part, native=True), speed(part, native=False)
     add(
-        f"ppmc104: {module_speed:.1f} million clk/s as WebAssembly, {native:.1f} native: "
+        f"ppmc104: {module_speed:.1f} million cycles/s as WebAssembly, {native:.1f} native: "
         f"{module_speed / native:.2f} of it"
     )
     assert module_speed / native > SLOWEST
