@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, makes
 //         decisions, and writes the state back.
-// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; ppmc_bank_plan and ppmc_bank_update implement other
-//         rules.
-// Timing: a visit takes seven cycles from the address of the axis to its edge. In each cycle, a new axis
-//         enters.
-//         Stages: 0: address; 1: RAM; 2: compare; 3: plan; 4: update; 5: write, load of pin_cmd_o; 6: the
-//         command is valid in the pin block. The end of this cycle is the first edge at which the command can
-//         change a pin.
-//         The interval is read two cycles earlier than state_s1_t, because the address of a threshold
-//         contains the rate of the interval.
+// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; see also ppmc_bank_plan and ppmc_bank_update.
+// Timing: a visit takes seven cycles from the address of the axis to its edge; a new visit begins each cycle.
+//         Stages: 0 address, 1 RAM, 2 compare, 3 plan, 4 update, 5 write and load of pin_cmd_o, 6 the command
+//         is valid in the pin block. The end of stage 6 is the first edge at which a pin can change.
+//         The interval is read two cycles before state_s1_t: the address of a threshold contains its rate.
 `default_nettype none
 
 module ppmc_bank_engine

@@ -63,5 +63,5 @@ def test_register_table(register: int, name: str) -> None:
 
 
 def test_sessions_are_of_the_bank_that_they_name() -> None:
-    assert f"Axis 5 of {SESSION_AXES}, at 100 MHz" in TEXT
+    assert f"axis 5 of {SESSION_AXES}, at 100 MHz" in TEXT
     assert TEXT.count("<!-- axis-session -->\n| a |") == TEXT.count("<!-- group-session -->\n| a |") == 1

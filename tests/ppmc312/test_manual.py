@@ -109,7 +109,7 @@ def test_first_move_of_the_manual_is_that_of_the_examples():
               if line.startswith("w")]  # fmt: skip
     printed = re.findall(r"`w (\d \w\w)`", chapter)
     assert printed == writes[: len(printed) - 1] + [writes[13]]
-    dwr = re.findall(r"then DWR ([0-9A-F ]+)\.", chapter)[0].split()
+    dwr = re.findall(r"then write ([0-9A-F ]+) into DWR", chapter)[0].split()
     assert [f"5 {byte}" for byte in dwr] == writes[14:]
     blocks = [clean(block) for block in re.findall(r"`([0-9A-F ]{8,})`", chapter)]
     assert blocks[0] == clean("".join(word[2:] for word in writes[12:1:-1]))

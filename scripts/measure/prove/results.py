@@ -7,7 +7,6 @@ of RTL, properties and tools with which each proof last held; `make prove` skips
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
 import json
 import os
 from collections import defaultdict
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness.project import BUILD, DOCS, include_dirs
+from scripts.env import LOCK
 from scripts.measure.prove.check import Outcome
 from scripts.measure.prove.table import FORMAL, Proof, proofs
 from scripts.measure.sizes.designs import code
@@ -27,7 +27,10 @@ PROVED = DOCS / "proved.json"
 def digest(proof: Proof) -> str:
     """Return the digest of all that decides the result of a proof; comments of the RTL do not change it."""
     headers = [path for folder in (*include_dirs(), FORMAL) for path in sorted(folder.glob("*.svh"))]
-    what = (proof.bound, proof.induct, proof.cover, proof.only, importlib.metadata.version("pyosys"))
+    version = next(
+        line for line in LOCK.read_text(encoding="utf-8").splitlines() if line.startswith("pyosys==")
+    )
+    what = (proof.bound, proof.induct, proof.cover, proof.only, version)
     sha = hashlib.sha256(repr(what).encode())
     for path in [*proof.sources(), *headers]:
         sha.update(code(path).encode())
