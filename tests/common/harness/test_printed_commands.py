@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import importlib.util
+import os
 import re
 import shlex
 import subprocess
@@ -113,7 +114,11 @@ def test_make(words: list[str], whole: bool, page: str) -> None:
     if own.parent != ROOT and own.exists() and all("=" in word for word in words):
         assert all(word.split("=")[0] in own.read_text(encoding="utf-8") for word in words)
         return
-    done = subprocess.run(["make", "-n", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    # `make test T=…` would pass its variables on.
+    env = {name: value for name, value in os.environ.items() if name != "MAKEFLAGS"}
+    done = subprocess.run(
+        ["make", "-n", *words], cwd=ROOT, env=env, capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
 
 
