@@ -1,7 +1,7 @@
 """IP-XACT packages: a part with an AXI4-Lite bridge as plain Verilog, for a vendor's IP catalogue (D-126).
 
-A package is a folder with plain Verilog and two descriptions: component.xml in the version that Vivado
-reads, IEEE 1685-2009, and component_2014.xml, IEEE 1685-2014.
+A package is a folder with plain Verilog and its description, component.xml, in the version that Vivado reads:
+IEEE 1685-2009.
 """
 
 from __future__ import annotations
@@ -25,10 +25,7 @@ from scripts.fpga.packages.registers import elaborated, text
 
 CLK_HZ = 100_000_000
 """Default of CLK_HZ in a package, the usual rate of an AXI bus."""
-NAMESPACES = {
-    2009: ("spirit", "http://www.spiritconsortium.org/XMLSchema/SPIRIT/1685-2009"),
-    2014: ("ipxact", "http://www.accellera.org/XMLSchema/IPXACT/1685-2014"),
-}
+SPIRIT = "http://www.spiritconsortium.org/XMLSchema/SPIRIT/1685-2009"
 XILINX = "http://www.xilinx.com"
 FAMILIES = "artix7 artixuplus kintex7 kintexu kintexuplus spartan7 virtex7 virtexu virtexuplus zynq zynquplus"
 HIGH = ("csel", "vsel", "run", "mon", "rxd")
@@ -194,9 +191,7 @@ def field(one: FieldNode) -> ET.Element:
     )
 
 
-def interface(
-    year: int, name: str, kind: str, logical: Mapping[str, str], output: bool, **values: Value
-) -> ET.Element:
+def interface(name: str, kind: str, logical: Mapping[str, str], output: bool, **values: Value) -> ET.Element:
     """Return a bus interface; `values` are its parameters."""
     library = "interface" if kind == "aximm" else "signal"
     vlnv = {"vendor": "xilinx.com", "library": library, "version": "1.0"}
@@ -209,48 +204,39 @@ def interface(
     if kind == "aximm":
         way.append(tag("memoryMapRef", memoryMapRef="S_AXI"))
     if values:
-        more = [tag("parameters", *(parameter(year, name, key, value) for key, value in values.items()))]
-    if year == 2009:
-        kinds = tag("abstractionType", name=f"{kind}_rtl", **vlnv)
-        return tag("busInterface", tag("name", name), bus, kinds, way, portmaps, *more)
-    abstraction = tag("abstractionType", tag("abstractionRef", name=f"{kind}_rtl", **vlnv), portmaps)
-    return tag("busInterface", tag("name", name), bus, tag("abstractionTypes", abstraction), way, *more)
+        more = [tag("parameters", *(parameter(key, value) for key, value in values.items()))]
+    kinds = tag("abstractionType", name=f"{kind}_rtl", **vlnv)
+    return tag("busInterface", tag("name", name), bus, kinds, way, portmaps, *more)
 
 
-def parameter(year: int, of: str, name: str, value: Value) -> ET.Element:
+def parameter(name: str, value: Value) -> ET.Element:
     """Return a fixed parameter of a component or interface."""
-    inner = tag("name", name), tag("value", str(value))
-    return tag("parameter", *inner) if year == 2009 else tag("parameter", *inner, parameterId=f"{of}_{name}")
+    return tag("parameter", tag("name", name), tag("value", str(value)))
 
 
-def port_of(year: int, port: Port) -> ET.Element:
+def port_of(port: Port) -> ET.Element:
     """Return a port; an input of the part has the level of an unused pin as default."""
     wire = tag("wire", tag("direction", "out" if port.output else "in"))
     if port.bits:
-        one = tag("vector", tag("left", str(port.bits[-1])), tag("right", str(port.bits[0])))
-        wire.append(one if year == 2009 else tag("vectors", one))
+        wire.append(tag("vector", tag("left", str(port.bits[-1])), tag("right", str(port.bits[0]))))
     if not port.output and not port.name.startswith("s_axi_"):
         high = port.name.endswith("_n") or port.name in HIGH
-        driver = tag("driver", tag("defaultValue", str((1 << port.width) - 1 if high else 0)))
-        wire.append(driver if year == 2009 else tag("drivers", driver))
+        wire.append(tag("driver", tag("defaultValue", str((1 << port.width) - 1 if high else 0))))
     about = [tag("description", port.text)] if port.text else []
     return tag("port", tag("name", port.name), *about, wire)
 
 
-def views(year: int, name: str) -> list[ET.Element]:
+def views(name: str) -> ET.Element:
     """Return the views for synthesis and simulation."""
-    env = {kind: f":vivado.xilinx.com:{kind}" for kind in ("synthesis", "simulation")}
     files = tag("fileSetRef", tag("localName", "verilog"))
-    if year == 2009:
-        rest = tag("language", "verilog"), tag("modelName", name), files
-        each = (tag("view", tag("name", k), tag("envIdentifier", e), *rest) for k, e in env.items())
-        return [tag("views", *each)]
-    ref = tag("componentInstantiationRef", "verilog")
-    inner = tag("name", "verilog"), tag("language", "verilog"), tag("moduleName", name), files
-    return [
-        tag("views", *(tag("view", tag("name", k), tag("envIdentifier", e), ref) for k, e in env.items())),
-        tag("instantiations", tag("componentInstantiation", *inner)),
-    ]
+    inner = tag("language", "verilog"), tag("modelName", name), files
+    return tag(
+        "views",
+        *(
+            tag("view", tag("name", kind), tag("envIdentifier", f":vivado.xilinx.com:{kind}"), *inner)
+            for kind in ("synthesis", "simulation")
+        ),
+    )
 
 
 def extensions(name: str) -> ET.Element:
@@ -265,8 +251,8 @@ def extensions(name: str) -> ET.Element:
     return tag("vendorExtensions", core)
 
 
-def component(name: str, year: int, params: Mapping[str, Value]) -> str:
-    """Return the description of a package in a version of IEEE 1685."""
+def component(name: str, params: Mapping[str, Value]) -> str:
+    """Return the description of a package."""
     top = NAMES[name]
     fit, row = FITS[top], row_of(top)
     axi = {signal.upper(): f"s_axi_{signal}" for signal in AXI}
@@ -284,9 +270,8 @@ def component(name: str, year: int, params: Mapping[str, Value]) -> str:
         tag("version", ".".join(__version__.split(".")[:2])),
         tag(
             "busInterfaces",
-            interface(year, "S_AXI", "aximm", axi, False, PROTOCOL="AXI4LITE"),
+            interface("S_AXI", "aximm", axi, False, PROTOCOL="AXI4LITE"),
             interface(
-                year,
                 "s_axi_aclk",
                 "clock",
                 {"CLK": "s_axi_aclk"},
@@ -295,11 +280,11 @@ def component(name: str, year: int, params: Mapping[str, Value]) -> str:
                 ASSOCIATED_RESET="s_axi_aresetn",
                 FREQ_HZ=values["CLK_HZ"],
             ),
-            interface(year, "s_axi_aresetn", "reset", {"RST": "s_axi_aresetn"}, False, POLARITY="ACTIVE_LOW"),
-            interface(year, "irq", "interrupt", {"INTERRUPT": "irq"}, True, SENSITIVITY="LEVEL_HIGH"),
+            interface("s_axi_aresetn", "reset", {"RST": "s_axi_aresetn"}, False, POLARITY="ACTIVE_LOW"),
+            interface("irq", "interrupt", {"INTERRUPT": "irq"}, True, SENSITIVITY="LEVEL_HIGH"),
         ),
         tag("memoryMaps", tag("memoryMap", tag("name", "S_AXI"), tag("addressBlock", *block))),
-        tag("model", *views(year, name), tag("ports", *(port_of(year, port) for port in ports(top, params)))),
+        tag("model", views(name), tag("ports", *(port_of(port) for port in ports(top, params)))),
         tag(
             "fileSets",
             tag(
@@ -309,17 +294,15 @@ def component(name: str, year: int, params: Mapping[str, Value]) -> str:
             ),
         ),
         tag("description", f"OpenPPMC: {top} on AXI4-Lite. Its parameters are fixed in the Verilog."),
-        tag("parameters", *(parameter(year, name, key, value) for key, value in values.items())),
-        *([extensions(name)] if year == 2009 else []),
+        tag("parameters", *(parameter(key, value) for key, value in values.items())),
+        extensions(name),
     )
-    prefix, namespace = NAMESPACES[year]
-    ET.register_namespace(prefix, namespace)
+    ET.register_namespace("spirit", SPIRIT)
     ET.register_namespace("xilinx", XILINX)
     for one in root.iter():
         if not one.tag.startswith("{"):
-            one.tag = f"{{{namespace}}}{one.tag}"
-            if year == 2009:
-                one.attrib = {f"{{{namespace}}}{key}": value for key, value in one.attrib.items()}
+            one.tag = f"{{{SPIRIT}}}{one.tag}"
+            one.attrib = {f"{{{SPIRIT}}}{key}": value for key, value in one.attrib.items()}
     ET.indent(root)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ET.tostring(root, encoding="unicode")}\n'
 
@@ -336,7 +319,6 @@ def write_package(name: str, folder: Path = FOLDER / "ip", given: Mapping[str, V
     (place / f"{own}.v").write_text(code, "utf-8")
     axil.unlink()
     (place / f"{name}.v").write_text(wrapper(name, params), "utf-8")
-    (place / "component_2014.xml").write_text(component(name, 2014, params), "utf-8")
     made = place / "component.xml"
-    made.write_text(component(name, 2009, params), "utf-8")
+    made.write_text(component(name, params), "utf-8")
     return made

