@@ -252,7 +252,7 @@ def test_stop():
 def test_homing():
     """HOMR sets the position to 0 at the origin switch; HOMF, a stop and a missing origin are failures."""
     with records("speed=max,cw=9000") as ioc:
-        ioc.rejected("HOMF", 1, "a limit switch came before the origin")
+        ioc.rejected("HOMF", 1, "a limit switch was reached before the origin")
         assert ioc.alarm() == "STATE MAJOR_ALARM" and ioc.get("MSTA") & (PROBLEM | HOMED) == PROBLEM
         assert ioc.get("DMOV") == 1 and len(ioc.logged) == 1
         assert ioc.put("HOMR", 1) and ioc.alarm() == "NO_ALARM NO_ALARM"
