@@ -105,7 +105,9 @@ def test_echo(foreign_device: MakeForeignDevice) -> None:
 
 def test_modem(foreign_device: MakeForeignDevice) -> None:
     """A device that sends text is rejected."""
-    assert "check the port" in refusal(foreign_device(lambda data: b"ERROR unknown command\r\n" * 3), WrongDevice)
+    assert "check the port" in refusal(
+        foreign_device(lambda data: b"ERROR unknown command\r\n" * 3), WrongDevice
+    )
 
 
 def test_garbage(foreign_device: MakeForeignDevice) -> None:
