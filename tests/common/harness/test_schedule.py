@@ -36,6 +36,10 @@ def test_sample(item, sim_options):
 '''
 
 
+# The waves of a test have one folder, so these runs of the same tests must not overlap.
+waves = pytest.mark.xdist_group("waves of the sample")
+
+
 @pytest.fixture(name="sample")
 def _sample() -> Iterator[Path]:
     """Write the sample below the project's folder, where the plugin is loaded; each worker has its own
@@ -87,11 +91,13 @@ def test_the_first_failure_ends_the_run(sample: Path, tmp_path: Path) -> None:
     assert counts == {"passed": 2, "failed": 1, "skipped": 1, "xfailed": 1} and len(rows) == 5
 
 
+@waves
 def test_with_waves_each_is_alone(sample: Path, tmp_path: Path) -> None:
     counts, rows = ran(sample, tmp_path / "seen", "-n", "0", "--waves", "-k", "raises or skips")
     assert counts == {"passed": 1, "skipped": 1} and [row[1] for row in rows] == ["0", "0"]
 
 
+@waves
 @pytest.mark.parametrize(("mark", "workers"), [("", 2), ('pytestmark = pytest.mark.xdist_group("one")\n', 1)])
 def test_what_is_marked_goes_to_one_worker(sample: Path, tmp_path: Path, mark: str, workers: int) -> None:
     """Tests with the same `xdist_group` run in one worker, even if each runs in its own process."""
