@@ -129,7 +129,7 @@ class Design:
         """Return Fmax of `clk` in MHz with a perturbation of the synthesis and a seed of place and route."""
         folder = self.folder / f"turn-{turn}" / f"seed-{seed}"
         folder.mkdir(parents=True, exist_ok=True)
-        return pnr.place_and_route(ECP5, self._kept(turn, self._wrapped()), folder, seed).fmax
+        return pnr.place_and_route(ECP5, self._kept(turn), folder, seed).fmax
 
     def _wrapped(self) -> dict[str, Any]:
         """Return the job of the design with all pins connected to shift registers."""
@@ -145,10 +145,10 @@ class Design:
         made = self.folder / "turn-0" / f"{self.family}-{self._job(0)['recipe']}.json"
         return made if made.is_file() else self.netlist()
 
-    def _kept(self, turn: int, job: Mapping[str, Any]) -> Path:
+    def _kept(self, turn: int) -> Path:
         """Return the netlist of a perturbation, which all its seeds use."""
         folder = self.folder / f"turn-{turn}" / "routed"
-        work = self._job(turn) | dict(job)
+        work = self._job(turn) | self._wrapped()
         file = folder / f"{work['family']}-{work['recipe']}.json"
         mark = folder / self.digest()
         with _LOCKS[self.key, turn]:
