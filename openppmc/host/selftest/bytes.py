@@ -106,6 +106,10 @@ class ByteBus:
     def read_end(self, access: PartAccess, seconds: float = LONGEST_MOVE_S) -> None:
         """Wait for the end of a motion; read its finish status and remaining pulses."""
         access.until_interrupt(seconds)
+        self.read_finish(access)
+
+    def read_finish(self, access: PartAccess) -> None:
+        """Read the finish status and the remaining pulses of a motion that has ended."""
         self.command(access, FINISH | self.axis)
         access.read(DATA)
         self.command(access, 0x83 | self.axis)

@@ -12,7 +12,7 @@ from typing import Any
 from ...model.stmc.codes import READ_MAPS, decode
 from ...model.stmc.pins import INPUTS, OUTPUTS, WIDTHS
 from ..script import Identity, Script
-from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus, Rates
+from .bytes import CCW, CONSTANT, CONTINUOUS, LONGEST_MOVE_S, ORIGIN, RAMP, ByteBus, Rates
 from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 INSIDE = 0xFE
@@ -41,9 +41,13 @@ class PlanStmc:
         found = [BUS.registers(), *BUS.codes(identity, records), *BUS.moves(pulse_only=False)]
 
         def by_board(access: PartAccess) -> None:
+            # Each cycle of the step clock is two records, so the clock runs only during the motion.
             BUS.initialise(access, EXTERNAL)
+            BUS.command(access, CONSTANT, 20, 3, 0, 0)
             access.run(Script().straps(OUTSIDE))
-            BUS.go(CONSTANT, 20, 3, 0, 0)(access)
+            access.until_interrupt(LONGEST_MOVE_S)
+            access.run(Script().straps(INSIDE))
+            BUS.read_finish(access)
 
         return [
             *(replace(section, straps=INSIDE) for section in found),
