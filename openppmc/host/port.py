@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import errno
 import os
-import time
+import re
+import sys
 from collections.abc import Callable
+from time import perf_counter
 from typing import TYPE_CHECKING, Any, Protocol
 
 from .errors import Disconnected, PortError
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 
 BASE_BAUD = 115_200
 SIM, MODEL = "sim:", "model:"
+_WINDOWS = os.name == "nt"
 _GONE = "the port went away: check the cable, plug the board in and run the command again"
 
 
@@ -64,11 +67,11 @@ class SerialPort:
         return serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
 
     def read(self, timeout: float) -> bytes:
-        end = time.monotonic() + timeout
+        end = perf_counter() + timeout
         least = int(timeout > 0)
         while True:
             data = self._guarded(lambda: self._serial.read(max(least, self._serial.in_waiting)))
-            if data or time.monotonic() >= end:
+            if data or perf_counter() >= end:
                 return data
 
     def _guarded(self, action: Callable[[], bytes]) -> bytes:
@@ -100,7 +103,8 @@ class SerialPort:
             ) from error
 
     def clock(self) -> float:
-        return time.monotonic()
+        # Before Python 3.13, time.monotonic advances in steps of 16 ms on Windows, longer than some timeouts.
+        return perf_counter()
 
     def close(self) -> None:
         try:
@@ -142,7 +146,7 @@ def serial_ports() -> list[tuple[str, str]]:
     """Return device and description of each serial port of this computer, sorted."""
     from serial.tools import list_ports
 
-    ports = sorted(list_ports.comports(), key=lambda port: port.device)
+    ports = sorted(list_ports.comports())  # COM10 follows COM9
     return [(port.device, port.description if port.description != "n/a" else "") for port in ports]
 
 
@@ -156,22 +160,35 @@ def describe_ports() -> str:
 
 def _open_error_reason(path: str, error: Exception) -> str:
     """Return why a port could not be opened, and what to do, as text."""
-    code = getattr(error, "errno", None)
     text = str(error)
+    code = getattr(error, "errno", None) or _windows_code(text)
+    refused = code in (errno.EACCES, errno.EPERM)
     if "://" in path:
         return f"{path}: cannot be opened ({' '.join(text.split())}): check address and network"
-    if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or not (os.path.exists(path) or os.name == "nt"):
+    if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or not (os.path.exists(path) or _WINDOWS):
         return f"{path}: no such port; {describe_ports()}"
-    if "lock" in text or code == errno.EBUSY:
+    if os.path.isdir(path):
+        return f"{path}: not a serial port; {describe_ports()}"
+    if "lock" in text or code == errno.EBUSY or (_WINDOWS and refused):
         return f"{path}: another program has this port open: close it first"
-    if code in (errno.EACCES, errno.EPERM) or isinstance(error, PermissionError):
+    if refused:
         return f"{path}: no permission: {_how_to_get_permission(path)}"
     return f"{path}: not a serial port; {describe_ports()}"
 
 
+def _windows_code(text: str) -> int | None:
+    """Return the number in the message of an error from Windows, which pyserial reports only as text.
+
+    >>> _windows_code("could not open port 'COM3': FileNotFoundError(2, 'not found', None, 2)")
+    2
+    """
+    found = re.search(r"Error\((\d+), ", text)
+    return int(found[1]) if found else None
+
+
 def _how_to_get_permission(path: str) -> str:
-    if os.name == "nt":
-        return "another program may have it open"
+    if sys.platform == "darwin":
+        return f"check owner and mode of the device (ls -l {path})"
     import grp
 
     try:

@@ -52,8 +52,6 @@ def line_options(text: str, known: str) -> dict[str, Any]:
     Args:
         known: words that the line supports.
     """
-    from serial.rs485 import RS485Settings
-
     options: dict[str, Any] = {}
     for item in filter(None, (piece.strip().lower() for piece in text.split(","))):
         word, _, value = item.partition("=")
@@ -61,10 +59,11 @@ def line_options(text: str, known: str) -> dict[str, Any]:
             raise typer.BadParameter(f"--line {item!r}: there are {known}")
         if item == "echo":
             options["echo"] = True
-        elif item in ("rs485", "rts=high"):
-            options["rs485"] = RS485Settings(rts_level_for_tx=True, rts_level_for_rx=False)
-        elif item == "rts=low":
-            options["rs485"] = RS485Settings(rts_level_for_tx=False, rts_level_for_rx=True)
+        elif item in ("rs485", "rts=high", "rts=low"):
+            from serial.rs485 import RS485Settings
+
+            level = item != "rts=low"
+            options["rs485"] = RS485Settings(rts_level_for_tx=level, rts_level_for_rx=not level)
         elif item in ("sum=binary", "sum=chars"):
             options["sum_mode"] = value
         elif word in ("patience", "xtal"):

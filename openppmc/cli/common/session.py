@@ -46,7 +46,7 @@ def state_folder() -> Path:
     if own:
         return Path(own)
     if os.name == "nt":
-        return Path(os.environ.get("LOCALAPPDATA", Path.home())) / "openppmc"
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home()) / "openppmc"
     return Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state") / "openppmc"
 
 
@@ -57,6 +57,8 @@ def stores_setup(port: str) -> bool:
 
 def _file(port: str, axis: int) -> Path:
     name = re.sub(r"[^A-Za-z0-9._-]", "_", port.strip("/"))
+    # On Windows, a file COM3.json is the port COM3.
+    name = re.sub(r"(?i)^com\d", r"port_\g<0>", name)
     return state_folder() / (name + ("" if axis == 1 else f".axis{axis}") + ".json")
 
 

@@ -121,7 +121,7 @@ class Child:
                 env=env,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
-                text=True,
+                encoding="utf-8",
                 bufsize=1,
             )
         except OSError as error:

@@ -187,7 +187,7 @@ def build(
         say: prints a line if the build takes long.
     """
     if not sys.platform.startswith("linux"):
-        raise SimError("the virtual board needs Linux (pseudo-terminals); use model: instead")
+        raise SimError("the virtual board needs Linux with Verilator, make, g++ and perl; use model: instead")
     root = find_root()
     made = make(root)
     rtl, cpp = made.rtl, made.sources(root)

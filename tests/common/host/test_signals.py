@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import pty
 import signal
 import subprocess
 import sys
@@ -18,6 +17,8 @@ from types import FrameType
 import pytest
 
 from openppmc.host import OutOfRange, Pmc006, Ppmc104, stop_on_signals
+
+pty = pytest.importorskip("pty", reason="Windows sends no signals to other processes")
 
 LIBRARY = """
 import sys, time

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import pty
 from pathlib import Path
 
 import pytest
@@ -35,7 +34,7 @@ def test_a_file_is_not_a_serial_port(tmp_path: Path) -> None:
 
 
 def test_a_port_that_is_taken() -> None:
-    master, slave = pty.openpty()
+    master, slave = pytest.importorskip("pty").openpty()
     try:
         first = open_port(os.ttyname(slave))
         with pytest.raises(PortError, match="another program has this port open"):
@@ -50,6 +49,8 @@ def test_a_port_that_is_taken() -> None:
 
 def test_no_permission(monkeypatch: pytest.MonkeyPatch) -> None:
     """Root may open any port, so a replacement raises the error."""
+    pytest.importorskip("grp")
+    monkeypatch.setattr("sys.platform", "linux")
 
     def refuse(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
@@ -60,7 +61,7 @@ def test_no_permission(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_unplugging_a_real_port() -> None:
-    master, slave = pty.openpty()
+    master, slave = pytest.importorskip("pty").openpty()
     name = os.ttyname(slave)
     port = open_port(name)
     os.close(slave)
@@ -73,7 +74,7 @@ def test_unplugging_a_real_port() -> None:
 
 
 def test_nothing_answers() -> None:
-    master, slave = pty.openpty()
+    master, slave = pytest.importorskip("pty").openpty()
     try:
         with pytest.raises(NoAnswer, match="is the board powered"):
             Link(os.ttyname(slave))
