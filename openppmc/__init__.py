@@ -1,3 +1,3 @@
 """OpenPPMC in Python: golden models of the parts, a move predictor and the host software."""
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"

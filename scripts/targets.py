@@ -150,9 +150,9 @@ OLD = {
     "test-fusesoc": "test WITH=fusesoc",
     "prove-night": "prove NIGHT=1",
 }
-"""Old names of targets; they work until the next release."""
+"""Old names of targets; they work until the next minor version."""
 OLD_VARIABLES = {"INSIDE": "PROBE"}
-"""Old names of variables; they work until the next release."""
+"""Old names of variables; they work until the next minor version."""
 
 # Name | values | line of help, in the order of the checks: HOST and the parameters depend on PART and BOARD.
 VARIABLE_TABLE = """

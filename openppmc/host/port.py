@@ -143,16 +143,25 @@ class SimPort(SerialPort):
 
 
 def serial_ports() -> list[tuple[str, str]]:
-    """Return device and description of each serial port of this computer, sorted."""
-    from serial.tools import list_ports
+    """Return device and description of each serial port of this computer, sorted.
 
-    ports = sorted(list_ports.comports())  # COM10 follows COM9
+    Raises PortError if the system cannot list them.
+    """
+    try:
+        from serial.tools import list_ports
+
+        ports = sorted(list_ports.comports())  # COM10 follows COM9
+    except (OSError, AttributeError) as error:  # Wine lacks functions of Windows
+        raise PortError(f"the serial ports cannot be listed ({error}); name one with --port") from error
     return [(port.device, port.description if port.description != "n/a" else "") for port in ports]
 
 
 def describe_ports() -> str:
     """Return the serial ports of this computer as text for messages."""
-    found = [device for device, _ in serial_ports()]
+    try:
+        found = [device for device, _ in serial_ports()]
+    except PortError as error:
+        return str(error)
     return (
         f"there are {', '.join(found)}" if found else "this computer shows no serial port (model: needs none)"
     )

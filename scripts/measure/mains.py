@@ -1,4 +1,4 @@
-"""Old name of `scripts.measure.sim_mains`; it is removed after the next release."""
+"""Old name of `scripts.measure.sim_mains`; it will be removed in the next minor version."""
 
 from __future__ import annotations
 

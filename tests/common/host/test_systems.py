@@ -137,6 +137,22 @@ def test_ports_in_numerical_order(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [name for name, _ in port.serial_ports()] == ["COM3", "COM9", "COM10"]
 
 
+def test_ports_that_cannot_be_listed(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """If the system cannot list its ports, `ports` fails, and the message about a missing port remains."""
+
+    def fail() -> None:
+        raise OSError("The handle is invalid")
+
+    monkeypatch.setattr(list_ports, "comports", fail)
+    assert main(["ports"]) == 1
+    reason = "the serial ports cannot be listed (The handle is invalid); name one with --port"
+    assert capsys.readouterr().err == f"error: {reason}\n"
+    with pytest.raises(PortError, match=rf"^COM77: no such port; {re.escape(reason)}$"):
+        open_port("COM77")
+
+
 WINDOWS_ERRORS = {
     "could not open port 'COM3': FileNotFoundError(2, 'Not found', None, 2)": "no such port",
     "could not open port 'COM3': PermissionError(13, 'No', None, 5)": "another program has this port open",
