@@ -94,10 +94,10 @@ class Goal:
         if todo := env.missing(self.target.groups):
             text = f"{quote(sys.executable)} -m scripts.env {' '.join(todo)} || exit; {text}"
         for old in self.old_variables:
-            note = f"note: use {OLD_VARIABLES[old]} for {old}; the old name will be removed in the next minor version"
+            note = f"note: use {OLD_VARIABLES[old]} for {old}; the old name is removed in version 1.1.0"
             text = f"echo {quote(note)} >&2; {text}"
         if self.old:
-            note = f"note: use `make {self.name}'; the old name will be removed in the next minor version"
+            note = f"note: use `make {self.name}'; the old name is removed in version 1.1.0"
             text = f"echo {quote(note)} >&2; {text}"
         return text
 

@@ -150,9 +150,9 @@ OLD = {
     "test-fusesoc": "test WITH=fusesoc",
     "prove-night": "prove NIGHT=1",
 }
-"""Old names of targets; they work until the next minor version."""
+"""Old names of targets; version 1.1.0 removes them."""
 OLD_VARIABLES = {"INSIDE": "PROBE"}
-"""Old names of variables; they work until the next minor version."""
+"""Old names of variables; version 1.1.0 removes them."""
 
 # Name | values | line of help, in the order of the checks: HOST and the parameters depend on PART and BOARD.
 VARIABLE_TABLE = """

@@ -1,4 +1,4 @@
-"""Old name of `scripts.measure.sim_mains`; it will be removed in the next minor version."""
+"""Old name of `scripts.measure.sim_mains`; it is removed in version 1.1.0."""
 
 from __future__ import annotations
 
