@@ -162,7 +162,7 @@ def test_no_file_uses_an_old_name() -> None:
         ":!docs/decisions",
         ":!tests/common/host/test_renamed.py",
     ]
-    done = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    done = subprocess.run(command, cwd=ROOT, encoding="utf-8", capture_output=True, check=False)
     if done.returncode not in (0, 1):
         pytest.skip("the tree is no git checkout")
     table = re.compile(r'^[^:]+\.py:\d+: +"(\w+)": "\w+",$|^[^:]+\.py:\d+:.*renamed\(')

@@ -332,7 +332,7 @@ def test_fewest_pulses_of_a_ramp(
         ({"positive_logic": True}, "phase outputs"),
         ({"long_intervals": True}, "long intervals: a PPMC-312"),
         ({"axis": 2}, "a PPMC-312 has one axis"),
-        ({"curve": "/no/such.csv"}, "/no/such.csv: cannot be read"),
+        ({"curve": "/no/such.csv"}, r"[/\\]such.csv: cannot be read"),
         ({"curve": "x.csv", "sigmoid": True}, "a free curve has its own speeds"),
     ],
 )
