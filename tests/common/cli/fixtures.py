@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -25,8 +26,8 @@ def run(
 
     def call(*words: str) -> Outcome:
         code = main(list(words))
-        captured = capsys.readouterr()
-        assert "Traceback" not in captured.out + captured.err
-        return Outcome(code, captured.out, captured.err)
+        out, err = (text.replace(os.linesep, "\n") for text in capsys.readouterr())
+        assert "Traceback" not in out + err
+        return Outcome(code, out, err)
 
     return call

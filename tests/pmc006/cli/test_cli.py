@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import signal
 from pathlib import Path
@@ -265,7 +264,7 @@ def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, word
 
     def interrupt(motion: Motion) -> None:
         if next(looks) == 10:
-            os.kill(os.getpid(), signal.SIGINT)
+            signal.raise_signal(signal.SIGINT)
         look(motion)
 
     monkeypatch.setattr(Motion, "_update", interrupt)

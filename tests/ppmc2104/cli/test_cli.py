@@ -219,6 +219,7 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
         assert not any(part.status().busy)
 
 
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends no SIGINT to another process")
 def test_ctrl_c_in_a_real_process(tmp_path: Path) -> None:
     """An interrupted `openppmc move X Y` prints one line and exits with status 130."""
     env = {**os.environ, "OPENPPMC_STATE": str(tmp_path)}
