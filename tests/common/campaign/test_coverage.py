@@ -224,8 +224,8 @@ def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.Mo
     chip.run_until(t + 20_100)
     crosses.leave()
     text = (tmp_path / f"{os.getpid()}{crosses.SUFFIX}").read_text(encoding="utf-8")
-    assert '["ppmc104", "operation and cause of its end", "ramp, counted", "count done", 1]' in text
-    assert '["ppmc104", "error and state", "UNASKED_DATA", "at rest", 1]' in text
+    assert '["ppmc104", "operation and cause of its end", "ramp, counted", "all pulses output", 1]' in text
+    assert '["ppmc104", "error and state", "UNASKED_DATA", "at standstill", 1]' in text
 
 
 def test_counts_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
