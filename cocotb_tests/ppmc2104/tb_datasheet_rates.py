@@ -221,7 +221,7 @@ async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
     await axis.blip("org_n", 200)
     await axis.result("AC-76", 9, 0x87)
     env.check("AC-76", "83", await axis.fetch(0x83, 3), [0xF6, 0xFF, 0xFF])
-    # This includes pulse 1. In RUN wait, ORG is not sampled.
+    # The fall of pulse 1 also samples ORG. In RUN wait, ORG is not sampled.
     axis.set(run=0)
     await axis.go(0x47, rate=0x31)
     await env.bench.clocks(env.cfg.us(40))

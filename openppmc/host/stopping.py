@@ -62,7 +62,7 @@ def handled(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
 
     SIGTERM and SIGHUP that are ignored (nohup) stay ignored.
 
-    Outside the main thread, it has no effect.
+    Outside the main thread, the context manager has no effect.
     """
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -107,8 +107,8 @@ class BankAxis(Axis):
         return motion.wait()
 
     def _on_status(self, status: int) -> None:
-        # While the end of a motion of another axis is unread, int_n stays low. Then the end of this motion
-        # sends no message. Therefore, read the ends of other axes first.
+        # While the finish status of another axis is unread, int_n stays low. Then the end of this motion
+        # sends no message. Therefore, read the finish statuses of other axes first.
         self._bank._resolve_others(self.number)
 
     def _add_position_read(self, script: Script) -> Script:

@@ -108,7 +108,7 @@ def true(value: str) -> bool:
 
 
 def test_group_on_a_model(environment: dict[str, str], tmp_path: Path) -> None:
-    """Two armed axes of a bank start together in halrun; its end decelerates a motor in motion."""
+    """Two armed axes of a bank start together in halrun; the end of halrun decelerates a moving motor."""
     hal = Session(
         environment,
         tmp_path / "bank.log",
@@ -168,7 +168,7 @@ def test_mdi(environment: dict[str, str], tmp_path: Path) -> None:
     routine = machine / "index.ngc"
     text = routine.read_text(encoding="utf-8")
     assert "Q60\n" in text
-    routine.write_text(text.replace("Q60\n", "Q4\n"), encoding="utf-8")  # the last line waits for so long
+    routine.write_text(text.replace("Q60\n", "Q4\n"), encoding="utf-8")  # the last line waits this long
     lines = ["M64 P1", "M66 P1 L3 Q60", "o<index> call [7.5]", "o<index> call [2]", "G0 X3"]
     lines.append("o<index> call [100000]")
     quoted = " ".join(f"'{line}'" for line in lines)

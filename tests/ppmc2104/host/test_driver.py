@@ -148,7 +148,7 @@ def test_a_motion_of_another_program_goes_on() -> None:
 
 @pytest.mark.parametrize("early", [True, False])
 def test_ends_that_nobody_read_hide_no_other(early: bool) -> None:
-    """While the end of another program's motion is unread, int_n stays low; this does not hide other ends.
+    """The driver reads the end status of another program's motion, so that int_n can report later ends.
 
     The motion may end before or after this program opens the part.
     """
@@ -222,8 +222,8 @@ def test_a_move_of_one_axis_leaves_the_other_alone(part: Ppmc2104) -> None:
 
 
 def test_the_end_of_the_other_axis_does_not_hide_this_one(part: Ppmc2104) -> None:
-    """int_n stays low while an end is unread, so the wait for one axis also reads the end of the
-    other axis.
+    """int_n stays low while an end status is unread, so the wait for one axis also reads the end status of
+    the other axis.
     """
     short, long = part.x.start_move(100), part.y.start_move(2000)
     before = part.link.clock()

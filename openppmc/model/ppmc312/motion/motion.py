@@ -268,8 +268,8 @@ class Motion:
         if isinstance(step, Cause):
             self._end(t, step)
             return
-        # Cancel changes that were requested early enough for this boundary, but are dropped, or discarded
-        # because a deceleration begins.
+        # Cancel the changes that were requested early enough for this boundary, if the sequence has dropped
+        # its change or begins a deceleration.
         lead = 1 if sequence.decel_begins else self._core_timing.change_lead
         if sequence.decel_begins or sequence.change_dropped:
             for since, event in self._changes:
