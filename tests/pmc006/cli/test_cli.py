@@ -206,7 +206,7 @@ def test_programs(run: Run, shuttle: str, tmp_path: Path) -> None:
         (("speed", "17000", *ONE), "max_speed 17000: there are 1 to 16000 steps/s"),
         (("home", "--switch", "3", *ONE), "Invalid value for '--switch'"),
         (("home", "--speed", "30", *ONE), "speed 30 is outside 65 to 3000 steps/s"),
-        (("home", "--direction", "forward", "--switch", "1", *ONE), "EXT2 came before EXT1"),
+        (("home", "--direction", "forward", "--switch", "1", *ONE), "EXT2 ended the search for EXT1"),
         (("set", "speed=5", *ONE), "no setting 'speed': there are microsteps, current"),
         (("set", "current=much", *ONE), "current=much: not a whole number"),
         (("set", "current=399", *ONE), "current 399: there are 400 to 4000 mA"),

@@ -255,7 +255,7 @@ def test_stop_what_another_program_left(run: Run, monkeypatch: pytest.MonkeyPatc
         monkeypatch.setattr(again.link, "close", lambda: None)
         outcome = run("stop")
         assert (
-            outcome.code == 1 and "axis 2: the motor is decelerating already, runs at constant" in outcome.err
+            outcome.code == 1 and "axis 2: the motor is already decelerating, runs at constant" in outcome.err
         )
         assert part.status().busy == (False, True)
         assert run("stop", "--now").out.startswith("axis 2: position ")

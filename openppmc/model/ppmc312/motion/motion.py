@@ -294,7 +294,7 @@ class Motion:
             self._context.queue.at(t + 1, Phase.RUN - 2, self._stop_at_position)
 
     def _stop_at_position(self, t: int) -> None:
-        """Process the position of a registered 80 (P312-OVR-12)."""
+        """Process the position at which a registered instruction 80 stops the pulses (P312-OVR-12)."""
         if not self.busy or self.sequence.complete:
             return
         self._at_position = True
