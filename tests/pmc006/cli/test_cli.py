@@ -148,7 +148,7 @@ def test_settings_address_save(run: Run, tmp_path: Path) -> None:
     assert run(*PART, *port, "address", "44").out == "controller 255 has address 44 now\n"
     assert run(*PART, *port, "save").out == "saved\n"
     none = ("--port", "model:speed=max,eeprom=none")
-    assert "the EEPROM did not answer" in run(*PART, *none, "save").only_line
+    assert "the EEPROM did not respond" in run(*PART, *none, "save").only_line
     assert run(*PART, *port, "scan").out.splitlines()[1].split()[0] == "255"  # the address was not saved
     assert "address 2 is taken" in run(*PART, "address", "2", *ONE).only_line
 

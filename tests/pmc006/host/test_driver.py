@@ -495,8 +495,8 @@ def test_the_first_that_answers() -> None:
 
 
 def test_other_builds_and_adapters() -> None:
-    """Moves work if `s` has an echo reply, at another baud rate, and if the adapter receives its own
-    bytes.
+    """Moves also work if the reply to instruction s echoes its data, at another baud rate, and if the adapter
+    receives its own bytes.
     """
     for text, baud in (("ack=echo", 9600), ("echo=on", 9600), ("ack=echo,echo=on,clk=25000000", 115_200)):
         with Pmc006.open(f"model:speed=max,eeprom=none,{text}", 255, baud) as part:
