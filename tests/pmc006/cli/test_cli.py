@@ -63,7 +63,7 @@ def test_looks(run: Run) -> None:
     assert re.search(
         r"^current +800 +mA +\* +400 to 4000 +peak phase current: drives 850 mA", out, re.MULTILINE
     )
-    assert "current at rest 50 % of the peak" in out and "1700 steps/s² in the mean" in out
+    assert "current at standstill 50 % of the peak" in out and "1700 steps/s² on average" in out
     values = json.loads(run(*PART, "status", "--address", "2", "--json").out)
     assert (values["position"], values["state"], values["inputs"]) == (0, "at rest", 31)
     assert len(json.loads(run(*PART, "status", "--address", "1,2", "--json").out)) == 2
