@@ -102,7 +102,7 @@ def stop_motors(
     def halt() -> None:
         nonlocal halted, how
         if not halted:
-            halted, how = True, "stopped at once"
+            halted, how = True, "stopped immediately"
             for _, axis in moving:
                 with suppress(PpmcError):
                     axis.halt(wait=False)

@@ -124,7 +124,7 @@ def test_the_second_signal_stops_at_once() -> None:
     time.sleep(0.2)
     process.send_signal(signal.SIGTERM)
     _, err = process.communicate(timeout=30)
-    assert process.returncode == 143 and err.startswith("SIGTERM: stopped at once, position ")
+    assert process.returncode == 143 and err.startswith("SIGTERM: stopped immediately, position ")
     assert time.monotonic() - begin < 3
 
 

@@ -209,7 +209,7 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
 
         monkeypatch.setattr(part.x, "stop", stop_and_ctrl_c)
         text = guard.stop_motors(part)
-        assert ("stopped at once" in text) == again
+        assert ("stopped immediately" in text) == again
         after = [part.x.position, part.y.position]
         assert text.endswith(f", axis 1: position {after[0]}, axis 2: position {after[1]}")
         low, high = (0, 500) if again else (1900, 2300)
