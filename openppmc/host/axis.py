@@ -174,7 +174,7 @@ class Axis(Checked):
             OutOfRange: the axis was not initialised.
         """
         if self.setup is None:
-            raise OutOfRange("no speed given, and no initialisation to take it from: name a speed in pps")
+            raise OutOfRange("no speed given, and no default before an initialisation: give a speed in pps")
         return self.setup.start.reached
 
     def _rate(self, pps: speeds.Number | None) -> tuple[speeds.BaseClock, int]:

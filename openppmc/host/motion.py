@@ -386,9 +386,9 @@ class Homing:
             if gone > LONGEST_BACK_OFF:
                 end = MotionResult(Cause.COMPLETE, gone, 0, self._axis.position, 0)
                 raise OriginNotFound(
-                    f"{self._axis._message_prefix}the origin switch is still active {gone} pulses away "
-                    "from where it "
-                    "was: check it",
+                    f"{self._axis._message_prefix}the origin switch is still active after a move of {gone} "
+                    "pulses away "
+                    "from it: check the switch",
                     end,
                 )
             pps = self._pps if self._pps is not None else self._axis._default_speed

@@ -86,7 +86,7 @@ class SerialPort:
             self._serial.flush()
         except SerialTimeoutException as error:
             raise Disconnected(
-                f"{self.name}: the port takes no bytes: unplug the adapter and try again"
+                f"{self.name}: the port accepts no bytes: unplug the adapter and try again"
             ) from error
         except (OSError, TypeError) as error:
             raise Disconnected(f"{self.name}: {_GONE}") from error
@@ -96,7 +96,7 @@ class SerialPort:
             self._serial.baudrate = baud
         except (OSError, ValueError) as error:
             raise PortError(
-                f"{self.name}: the adapter cannot do {baud} baud: choose a lower --baud"
+                f"{self.name}: the adapter does not support {baud} baud: choose a lower --baud"
             ) from error
 
     def clock(self) -> float:

@@ -35,7 +35,8 @@ class Instructions(Protocol):
     def answers(self) -> int:
         """Number of responses so far.
 
-        A report that arrives after a response was sent after the execution of its instruction.
+        The part sends a report that follows a response only after it has executed the instruction of this
+        response.
         """
 
     def open(self) -> None:

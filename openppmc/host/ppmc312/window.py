@@ -172,8 +172,8 @@ class Window:
     def _no_response_text(answer: Answer) -> str:
         assert answer.failed is not None
         if answer.failed.code[0] & 15 == CSR:
-            return "the part takes no instruction: is it in reset, or busy with another program's one?"
-        return "the part does not answer: is it in reset?"
+            return "the part accepts no instruction: check for a reset, and for another program that uses it"
+        return "the part does not respond: check whether it is in reset"
 
     def _feed(self, left: int, data: Iterable[int]) -> Response | None:
         """Process bytes of a response.

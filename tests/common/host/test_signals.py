@@ -113,7 +113,7 @@ def test_what_decelerates_for_too_long_is_stopped_at_once() -> None:
     time.sleep(1)
     process.send_signal(signal.SIGTERM)
     _, err = process.communicate(timeout=30)
-    assert process.returncode == 143 and err.startswith("SIGTERM: stopped at once after 0.5 s, position ")
+    assert process.returncode == 143 and err.startswith("SIGTERM: stopped immediately after 0.5 s, position ")
 
 
 def test_the_second_signal_stops_at_once() -> None:
@@ -124,7 +124,7 @@ def test_the_second_signal_stops_at_once() -> None:
     time.sleep(0.2)
     process.send_signal(signal.SIGTERM)
     _, err = process.communicate(timeout=30)
-    assert process.returncode == 143 and err.startswith("SIGTERM: stopped at once, position ")
+    assert process.returncode == 143 and err.startswith("SIGTERM: stopped immediately, position ")
     assert time.monotonic() - begin < 3
 
 
