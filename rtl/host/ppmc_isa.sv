@@ -4,7 +4,7 @@
 // Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the devices sample them (ppmc_strobe_bus).
 //         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low, from the first
-//         rising edge of clk_i at which the write is sampled active to the first at which it is sampled
+//         rising edge of clk_i that samples the write active to the first rising edge that samples it
 //         inactive.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -64,7 +64,7 @@ module ppmc_isa #(
   // ---- interrupts ------------------------------------------------------------------------------------
 
   logic source_oe;
-  logic [Parts-1:0] source;  // stable while the host reads it
+  logic [Parts-1:0] source;  // stable while the host reads the source register
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) irq_o <= 1'b0;

@@ -10,7 +10,8 @@
 module ppmc_hold_timer #(
     parameter int unsigned Quanta = 136_000,  // quantum ticks; 34 ms at 16 MHz
     parameter int unsigned RestCycles = 0,  // cycles added to the quanta; less than one quantum
-    parameter int unsigned UnitBits = 0,  // bits of units_i, Quanta is a power of 2; 0: fixed time
+    // Bits of units_i; 0: the hold time is fixed. If UnitBits is not 0, Quanta must be a power of 2.
+    parameter int unsigned UnitBits = 0,
     localparam int unsigned UnitTop = (UnitBits == 0) ? 0 : UnitBits - 1
 ) (
     input  wire logic             clk_i,

@@ -84,8 +84,9 @@ module ppmc_ramp_builder
   // Each entry thr(r) requires four divisions by short numbers. The first two divide by s, then E is
   // subtracted. The other two divide by a - b and by a + b, then 1 is added. A quotient may be rounded down
   // before the next division, or before an integer is subtracted: this does not change the result. All
-  // operations are bit-serial (ppmc_ramp_serial). This block selects the next pass. Once per build, n is
-  // multiplied by b, b, 2a and 2a, with one pass per multiplier bit. Then four passes follow for each r.
+  // operations are bit-serial (ppmc_ramp_serial). This block selects the next pass. Once per build, the
+  // numerator n (see ppmc_ramp_serial) is multiplied by b, b, 2a and 2a, with one pass per multiplier bit.
+  // Then four passes follow for each r.
   always_comb begin
     unique case (pass_q)
       PassInit:   pass = PassMulBit;

@@ -138,8 +138,9 @@ module ppmc_ramp_seq #(
   // below: ramp_level < threshold; during deceleration, ramp_level <= threshold. In these cases, the sum
   // has a carry.
   // If the ticks of the base clock are 4 cycles apart, a look-up always ends before the end of its interval,
-  // because n is at most the rate of the interval. If they are 6 cycles apart, it also ends before the
-  // middle of the interval: on ramps of 4 steps and more, n is smaller than the rate, or 1.
+  // because the number n of skipped rates is at most the rate of the interval. If the ticks are 6 cycles
+  // apart, the look-up also ends before the middle of the interval, because on ramps of at least 4 steps, n
+  // is 1 or smaller than the rate.
   assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), decel_q} + {1'b0, ramp_level_nq, decel_q};
   assign reached             = !below;
   assign more                = !end_q && reached != decel_q;

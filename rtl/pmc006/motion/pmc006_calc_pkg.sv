@@ -3,7 +3,9 @@
 //         pmc006_calc.
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, which the program in pmc006_calc.asm implements.
 // How:    an instruction is {operation, aux, operand} or {jump, condition, target}. {hi, lo} is the 64-bit
-//         accumulator; the adder has 32 bits, and load, add and sub use only hi.
+//         accumulator; the adder has 32 bits, and load, add and sub use only hi. V is the current speed, VT
+//         the target speed, R the remaining steps, h the analog sample, na and nd are the coefficients of
+//         acceleration and deceleration. Vn, Bn and Wn are the next values of V, B and W.
 `default_nettype none
 
 package pmc006_calc_pkg;
@@ -28,7 +30,7 @@ package pmc006_calc_pkg;
   // aux of a load, addition, subtraction or division.
   typedef enum logic [3:0] {
     OperandPlain,
-    OperandDec,    // RWay uses nd, not na
+    OperandDec,    // RWay uses nd instead of na
     OperandLow,    // result in lo; then hi = 0
     OperandLowDec
   } operand_mode_e;
@@ -54,7 +56,7 @@ package pmc006_calc_pkg;
   // Bits 6:5 select 00: a word of pmc006_calc_words, 01: a table of pmc006_calc_words, 10: a register.
   typedef enum logic [6:0] {
     // words that the program writes
-    MLt     = 7'h00,  // last live target
+    MLt     = 7'h00,  // last target speed
     MU      = 7'h01,  // progress of the ramp
     MDu     = 7'h02,  // increment of MU; 0 represents 2^32
     MV1     = 7'h03,  // first speed of the ramp
@@ -88,7 +90,7 @@ package pmc006_calc_pkg;
     RBase   = 7'h46,  // RB
     RCcomp  = 7'h47,
     RScomp  = 7'h48,
-    RMstep  = 7'h49,  // 1, 2, 4, .. 128
+    RMstep  = 7'h49,  // microsteps per full step: 1, 2, 4, .. 128
     // registers of pmc006_calc
     RLo     = 7'h4c,
     RMid    = 7'h4d,  // {hi, lo} >> 16

@@ -78,8 +78,8 @@ module ppmc312_serial_tx
 
   assign sent_o = snd_o && bit_end && left_q == '0 && last_q;
 
-  // The phase starts one step ahead, to compensate for the registers of the pins. It also times the gap.
-  // The gap has at most 9 bits, so it ends before the next stop bit can be received.
+  // The phase starts one step ahead, to compensate for the registers of the pins. The phase also times the
+  // gap before the reply. This gap has at most 9 bits, so it ends before the next stop bit can be received.
   always_ff @(posedge clk_i) begin
     if (!snd_o && gap_q == '0) {bit_end, phase_q} <= {1'b0, wrap_i};
     else {bit_end, phase_q} <= {1'b0, phase_q} + {1'b0, bit_end ? wrap_i : step_i};

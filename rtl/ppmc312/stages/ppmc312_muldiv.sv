@@ -36,11 +36,7 @@ module ppmc312_muldiv #(
   logic mul_q, load, last;
   logic busy_q, shift_q;  // busy_q: left_q is not 0; shift_q: a division is in progress
   logic correct_q;  // 1: add the operand if the remainder is below 0
-  logic
-      use_operand_q,
-      subtract_q,
-      use_operand,
-      subtract;  // use_operand: the operand is used; subtract: it is subtracted
+  logic use_operand_q, subtract_q, use_operand, subtract;
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;
