@@ -63,13 +63,13 @@ module ppmc_bridge_exec
     StCheck,     // checks the operands
     StLoop,      // begins the next byte of the op
     StPoll,      // begins a read access of a wait
-    StCompare,   // checks the data of this access
+    StCompare,   // checks the data of the read access
     StWrite,
     StWriteEnd,
     StRead,
     StReadEnd,
     StPut,       // stores a byte in the answer
-    StPause,     // waits for the end of RESET, or for a block
+    StPause,     // waits until RESET has ended or a block is stored
     StAnswer
   } state_e;
 

@@ -36,7 +36,7 @@ module ppmc_ramp_builder
   pass_e pass;  // next pass
   logic first_q, begin_q;  // first and second cycle of a build
   logic factor_2a_q;  // 1: the factor is 2a, 0: b
-  logic second_mul_q;  // 1: second multiplication by this factor
+  logic second_mul_q;  // 1: second multiplication by the factor
   logic [MulBits-1:0] mul_q;  // index of the multiplier bit; starts at the highest bit
   logic [RateBits-1:0] rate_q;  // r
   logic found_q;  // 1: bits_q is a threshold

@@ -106,7 +106,7 @@ module ppmc_ramp_serial
   always_comb begin
     unique case (pass_i)
       PassInit:               addend = 1'b0;
-      PassMulBit, PassMulOne: addend = v_q[0];  // times 2
+      PassMulBit, PassMulOne: addend = v_q[0];  // 2v
       PassSubtract:           addend = v_q[1];  // the difference is stored two words lower
       default:                addend = rd.v;
     endcase
@@ -163,7 +163,7 @@ module ppmc_ramp_serial
     wr   = rd;
     wr.v = sum;
     unique case (pass_i)
-      PassInit: wr.n = init_i;  // the sum is 0
+      PassInit: wr.n = init_i;  // wr.v = sum = 0
       PassMulEnd: begin
         wr.n = sum;
         wr.v = 1'b0;

@@ -95,14 +95,14 @@ package pmc006_pkg;
   typedef enum logic [1:0] {
     FromFrame,
     FromProgram,
-    FromTry,      // program instruction, executed by E
+    FromTry,      // program instruction, executed by instruction E
     FromBoot      // parameter from the EEPROM
   } instr_source_e;
 
   // Instruction in progress.
   typedef struct packed {
     logic [7:0]    op;
-    logic [3:0]    option;  // program instruction: option, saturates at 15; others: 0
+    logic [3:0]    option;  // option of a program instruction, saturates at 15; 0 for other sources
     instr_source_e source;
     logic [31:0]   data;
   } exec_cmd_t;
@@ -154,9 +154,9 @@ package pmc006_pkg;
 
   // Start of a motion. Assumes: start and run are not high in the same cycle.
   typedef struct packed {
-    logic        start;  // strobe (s, ROT): make `count` steps
+    logic        start;  // strobe (instruction s or ROT): make `count` steps
     logic [30:0] count;  // number of steps, at least 1; valid with start
-    logic        run;    // strobe (N 1 at standstill): run until stopped
+    logic        run;    // strobe (instruction N 1 at standstill): run until stopped
     logic        speed;  // SPEED_MODE; 0: decelerate and end a speed run
   } motion_start_t;
 

@@ -208,7 +208,7 @@ module ppmc2104_axis
   // The causes are valid until the next operation starts. While an operation runs, a read of the end status
   // is rejected.
   always_comb begin
-    answer_o = remaining;  // only this answer has more than one byte
+    answer_o = remaining;  // only the remaining pulses have more than one byte
     unique case (code_late_i[2:0])
       SEL_END:   answer_o[7:0] = {unread_q, cause, op_q};
       SEL_INPUTS: begin

@@ -131,8 +131,8 @@ package ppmc2104_pkg;
 
   // Actions of a byte for one axis.
   typedef struct packed {
-    logic init;        // setting accepted
-    logic start;       // operation
+    logic init;        // an initial setting is accepted
+    logic start;       // start of an operation
     logic halt;        // Immediate stop
     logic decel;       // Deceleration stop
     logic exc_off;

@@ -47,7 +47,7 @@ module ppmc312_serial_tx
   logic bit_end, last_q;
   logic [GapBits-1:0] gap_q;  // bit times until the line is free
   logic [Width-1:0] phase_q;
-  logic [2:0] at_q;  // data bytes sent
+  logic [2:0] at_q;  // number of data bytes sent
   logic [3:0] left_q;  // remaining bits of the character
   logic [7:0] bits_q, char;
   logic [6:0] sum_q, control;

@@ -21,7 +21,7 @@ module ppmc312_motion
     input  wire logic             rst_ni,          // reset, asynchronous
     // active table
     input  wire table_t           table_i,         // description of the table
-    input  wire target_t          start_target_i,  // look-up result of rate table_i.rate_acc
+    input  wire target_t          start_target_i,  // look-up result for table_i.rate_acc
     output table_addr_t           table_addr_o,    // read port of the table
     input  wire stage_t           stage_i,         // stage at table_addr_o, two cycles later
     // instructions

@@ -49,7 +49,7 @@ module ppmc312_stage_builder
     StHalf,    // D / 2
     StCurve,   // C + D / 2
     StRate,    // R = (C + D / 2) / D
-    StBegin,   // checks whether a side begins here
+    StBegin,   // checks whether a side begins at this stage
     StSum,     // S + D; S: sum of D
     StProportion,   // P * D + remainder; P: pulses of the side
     StPulses,  // divides the result of StProportion by S
@@ -66,7 +66,7 @@ module ppmc312_stage_builder
     WordSpeed,
     WordHalf,
     WordZero,    // never written
-    WordSum,     // sum of the first side
+    WordSum,     // sum S of the acceleration side
     WordSumDec,
     WordRemainder,
     WordRemainderDec

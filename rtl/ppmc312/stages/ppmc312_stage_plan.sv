@@ -31,7 +31,7 @@ module ppmc312_stage_plan
     input wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
     input wire logic [23:0] table_acc_i,  // acceleration pulses of this stage, two cycles later
     input wire logic [23:0] table_dec_i,  // deceleration pulses of this stage; valid with both_o
-    output target_t target_o,  // look-up result of rate_i
+    output target_t target_o,  // look-up result for rate_i
     // plan
     output logic starts_with_accel_o,  // the operation begins with acceleration
     output logic [7:0] kind_o,  // status byte: 00: trapezoidal, 10: triangular, 20, 40: right-angled

@@ -30,7 +30,7 @@ module ppmc312_stage_seq
     input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
     input wire logic load_i,  // strobe: start profile_i
-    input wire profile_t profile_i,  // with load_i; target for a change: 2 cycles after change_i
+    input wire profile_t profile_i,  // with load_i; .target also 2 cycles after change_i
     input wire logic single_i,  // with load_i; 1: one pulse, regardless of dec_pulses
     // requests
     input wire logic change_i,  // strobe: change the rate; replaces a pending change
@@ -77,7 +77,8 @@ module ppmc312_stage_seq
   boundary_action_t action, action_q, action_q2;
   interval_mode_t mode_q, next, next_q, next_q2;
   logic [1:0][6:0] addr_q;
-  logic [1:0] low_end_q, ramp_end_q;  // low_end_q: the ramp ends at first_dec_i; ramp_end_q: at ramp_to
+  // low_end_q: the ramp ends at first_dec_i; ramp_end_q: the ramp ends at ramp_to
+  logic [1:0] low_end_q, ramp_end_q;
   logic low_end, ramp_end;
   target_t pending_q, target_q;
   logic pending_valid_q, pending_ramp_q, load_q, endless_q, no_decel_point_q, first_q;
@@ -180,7 +181,7 @@ module ppmc312_stage_seq
         if (!can_decel_q) begin
           next.const_rate = 1'b1;
           next.last = mode_q.last;
-          action.keep_rate = !mode_q.const_rate;  // the running stage becomes a constant rate
+          action.keep_rate = !mode_q.const_rate;  // the stage rate becomes the constant rate
         end
       end
     end else if (pending_valid_q && mode_q.const_rate && ramp_ready_q[3]) begin
