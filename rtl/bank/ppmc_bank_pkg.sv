@@ -85,8 +85,8 @@ package ppmc_bank_pkg;
     logic       slow_base;   // base clock; 1: 125 kHz
     logic       extra_time;  // 1: extra time of 7.5 us
     logic       decel;       // 1: the deceleration has begun
-    // Rate of the running interval. During acceleration, this is the rate of the next interval once the low
-    // time has ended.
+    // Rate of the running interval. During acceleration, after the end of the low time, this field is the
+    // rate of the next interval.
     logic [7:0] rate;
   } interval_t;
 

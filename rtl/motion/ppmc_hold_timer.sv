@@ -2,8 +2,8 @@
 // ppmc_hold_timer: asserts hold_o when the motor has been at standstill for the hold time. This time is
 //         fixed, or a number of units set by the host.
 // Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05; STMC-HLD-01.
-// Timing: hold_o is deasserted one cycle after busy_i rises. It is asserted 1 + RestCycles cycles after
-//         quantum tick number Quanta since the fall of busy_i. With units, this is tick number Quanta *
+// Timing: hold_o is deasserted one cycle after busy_i rises. hold_o is asserted 1 + RestCycles cycles after
+//         quantum tick number n, counted from the fall of busy_i. n is Quanta or, with units, Quanta *
 //         (units_i + 1). units_i is sampled while busy_i is high.
 `default_nettype none
 

@@ -72,7 +72,7 @@ module ppmc_ramp_seq #(
   // Direction of the ramp step at a pulse: up, down or no step. left_o is the number of pulses after this
   // pulse.
   always_comb begin
-    odd          = left_o[0] ^ ramp_level[0];  // with near_q, 1: decelerate through all remaining pulses
+    odd          = left_o[0] ^ ramp_level[0];  // odd and near_q: decelerate through all remaining pulses
     down         = ramp_i && (forced_i || dec_o || (near_q && odd));
     up           = ramp_i && !down && !near_q && !top_o;
     decel_starts = down && !decel_q;

@@ -7,8 +7,8 @@
 //         third to its last cycle (use_o = 1).
 // How:    n is the numerator, u is the number that is subtracted between the divisions, and v is a product,
 //         quotient or difference. Bit i is stored in word i. A quotient follows its dividend by two cycles
-//         and is written two words lower, so its lowest bits are stored in the last two words of the RAM. No
-//         pass ever writes a 1 into u there.
+//         and is written two words lower, so its lowest bits are stored in the last two words of the RAM. In
+//         these two words, u is always 0.
 `default_nettype none
 
 module ppmc_ramp_serial

@@ -8,8 +8,7 @@ package pmc006_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instruction codes: bit 7 = 0: code of a frame; bit 7 = 1: instruction only of the user program
-  // ----
+  // ---- instruction codes; bit 7 = 0: code of a frame, bit 7 = 1: code only of the user program ----
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -107,8 +106,7 @@ package pmc006_pkg;
     logic [31:0]   data;
   } exec_cmd_t;
 
-  // ---- registers; the value is the address in pmc006_reply_ram
-  // --------------------------------------------
+  // ---- registers; the value is the address in pmc006_reply_ram ------------------------------------------
 
   // A reset of pmc006_reply_ram fills the addresses from 2 on.
   typedef enum logic [4:0] {
@@ -141,8 +139,7 @@ package pmc006_pkg;
     register_e reg_id;
   } reg_access_t;
 
-  // ---- signals between line, control, motion and drive
-  // ----------------------------------------------------
+  // ---- signals between line, control, motion and drive --------------------------------------------------
 
   // Frame from the host. code and data are valid with go, and stable until a byte of the next frame is
   // received.

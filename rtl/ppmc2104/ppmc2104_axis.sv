@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_axis: one of the two axes. Contains settings, motion, motor pins, end status and answers to read
-//         instructions.
+// ppmc2104_axis: one axis of a PPMC-2104. Contains settings, motion, motor pins, end status and answers to
+//         read instructions.
 // Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05; the instantiated blocks
 //         implement the motion.
 // Timing: an action takes effect at the edge that ends its cycle. The motor pins follow one cycle later.

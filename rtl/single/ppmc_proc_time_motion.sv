@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_proc_time_motion: implements the long processing times of the old chip (DATASHEET) for
-//         initialisation, the time before pulse 1, and the end of a motion. Only one of them is active at a
+//         initialisation, the time before pulse 1, and the end of a motion. Only one of these times runs at a
 //         time, so they share one counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: a time starts at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i

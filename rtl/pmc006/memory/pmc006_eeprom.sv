@@ -168,7 +168,7 @@ module pmc006_eeprom
 
   // ---- factory restore ------------------------------------------------------------------------------------
 
-  // A restore at boot resets the parameter registers to the factory values, until the end of the boot.
+  // A restore at boot holds the parameter registers at the factory values until the end of the boot.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) rst_settings_no <= 1'b0;
     else rst_settings_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc: sequential processor of the motion planner. It has one adder, which multiplies and divides
-//         one bit per cycle, a small memory, and the program in pmc006_calc_rom (source: pmc006_calc.asm).
+// pmc006_calc: sequential processor of the motion planner. Contains one adder, a small memory, and the
+//         program in pmc006_calc_rom (source: pmc006_calc.asm). The adder multiplies and divides one bit per
+//         cycle.
 // Rules:  P006-MOT-10..23, P006-EXC-20..23; docs/pmc006/README.md, 6.1.
 // Timing: an instruction takes 2 cycles without an operand, 3 cycles with an operand, n + 2 cycles with n
 //         steps. A run ends within 785 cycles of plan_i, and within 590 cycles of advance_i. plan_i aborts

@@ -117,7 +117,7 @@ package pmc006_calc_pkg;
     CondDec5       // nd = 5
   } cond_e;
 
-  // Bit 2 = 1 is a ramp; bit 2 = 0 is the phase that follows this ramp.
+  // Bit 2 = 1: a ramp. Bit 2 = 0: the phase that follows the ramp with the same bits 1:0.
   typedef enum logic [2:0] {
     PhCruise = 3'b000,
     PhCreep  = 3'b001,

@@ -271,7 +271,8 @@ module ppmc312_instr_unit
       .size_o(table_size)
   );
 
-  // The register delays the bytes by one cycle, so the last byte is written in the cycle of the commit.
+  // The register delays the bytes by one cycle, so the last byte is written in the cycle of
+  // response_done_o.valid.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) response_write_o <= '0;
     else begin

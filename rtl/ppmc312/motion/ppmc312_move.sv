@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_move: executes a motion or a rate change that has passed the check. First checks the limits, then
-//         makes a look-up or plan, then starts or changes the motion.
+//         looks up the rate or plans the operation, then starts or changes the motion.
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (check 8), P312-STA-04.
 // Timing: result_o.done follows begin_i by 4 cycles for a single step, which needs no look-up. Otherwise
 //         the time of the planner is added. start_o or change_o is asserted together with result_o.done.

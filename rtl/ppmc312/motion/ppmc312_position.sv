@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_position: counts position and encoder position, releases the interlock at its position, and
-//         monitors positions.
+// ppmc312_position: counts position and encoder position, ends interlock control at the interlock position,
+//         and monitors positions.
 // Rules:  P312-MOT-05, P312-MON-01..06, P312-OUT-03, P312-CMD-04/43/44.
 // Timing: pos_o and counted_o follow count_i by one cycle. The monitors evaluate a position 3 cycles after it
 //         is valid on pos_o or enc_o. The in-position monitor does not evaluate while pulses are output, nor

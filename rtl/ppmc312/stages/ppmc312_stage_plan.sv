@@ -172,7 +172,7 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_pulses_o: number of pulses of the complete deceleration, or of the pulses that remain for it
+  // dec_pulses_o: number of pulses of the complete deceleration, or number of pulses that remain for it
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 

@@ -112,8 +112,8 @@ module ppmc_bank_engine_fv
       end
     end
 
-  // Lemmas for the induction: axis and reset of each stage. In the stages before a word is used, it also
-  // equals the word that the previous visit has written.
+  // Lemmas for the induction: axis and reset of each stage. In all stages before its use, a word equals the
+  // word that the previous visit has written.
   for (genvar i = 1; i < 6; i++) begin : g_stage
     `FV_ASSERT(lemma_axis, cycles_q < 5'(i) || axis[i] == axis[0] - 3'(i))
     `FV_ASSERT(lemma_clear, clear[i] == (cycles_q < 5'(8 + i)))
