@@ -38,7 +38,7 @@ module ppmc_ramp_builder
   logic factor_2a_q;  // 1: the factor is 2a, 0: b
   logic second_mul_q;  // 1: second multiplication by the factor
   logic [MulBits-1:0] mul_q;  // index of the multiplier bit; starts at the highest bit
-  logic [RateBits-1:0] rate_q;  // r
+  logic [RateBits-1:0] rate_q;  // rate r
   logic found_q;  // 1: bits_q is a threshold
   logic [StepBits-1:0] bits_q;  // PA, or a threshold that is received bit by bit
   logic next, last, done, use_bit, mul_bit, sum, product;

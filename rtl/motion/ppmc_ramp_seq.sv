@@ -25,8 +25,8 @@ module ppmc_ramp_seq #(
     // current ramp
     input wire logic [RateBits-1:0] slow_i,  // start-up rate
     input wire logic [RateBits-1:0] fast_i,  // high-speed rate
-    output logic [RateBits-1:0] lut_addr_o,  // r; address of lut_data_i
-    input wire logic [LutBits-1:0] lut_data_i,  // thr(r), two cycles after lut_addr_o; at fast_i: PA
+    output logic [RateBits-1:0] lut_addr_o,  // rate r, which is the address of lut_data_i
+    input wire logic [LutBits-1:0] lut_data_i,  // threshold of r, two cycles after lut_addr_o; at fast_i: PA
     // operation
     input wire logic load_i,  // strobe: start; load count_i and rate_i
     input wire logic [CountBits-1:0] count_i,  // number of pulses, minus 1
@@ -42,7 +42,7 @@ module ppmc_ramp_seq #(
     output logic last_o,  // 1: the next pulse is the last pulse
     output logic final_o,  // 1: the next pulse completes the count
     output logic top_o,  // 1: the running interval is on the plateau
-    output logic at_start_rate_o,  // 1: running interval at the start-up rate; valid before any deceleration
+    output logic at_start_rate_o,  // 1: the interval has the start-up rate; valid before any deceleration
     output logic dec_o,  // 1: the natural deceleration has begun
     output logic [CountBits-1:0] left_o  // remaining pulses minus 1; at least 0
 );

@@ -31,8 +31,8 @@ module ppmc2104_axis
     input  wire cmd_error_e                   error_i,        // error register
     output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table
-    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; address of lut_data_i
-    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // thr(r), two cycles after lut_addr_o
+    output logic              [RATE_BITS-1:0] lut_addr_o,     // rate r, which is the address of lut_data_i
+    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // threshold of r, two cycles after lut_addr_o
     // processing times
     input  wire logic                         run_open_i,     // 1: RUN is sampled
     input  wire logic                         poll_i,         // 1: limits and alarm are sampled

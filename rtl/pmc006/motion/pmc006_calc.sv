@@ -19,8 +19,8 @@ module pmc006_calc
     input  wire logic        advance_i,       // strobe: start the run of an update tick
     output logic             busy_o,          // 1: a run is in progress
     // motion; all except left_i are stable while busy_o is high
-    input  wire logic        short_i,         // 1: motion of kind L
-    input  wire logic        speed_i,         // 1: motion of kind V
+    input  wire logic        short_i,         // 1: short move (at most 255 steps)
+    input  wire logic        speed_i,         // 1: speed run
     input  wire logic        stop_i,          // 1: stop requested
     input  wire logic        analog_i,        // 1: the target speed is analog
     input  wire logic [ 2:0] acc_i,           // acceleration coefficient, sampled with plan_i

@@ -87,7 +87,7 @@ package pmc006_calc_pkg;
     RVmax   = 7'h43,
     RAdc    = 7'h44,  // h << 6
     RAdc9   = 7'h45,  // h[9] << 6
-    RBase   = 7'h46,  // RB
+    RBase   = 7'h46,  // base code RB of the current
     RCcomp  = 7'h47,
     RScomp  = 7'h48,
     RMstep  = 7'h49,  // microsteps per full step: 1, 2, 4, .. 128
@@ -103,9 +103,9 @@ package pmc006_calc_pkg;
     CondCarry,
     CondNotCarry,
     CondZero,      // hi = 0
-    CondShort,     // kind L
-    CondSpeed,     // kind V
-    CondStop,      // kind V, and the stop request is active
+    CondShort,     // short move: at most 255 steps
+    CondSpeed,     // speed run
+    CondStop,      // speed run, and the stop request is active
     CondAnalog,
     CondPlan,      // run that was started by plan_i, before t = 0
     CondEnding,    // phase STOP or END

@@ -15,7 +15,7 @@ module ppmc312_settings
     input  wire logic [15:0] value_i,          // first two parameters
     input  wire logic        built_i,          // strobe: a new table is active
     input  wire logic [15:0] high_rate_i,      // high-speed rate of the table
-    output logic      [15:0] limit_rate_o,     // HSL, base clocks
+    output logic      [15:0] limit_rate_o,     // rate limit HSL in base clocks
     output logic             end_monitored_o,  // 1: END is monitored
     output logic             run_ignored_o     // 1: RUN is not monitored
 );

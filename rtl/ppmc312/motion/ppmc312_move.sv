@@ -20,7 +20,7 @@ module ppmc312_move
     input wire status_e status_i,  // status of the device
     input wire table_t table_i,  // active table
     input wire motor_inputs_t levels_i,  // input pins, filtered
-    input wire logic [15:0] limit_rate_i,  // HSL, base clocks
+    input wire logic [15:0] limit_rate_i,  // rate limit HSL in base clocks
     input wire logic gate_i,  // 0: the start gate holds a start
     input wire logic elapsed_i,  // the processing time has passed
     output move_status_t result_o,  // result

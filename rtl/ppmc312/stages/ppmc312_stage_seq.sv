@@ -25,7 +25,7 @@ module ppmc312_stage_seq
     // active table
     input wire logic [6:0] first_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
-    input wire logic [15:0] rate_dec_i,  // R[first_dec_i], base clocks
+    input wire logic [15:0] rate_dec_i,  // rate of stage first_dec_i, base clocks
     output table_addr_t table_addr_o,  // read port of the table
     input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
@@ -118,8 +118,8 @@ module ppmc312_stage_seq
   always_ff @(posedge clk_i) begin
     zero_q <= left_q == '0 && !endless_q;
     decel_point_q <= left_q == 32'(dec_q) && !no_decel_point_q;
-    // If a constant rate is faster than R[first_dec_i], the look-up has found a stage at or above
-    // first_dec_i.
+    // If a constant rate is faster than the rate of stage first_dec_i, the look-up has found a stage at or
+    // above first_dec_i.
     can_decel_q <= rate_q < rate_dec_i && (mode_q.const_rate || !ppmc_pkg::less(
         32'(stage_q), 32'(first_dec_i)
     ));

@@ -43,7 +43,7 @@ module ppmc312_stage_unit
   typedef enum logic [1:0] {
     StIdle,
     StBuild,
-    StStartRate  // looks up rate R[first_acc]
+    StStartRate  // looks up the rate of stage first_acc
   } state_e;
 
   state_e state_q;
