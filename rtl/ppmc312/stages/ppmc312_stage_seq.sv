@@ -30,7 +30,7 @@ module ppmc312_stage_seq
     input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
     input wire logic load_i,  // strobe: start profile_i
-    input wire profile_t profile_i,  // with load_i; .target also 2 cycles after change_i
+    input wire profile_t profile_i,  // sampled with load_i; target also 2 cycles after change_i
     input wire logic single_i,  // with load_i; 1: one pulse, regardless of dec_pulses
     // requests
     input wire logic change_i,  // strobe: change the rate; replaces a pending change
