@@ -22,8 +22,8 @@ extern "C" {
 #define PMC006_WORDS_MAX 200u   /**< words of a program, two per instruction */
 #define PMC006_STEPS_MAX 2147483647l
 
-/** Settings of pmc006_set() and pmc006_get(). The value is the letter of the instruction; the comment
- * states range; factory value. */
+/** Settings of pmc006_set() and pmc006_get(). The value is the letter of the instruction. Each comment states
+ * the range, then the factory value. */
 #define PMC006_ACCELERATION 'u'     /**< 0 .. 5: 1700 * 2^n steps/s^2; 0 */
 #define PMC006_DECELERATION 'o'     /**< as PMC006_ACCELERATION */
 #define PMC006_MAX_SPEED 'v'        /**< 1 .. 16 000; 1000 after each power-up */
