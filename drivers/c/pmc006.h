@@ -36,7 +36,7 @@ extern "C" {
 #define PMC006_CURRENT_BOOST 'M'    /**< current compensation, 100 .. 1200; 300 */
 #define PMC006_LEAD 'P'             /**< speed compensation, 300 .. 2000; 1250 */
 #define PMC006_EXT_EDGE 'J'         /**< bits 0, 1 = 1: EXT1, EXT2 act on the rising edge; 0 */
-#define PMC006_STALL_LENGTH 'T'     /**< samples, 0 .. 63 */
+#define PMC006_STALL_LENGTH 'T'     /**< samples, 0 .. 63; 64 after power-up, which T cannot write */
 #define PMC006_STALL_MODE 'Y'       /**< bit 0: on, bit 1: stops the motor, bit 2: drives GPO5; 0 */
 #define PMC006_STALL_LEVEL 'Z'      /**< 0 .. 511; 0 */
 #define PMC006_AUTOSTART 'F'        /**< 1: run the program after power-up; 0 also halts it now. Write only */
