@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 from ...model.ppmc312.codes import Answer
 from .. import speeds
 from ..axis import CCW, CW, OnProgress
 from ..capabilities import PULSE_ONLY
+from ..check import wholes
 from ..errors import NothingToStop, OutOfRange, ProtocolError
 from ..link import Link
 from ..motion_result import Cause, MotionResult
@@ -161,6 +164,20 @@ class Axis(Overrides[MotionT]):
     ) -> MotionResult:
         """Move at constant speed and wait for the end; raises the same errors as `move`."""
         return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
+
+    def moves(self, pulses: Iterable[int], pps: speeds.Number | None = None) -> Iterator[MotionResult]:
+        """Move by each number of pulses in order, and yield the result of each move.
+
+        The iteration starts the moves. A move that does not end as requested is the last one.
+
+        Args:
+            pps: constant speed, `None` for moves with ramps.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedByCommand: a move ended before all pulses were output.
+        """
+        numbers = wholes(pulses, "pulses")
+        return (self.move_constant(one, pps) if pps and one else self.move(one) for one in numbers)
 
     # ------------------------------------------------------------------ motions
 
