@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -10,11 +10,19 @@ from ..model.motion.codes import ACC_DEC, CONSTANT, CONTINUOUS, ENDLESS, HIGH_SP
 from . import speeds
 from .capabilities import CHOPPER, COILS_OFF, PULSE_ONLY, RateCapabilities, SetupRequest
 from .check import Checked, wholes
-from .errors import AlreadyDecelerating, AxisBusy, NothingToStop, OutOfRange, ProtocolError, StartRefused
+from .errors import (
+    AlreadyDecelerating,
+    AxisBusy,
+    NothingToStop,
+    OutOfRange,
+    PpmcError,
+    ProtocolError,
+    StartRefused,
+)
 from .link import LinkProtocol
 from .motion import READ_FINISH, Homing, Motion, MotionRequest, Progress
 from .motion_result import Cause, MotionResult
-from .moves import run_moves
+from .moves import AHEAD, execute_moves, run_moves
 from .registers import FAMILY, Outputs, ReadCodes, Switches
 from .script import Script
 from .speeds import Number, exact, nearby
@@ -430,7 +438,11 @@ class Axis(Checked):
         numbers = wholes(pulses, "pulses")
         if self._position_of(0) is None:  # no counter confirms the ends within a frame
             return (self.move_constant(one, pps) if pps and one else self.move(one) for one in numbers)
-        return run_moves(self, (self._move_request(one, pps) if one else None for one in numbers))
+
+        def execute(moves: Sequence[int]) -> tuple[Sequence[Motion], PpmcError | None]:
+            return execute_moves(self, [self._move_request(one, pps) for one in moves])
+
+        return run_moves(numbers, AHEAD, execute, self._empty_move_result)
 
     # ------------------------------------------------------------------ starting
 

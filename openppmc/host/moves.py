@@ -7,13 +7,13 @@ operation and no cause. Otherwise, the script ends there.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import islice, takewhile
 from typing import Protocol
 
 from ..model.motion.codes import FINISH_NEW, OBF
 from .errors import PpmcError, StartRefused
-from .motion import READ_FINISH, Motion, MotionAxis, MotionRequest
+from .motion import READ_FINISH, AnyMotion, Motion, MotionAxis, MotionRequest
 from .motion_result import MotionResult
 from .script import LONGEST_SCRIPT, Answer, Result, Script
 
@@ -39,26 +39,33 @@ class QueueAxis(MotionAxis, Protocol):
     def _start_script(self, request: MotionRequest) -> Script: ...
     def _motion_started(self, request: MotionRequest, begin: int) -> Motion: ...
     def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion: ...
-    def _empty_move_result(self) -> MotionResult: ...
 
 
-def run_moves(axis: QueueAxis, requests: Iterable[MotionRequest | None]) -> Iterator[MotionResult]:
+def run_moves(
+    numbers: Iterator[int],
+    ahead: int,
+    execute: Callable[[Sequence[int]], tuple[Sequence[AnyMotion], PpmcError | None]],
+    empty: Callable[[], MotionResult],
+) -> Iterator[MotionResult]:
     """Execute moves in order and yield their results; see `Axis.moves`.
 
     Args:
-        requests: moves of one kind; `None` is a move of 0 pulses.
+        numbers: pulses of each move.
+        ahead: largest number of moves that are read ahead.
+        execute: executes a frame with as many of these moves as fit into it. It returns the motions that were
+            started, of which the last one may still be running, and the error that prevented the next one.
+        empty: returns the result of a move of 0 pulses.
     """
-    source = iter(requests)
-    waiting: list[MotionRequest | None] = []
+    waiting: list[int] = []
     while True:
-        waiting += islice(source, AHEAD - len(waiting))
+        waiting += islice(numbers, ahead - len(waiting))
         if not waiting:
             return
-        if waiting[0] is None:
+        if not waiting[0]:
             del waiting[0]
-            yield axis._empty_move_result()
+            yield empty()
             continue
-        motions, error = _execute(axis, waiting)
+        motions, error = execute(list(takewhile(bool, waiting)))
         del waiting[: len(motions)]
         for motion in motions:
             yield motion.wait().check(motion.requested)
@@ -66,16 +73,10 @@ def run_moves(axis: QueueAxis, requests: Iterable[MotionRequest | None]) -> Iter
             raise error
 
 
-def _execute(
-    axis: QueueAxis, waiting: Sequence[MotionRequest | None]
-) -> tuple[list[Motion], PpmcError | None]:
-    """Execute a frame with as many of the first moves as fit into it.
-
-    Returns:
-        The motions that were started, of which the last one may still be running, and the error that
-        prevented the next one, if any.
-    """
-    requests = [request for request in takewhile(bool, waiting) if request]
+def execute_moves(
+    axis: QueueAxis, requests: Sequence[MotionRequest]
+) -> tuple[Sequence[Motion], PpmcError | None]:
+    """Execute a frame with as many of these moves of one kind as fit into it; see `run_moves`."""
     script = axis._start_script(requests[0]).timeout(LONGEST_WAIT_MS)
     room = LONGEST_SCRIPT - _SELECT_BYTES - len(bytes(script))
     requests = requests[: room // len(bytes(_add_move(Script(), axis, requests[0])))]
