@@ -52,8 +52,8 @@ def run_moves(
     Args:
         numbers: pulses of each move.
         ahead: largest number of moves that are read ahead.
-        execute: executes a frame with as many of these moves as fit into it. It returns the motions that were
-            started, of which the last one may still be running, and the error that prevented the next one.
+        execute: executes a frame with the first of these moves. It returns the motions that were started, of
+            which the last one may still be running, and the error that prevented the next one.
         empty: returns the result of a move of 0 pulses.
     """
     waiting: list[int] = []
@@ -76,7 +76,7 @@ def run_moves(
 def execute_moves(
     axis: QueueAxis, requests: Sequence[MotionRequest]
 ) -> tuple[Sequence[Motion], PpmcError | None]:
-    """Execute a frame with as many of these moves of one kind as fit into it; see `run_moves`."""
+    """Execute a frame with the first of these moves of one kind, until it is full; see `run_moves`."""
     script = axis._start_script(requests[0]).timeout(LONGEST_WAIT_MS)
     room = LONGEST_SCRIPT - _SELECT_BYTES - len(bytes(script))
     requests = requests[: room // len(bytes(_add_move(Script(), axis, requests[0])))]
