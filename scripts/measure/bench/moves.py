@@ -22,8 +22,10 @@ from scripts.measure.sizes.report import markdown_table
 TURNS = 5
 MOVES = 240
 PULSES = (1, -2, 3, -1, 2, -3)
-BAUD = 1_000_000
-FASTEST = 3_000_000
+BAUD = 2_000_000
+CLK_HZ = 10_000_000
+BANK_CLK_HZ = 12_000_000
+COMPUTED = (1_000_000, 3_000_000)
 ADAPTER_MS = 1.0
 """Assumed time of a USB adapter for a frame and its answer."""
 SETUPS: dict[str, tuple[int, int, int]] = {
@@ -73,7 +75,7 @@ class Traffic:
 def computed(traffic: Traffic) -> list[str]:
     """Return frames and bytes of a move, and the moves per second that they allow at two line rates."""
     frames, size = traffic.frames / MOVES, traffic.size / MOVES
-    rates = [1 / (10 * size / baud + ADAPTER_MS / 1000 * frames) for baud in (BAUD, FASTEST)]
+    rates = [1 / (10 * size / baud + ADAPTER_MS / 1000 * frames) for baud in COMPUTED]
     return [f"{frames:.2f}", f"{size:.0f}", *(f"{rate:,.0f}" for rate in rates)]
 
 
@@ -82,7 +84,8 @@ def measure(part: str) -> list[list[str]]:
     pulses = [PULSES[n % len(PULSES)] for n in range(MOVES)]
     seconds: dict[str, list[float]] = {"move": [], "moves": []}
     traffic = {}
-    with open_part(f"sim:speed=max,part={part}", BAUD) as opened:
+    clk_hz = BANK_CLK_HZ if part == "bank" else CLK_HZ
+    with open_part(f"sim:speed=max,part={part},clk={clk_hz}", BAUD) as opened:
         axis: Any = opened.axes[0]
         axis.initialise(*SETUPS[part])
         ways: dict[str, Callable[[], Sequence[Any]]] = {
@@ -133,10 +136,11 @@ def bench() -> None:
             console.print(", ".join(f"{head}: {value}" for head, value in zip(HEADS, row, strict=True)))
     of_312, of_006 = line_times()
     text = (
-        f"Moves of 1 to 3 pulses. Virtual board at 8 MHz and {BAUD:,} baud with `speed=max`: the fastest of "
-        f"{TURNS} turns, and the median of the ratios in one turn. The last two columns are computed from "
-        f"the frames and bytes of a move, with {ADAPTER_MS:g} ms of a USB adapter for each frame and its "
-        f"answer; they were not measured on a board. On a serial line, one frame starts one move: it needs "
+        f"Moves of 1 to 3 pulses. Virtual board at {CLK_HZ / 1e6:g} MHz (bank: {BANK_CLK_HZ / 1e6:g} MHz) "
+        f"and {BAUD:,} baud with `speed=max`: the fastest of {TURNS} turns, and the median of the ratios in "
+        "one turn. The last two columns are computed from the frames and bytes of a move, with "
+        f"{ADAPTER_MS:g} ms of a USB adapter for each frame and its answer; they were not measured on a "
+        "board. On a serial line, one frame starts one move: it needs "
         f"{of_312:.0f} ms with a PPMC-312 at 83 333 bit/s and {of_006:.0f} ms with a PMC006B4 at "
         f"115 200 bit/s (golden models). {machine()}."
     )
