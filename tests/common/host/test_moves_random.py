@@ -1,7 +1,7 @@
 """Random queues of moves between two limit switches end as the same moves with `move`.
 
-A PPMC-312 with DATASHEET timing filters its switches for 200 µs. A move of a queue may begin during this time,
-and then it ends at the switch, although the part would reject it later. Therefore it is not tried here.
+A PPMC-312 with DATASHEET timing filters its switches for 200 µs. A move of a queue may begin during this
+time, and then it ends at the switch, although the part would reject it later. Therefore it is not tried here.
 """
 
 from __future__ import annotations
