@@ -10,6 +10,7 @@ import errno
 import os
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Protocol
 
 from .errors import Disconnected, PortError
@@ -61,7 +62,12 @@ class SerialPort:
     def _open(self, path: str, baud: int) -> serial.SerialBase:
         import serial
 
-        return serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
+        port = serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
+        # Without this mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Not every
+        # system and adapter has it.
+        with suppress(AttributeError, NotImplementedError, ValueError):
+            port.set_low_latency_mode(True)
+        return port
 
     def read(self, timeout: float) -> bytes:
         end = time.monotonic() + timeout

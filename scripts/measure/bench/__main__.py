@@ -20,7 +20,7 @@ from openppmc.host import PpmcError
 from openppmc.sim import SimError as BoardError
 from scripts.demo.demos import Demo
 from scripts.fpga.flow.machine import machine
-from scripts.measure.bench import board, captures, costs
+from scripts.measure.bench import board, captures, costs, moves
 from scripts.measure.bench.run_times import LABELS, PLAIN, Times, turns
 from scripts.measure.sizes.report import markdown_table
 
@@ -104,6 +104,7 @@ def bench(name: str, demo: Demo) -> None:
             costs.HEADS,
             costs.rows(costs.measure()),
         )
+        moves.bench()
         captures.bench()
     write_section(name, f"run of `make demo PART={name}`, median of {RUNS} rounds", text, HEADS, rows)
     console.print("written: docs/benchmarks.md")

@@ -63,7 +63,13 @@ def library(body: str, high: int = 5000, ramp: int = 100, seconds: float = 10) -
     return ["-c", text]
 
 
-LOOPS = ["motion.wait()", "while True: time.sleep(0.01)", "while True: axis.position"]
+LOOPS = [
+    "motion.wait()",
+    "while True: time.sleep(0.01)",
+    "while True: axis.position",
+    "axis.halt(); list(axis.moves([30, -30] * 100_000))",
+    "axis.halt(); list(axis.moves([300, -300] * 100_000))",
+]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
