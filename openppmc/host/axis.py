@@ -22,7 +22,6 @@ from .errors import (
 from .link import LinkProtocol
 from .motion import READ_FINISH, Homing, Motion, MotionRequest, Progress
 from .motion_result import Cause, MotionResult
-from .moves import AHEAD, execute_moves, run_moves
 from .registers import FAMILY, Outputs, ReadCodes, Switches
 from .script import Script
 from .speeds import Number, exact, nearby
@@ -435,6 +434,8 @@ class Axis(Checked):
             LimitReached, AlarmStop, StoppedByCommand: a move ended before all pulses were output.
             OutOfRange: a number is out of range; the moves before it that share its frame do not start.
         """
+        from .moves import AHEAD, execute_moves, run_moves  # only this method needs the module
+
         numbers = wholes(pulses, "pulses")
         if self._position_of(0) is None:  # no counter confirms the ends within a frame
             return (self.move_constant(one, pps) if pps and one else self.move(one) for one in numbers)
