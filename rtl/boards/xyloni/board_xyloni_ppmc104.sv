@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by `make boards` from constraints/xyloni/board.yml and ppmc104_carrier.sv; change those, not this.
-// board_xyloni_ppmc104: PPMC-104 with UART host on Xyloni (T8F81C2), clk 33.33 MHz, its oscillator.
+// board_xyloni_ppmc104: PPMC-104 with UART host on Xyloni (T8F81C2), clk 33.33 MHz from the oscillator.
 // Rules:  pins, LEDs, wiring: docs/boards.md; constraints/xyloni/ppmc104/pins.isf. For Efinity; linted, but not built
 //         or run by this project. CSEL and VSEL are strap outputs of the bridge. The supply of J1 and J2 must be set
 //         to 3.3 V.
