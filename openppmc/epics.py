@@ -29,7 +29,7 @@ from caproto.server.records import MotorFields, register_record  # noqa: E402
 POLL = 0.1
 """Seconds between two updates of the readbacks."""
 COMMANDS = ("RLV", "TWF", "TWR", "HOMF", "HOMR", "STOP")
-"""Fields that execute a value other than 0, and then read as 0."""
+"""Fields in which a value other than 0 is a command; after the command, they read as 0."""
 IN_UNITS = ("VAL", "RBV", "DRBV", "RLV", "TWV", "OFF", "HLM", "LLM")
 """Fields with the unit EGU."""
 DIRECTION, DONE, PLUS_LS, HOME_LS, PROBLEM = 0x1, 0x2, 0x4, 0x8, 0x200

@@ -24,7 +24,7 @@ OUTPUTS = {
 }
 RAMP = ("start-velocity", "velocity", "acceleration")
 PARAMETERS = dict.fromkeys(("scale", *RAMP, "home-velocity"), "FLOAT")
-"""With 0, the scale is 1, and the other parameters have the value of the set-up."""
+"""Parameters. The value 0 selects the default: scale 1, and the value of the set-up for all others."""
 PERIOD = 0.02
 """Pause after a cycle in s."""
 
@@ -45,7 +45,7 @@ class AbandonedError(Exception):
 
 
 class Reading(NamedTuple):
-    """State of an axis; `busy` is `None` if only its motion reports that."""
+    """State of an axis; `busy` is `None` if only the motion object reports whether the axis moves."""
 
     position: int
     limit_cw: bool

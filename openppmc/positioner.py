@@ -179,7 +179,7 @@ class Positioner:
     def start_move(self, position: float) -> AnyMotion | None:
         """Start a move with ramps to the pulse nearest to a position.
 
-        It returns None if the motor is there.
+        The call returns None if the motor is already at this pulse.
 
         Raises:
             StoppedByCommand: `stop_requested` is True.

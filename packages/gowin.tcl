@@ -1,4 +1,4 @@
-# Written by `make packages` from rtl/files.yml; change that, not this.
+# Written by `make packages` from scripts/fpga/packages/vendors.py; change that, not this.
 # Not run by this project's tests, which have no vendor tools; please report what does not work.
 # Plain Verilog-2005 of one part, bridge or board, written earlier by
 #   make verilog TOP=<top> PARAMS=CLK_HZ=<Hz of your clk>

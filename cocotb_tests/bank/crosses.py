@@ -24,8 +24,8 @@ from openppmc.model.bank.axis import Axis
 from openppmc.model.bank.motion import Motion
 
 CLOCKED = without(MOTION, CLOCKS[2:], "a bank has no external base clock")
-STATES = (UNINIT, "at rest", "waiting for GO", "in motion", "decelerating")
-GROUP = Cross("axis and state that a GO finds it in", ("member of the group", "another one"), STATES)
+STATES = (UNINIT, "at standstill", "waiting for GO", "in motion", "decelerating")
+GROUP = Cross("axis and its state at GO", ("member of the group", "other axis"), STATES)
 
 
 def _hook(count: Count) -> None:
@@ -34,7 +34,7 @@ def _hook(count: Count) -> None:
 
     def on_go(axis: Any, t: int, go: int) -> None:
         motion = axis.motion
-        rest = "at rest" if axis.commands.initialised else UNINIT
+        rest = "at standstill" if axis.commands.initialised else UNINIT
         moves = "decelerating" if motion.decelerating else "in motion"
         state = "waiting for GO" if motion.waits_for_go else moves if motion.busy else rest
         count(GROUP.name, GROUP.rows[not motion.in_group], state)

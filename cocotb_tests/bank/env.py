@@ -40,7 +40,7 @@ NAMES = {
     for register, words in WORDS.items()
     for axis in range(64)
 }
-"""Names of the registers in reports: for a read, for a write."""
+"""(kind of access, address) -> name of the register in reports."""
 WRITE_EVENT = 2
 """Edges from edge 0 of a write to its write event (BANK-WIN-06)."""
 SNAPSHOT = 2

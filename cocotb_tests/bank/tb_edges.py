@@ -72,8 +72,9 @@ async def bank_mot_05_slow_down_limit_with_a_stop(dut):
 
 @directed("BANK-GRP-04", builds=(B8, B32, F100))
 async def bank_grp_04_causes_of_a_start_after_stop(dut):
-    """If an operation starts at visits g to g + R of a STOP written at g, it ends on the next edge with
-    finish bit 6. An alarm or limit that is active on that edge also sets its bit (BANK-GRP-04).
+    """If STOP is written at g and an operation starts at a visit from g to g + R, the operation ends on the
+    next edge with finish bit 6. An alarm or limit that is active on that edge also sets its bit
+    (BANK-GRP-04).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)

@@ -23,8 +23,8 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_seeds_are_enough() -> None:
-    """The fixed seeds use each build, contain no seed twice, and compare a million intervals in total. Each
-    host checks its own number of intervals.
+    """The fixed seeds are all different, together use each build, and compare a million intervals in total.
+    Each host checks its number of intervals.
     """
     assert random_item.complete
     assert {build(seed).name for seed in SEEDS} == build.names

@@ -50,7 +50,7 @@ async def start(dut: Any, code: int = 0, part: Part | None = None) -> tuple[RtlB
 
 
 class Golden:
-    """Golden model after its initialisation, which makes successive moves."""
+    """Initialised golden model, which makes one move after the other."""
 
     def __init__(self, config: Config) -> None:
         self.model = Ppmc104(config.clk_hz, config.xtal_hz, config.timing, config.phase_idle)

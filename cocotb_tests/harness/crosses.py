@@ -114,34 +114,39 @@ CAUSES = {
     codes.FINISH_LIMIT: "limit",
     codes.FINISH_SLOW: "slow-down limit",
 }
-COUNT_DONE, ORIGIN_FOUND, TWO = "count done", "origin", "two at once"
-PHASES = ("before the first pulse", "up", "top", "down", "constant")
-CLOCKS = ("internal", "internal, plain", "external", "external, plain")
-STATES = ("before initialisation", "at rest", "in motion", "decelerating")
+COUNT_DONE, ORIGIN_FOUND, TWO = "all pulses output", "origin", "two causes"
+FIRST, UP, TOP, DOWN, CONSTANT = PHASES = (
+    *("before the first pulse", "accelerating", "high speed", "decelerating", "constant speed"),
+)
+CLOCKS = (
+    *("internal, extra time", "internal, no extra time"),
+    *("external, extra time", "external, no extra time"),
+)
+STATES = ("before initialisation", "at standstill", "in motion", "decelerating")
 
-ENDLESS = "an endless operation has no count that can end"
-CONSTANT = "only operations with a ramp slow down"
+ENDLESS = "an endless operation has no number of pulses to complete"
+NO_RAMP = "a slow-down limit has no effect in this operation"
 ORIGIN = "only an origin search samples the origin"
-ONE_PULSE = "a single step does not wait for the external clock, and is over with its pulse"
+ONE_PULSE = "a single step does not wait for the external clock"
 NEVER_CAUSE = {
     **{(name, COUNT_DONE): ENDLESS for name in ("constant, endless", "ramp, endless", "origin search")},
     **{
-        (name, "slow-down limit"): CONSTANT
+        (name, "slow-down limit"): NO_RAMP
         for name in ("single step", "constant, counted", "constant, endless", "origin search")
     },
     **{(name, ORIGIN_FOUND): ORIGIN for name in OPERATIONS.values() if name != "origin search"},
 }
 NEVER_PHASE = {
-    ("slow-down limit", "constant"): CONSTANT,
-    ("slow-down limit", "down"): "the deceleration is not started twice",
-    **{(ORIGIN_FOUND, phase): ORIGIN for phase in ("up", "top", "down")},
+    ("slow-down limit", CONSTANT): "a slow-down limit has no effect at constant speed",
+    ("slow-down limit", DOWN): "a slow-down limit has no effect during a deceleration",
+    **{(ORIGIN_FOUND, phase): "an origin search has no ramp" for phase in (UP, TOP, DOWN)},
 }
-NEVER_CLOCK = {("single step", clock): ONE_PULSE for clock in ("external", "external, plain")}
+NEVER_CLOCK = {("single step", clock): ONE_PULSE for clock in CLOCKS[2:]}
 ALL_CAUSES = (COUNT_DONE, *CAUSES.values(), ORIGIN_FOUND, TWO)
 
 MOTION = (
     Cross("operation and cause of its end", tuple(OPERATIONS.values()), ALL_CAUSES, NEVER_CAUSE),
-    Cross("cause of the end and phase that it came in", ALL_CAUSES, PHASES, NEVER_PHASE),
+    Cross("cause of the end and phase of the motion", ALL_CAUSES, PHASES, NEVER_PHASE),
     Cross("operation and base clock", tuple(OPERATIONS.values()), CLOCKS, NEVER_CLOCK),
     Cross("cause of the end and base clock", ALL_CAUSES, CLOCKS),
 )
@@ -156,18 +161,17 @@ def without(crosses: Iterable[Cross], columns: Sequence[str], why: str) -> tuple
     )
 
 
-NO_EXTRA_TIME = without(
-    MOTION, ("internal", "external"), "intervals have no extra time here (as vsel = L adds)"
-)
+NO_EXTRA_TIME = without(MOTION, CLOCKS[::2], "without vsel, intervals have no extra time")
 UNINIT = "before initialisation"
+BUSY_ONLY = "this error exists only during a motion"
+REJECTED = "during a motion, an initialisation is rejected as NOT_WHILE_BUSY"
 NEVER_ERROR = {
-    **{("NOT_WHILE_BUSY", state): "it is about motion" for state in (UNINIT, "at rest")},
-    **{("NOT_INITIALISED", state): "there is a ramp by then" for state in STATES[1:]},
-    **{("UNASKED_DATA", state): "in motion it has another number" for state in STATES[2:]},
-    **{("UNASKED_DATA_BUSY", state): "at rest it has another number" for state in STATES[:2]},
-    **{("PA_TOO_LARGE", state): "refused as NOT_WHILE_BUSY" for state in STATES[2:]},
-    **{("BAD_RAMP", state): "refused as NOT_WHILE_BUSY" for state in STATES[2:]},
-    **{("ALREADY_DECELERATING", state): "it is about deceleration" for state in STATES[:3]},
+    **{("NOT_WHILE_BUSY", state): BUSY_ONLY for state in STATES[:2]},
+    **{("NOT_INITIALISED", state): "this error exists only before initialisation" for state in STATES[1:]},
+    **{("UNASKED_DATA", state): "during a motion, this is UNASKED_DATA_BUSY" for state in STATES[2:]},
+    **{("UNASKED_DATA_BUSY", state): "at standstill, this is UNASKED_DATA" for state in STATES[:2]},
+    **{(error, state): REJECTED for error in ("PA_TOO_LARGE", "BAD_RAMP") for state in STATES[2:]},
+    **{("ALREADY_DECELERATING", state): BUSY_ONLY for state in STATES[:2]},
 }
 ERRORS = Cross("error and state", tuple(error.name for error in Error), STATES, NEVER_ERROR)
 
@@ -175,17 +179,17 @@ ERRORS = Cross("error and state", tuple(error.name for error in Error), STATES, 
 def phase(motion: Any) -> str:
     """Return the phase in which an operation is."""
     if not motion.done:
-        return "before the first pulse"
+        return FIRST
     if not motion.is_ramp:
-        return "constant"
+        return CONSTANT
     if motion.decelerating:
-        return "down"
-    return "top" if motion.high else "up"
+        return DOWN
+    return TOP if motion.high else UP
 
 
 def _clock(motion: Any) -> str:
     name = "external" if motion._external is not None else "internal"
-    return f"{name}, plain" if motion._plain else name
+    return f"{name}, no extra time" if motion._plain else f"{name}, extra time"
 
 
 def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
@@ -209,7 +213,7 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
         found = [name for bit, name in CAUSES.items() if bits & bit]
         found = found or [ORIGIN_FOUND if left else COUNT_DONE]
         cause = found[0] if len(found) == 1 else TWO
-        where = came.pop(id(motion), "down" if motion.is_ramp else "constant")
+        where = came.pop(id(motion), DOWN if motion.is_ramp else CONSTANT)
         operation, clock = OPERATIONS[motion.operation], _clock(motion)
         count(MOTION[0].name, operation, cause)
         count(MOTION[1].name, cause, where)
@@ -229,7 +233,7 @@ def hook_errors(count: Count) -> None:
     def on_read(unit: Any, result: Any, t: int, *rest: Any) -> None:
         if unit.error is not None:
             motion = unit._motion
-            state = "in motion" if motion.busy else "at rest" if unit.setup else UNINIT
+            state = "in motion" if motion.busy else "at standstill" if unit.setup else UNINIT
             if motion.decelerating:
                 state = "decelerating"
             count(ERRORS.name, unit.error.name, state)

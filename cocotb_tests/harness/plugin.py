@@ -53,7 +53,8 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Deselect tests that do not match --clk-hz or --model.
 
-    --clk-hz deselects plain Python tests and other clocks, --model all tests except directed ones.
+    --clk-hz deselects plain Python tests and tests with other clocks; --model deselects all tests except
+    directed ones.
     """
     clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
     keep = [test for test in items if _is_selected(item_of(test), clk_hz, model)]

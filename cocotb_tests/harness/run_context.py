@@ -162,7 +162,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
 
 
 async def run_and_compare(context: RunContext, test: Any) -> None:
-    """Run the test, then compare; to a failure, add whether the edges equal those of the golden model."""
+    """Run the test, then compare. If the test fails, add the result of the comparison to its message."""
     try:
         await test
     except (AssertionError, TimeoutError) as error:

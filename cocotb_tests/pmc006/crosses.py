@@ -8,14 +8,17 @@ from cocotb_tests.harness.crosses import Count, Cross, Crosses, before
 from openppmc.model.pmc006.codes import LETTERS
 from openppmc.model.pmc006.instructions.executor import Executor
 
-NONE = "a code that is none"
+NONE = "an undefined code"
 OPS = (*LETTERS, NONE)
 MOTION = Cross(
     "instruction of a frame and motion",
     OPS,
-    ("at rest", "at rest, start blocked", "move, rate changing", "move, rate constant", "speed mode"),
+    (
+        *("at standstill", "at standstill, start blocked"),
+        *("move, rate changing", "move, rate constant", "speed mode"),
+    ),
 )
-BESIDE = Cross("instruction of a frame and what else runs", OPS, ("nothing", "program", "EEPROM"))
+BESIDE = Cross("instruction of a frame and other activity", OPS, ("nothing", "program", "EEPROM"))
 
 
 def _motion(context: Any) -> str:

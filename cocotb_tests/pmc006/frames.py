@@ -6,7 +6,7 @@ HEAD, REPLY = 0xA5, 0x7A
 
 
 def number(code: str | int) -> int:
-    """Return the code of an instruction, which is a letter or a number."""
+    """Return an instruction code as a number; `code` is the letter or the number of the instruction."""
     return ord(code) if isinstance(code, str) else code
 
 

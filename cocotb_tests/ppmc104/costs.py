@@ -16,7 +16,10 @@ RAMPS = {
     "initialise, ramp of the demo: RL 199, RH 19, PA 250": (199, 19, 250),
     "initialise, the longest table: RL 255, RH 0, PA 11 220": (255, 0, 11220),
 }
-ANSWERS = {"a command with its answer of 1 byte (82)": (0x82, 1), "of 3 bytes (83)": (0x83, 3)}
+ANSWERS = {
+    "a command with its answer of 1 byte (82)": (0x82, 1),
+    "a command with its answer of 3 bytes (83)": (0x83, 3),
+}
 AUX_ON, AUX_OFF = 0xC1, 0xC2
 
 

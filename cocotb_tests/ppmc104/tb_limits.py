@@ -220,7 +220,7 @@ async def p104_lim_01_two_clk_levels(dut):
             await env.pulse(3, delay)
             await env.bench.pulse_pin(pin, 0, 2)
             await env.result("P104-LIM-01", 3, bits, 26)
-    # This also applies to START; a level that ended before the start has no effect.
+    # A level of 2 cycles also takes effect in START; a level that ended before the start has no effect.
     await env.bench.pulse_pin("l1_n", 0, 8)
     await env.bench.clocks(2)
     await env.go(0x44, 3, 9)

@@ -13,34 +13,36 @@ from openppmc.model.ppmc2104.commands import CommandUnit
 from openppmc.model.single.hostport import HostPort
 
 INITIAL, BUILT, REST, MOVES, SLOWS = (
-    *("before the first setting", "table being built", "at rest", "in motion", "slowing down"),
+    *("before the first setting", "table being built", "at standstill", "in motion", "decelerating"),
 )
 STATES = (INITIAL, BUILT, REST, MOVES, SLOWS)
-AT_START = "it is about the start of an operation, which waits for its table and refuses in motion otherwise"
+AT_START = "this error exists only at the start of an operation, at standstill with a complete table"
+BUSY_ONLY = "this error exists only during a motion"
 NEVER_ERROR = {
-    **{("NOT_INITIALISED", state): "there is a setting by then" for state in STATES[1:]},
-    **{("NOT_WHILE_BUSY", state): "it is about motion" for state in (INITIAL, BUILT, REST)},
-    **{("CANNOT_DECELERATE", state): "it is about motion" for state in (INITIAL, BUILT, REST)},
-    **{
-        ("NOTHING_TO_STOP", state): "there is something, or nothing was set"
-        for state in (INITIAL, MOVES, SLOWS)
-    },
+    **{("NOT_INITIALISED", state): "this error exists only before the first setting" for state in STATES[1:]},
+    **{("NOT_WHILE_BUSY", state): BUSY_ONLY for state in (INITIAL, BUILT, REST)},
+    **{("CANNOT_DECELERATE", state): BUSY_ONLY for state in (INITIAL, BUILT, REST)},
+    ("NOTHING_TO_STOP", INITIAL): "before the first setting, a stop is NOT_INITIALISED",
+    **{("NOTHING_TO_STOP", state): "during a motion, there is a motion to stop" for state in (MOVES, SLOWS)},
     **{
         (error, state): AT_START
         for error in ("START_REFUSED", "RATE_ONE_AXIS", "RATE_TWO_AXES")
         for state in (INITIAL, BUILT, MOVES, SLOWS)
     },
     **{
-        (error, state): "a setting waits for the table before it and is refused as NOT_WHILE_BUSY in motion"
+        (error, state): "a setting waits for a table, and is rejected as NOT_WHILE_BUSY during a motion"
         for error in ("BAD_RATE", "PA_TOO_LARGE")
         for state in (BUILT, MOVES, SLOWS)
     },
-    **{("BAD_SWITCHING", state): "refused as NOT_WHILE_BUSY" for state in (MOVES, SLOWS)},
+    **{
+        ("BAD_SWITCHING", state): "during a motion, the instruction is rejected as NOT_WHILE_BUSY"
+        for state in (MOVES, SLOWS)
+    },
 }
 ERRORS = Cross(
     "error and state of its axis", tuple(error.name for error in Error if error), STATES, NEVER_ERROR
 )
-STYLES = ("busc L, at rest", "busc L, in motion", "busc H, at rest", "busc H, in motion")
+STYLES = ("busc L, at standstill", "busc L, in motion", "busc H, at standstill", "busc H, in motion")
 ACCESSES = Cross(
     "access and bus style", ("instruction written", "data written", "status read", "data read"), STYLES
 )

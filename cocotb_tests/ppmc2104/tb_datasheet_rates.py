@@ -197,7 +197,7 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
     end = await axis.wait_end()
     env.window("P2104-DS-20", "pin to the end, 40 us window", end - stamp, us(40 + 35) - 20, us(40 + 35) + 30)
     axis.set(fl_n=1)
-    # This also applies to the slow-down limit: during code 43 it sets the flag at a polling tick.
+    # The slow-down limit is polled, too: during code 43 it sets the flag at a polling tick.
     await rest(env)
     await axis.go(0x43, 1000)
     await axis.pulse(30, 100)
@@ -221,7 +221,7 @@ async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
     await axis.blip("org_n", 200)
     await axis.result("AC-76", 9, 0x87)
     env.check("AC-76", "83", await axis.fetch(0x83, 3), [0xF6, 0xFF, 0xFF])
-    # This includes pulse 1. In RUN wait, ORG is not sampled.
+    # The fall of pulse 1 also samples ORG. In RUN wait, ORG is not sampled.
     axis.set(run=0)
     await axis.go(0x47, rate=0x31)
     await env.bench.clocks(env.cfg.us(40))

@@ -56,7 +56,7 @@ class Run:
             await self.host.write(reg, byte, gap=8)
 
     async def fill(self, until: int) -> None:
-        """Send traffic to axis 1 while there is enough time for it, then wait for the edge."""
+        """Send traffic to axis 1 as long as it is complete before edge `until`, then wait for this edge."""
         bench = self.bench
         while bench.now + INSTRUCTION + 70 < until:
             thing = next(self.beside, None)

@@ -126,7 +126,9 @@ async def p2104_ini_05_again_without_off(dut: Any) -> None:
 
 @directed("P2104-INI-06", "P2104-AUX-01", "P2104-HLD-02", "P2104-INT-02")
 async def p2104_ini_06_what_stays(dut: Any) -> None:
-    """Code C0 and a setting do not change results, delays, an error and an interrupt (P2104-INI-06)."""
+    """Code C0 and a further setting change neither the result of the last motion nor delays, a pending error
+    or a pending interrupt (P2104-INI-06).
+    """
     env = await Env.start(dut, errint_n=0)
     axis, other = await env.both(INIT_A)
     await env.host.command(0xF1)

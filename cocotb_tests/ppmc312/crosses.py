@@ -14,18 +14,18 @@ from openppmc.model.ppmc312.instructions.unit import Unit
 from openppmc.model.ppmc312.motion.motion import Motion
 from openppmc.model.ppmc312.motion.operation import Operation
 
-NONE = "a code that is none"
+NONE = "an undefined code"
 CODES = {code.value: f"{code:02X} {code.name}" for code in Code}
 INSTRUCTIONS = Cross(
     "instruction and state at its execution", (*CODES.values(), NONE), tuple(state.name for state in State)
 )
 NEVER_REFUSED = {
-    **{("F5 COMMAND", "OVERRIDE"): "a registration has checked the code"},
-    **{("F6 SIZE", source): "registered blocks have passed it" for source in ("EVENT", "OVERRIDE")},
-    **{("F7 REGISTRATION", source): "only the host registers" for source in ("EVENT", "OVERRIDE")},
+    **{("F5 COMMAND", "OVERRIDE"): "the code was checked at the registration"},
+    **{("F6 SIZE", source): "the size was checked at the registration" for source in ("EVENT", "OVERRIDE")},
+    **{("F7 REGISTRATION", source): "only the host registers blocks" for source in ("EVENT", "OVERRIDE")},
 }
 REFUSALS = Cross(
-    "refusal and source",
+    "rejection and source",
     tuple(
         f"{answer:02X} {answer.name}"
         for answer in Answer
@@ -37,16 +37,21 @@ REFUSALS = Cross(
 HELD, FIRST, ACC, FIX = ("held by RUN", "before the first pulse", State.ACC.name, State.FIX.name)
 NEVER_ENDED = {
     **{
-        (cause.name, HELD): "there is no pulse output to end, and 80 is refused"
+        (cause.name, HELD): "a motion that waits for RUN outputs no pulses, and 80 is rejected"
         for cause in Cause
         if cause is not Cause.ALARM
     },
-    **{(cause.name, FIRST): "before it the cause is LOW" for cause in (Cause.SLOW, Cause.LIMIT_SLOW)},
-    **{(cause.name, FIX): "the way down lies in ACC" for cause in (Cause.SLOW, Cause.LIMIT_SLOW)},
-    (Cause.NORMAL.name, FIRST): "no operation is without a pulse",
+    **{
+        (cause.name, FIRST): "before the first pulse the cause is LOW"
+        for cause in (Cause.SLOW, Cause.LIMIT_SLOW)
+    },
+    **{
+        (cause.name, FIX): "a deceleration ramp has the state ACC" for cause in (Cause.SLOW, Cause.LIMIT_SLOW)
+    },
+    (Cause.NORMAL.name, FIRST): "every motion has at least one pulse",
 }
 CAUSES = Cross(
-    "cause of the end and where it came",
+    "cause of the end and state of the motion",
     tuple(cause.name for cause in Cause),
     (HELD, FIRST, ACC, FIX),
     NEVER_ENDED,

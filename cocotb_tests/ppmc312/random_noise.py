@@ -69,7 +69,7 @@ def _bus(rng: random.Random, t: int) -> Changes:
 
 
 def _switches(rng: random.Random, t: int) -> Changes:
-    """Return a change of one of the other pins."""
+    """Return a change of a pin that is not part of the bus."""
     if rng.random() < 0.4:
         return [(t, {"extck": rng.getrandbits(1), "epin": rng.getrandbits(1)})]
     pin = rng.choice(SWITCHES)

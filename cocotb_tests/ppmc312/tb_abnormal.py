@@ -123,7 +123,10 @@ async def p312_second_stop_report_while_the_first_is_half_read(dut: Any) -> None
 
 @directed("P312-RSP-11", "P312-RSP-10", "P312-PAR-08", "P312-BAD-08", "P312-RSP-22")
 async def p312_reports_are_in_the_order_of_their_classes(dut: Any) -> None:
-    """All classes wait while one is being read. The test creates them from the last class to the first."""
+    """While a report is being read, reports of all classes wait; then the lowest class is first.
+
+    The test creates the reports from the last class to the first.
+    """
     host = await Host.start(
         dut,
         *TF,
@@ -140,7 +143,7 @@ async def p312_reports_are_in_the_order_of_their_classes(dut: Any) -> None:
     await host.pause(1000)
     await host.read(2)
     assert await host.response() == message(Code.VERSION, "12")
-    # The read window now contains E9.
+    # The read window now contains report E9.
     await host.wait()
     for level in (3, 7, 15):
         await host.pins(auxi=level)

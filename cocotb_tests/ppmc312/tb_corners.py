@@ -125,7 +125,7 @@ async def p312_second_hold_report_unread_is_an_alarm(dut: Any) -> None:
     await host.pins(run=1)
     await host.pause(20_000)
     assert await host.response() == message(Code.STEP)
-    # The read window now contains E2 and keeps it.
+    # The read window now contains report E2 and keeps it.
     await host.pause(100)
     await host.pins(run=0)
     await host.issue(message(Code.STEP, "00"))
@@ -168,8 +168,8 @@ async def p312_an_alarm_does_not_wait_for_the_positioning_end(dut: Any) -> None:
 
 @directed("P312-MOT-35", "P312-INP-30", "P312-MOT-34", "P312-MOT-06")
 async def p312_an_alarm_after_the_last_pulse_does_not_wait_for_end(dut: Any) -> None:
-    """An alarm in the last interval or near its end (start of the END wait) causes E0 with NOS
-    immediately.
+    """After an alarm in the last interval or near its end, where the END wait starts, report E0 with cause
+    NOS follows immediately.
     """
     for after in (20, 79, 80, 81, 2000, *range(6392, 6408)):
         host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))

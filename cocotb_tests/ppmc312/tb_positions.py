@@ -123,7 +123,7 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
         message(Answer.ENCODE_CHANGE, "00", source=SPONTANEOUS),
     ]
     assert await host.quiet()
-    # The monitor is disabled while it waits for another report.
+    # The encode monitor is disabled while its report waits for another report to be read: it is discarded.
     await host.ask(message(Code.IN_POSITION, "03 0002"))
     await encoder(host, 1)
     await host.issue(message(Code.ENCODE, "00 0002"))

@@ -247,7 +247,7 @@ async def clk_to_action(u: BlockDriver, where: str, closed: bool) -> int:
 
 @cocotb.test()
 async def proc_time_fast(dut):
-    """In FAST, actions pass in the same cycle; an initialisation is complete when its table is complete."""
+    """In FAST, act_o equals act_i in the same cycle; an initialisation ends when its table is complete."""
     u = BlockDriver(dut, "fast", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o")
     await u.reset()
     for name in ACTIONS:

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from cocotb_tests.harness.crosses import ERRORS, NO_EXTRA_TIME, Count, Crosses, hook_errors, hook_motion
 
-NO_LIMIT = {("PA_TOO_LARGE", "*"): "this part has no limit on PA"}
+NO_LIMIT = {("PA_TOO_LARGE", "*"): "every PA is legal"}
 
 
 def _hook(count: Count) -> None:

@@ -18,7 +18,7 @@
 
 typedef struct {
     char code;
-    char reader;  /* instruction that reads the value; if equal to code, a write out of range also reads */
+    char reader;  /* instruction that reads the value; if it equals `code`, data out of range also read it */
     int32_t read; /* data for the instruction `reader` */
     int32_t low, high;
 } setting_t;
@@ -283,7 +283,7 @@ ppmc104_result_t pmc006_status(pmc006_t *dev, pmc006_status_t *status)
     status->forward = (two & 16) != 0;
     status->autostart = (two & 32) != 0;
     if (result == PPMC104_OK && status->ext_on != dev->ext) {
-        dev->known = dev->known && dev->ext == 0u; /* on to off: a reset; off to on: a program */
+        dev->known = dev->known && dev->ext == 0u; /* a reset clears EXT_ON, a program can set it */
         dev->ext = status->ext_on;
     }
     return result;

@@ -22,8 +22,8 @@ extern "C" {
 #define PMC006_WORDS_MAX 200u   /**< words of a program, two per instruction */
 #define PMC006_STEPS_MAX 2147483647l
 
-/** Settings of pmc006_set() and pmc006_get(). The value is the letter of the instruction; the comment
- * states range; factory value. */
+/** Settings of pmc006_set() and pmc006_get(). The value is the letter of the instruction. Each comment states
+ * the range, then the factory value. */
 #define PMC006_ACCELERATION 'u'     /**< 0 .. 5: 1700 * 2^n steps/s^2; 0 */
 #define PMC006_DECELERATION 'o'     /**< as PMC006_ACCELERATION */
 #define PMC006_MAX_SPEED 'v'        /**< 1 .. 16 000; 1000 after each power-up */
@@ -36,7 +36,7 @@ extern "C" {
 #define PMC006_CURRENT_BOOST 'M'    /**< current compensation, 100 .. 1200; 300 */
 #define PMC006_LEAD 'P'             /**< speed compensation, 300 .. 2000; 1250 */
 #define PMC006_EXT_EDGE 'J'         /**< bits 0, 1 = 1: EXT1, EXT2 act on the rising edge; 0 */
-#define PMC006_STALL_LENGTH 'T'     /**< samples, 0 .. 63 */
+#define PMC006_STALL_LENGTH 'T'     /**< samples, 0 .. 63; 64 after power-up, which T cannot write */
 #define PMC006_STALL_MODE 'Y'       /**< bit 0: on, bit 1: stops the motor, bit 2: drives GPO5; 0 */
 #define PMC006_STALL_LEVEL 'Z'      /**< 0 .. 511; 0 */
 #define PMC006_AUTOSTART 'F'        /**< 1: run the program after power-up; 0 also halts it now. Write only */

@@ -122,7 +122,7 @@ ppmc104_result_t ppmc104_rate_from_pps(const ppmc104_speed_t *speed, uint32_t pp
         whole = speed->xtal_hz - extra;
         part = 4u * base_quanta(speed) * pps;
     }
-    /* Rounding the interval keeps the error of the speed at or below that of half a rate step. */
+    /* The interval is rounded, so the error of the speed is at most the error of half a rate step. */
     count = (whole + part / 2u) / part;
     if (count < 1u || count > 256u) {
         return PPMC104_BAD_ARGUMENT;
@@ -194,8 +194,8 @@ ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8
     }
 }
 
-/* Return the status when the motion whose last byte was accepted has begun. With DATASHEET timing, BUSY
- * rises 27 .. 112 us after that byte, and the part accepts further bytes only then (P104-DS-03,
+/* Wait until an accepted motion has begun, and return the status. With DATASHEET timing, BUSY rises 27 .. 112
+ * us after the last byte of the motion, and the part accepts further bytes only then (P104-DS-03,
  * STMC-BUS-13). Therefore, if BUSY is 0, a byte without effect is sent. It may stay in the buffer when
  * BUSY rises, because the old chip accepts only stops during a fast motion (P104-DS-12). */
 static ppmc104_result_t settle(ppmc104_t *dev, uint8_t *status)

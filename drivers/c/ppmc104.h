@@ -222,10 +222,10 @@ ppmc104_result_t ppmc104_stop_slowly(ppmc104_t *dev);
 /** Return the status register. This needs no handshake. */
 uint8_t ppmc104_status(ppmc104_t *dev);
 /**
- * Return true while an operation is running. This begins when the function that started it returns. With
- * DATASHEET timing, BUSY rises up to 112 us later (rule P104-DS-03). Therefore the first call after a start
- * may wait for BUSY by sending an unknown command, which leaves error 0 in the status register. If this wait
- * times out, the result is also true.
+ * Return true while an operation is running. An operation counts as running as soon as the function that
+ * starts it has returned. With DATASHEET timing, BUSY rises up to 112 us later (rule P104-DS-03). Therefore
+ * the first call after a start may wait for BUSY by sending an unknown command, which leaves error 0 in the
+ * status register. If this wait times out, the result is also true.
  */
 bool ppmc104_busy(ppmc104_t *dev);
 /**
@@ -258,7 +258,8 @@ ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< 
  * @return PPMC104_UNCONFIRMED if this is the finish status of a part that was reset
  */
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses);
-/** Convert the number of remaining pulses in the part to pulses, for a motion with this finish status. */
+/** Convert the number that the part returns for the remaining pulses to pulses. `finish` is the finish status
+ * of the motion. */
 uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number);
 /** @} */
 
@@ -304,7 +305,7 @@ ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8
 void ppmc104_decode_finish(uint8_t raw, ppmc104_order_t *order, ppmc104_finish_t *finish);
 /** If the finish status was read before, replace it by the stored finish status. */
 void ppmc104_recall(ppmc104_order_t *order, ppmc104_finish_t *finish);
-/** Compare the finish status and the number of remaining pulses in the part with the order. */
+/** Compare the finish status, and the number that the part returns for the remaining pulses, with `order`. */
 ppmc104_result_t ppmc104_confirm(const ppmc104_order_t *order, const ppmc104_finish_t *finish, uint32_t number);
 /** As ppmc104_wait(), with `remaining` as the code that reads the remaining pulses. */
 ppmc104_result_t ppmc104_wait_by(ppmc104_t *dev, ppmc104_finish_t *finish, uint8_t remaining);

@@ -95,8 +95,8 @@ static ppmc104_result_t fetch_byte(ppmc2104_t *dev, uint8_t code, uint8_t *byte)
     return result;
 }
 
-/* Read and clear both error registers. The result is the error of `axis`, or if this is 0, that of the
- * other axis. */
+/* Read and clear both error registers. The result is the error of `axis`. If this error is 0, the result is
+ * the error of the other axis. */
 static ppmc104_result_t read_errors(ppmc2104_t *dev, unsigned axis)
 {
     uint8_t number[2] = {0u, 0u}, first;

@@ -154,7 +154,7 @@ static void keep(ppmc312_t *dev, uint8_t source, uint8_t code, const uint8_t *da
         dev->ended = true;
         dev->cause = data[0];
         dev->stopped_at = count >= 5u ? get32(data + 1) : 0u;
-        return; /* ppmc312_wait() returns it */
+        return; /* ppmc312_wait() returns this report */
     }
     if (dev->stored == PPMC312_REPORTS_MAX) {
         dev->lost = true;

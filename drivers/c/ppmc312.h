@@ -44,7 +44,7 @@ typedef struct {
     bool sigmoid;
     uint16_t rate_start; /**< RS, 0x11 .. 0xFFFF, at least rate_high + 128 */
     uint16_t rate_high;  /**< RH, 2 .. 0xFFEF */
-    uint32_t up;         /**< NA, pulses of the acceleration, 1 .. 0xFFFFFF; if it is too small: detail 05 */
+    uint32_t up;         /**< NA, acceleration pulses, 1 .. 0xFFFFFF; rejected with detail 05 if too small */
     uint16_t rate_stop;  /**< RP, as rate_start; 0: deceleration like the acceleration. Only on the bus */
     uint32_t down;       /**< ND, range as `up`; ignored if rate_stop is 0 */
 } ppmc312_table_t;
@@ -113,7 +113,7 @@ typedef struct {
 #define PPMC312_REPORT_ENCODER 0xE3u        /**< 0: inside, 1: outside */
 #define PPMC312_REPORT_IN_POSITION 0xE4u    /**< 0: inside, 1: outside */
 #define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: the report does not name the instruction */
-#define PPMC312_REPORT_INPUTS 0xE9u         /**< 1: earlier changes were overwritten; then the changed bits */
+#define PPMC312_REPORT_INPUTS 0xE9u         /**< flag (1: earlier changes were overwritten), changed bits */
 #define PPMC312_REPORT_ALARM 0xF4u          /**< 0: pin, 1 .. 3: unread answers */
 #define PPMC312_REPORT_EVENT_FAILED 0xF8u
 #define PPMC312_REPORT_OVERRIDE_FAILED 0xF9u
@@ -152,7 +152,7 @@ typedef struct {
     uint8_t station;         /**< line only: station number */
     bool sum_chars;          /**< line only: SUM_MODE "CHARS"; may be changed after ppmc312_setup_line() */
     unsigned reply_ms;       /**< line only: maximum time in ms until the first byte of a reply; 300 */
-    uint8_t detail[2];       /**< numbers of the last rejection: e of F0, or s and condition of F1 */
+    uint8_t detail[2];       /**< data of the last rejection: error number of F0, or s and condition of F1 */
     /* private to the driver */
     bool table, armed, busy, moving, ended, known[2];
     uint16_t rate_min, rate_max;

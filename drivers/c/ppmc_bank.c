@@ -53,7 +53,7 @@ ppmc104_result_t ppmc_bank_axis(const ppmc_bank_t *bank, unsigned number, ppmc_b
 
 /* ---- the bank ---- */
 
-/* A register with one bit per axis has byte k at axis k. */
+/* In a register with one bit per axis, byte k is accessed at the address of axis k. */
 static void write_mask(ppmc_bank_t *bank, ppmc_bank_set_t axes)
 {
     unsigned k;
@@ -103,7 +103,7 @@ ppmc104_result_t ppmc_bank_position(const ppmc_bank_t *bank, unsigned number, in
     if (number >= bank->axes) {
         return PPMC104_BAD_ARGUMENT;
     }
-    /* The lowest byte is first, because its read latches the other bytes. */
+    /* The lowest byte is read first, because this read latches the other bytes. */
     for (n = 0; n < 4u; ++n) {
         value |= (uint32_t)peek(bank, number, PPMC_BANK_REG_POSITION + n) << (8u * n);
     }

@@ -109,8 +109,8 @@ ppmc104_result_t stmc_stop(stmc_t *dev);
  * PPMC104_ERR_UNKNOWN without a motion. */
 ppmc104_result_t stmc_stop_slowly(stmc_t *dev);
 
-/** Return true while a motion is running. This begins when the function that started it returns; see
- * ppmc104_busy(). */
+/** Return true while a motion is running. A motion counts as running as soon as the function that starts it
+ * has returned; see ppmc104_busy(). */
 bool stmc_busy(stmc_t *dev);
 /**
  * Wait for the end of the motion, and read the finish status, which clears the interrupt. Compare the finish

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
 from ..model.motion.codes import ACC_DEC, CONSTANT, CONTINUOUS, ENDLESS, HIGH_SPEED, ORIGIN, SINGLE_STEP
 from . import speeds
 from .capabilities import CHOPPER, COILS_OFF, PULSE_ONLY, RateCapabilities, SetupRequest
-from .check import Checked
-from .errors import AlreadyDecelerating, AxisBusy, NothingToStop, OutOfRange, ProtocolError
+from .check import Checked, wholes
+from .errors import (
+    AlreadyDecelerating,
+    AxisBusy,
+    NothingToStop,
+    OutOfRange,
+    PpmcError,
+    ProtocolError,
+    StartRefused,
+)
 from .link import LinkProtocol
 from .motion import READ_FINISH, Homing, Motion, MotionRequest, Progress
 from .motion_result import Cause, MotionResult
@@ -174,7 +182,7 @@ class Axis(Checked):
             OutOfRange: the axis was not initialised.
         """
         if self.setup is None:
-            raise OutOfRange("no speed given, and no initialisation to take it from: name a speed in pps")
+            raise OutOfRange("no speed given, and no default before an initialisation: give a speed in pps")
         return self.setup.start.reached
 
     def _rate(self, pps: speeds.Number | None) -> tuple[speeds.BaseClock, int]:
@@ -412,6 +420,31 @@ class Axis(Checked):
         """Move at constant speed and wait for the end; raises the same errors as `move`."""
         return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
 
+    def moves(self, pulses: Iterable[int], pps: speeds.Number | None = None) -> Iterator[MotionResult]:
+        """Move by each number of pulses in order, and yield the result of each move.
+
+        One frame contains several moves, so short moves need much less time than with `move`. The iteration
+        starts the moves. Up to 16 numbers are read ahead, and moves may have ended before their results are
+        yielded. A move that does not end as requested is the last one.
+
+        Args:
+            pps: constant speed, `None` for moves with ramps.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedByCommand: a move ended before all pulses were output.
+            OutOfRange: a number is out of range; the moves before it that share its frame do not start.
+        """
+        from .moves import AHEAD, execute_moves, run_moves  # only this method needs the module
+
+        numbers = wholes(pulses, "pulses")
+        if self._position_of(0) is None:  # no counter confirms the ends within a frame
+            return (self.move_constant(one, pps) if pps and one else self.move(one) for one in numbers)
+
+        def execute(moves: Sequence[int]) -> tuple[Sequence[Motion], PpmcError | None]:
+            return execute_moves(self, [self._move_request(one, pps) for one in moves])
+
+        return run_moves(numbers, AHEAD, execute, self._empty_move_result)
+
     # ------------------------------------------------------------------ starting
 
     def _move_request(
@@ -438,14 +471,19 @@ class Axis(Checked):
         """
         if request.pulse_only:
             self.kind.need(PULSE_ONLY)
-        code = request.code | self._code_bits
-        script = Script().call(READ_FINISH | self._code_bits).get(1)
-        self._add_position_read(script.extend(self._strap_script(self._clock_for(request)))).call(
-            code, *request.data
-        )
+        script = self._start_script(request).call(request.code | self._code_bits, *request.data)
         self.link.forget_events()
         answer = self.link.execute(script)
         return self._motion_started(request, answer.number(2, signed=True))
+
+    def _start_script(self, request: MotionRequest) -> Script:
+        """Return the steps before the command of a motion. The third value is the position counter."""
+        script = Script().call(READ_FINISH | self._code_bits).get(1)
+        return self._add_position_read(script.extend(self._strap_script(self._clock_for(request))))
+
+    def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
+        """Return the motion of a start that a switch has prevented, or raise the rejection."""
+        raise refused
 
     def _motion_started(self, request: MotionRequest, begin: int) -> Motion:
         """Store the motion that the part has started.

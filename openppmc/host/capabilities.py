@@ -24,7 +24,7 @@ CHOPPER = "chopper times"
 FREE_CURVES = "free curves"
 AUX = "output AUX"
 PHASES = "phase outputs"
-OWN_STOP = "a deceleration of its own"
+OWN_STOP = "a separate deceleration"
 CURVES = "ramps of other shapes"
 """Names of capabilities that not all parts have."""
 

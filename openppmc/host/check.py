@@ -13,7 +13,7 @@ openppmc.host.errors.OutOfRange: pulses 2.5 is not a whole number
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import update_wrapper, wraps
@@ -62,6 +62,13 @@ def whole(value: Any, what: str) -> int:
     if number.denominator != 1:
         raise OutOfRange(f"{what} {value!r} is not a whole number")
     return int(number)
+
+
+def wholes(values: Any, what: str) -> Iterator[int]:
+    """Return an iterator over whole numbers, which checks each number when it is read. Raises OutOfRange."""
+    if not isinstance(values, Iterable):
+        raise OutOfRange(f"{what} {values!r}: wants several numbers, as in (100, -50)")
+    return (whole(one, what) for one in values)
 
 
 def within(value: Any, what: str, low: int, high: int, unit: str = "") -> int:

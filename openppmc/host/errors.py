@@ -90,7 +90,7 @@ class NothingToStop(CommandRefused):
     """
 
     number = Error.UNDEFINED
-    text = "nothing to stop: the motor is at rest (or the code is unknown)"
+    text = "nothing to stop: the motor is at standstill (or the code is unknown)"
 
 
 class AxisBusy(CommandRefused):
@@ -111,35 +111,38 @@ class UnexpectedData(CommandRefused):
     """Error 3 (PPMC-2104: 2): a data byte arrived that no command requested."""
 
     number = Error.UNASKED_DATA
-    text = "the part did not ask for this data byte: another program may be using it; send the command again"
+    text = (
+        "the part did not request this data byte: another program may be using the part; "
+        "send the command again"
+    )
 
 
 class RampTooLong(CommandRefused):
     """Error 4 (PPMC-2104: 10): the ramp is too long."""
 
     number = Error.PA_TOO_LARGE
-    text = "the part refuses a ramp of more than 11220 pulses: choose a shorter one"
+    text = "the part rejects a ramp of more than 11220 pulses: choose a shorter one"
 
 
 class InvalidRamp(CommandRefused):
     """Error 5 (PPMC-2104: 9): the ramp is invalid."""
 
     number = Error.BAD_RAMP
-    text = "the part refuses this ramp: it needs 4 pulses or more, and a high speed not below the start speed"
+    text = "the part rejects this ramp: use 4 pulses or more, and a high speed not below the start speed"
 
 
 class UnexpectedDataBusy(CommandRefused):
     """Error 6: a data byte that no command requested arrived during a motion."""
 
     number = Error.UNASKED_DATA_BUSY
-    text = "the part did not ask for this data byte during the motion: another program may be using it"
+    text = "the part did not request this data byte during the motion: another program may be using the part"
 
 
 class AlreadyDecelerating(CommandRefused):
     """Error 7 (PPMC-2104: 8): a deceleration stop while the motor is decelerating."""
 
     number = Error.ALREADY_DECELERATING
-    text = "the motor is decelerating already: wait for its end, or halt it at once"
+    text = "the motor is already decelerating: wait for the end of the motion, or stop it immediately"
 
 
 class UnknownCommand(CommandRefused):
@@ -155,8 +158,8 @@ class StartRefused(CommandRefused):
     """
 
     text = (
-        "it may not start: its limit switch of this direction, its alarm or, for a search, its origin "
-        "switch is active: move the other way, or clear the alarm"
+        "the motor cannot start: the limit switch of this direction, the alarm or, for a search, the origin "
+        "switch is active: move in the other direction, or clear the alarm"
     )
 
 

@@ -67,7 +67,7 @@ def unanswered(
         frames = "a frame" if attempts == 1 else f"{attempts} frames"
         return StationNotResponding(f"{where}: no reply to {frames}: {check}")
     if all(miss.fault is Fault.FOREIGN for miss in misses):
-        return CorruptReply(f"{where}: another station replied, {attempts} times: does a second master talk?")
+        return CorruptReply(f"{where}: another station replied, {attempts} times: check for a second master")
     return CorruptReply(f"{where}: only garbled replies, {attempts} times: {others}")
 
 

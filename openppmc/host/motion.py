@@ -145,6 +145,7 @@ class Motion(Handle):
         ramped: True if the motion has ramps.
         begin: pulse counter before the motion.
         ours: False if another program started the motion.
+        new: FINISH_NEW if a script may have read the finish status already, which clears this bit.
     """
 
     requested: int | None
@@ -153,10 +154,13 @@ class Motion(Handle):
     operation: int
     begin: int
 
-    def __init__(self, axis: MotionAxis, request: MotionRequest, begin: int, ours: bool = True) -> None:
+    def __init__(
+        self, axis: MotionAxis, request: MotionRequest, begin: int, ours: bool = True, new: int = 0
+    ) -> None:
         self._axis = axis
         self._link = axis.link
         self._ours = ours
+        self._new = new
         self.requested = request.requested
         self.direction = request.direction
         self.ramped = request.ramped
@@ -232,27 +236,31 @@ class Motion(Handle):
         assert self.result is not None
         return self.result
 
-    def _finish(self) -> None:
-        """Read the finish status, which also releases int_n (P104-RD-04).
+    def _finish(self, finish: int | None = None) -> None:
+        """Read the finish status, which also releases int_n (P104-RD-04), unless a script has read it.
 
         With DATASHEET timing, BUSY rises up to 112 us after the command, and the part accepts no byte before
         (P104-DS-03). A rejection in this time means that the motion has not begun yet.
         """
         bit, remaining = self._axis._code_bits, self._axis._read_codes.remaining
-        script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
+        script = Script() if finish is not None else Script().call(READ_FINISH | bit).get(1)
         try:
-            answer = self._link.execute(self._axis._add_position_read(script))
+            answer = self._link.execute(self._axis._add_position_read(script.call(remaining | bit).get(3)))
         except AxisBusy:
             return  # the motion has not begun yet
-        count = answer.number(4, signed=True)
+        self._decode(answer.byte(1) if finish is None else finish, *answer.values[-2:])
+
+    def _decode(self, finish: int, remaining: bytes, counted: bytes) -> None:
+        """Set `result` or `result_error` from the registers of the part and the pulse counter."""
+        count = int.from_bytes(counted, "little", signed=True)
         position = self._axis._position_of(count)
         moved = None
         if self._ours and position is not None:
             moved = (count - self.begin + COUNTS // 2) % COUNTS - COUNTS // 2
         try:
             end = decode_end(
-                answer.byte(1),
-                answer.number(3),
+                finish | self._new,
+                int.from_bytes(remaining, "little"),
                 (self.requested or ENDLESS) if self._ours else None,
                 self.direction,
                 position,
@@ -386,9 +394,9 @@ class Homing:
             if gone > LONGEST_BACK_OFF:
                 end = MotionResult(Cause.COMPLETE, gone, 0, self._axis.position, 0)
                 raise OriginNotFound(
-                    f"{self._axis._message_prefix}the origin switch is still active {gone} pulses away "
-                    "from where it "
-                    "was: check it",
+                    f"{self._axis._message_prefix}the origin switch is still active after a move of {gone} "
+                    "pulses away "
+                    "from it: check the switch",
                     end,
                 )
             pps = self._pps if self._pps is not None else self._axis._default_speed

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from types import TracebackType
 from typing import Any, Protocol, TypeVar, cast
 
@@ -149,6 +150,7 @@ class AnyAxis(Stoppable, Protocol):
     def move_constant(
         self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None
     ) -> MotionResult: ...
+    def moves(self, pulses: Iterable[int], pps: speeds.Number | None = None) -> Iterator[MotionResult]: ...
 
 
 class Part(Device):

@@ -11,6 +11,7 @@ import os
 import re
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -64,7 +65,12 @@ class SerialPort:
     def _open(self, path: str, baud: int) -> serial.SerialBase:
         import serial
 
-        return serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
+        port = serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
+        # Without this mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Not every
+        # system and adapter has it.
+        with suppress(AttributeError, NotImplementedError, ValueError):
+            port.set_low_latency_mode(True)
+        return port
 
     def read(self, timeout: float) -> bytes:
         end = perf_counter() + timeout
@@ -89,7 +95,7 @@ class SerialPort:
             self._serial.flush()
         except SerialTimeoutException as error:
             raise Disconnected(
-                f"{self.name}: the port takes no bytes: unplug the adapter and try again"
+                f"{self.name}: the port accepts no bytes: unplug the adapter and try again"
             ) from error
         except (OSError, TypeError) as error:
             raise Disconnected(f"{self.name}: {_GONE}") from error
@@ -99,7 +105,7 @@ class SerialPort:
             self._serial.baudrate = baud
         except (OSError, ValueError) as error:
             raise PortError(
-                f"{self.name}: the adapter cannot do {baud} baud: choose a lower --baud"
+                f"{self.name}: the adapter does not support {baud} baud: choose a lower --baud"
             ) from error
 
     def clock(self) -> float:

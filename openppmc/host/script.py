@@ -44,6 +44,9 @@ class Script:
 
     def __init__(self) -> None:
         self.ops: list[Op] = []
+        self._size = 0
+        self.response_size = 0
+        """Number of data bytes of a complete answer."""
         self._wait_ms = DEFAULT_WAIT_MS
         self._mailbox_ms = 0
         self._waits_ms = 0
@@ -52,23 +55,20 @@ class Script:
         return b"".join(op.code for op in self.ops)
 
     @property
-    def response_size(self) -> int:
-        """Number of data bytes of a complete answer."""
-        return sum(op.response_size for op in self.ops)
-
-    @property
     def patience(self) -> float:
         """Longest expected run time in s: the sum of its waits, and one time limit for the mailbox."""
         return (self._waits_ms + self._mailbox_ms) / 1000
 
     def _add(self, name: str, code: bytes, gives: int = 0, mailbox: bool = False) -> Script:
-        if len(bytes(self)) + len(code) > LONGEST_SCRIPT:
+        if self._size + len(code) > LONGEST_SCRIPT:
             raise ValueError(f"the script would be longer than {LONGEST_SCRIPT} bytes")
         if self.response_size + gives > MOST_DATA:
             raise ValueError(f"the script would give more than {MOST_DATA} data bytes")
         if mailbox:
             self._mailbox_ms = max(self._mailbox_ms, self._wait_ms)
         self.ops.append(Op(name, code, gives))
+        self._size += len(code)
+        self.response_size += gives
         return self
 
     def extend(self, other: Script) -> Script:

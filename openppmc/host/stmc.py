@@ -21,7 +21,7 @@ from .speeds import BaseClock, Number, pin_period
 
 _TEXTS = {
     Error.NOT_INITIALISED: "the part is not initialised (power-up or reset): initialise it first",
-    Error.BAD_RAMP: "the part refuses a divisor: 1 or more, and that of the high speed not above the other",
+    Error.BAD_RAMP: "the part rejects a divisor: it is 0, or the one of the high speed exceeds the other",
 }
 
 

@@ -62,7 +62,7 @@ def handled(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
 
     SIGTERM and SIGHUP that are ignored (nohup) stay ignored.
 
-    Outside the main thread, it has no effect.
+    Outside the main thread, the context manager has no effect.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -102,7 +102,7 @@ def stop_motors(
     def halt() -> None:
         nonlocal halted, how
         if not halted:
-            halted, how = True, "stopped at once"
+            halted, how = True, "stopped immediately"
             for _, axis in moving:
                 with suppress(PpmcError):
                     axis.halt(wait=False)
@@ -133,7 +133,7 @@ def stop_motors(
             axis.motion.wait(max(0.1, ends[id(device)] - device.link.clock()), check)
         except Timeout:
             halt()
-            how = f"stopped at once after {seconds:g} s"
+            how = f"stopped immediately after {seconds:g} s"
         except PpmcError as error:
             errors.append(str(error))
     with suppress(PpmcError):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank: 4 to 64 axes that share one engine. For the host, each axis is a PPMC-104.
 // Rules:  BANK-GEN-01..05; the instantiated blocks implement all others. Manual: docs/bank/README.md.
-// Timing: each axis is visited every R = max(AXES, 8) cycles; its edges are exact to the cycle. d_o is
-//         valid 5 cycles after the start of a read strobe.
+// Timing: each axis is visited every R = max(AXES, 8) cycles; the edges of its pins are exact to the cycle.
+//         d_o is valid 5 cycles after the start of a read strobe.
 `default_nettype none
 
 module ppmc_bank

@@ -2,10 +2,12 @@
 // ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, makes
 //         decisions, and writes the state back.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; see also ppmc_bank_plan and ppmc_bank_update.
-// Timing: a visit takes seven cycles from the address of the axis to its edge; a new visit begins each cycle.
-//         Stages: 0 address, 1 RAM, 2 compare, 3 plan, 4 update, 5 write and load of pin_cmd_o, 6 the command
-//         is valid in the pin block. The end of stage 6 is the first edge at which a pin can change.
-//         The interval is read two cycles before state_s1_t: the address of a threshold contains its rate.
+// Timing: a visit takes seven cycles from the address of the axis to the first edge at which its pins can
+//         change. A new visit begins each cycle. Stages: 0 address, 1 RAM, 2 compare, 3 plan, 4 update, 5
+//         write and load of pin_cmd_o, 6 the command is valid in the pin block. The pins can change at the
+//         end of stage 6.
+//         The interval is read two cycles before state_s1_t, because the address of a threshold contains the
+//         rate of the interval.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -28,7 +30,7 @@ module ppmc_bank_engine
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: W minus the cycles since GO
+    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the cycles since GO
     // from pin blocks and switches
     input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_interval_rom: returns the time from the end of a pulse (its low time) until the next pulse. The
+// ppmc_bank_interval_rom: returns the time from the end of the low time of a pulse until the next pulse. The
 //         ROM has one word for each base clock, extra time and rate, so no multiplier is needed.
 // Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (internal base clock), BANK-GEN-02.
 // Timing: after_low_o is valid two cycles after interval_i.

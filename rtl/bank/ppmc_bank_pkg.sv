@@ -85,8 +85,8 @@ package ppmc_bank_pkg;
     logic       slow_base;   // base clock; 1: 125 kHz
     logic       extra_time;  // 1: extra time of 7.5 us
     logic       decel;       // 1: the deceleration has begun
-    // Rate of the running interval. During acceleration, this is the rate of the next interval once the low
-    // time has ended.
+    // Rate of the running interval. During acceleration, after the end of the low time, this field is the
+    // rate of the next interval.
     logic [7:0] rate;
   } interval_t;
 
@@ -98,7 +98,7 @@ package ppmc_bank_pkg;
     logic        more_pulses;    // 1: at least one more pulse must be ordered
     logic        last_ordered;   // 1: the last pulse has been ordered
     logic        held;           // 1: the axis waits for GO
-    logic        pulse_low;      // 1: the end of an ordered pulse has not been ordered yet
+    logic        pulse_low;      // 1: a pulse was ordered, but not its end
     logic        decel_forced;   // 1: deceleration was requested
     logic        decel_natural;  // 1: deceleration has begun because of the pulse count
     logic        flag_stop;      // 1: a command requested the deceleration

@@ -39,14 +39,14 @@ module ppmc_bank_plan
     output logic [7:0] code_o,  // code of the command in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
-    input wire logic [TimeBits-1:0] go_delay_i,  // W minus the cycles since GO
+    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the cycles since GO
     input wire logic [TimeBits-1:0] after_low_i,  // cycles from the low time to the next pulse, minus Round
     output decision_t decision_o,  // decisions of the visit
     output logic restart_time_o,  // 1: clear cycles_left before the addition
     output logic [TimeBits-1:0] add_cycles_o  // cycles that are added to cycles_left
 );
 
-  localparam int unsigned WidthCycles = 20 * Quantum;  // W in cycles
+  localparam int unsigned WidthCycles = 20 * Quantum;  // pulse width in cycles
   localparam int unsigned HalfBaseCycles = 4 * Quantum;  // half a fast base clock in cycles
 
   typedef logic [TimeBits-1:0] cycles_t;
@@ -170,8 +170,8 @@ module ppmc_bank_plan
 
   // ---- cycles to the next edge ---------------------------------------------------------------------
 
-  // Low time at a rate, minus Round. If halves = 1 and the rate is 0 to 2, it is half of the interval.
-  // Otherwise it is the full pulse width.
+  // Low time at a rate, minus Round. If halves = 1 and the rate is 0 to 2, the low time is half of the
+  // interval. Otherwise the low time is the full pulse width.
   function automatic cycles_t low_time(logic [7:0] rate, logic halves);
     unique case ({
       halves && rate[7:2] == '0, rate[1:0]
@@ -183,7 +183,7 @@ module ppmc_bank_plan
     endcase
   endfunction
 
-  // Low time of the next slower rate, minus the low time of this rate, minus Round.
+  // Low time at `rate` + 1, minus the low time at `rate`, minus Round.
   function automatic cycles_t low_time_increase(logic [7:0] rate, logic halves);
     if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return -cycles_t'(Round);
     return (rate[1:0] == 2'd2) ? cycles_t'(WidthCycles - 3 * HalfBaseCycles - Round)

@@ -9,7 +9,7 @@
 
 module ppmc_bank_scheduler #(
     parameter  int unsigned RoundBits   = 5,
-    parameter  int unsigned WidthCycles = 500,            // W in cycles
+    parameter  int unsigned WidthCycles = 500,            // pulse width in cycles
     parameter  int unsigned TimeBits    = 20,
     parameter  int unsigned Stages      = 6,              // stages of a visit, numbered from 0
     localparam int unsigned Round       = 1 << RoundBits
@@ -22,7 +22,7 @@ module ppmc_bank_scheduler #(
     output logic [Round-1:0] last_stage_o,  // [i]: axis i is in the last stage
     output logic [Stages:0] clear_o,  // [i]: reset the axis in stage i
     output logic go_o,  // 1: GO is active for the visits in this cycle
-    output logic [TimeBits-1:0] go_delay_o,  // W minus the cycles since GO
+    output logic [TimeBits-1:0] go_delay_o,  // pulse width minus the cycles since GO
     output logic stop_o  // 1: end every running motion
 );
 
@@ -38,9 +38,10 @@ module ppmc_bank_scheduler #(
     end
   end
 
-  // Number of further cycles for which go_o and stop_o remain high.
+  // Number of further cycles for which go_o remains high.
   logic [RoundBits-1:0] go_left_q;
-  // At most one round + 1 cycle. At the end of this time, the operation that started last is armed.
+  // Number of further cycles for which stop_o remains high. In total, stop_o is high for one round + 1 cycle,
+  // because the operation that started last is armed only at the end of this time.
   logic [RoundBits:0] stop_left_q;
   logic go_pending_q;  // GO was written again while go_o = 1
 

@@ -60,7 +60,7 @@ module ppmc_bank_update
   logic [24:0] decel_margin;  // with finish: remaining pulses minus 1
   logic count_down;  // decrement ramp_level
   logic position_changes;  // a pulse is counted or cancelled
-  logic ccw;  // direction of this pulse
+  logic ccw;  // direction of the counted or cancelled pulse
 
   assign ccw    = motion_i.ccw ^ decision_i.cancel_pulse;
   assign position_changes = decision_i.pulse || decision_i.cancel_pulse;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_answer: stores the data of an answer in the answer buffer. These are single bytes, and blocks
-//         of data for IDENT, VERSION, RECORDED and COUNT.
+// ppmc_bridge_answer: stores the data of an answer in the answer buffer. The data are single bytes, and
+//         blocks for IDENT, VERSION, RECORDED and COUNT.
 // Rules:  UB operations IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
 // Timing: put_i stores a byte at the next edge. A block takes one cycle per byte. COUNT is restarted if the
 //         counter has changed during this time. The full flags are valid two cycles after the last byte.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_exec: executes a script (a list of ops) on the bus of the device; stores data in the answer.
 // Rules:  table of the ops in docs/uart_bridge.md; UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
-// Timing: start_i begins a script of length_i bytes; resend_i sends the last answer again; both only in
-//         StIdle. answer_o is high until answered_i. A request byte is read two cycles after its address.
+// Timing: start_i begins a script of length_i bytes, and resend_i sends the last answer again. Both are
+//         asserted only in StIdle. answer_o is high until answered_i. A request byte is read two cycles after
+//         its address.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -62,13 +63,13 @@ module ppmc_bridge_exec
     StCheck,     // checks the operands
     StLoop,      // begins the next byte of the op
     StPoll,      // begins a read access of a wait
-    StCompare,   // checks the data of this access
+    StCompare,   // checks the data of the read access
     StWrite,
     StWriteEnd,
     StRead,
     StReadEnd,
     StPut,       // stores a byte in the answer
-    StPause,     // waits for the end of RESET, or for a block
+    StPause,     // waits until RESET has ended or a block is stored
     StAnswer
   } state_e;
 

@@ -16,7 +16,7 @@ module ppmc_bridge_rate
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     input  wire logic             ms_i,        // strobe every millisecond
-    input  wire logic             set_i,       // strobe: op RATE with an available code
+    input  wire logic             set_i,       // strobe: a script executes op RATE with an available code
     input  wire logic [      2:0] code_i,      // code of the new rate
     input  wire logic             answered_i,  // strobe: the last stop bit of the answer has ended
     input  wire logic             good_i,      // strobe: a valid frame was received

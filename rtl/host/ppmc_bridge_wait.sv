@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_wait: compares the duration of a wait in a script with its time limit.
 // Rules:  UB-WAIT-01, op TIMEOUT.
-// Timing: while waiting_i is low, the time is 0. timeout_o rises limit .. limit + 1 ms, plus one cycle,
-//         after waiting_i. With a limit of 0, timeout_o is always high.
+// Timing: while waiting_i is low, the time is 0. After waiting_i rises, timeout_o rises within limit .. limit
+//         + 1 ms, plus one cycle. With a limit of 0, timeout_o is always high.
 `default_nettype none
 
 module ppmc_bridge_wait
@@ -26,7 +26,8 @@ module ppmc_bridge_wait
     if (start_i) limit_q <= DEFAULT_LIMIT_MS;
     else if (set_i) limit_q <= limit_i;
     limit_zero_q <= limit_q == '0;
-    at_limit_q   <= waiting_i && wait_q == limit_q;  // waiting_i excludes a match of the previous wait
+    // Without waiting_i, the time of the previous wait could match.
+    at_limit_q   <= waiting_i && wait_q == limit_q;
     if (!waiting_i) begin
       expired_q <= 1'b0;
       wait_q    <= '0;

@@ -4,16 +4,18 @@
 // Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the devices sample them (ppmc_strobe_bus).
 //         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low, from the first
-//         rising edge of clk_i at which the write is sampled active to the first at which it is sampled
+//         rising edge of clk_i that samples the write active to the first rising edge that samples it
 //         inactive.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_isa #(
-    parameter int unsigned Parts  = 1,     // device p: data at Base + 2p, status, command at Base + 2p + 1
-    parameter bit          Source = 1'b0,  // 1: the next address is a source register (bit p: interrupt of
-                                           // device p); a write to it causes a new edge of irq_o if an
-                                           // interrupt is active
+    // Number of devices. Device p has its data register at Base + 2p, and its status and command register at
+    // Base + 2p + 1.
+    parameter int unsigned Parts  = 1,
+    // 1: the address after the devices is a source register, in which bit p is the interrupt of device p. If
+    // an interrupt is active, a write to this register causes a new edge of irq_o.
+    parameter bit          Source = 1'b0,
     parameter int unsigned Base   = 'h3B0  // base address, a multiple of the window's length
 ) (
     input  wire logic                  clk_i,
@@ -46,7 +48,7 @@ module ppmc_isa #(
   // ---- address decoder -------------------------------------------------------------------------------
 
   logic in_window, hit_source, read, write;
-  logic [ Bits-1:0] pair;  // number of the pair of registers
+  logic [ Bits-1:0] pair;  // index of the addressed register pair
   logic [Parts-1:0] hit;
 
   assign in_window  = !aen_i && (sa_i >> Bits) == 10'(Base >> Bits);
@@ -64,7 +66,7 @@ module ppmc_isa #(
   // ---- interrupts ------------------------------------------------------------------------------------
 
   logic source_oe;
-  logic [Parts-1:0] source;  // stable while the host reads it
+  logic [Parts-1:0] source;  // stable while the host reads the source register
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) irq_o <= 1'b0;

@@ -37,7 +37,7 @@ module ppmc_wishbone #(
   logic call, bridge_reg, bad, done, ready, req, unused;
   logic [7:0] rdata;
   logic busy_q;  // 1: a strobe access of this bridge is in progress
-  logic waiting_q;  // 1: the master still waits for the response of this access
+  logic waiting_q;  // 1: the master still waits for the response of the strobe access
   logic no_strobe_q;  // 1: the current response needs no strobe
   logic error_q;  // 1: the current response is ERR, 0: ACK
   logic flag_q;  // data bit 0 of the current response

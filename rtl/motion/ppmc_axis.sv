@@ -45,8 +45,8 @@ module ppmc_axis
     // current ramp, stable while busy
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
-    output logic [RateBits-1:0] lut_addr_o,  // r; address of lut_data_i
-    input wire logic [StepBits-1:0] lut_data_i,  // thr(r), two cycles after lut_addr_o; PA at rate_fast_i
+    output logic [RateBits-1:0] lut_addr_o,  // rate r, which is the address of lut_data_i
+    input wire logic [StepBits-1:0] lut_data_i,  // threshold of r, two cycles later; PA at rate_fast_i
     // stops
     input wire logic halt_i,  // strobe: immediate stop command
     input wire logic decel_i,  // strobe: deceleration stop command

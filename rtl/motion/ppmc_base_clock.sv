@@ -23,7 +23,7 @@ module ppmc_base_clock #(
   localparam int unsigned Longest = (Slower > ExtraQuanta) ? Slower : ExtraQuanta;
   localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
 
-  logic [Width-1:0] left_q, reload;  // left_q: remaining quanta - 1; reload: its next start value
+  logic [Width-1:0] left_q, reload;  // left_q: remaining quanta - 1; reload: next start value of left_q
   logic extra_q;  // 1: the extra time is running
   logic last_q;  // 1: the next quantum ends the period
   logic ends;

@@ -26,7 +26,7 @@ module ppmc_ext_extra_time #(
   localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(ExtraCycles - 2, Width));
 
   logic [Width-1:0] elapsed_q;  // elapsed part of the extra time (LFSR state)
-  logic last_q, over_q;  // last_q: one cycle of the extra time is left; over_q: none is left
+  logic last_q, over_q;  // last_q: one cycle of the extra time is left; over_q: no cycle is left
   logic before_q;  // 1: no base edge has occurred since the pulse
   logic after_q;  // 1: the count has ended, and the second part is running
   logic counts;

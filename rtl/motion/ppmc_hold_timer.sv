@@ -2,15 +2,16 @@
 // ppmc_hold_timer: asserts hold_o when the motor has been at standstill for the hold time. This time is
 //         fixed, or a number of units set by the host.
 // Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05; STMC-HLD-01.
-// Timing: hold_o is deasserted one cycle after busy_i rises. It is asserted 1 + RestCycles cycles after
-//         quantum tick number Quanta since the fall of busy_i. With units, this is tick number Quanta *
+// Timing: hold_o is deasserted one cycle after busy_i rises. hold_o is asserted 1 + RestCycles cycles after
+//         quantum tick number n, counted from the fall of busy_i. n is Quanta or, with units, Quanta *
 //         (units_i + 1). units_i is sampled while busy_i is high.
 `default_nettype none
 
 module ppmc_hold_timer #(
     parameter int unsigned Quanta = 136_000,  // quantum ticks; 34 ms at 16 MHz
     parameter int unsigned RestCycles = 0,  // cycles added to the quanta; less than one quantum
-    parameter int unsigned UnitBits = 0,  // bits of units_i, Quanta is a power of 2; 0: fixed time
+    // Bits of units_i; 0: the hold time is fixed. If UnitBits is not 0, Quanta must be a power of 2.
+    parameter int unsigned UnitBits = 0,
     localparam int unsigned UnitTop = (UnitBits == 0) ? 0 : UnitBits - 1
 ) (
     input  wire logic             clk_i,

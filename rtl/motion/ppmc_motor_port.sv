@@ -15,7 +15,8 @@ module ppmc_motor_port
     parameter int unsigned HoldBits = 0,  // bits of hold_units_i; 0: the hold time is fixed
     parameter int unsigned UnitQuanta = 12,
     parameter int unsigned BaseBits = 9,
-    parameter bit PhaseIdle = 1'b1,  // level of s_o in reset; until phase_init_i: positive_i = !PhaseIdle
+    // Level of s_o in reset. Until the first phase_init_i, positive_i must be !PhaseIdle.
+    parameter bit PhaseIdle = 1'b1,
     localparam int unsigned HoldTop = (HoldBits == 0) ? 0 : HoldBits - 1
 ) (
     input  wire logic                  clk_i,

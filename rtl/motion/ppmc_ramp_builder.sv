@@ -36,9 +36,9 @@ module ppmc_ramp_builder
   pass_e pass;  // next pass
   logic first_q, begin_q;  // first and second cycle of a build
   logic factor_2a_q;  // 1: the factor is 2a, 0: b
-  logic second_mul_q;  // 1: second multiplication by this factor
+  logic second_mul_q;  // 1: second multiplication by the factor
   logic [MulBits-1:0] mul_q;  // index of the multiplier bit; starts at the highest bit
-  logic [RateBits-1:0] rate_q;  // r
+  logic [RateBits-1:0] rate_q;  // rate r
   logic found_q;  // 1: bits_q is a threshold
   logic [StepBits-1:0] bits_q;  // PA, or a threshold that is received bit by bit
   logic next, last, done, use_bit, mul_bit, sum, product;
@@ -84,8 +84,9 @@ module ppmc_ramp_builder
   // Each entry thr(r) requires four divisions by short numbers. The first two divide by s, then E is
   // subtracted. The other two divide by a - b and by a + b, then 1 is added. A quotient may be rounded down
   // before the next division, or before an integer is subtracted: this does not change the result. All
-  // operations are bit-serial (ppmc_ramp_serial). This block selects the next pass. Once per build, n is
-  // multiplied by b, b, 2a and 2a, with one pass per multiplier bit. Then four passes follow for each r.
+  // operations are bit-serial (ppmc_ramp_serial). This block selects the next pass. Once per build, the
+  // numerator n (see ppmc_ramp_serial) is multiplied by b, b, 2a and 2a, with one pass per multiplier bit.
+  // Then four passes follow for each r.
   always_comb begin
     unique case (pass_q)
       PassInit:   pass = PassMulBit;

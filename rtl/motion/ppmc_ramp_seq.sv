@@ -25,8 +25,8 @@ module ppmc_ramp_seq #(
     // current ramp
     input wire logic [RateBits-1:0] slow_i,  // start-up rate
     input wire logic [RateBits-1:0] fast_i,  // high-speed rate
-    output logic [RateBits-1:0] lut_addr_o,  // r; address of lut_data_i
-    input wire logic [LutBits-1:0] lut_data_i,  // thr(r), two cycles after lut_addr_o; at fast_i: PA
+    output logic [RateBits-1:0] lut_addr_o,  // rate r, which is the address of lut_data_i
+    input wire logic [LutBits-1:0] lut_data_i,  // threshold of r, two cycles after lut_addr_o; at fast_i: PA
     // operation
     input wire logic load_i,  // strobe: start; load count_i and rate_i
     input wire logic [CountBits-1:0] count_i,  // number of pulses, minus 1
@@ -42,7 +42,7 @@ module ppmc_ramp_seq #(
     output logic last_o,  // 1: the next pulse is the last pulse
     output logic final_o,  // 1: the next pulse completes the count
     output logic top_o,  // 1: the running interval is on the plateau
-    output logic at_start_rate_o,  // 1: running interval at the start-up rate; valid before any deceleration
+    output logic at_start_rate_o,  // 1: the interval has the start-up rate; valid before any deceleration
     output logic dec_o,  // 1: the natural deceleration has begun
     output logic [CountBits-1:0] left_o  // remaining pulses minus 1; at least 0
 );
@@ -72,7 +72,7 @@ module ppmc_ramp_seq #(
   // Direction of the ramp step at a pulse: up, down or no step. left_o is the number of pulses after this
   // pulse.
   always_comb begin
-    odd          = left_o[0] ^ ramp_level[0];  // with near_q, 1: decelerate through all remaining pulses
+    odd          = left_o[0] ^ ramp_level[0];  // odd and near_q: decelerate through all remaining pulses
     down         = ramp_i && (forced_i || dec_o || (near_q && odd));
     up           = ramp_i && !down && !near_q && !top_o;
     decel_starts = down && !decel_q;
@@ -138,8 +138,9 @@ module ppmc_ramp_seq #(
   // below: ramp_level < threshold; during deceleration, ramp_level <= threshold. In these cases, the sum
   // has a carry.
   // If the ticks of the base clock are 4 cycles apart, a look-up always ends before the end of its interval,
-  // because n is at most the rate of the interval. If they are 6 cycles apart, it also ends before the
-  // middle of the interval: on ramps of 4 steps and more, n is smaller than the rate, or 1.
+  // because the number n of skipped rates is at most the rate of the interval. If the ticks are 6 cycles
+  // apart, the look-up also ends before the middle of the interval, because on ramps of at least 4 steps, n
+  // is 1 or smaller than the rate.
   assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), decel_q} + {1'b0, ramp_level_nq, decel_q};
   assign reached             = !below;
   assign more                = !end_q && reached != decel_q;

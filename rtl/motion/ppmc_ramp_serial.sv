@@ -7,8 +7,8 @@
 //         third to its last cycle (use_o = 1).
 // How:    n is the numerator, u is the number that is subtracted between the divisions, and v is a product,
 //         quotient or difference. Bit i is stored in word i. A quotient follows its dividend by two cycles
-//         and is written two words lower, so its lowest bits are stored in the last two words of the RAM. No
-//         pass ever writes a 1 into u there.
+//         and is written two words lower, so its lowest bits are stored in the last two words of the RAM. In
+//         these two words, u is always 0.
 `default_nettype none
 
 module ppmc_ramp_serial
@@ -106,7 +106,7 @@ module ppmc_ramp_serial
   always_comb begin
     unique case (pass_i)
       PassInit:               addend = 1'b0;
-      PassMulBit, PassMulOne: addend = v_q[0];  // times 2
+      PassMulBit, PassMulOne: addend = v_q[0];  // 2v
       PassSubtract:           addend = v_q[1];  // the difference is stored two words lower
       default:                addend = rd.v;
     endcase
@@ -163,7 +163,7 @@ module ppmc_ramp_serial
     wr   = rd;
     wr.v = sum;
     unique case (pass_i)
-      PassInit: wr.n = init_i;  // the sum is 0
+      PassInit: wr.n = init_i;  // wr.v = sum = 0
       PassMulEnd: begin
         wr.n = sum;
         wr.v = 1'b0;

@@ -18,8 +18,8 @@ module ppmc_ramp_table #(
     output logic      [RateBits-1:0] slow_o,   // start-up rate of the table
     output logic      [RateBits-1:0] fast_o,   // high-speed rate of the table
     output logic      [StepBits-1:0] steps_o,  // acceleration pulses of the table
-    input  wire logic [RateBits-1:0] addr_i,   // r
-    output logic      [StepBits-1:0] data_o    // thr(r); PA for fast_o
+    input  wire logic [RateBits-1:0] addr_i,   // rate r
+    output logic      [StepBits-1:0] data_o    // threshold of r; PA for fast_o
 );
 
   logic we;

@@ -18,8 +18,8 @@ module ppmc_ramp_tables #(
     input  wire logic [2:1][RateBits-1:0] fast_i,   // high-speed rate; stable while busy_o = 1
     input  wire logic [2:1][StepBits-1:0] steps_i,  // acceleration pulses PA; stable while busy_o = 1
     output logic      [2:1]               busy_o,   // 1: build pending or in progress, data_o not valid
-    input  wire logic [2:1][RateBits-1:0] addr_i,   // r
-    output logic      [2:1][StepBits-1:0] data_o    // thr(r)
+    input  wire logic [2:1][RateBits-1:0] addr_i,   // rate r
+    output logic      [2:1][StepBits-1:0] data_o    // threshold of r
 );
 
   logic second_q;  // axis of the current build, 1: axis 2

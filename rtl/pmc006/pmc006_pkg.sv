@@ -8,8 +8,7 @@ package pmc006_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instruction codes: bit 7 = 0: code of a frame; bit 7 = 1: instruction only of the user program
-  // ----
+  // ---- instruction codes; bit 7 = 0: code of a frame, bit 7 = 1: code only of the user program ----
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -95,20 +94,19 @@ package pmc006_pkg;
   typedef enum logic [1:0] {
     FromFrame,
     FromProgram,
-    FromTry,      // program instruction, executed by E
+    FromTry,      // program instruction, executed by instruction E
     FromBoot      // parameter from the EEPROM
   } instr_source_e;
 
   // Instruction in progress.
   typedef struct packed {
     logic [7:0]    op;
-    logic [3:0]    option;  // program instruction: option, saturates at 15; others: 0
+    logic [3:0]    option;  // option of a program instruction, saturates at 15; 0 for other sources
     instr_source_e source;
     logic [31:0]   data;
   } exec_cmd_t;
 
-  // ---- registers; the value is the address in pmc006_reply_ram
-  // --------------------------------------------
+  // ---- registers; the value is the address in pmc006_reply_ram ------------------------------------------
 
   // A reset of pmc006_reply_ram fills the addresses from 2 on.
   typedef enum logic [4:0] {
@@ -141,8 +139,7 @@ package pmc006_pkg;
     register_e reg_id;
   } reg_access_t;
 
-  // ---- signals between line, control, motion and drive
-  // ----------------------------------------------------
+  // ---- signals between line, control, motion and drive --------------------------------------------------
 
   // Frame from the host. code and data are valid with go, and stable until a byte of the next frame is
   // received.
@@ -154,9 +151,9 @@ package pmc006_pkg;
 
   // Start of a motion. Assumes: start and run are not high in the same cycle.
   typedef struct packed {
-    logic        start;  // strobe (s, ROT): make `count` steps
+    logic        start;  // strobe (instruction s or ROT): make `count` steps
     logic [30:0] count;  // number of steps, at least 1; valid with start
-    logic        run;    // strobe (N 1 at standstill): run until stopped
+    logic        run;    // strobe (instruction N 1 at standstill): run until stopped
     logic        speed;  // SPEED_MODE; 0: decelerate and end a speed run
   } motion_start_t;
 

@@ -82,7 +82,7 @@ module ppmc104_proc_time
 
     assign slow_o = slow_busy_q && slow_past;
 
-    // Lowest rate value at which all commands are accepted, for pout_only, slow and extra.
+    // Lowest rate value at which all commands are accepted. It depends on pout_only, slow and extra.
     function automatic logic [7:0] fast_interval_rate(logic pout_only, logic slow, logic extra);
       logic [7:0] found;
       found = '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_axis: one of the two axes. Contains settings, motion, motor pins, end status and answers to read
-//         instructions.
+// ppmc2104_axis: one axis of a PPMC-2104. Contains settings, motion, motor pins, end status and answers to
+//         read instructions.
 // Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05; the instantiated blocks
 //         implement the motion.
 // Timing: an action takes effect at the edge that ends its cycle. The motor pins follow one cycle later.
@@ -31,8 +31,8 @@ module ppmc2104_axis
     input  wire cmd_error_e                   error_i,        // error register
     output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table
-    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; address of lut_data_i
-    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // thr(r), two cycles after lut_addr_o
+    output logic              [RATE_BITS-1:0] lut_addr_o,     // rate r, which is the address of lut_data_i
+    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // threshold of r, two cycles after lut_addr_o
     // processing times
     input  wire logic                         run_open_i,     // 1: RUN is sampled
     input  wire logic                         poll_i,         // 1: limits and alarm are sampled
@@ -208,7 +208,7 @@ module ppmc2104_axis
   // The causes are valid until the next operation starts. While an operation runs, a read of the end status
   // is rejected.
   always_comb begin
-    answer_o = remaining;  // only this answer has more than one byte
+    answer_o = remaining;  // only the remaining pulses have more than one byte
     unique case (code_late_i[2:0])
       SEL_END:   answer_o[7:0] = {unread_q, cause, op_q};
       SEL_INPUTS: begin

@@ -3,8 +3,8 @@
 // Rules:  P2104-HSK-03/04/08, P2104-CMD-01..04, P2104-INI-02/03, P2104-STP-02..07, P2104-AUX-04,
 //         P2104-ERR-01..05, P2104-LIM-06, P2104-FSM-01..05.
 // Timing: take_o marks the C-event. act_o, error_report_o and the state of this block take effect at the
-//         edge that ends the cycle of take_o. The request of the byte and the check of its values are
-//         computed one cycle earlier. The states and pins of the axes are sampled in the cycle of take_o.
+//         edge that ends the cycle of take_o. The byte is decoded, and its values are checked, one cycle
+//         earlier. The states and pins of the axes are sampled in the cycle of take_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -80,7 +80,7 @@ module ppmc2104_command
     end
   end
 
-  // ---- request of the byte, one cycle before it is accepted ---------------------------------------
+  // ---- decoding of the byte, one cycle before it is accepted --------------------------------------
 
   typedef struct packed {
     axis_action_t act;             // actions, if the state of the axis allows them

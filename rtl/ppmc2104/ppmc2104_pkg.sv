@@ -27,7 +27,7 @@ package ppmc2104_pkg;
 
   localparam int unsigned HOLD_QUANTA = 512;  // unit of the hold delay in quanta, 128 us
   localparam logic [7:0] HOLD_DEFAULT = 8'h18;
-  localparam logic [7:0] CHOP_ON_DEFAULT = 8'h53;  // in units of two quanta (0.5 us)
+  localparam logic [7:0] CHOP_ON_DEFAULT = 8'h53;  // default on time, in units of two quanta (0.5 us)
   localparam logic [7:0] CHOP_OFF_DEFAULT = 8'hA6;
 
   // Error numbers, as the host reads them.
@@ -131,8 +131,8 @@ package ppmc2104_pkg;
 
   // Actions of a byte for one axis.
   typedef struct packed {
-    logic init;        // setting accepted
-    logic start;       // operation
+    logic init;        // an initial setting is accepted
+    logic start;       // start of an operation
     logic halt;        // Immediate stop
     logic decel;       // Deceleration stop
     logic exc_off;

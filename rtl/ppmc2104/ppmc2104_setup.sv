@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_setup: stores the settings of one axis that the host makes: initial setting, switching times and
+// ppmc2104_setup: stores the settings that the host makes for one axis: initial setting, switching times and
 //         hold delay.
 // Rules:  P2104-INI-04..07, P2104-AUX-01/04..06, P2104-PHS-03, P2104-SW-01/02.
 // Timing: registers change at the edge that ends the cycle of their action. chop_o depends on ready_i

@@ -94,9 +94,9 @@ package ppmc312_link_pkg;
   // ---- settings for motions, made by instructions -------------------------------------------------
 
   typedef struct packed {
-    logic [15:0] limit_rate;     // HSL in base clocks; high-speed limits act at this and faster rates
-    logic        end_monitored;  // 1: END is monitored
-    logic        run_ignored;    // 1: RUN is not monitored
+    logic [15:0] limit_rate;  // rate limit HSL in base clocks; high-speed limits act at this and faster rates
+    logic end_monitored;  // 1: END is monitored
+    logic run_ignored;  // 1: RUN is not monitored
   } motion_settings_t;
 
   // ---- state of the motor side --------------------------------------------------------------------

@@ -69,8 +69,8 @@ package ppmc_code_pkg;
 
   // Actions of an accepted byte, one bit each. They are requested at the C-event.
   typedef struct packed {
-    logic init;     // initialisation accepted
-    logic start;    // operation
+    logic init;     // an initialisation is accepted
+    logic start;    // start of an operation
     logic halt;     // Immediate Stop
     logic decel;    // Decelerating Stop
     logic exc_off;

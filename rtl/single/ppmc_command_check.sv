@@ -34,7 +34,7 @@ module ppmc_command_check
 
   assign unused_param = ^parser_i.params[7:0];
 
-  // Order of the checks: P104-ERR-01, P104-ERR-02.
+  // P104-ERR-01 and P104-ERR-02 define the order of the checks.
   always_comb begin
     stop_o = decoded_i.kind inside {CmdHalt, CmdDecel};
     allowed_busy = decoded_i.kind inside {CmdAuxOut, CmdAuxOn, CmdAuxOff};

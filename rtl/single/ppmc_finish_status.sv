@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish_status: contains the finish status and the interrupt of a motion in a single-axis device, and
+// ppmc_finish_status: stores the finish status of a motion in a single-axis device. Outputs the interrupt and
 //         the data of the read commands.
 // Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07; STMC-FIN-01/04/05, STMC-MOT-09/10, STMC-INP-01,
 //         STMC-OUT-01, STMC-REM-01.

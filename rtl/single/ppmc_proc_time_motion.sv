@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_proc_time_motion: implements the long processing times of the old chip (DATASHEET) for
-//         initialisation, the time before pulse 1, and the end of a motion. Only one of them is active at a
+//         initialisation, the time before pulse 1, and the end of a motion. Only one of these times runs at a
 //         time, so they share one counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: a time starts at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i
@@ -40,8 +40,8 @@ module ppmc_proc_time_motion #(
   // Times in crystal cycles.
   localparam int unsigned InitBaseXtal = 264_000;
   localparam int unsigned InitStepXtal = 209;
-  localparam int unsigned PulseXtal = 7;  // per pulse of a triangular profile: whole crystal cycles
-  localparam int unsigned PulseSixteenths = 11;  // per pulse of a triangular profile: sixteenths
+  localparam int unsigned PulseXtal = 7;  // whole crystal cycles per pulse of a triangular profile
+  localparam int unsigned PulseSixteenths = 11;  // sixteenths added to PulseXtal
   // Times in units of 16 crystal cycles (1 us at 16 MHz).
   localparam logic [7:0] FirstConstantUnits = 8'd194;
   localparam logic [7:0] FirstRampUnits = 8'd200;
@@ -66,7 +66,7 @@ module ppmc_proc_time_motion #(
   (* fsm_encoding = "none" *)
   state_e state_q;
   logic ramp_end_q, no_closed_q;  // ramp_end_q: the end takes EndRampUnits; no_closed_q: StClosed is skipped
-  logic last_q;  // the time of the end starts in this cycle, in which the pins change
+  logic last_q;  // 1: the end delay starts in this cycle, in which the pins change
   logic init_q;  // init_i, one cycle later
   logic restart, past, full, portion, more;
   logic [1:0] cycles;

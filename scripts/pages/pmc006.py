@@ -243,7 +243,8 @@ def _left(both: tuple[Waves, Waves]) -> str:
 
 def currents_table() -> str:
     """Return a table: error and distortion in motion, remaining current at 0, ripple at standstill."""
-    heads = ["Microsteps", "Current / A", "Full steps/s", "Back EMF / V", "Error / %", "Beside / %"]
+    heads = ["Microsteps", "Current / A", "Full steps/s", "Back EMF / V", "Error, sine / %"]
+    heads += ["Error, steps / %"]
     rows = []
     for case in (*SLOW, *RUNS):
         both = _cruise(case)

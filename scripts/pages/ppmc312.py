@@ -38,7 +38,7 @@ def _block(text: str) -> Sequence[str]:
 
 
 def _table(build_or_curve: Mapping[str, Any]) -> Table:
-    """Return a table from an entry: its key `curve` or `build` has the arguments of that function."""
+    """Return a table from an entry, which has the arguments of `curve` or of `build` under that key."""
     if "curve" in build_or_curve:
         return curve(*build_or_curve["curve"])
     rest = {name: value for name, value in build_or_curve.items() if name != "build"}

@@ -112,7 +112,7 @@ class Bench:
         self.t = self.chip.now + 300
 
     def start(self, command: str) -> int:
-        """Send a motion command, from which steps are counted; return the same edge as `send`."""
+        """Send a motion command and count steps from it on; return the edge that `send` returns."""
         self.mark = self.t
         return self.send(command)
 

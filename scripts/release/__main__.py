@@ -13,7 +13,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError, console, relative
-from scripts.release import bitstreams, notes, python, site, sources, verilog
+from scripts.release import arduino, bitstreams, notes, python, site, sources, verilog
 from scripts.release.state import Release, current_release
 
 DIST = project.ROOT / "dist"
@@ -33,6 +33,7 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
     return {
         "python": python.make,
         "rtl": sources.make,
+        "arduino": arduino.make,
         "verilog": verilog.make,
         "sbom": sbom.make,
         "site": lambda release, out, scratch: site.make(release, out, scratch, say),

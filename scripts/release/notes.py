@@ -13,6 +13,7 @@ WHAT = (
     ("-py3-none-any.whl", "Python package: `pip install` this file"),
     ("-verilog-", "each part, bridge and board as one file of plain Verilog-2005, with default parameters"),
     ("-rtl-", "SystemVerilog with FuseSoC cores, Bender manifest, lists for vendor tools, C drivers"),
+    ("-arduino-", "library for the Arduino IDE: Sketch → Include Library → Add .ZIP Library"),
     ("-bitstreams-", "bitstreams of the boards, each with its report"),
     ("-site-", "all documents and the playground, for use as local files"),
     (".pdf", "data sheet"),

@@ -7,6 +7,7 @@ from pathlib import Path
 from cocotb_tests.harness.project import ROOT, ProjectError, relative
 from scripts.fpga.packages.cores import core_files
 from scripts.fpga.packages.lists import list_files
+from scripts.fpga.packages.vendors import vendor_files
 from scripts.release.archive import tar_gz
 from scripts.release.state import Release, tracked
 
@@ -15,7 +16,7 @@ BELOW = (
     "packages",
     "tb",
     "constraints",
-    "drivers/c",
+    "drivers",
     "Bender.yml",
     "*.core",
     "LICENSE",
@@ -25,7 +26,7 @@ BELOW = (
 
 def make(release: Release, out: Path, scratch: Path) -> None:
     """Write the archive to `out`; raise ProjectError if a core or a list is outdated."""
-    for path, text in {**core_files(), **list_files()}.items():
+    for path, text in {**core_files(), **list_files(), **vendor_files()}.items():
         if not path.is_file() or path.read_text() != text:
             raise ProjectError(f"{relative(path)} is outdated; run `make packages`")
     folder = f"openppmc-{release.version}"

@@ -16,7 +16,7 @@ from scripts.site.webparts import WebPart
 class WindowPlayer(BytePlayer):
     """Host of the bank: `axis 3` selects an axis; `put 9 01`, `get 4 00` access its other registers.
 
-    Other registers are those except 0 (data) and 1 (status and command).
+    The other registers are all except 0 (data) and 1 (status and command).
     """
 
     def __init__(self, part: WebPart, **pins: int) -> None:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board. It connects DUT, UART, plant and pace.
+// The virtual board. It connects the simulated RTL, the UART, the plant model and the pace of the simulation.
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,7 @@ class Dut {
     }
 
 #if VM_TRACE
-    // Record into file `path`, by each following call of tick_traced().
+    // Open file `path`, into which tick_traced() then records.
     void open_trace(const std::string& path) {
         trace_ = std::make_unique<VerilatedVcdC>();
         top.trace(trace_.get(), 99);
@@ -75,10 +75,10 @@ class Dut {
     std::unique_ptr<VerilatedVcdC> trace_;
 #endif
 
-    // All flip-flops use the rising edge. Therefore a falling edge only has to store in a variable of
-    // Verilator that the clock was low. Writing this variable directly saves the evaluation, which is a sixth
-    // of the run time. If a version of Verilator uses another name for the variable, the falling edge is
-    // evaluated.
+    // All flip-flops use the rising edge. Therefore, at a falling edge, it is sufficient to store in a
+    // variable of Verilator that the clock was low. Writing this variable directly saves the evaluation,
+    // which is a sixth of the run time. If a version of Verilator uses another name for the variable, the
+    // falling edge is evaluated.
     template <class Root>
     auto rearm(Root& root, int) -> decltype(root.__Vtrigprevexpr___TOP__clk__0, void()) {
         root.__Vtrigprevexpr___TOP__clk__0 = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Couples board time to wall time: never faster than `speed` times real time. Lost time is not caught up.
+// Couples board time to wall time: on average, never faster than `speed` times real time. At most 2 ms of
+// lost time is caught up.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,7 @@ class Pace {
         mark(now, base_wall_);
     }
 
-    // Return the number of cycles that pass in `ns` of wall time; 0 without a pace.
+    // Return the number of cycles that pass in `ns` of wall time; 0 if `speed` is 0.
     uint64_t clk_in(int64_t ns) const {
         return static_cast<uint64_t>(static_cast<double>(ns) * speed_ / per_clk_);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plant model of the board: a motor that follows every pulse, limit and origin switches, and a drive with an
-// alarm. Positions are in pulses, CW positive.
+// Plant model of the board. It consists of limit and origin switches, a drive with an alarm, and a motor that
+// follows every pulse, except at an end stop. Positions are in pulses, CW positive.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ struct PlantText {
     int64_t ccw = -400;        // L2 is active at this position and below
     int64_t slow_cw = 38000;   // L3 is active at this position and above
     int64_t slow_ccw = 600;    // L4 is active at this position and below
-    int64_t origin = 0;        // CNP is active at this position and below,
-    int64_t origin_from = INT64_MIN;  // and at this position and above (cam)
+    int64_t origin = 0;        // CNP is active from origin_from to this position
+    int64_t origin_from = INT64_MIN;  // lowest position at which CNP is active (cam)
     int64_t index = 0;         // pulses between two active positions of the index, see kIndexAt; 0: never
     std::optional<int64_t> block;  // end stop of the shaft in CW direction
     std::optional<int64_t> alarm_from, alarm_to;  // ALM is active between these positions

@@ -27,11 +27,12 @@ class Uart {
 
     bool idle() const { return tx_at_ == kNever && rx_bit_ < 0; }
 
-    // Return the level of uart_rxd; apply it before edge next().
+    // Return the level of uart_rxd. The caller drives the pin with it before edge next().
     bool level() const { return level_; }
     uint64_t next() const { return tx_at_ < rx_at_ ? tx_at_ : rx_at_; }
 
-    // Call this before clock edge `now` if now == next(), or if uart_txd has changed to `txd`.
+    // Advance transmitter and receiver. Call before clock edge `now` if now == next(), or if uart_txd has
+    // changed to `txd`.
     void step(uint64_t now, bool txd);
 
     // Return the bytes that were received from the board.

@@ -17,7 +17,7 @@ void block_write(void *ctx, unsigned reg, uint8_t value);
 void block_send(void *ctx, const uint8_t *bytes, unsigned count);
 bool block_receive(void *ctx, uint8_t *byte, unsigned milliseconds);
 
-void block_reset(bool held, bool line);          /* line: true: serial mode, false: parallel bus */
+void block_reset(bool held, bool line);          /* line = true: serial mode, line = false: parallel bus */
 void block_run(unsigned cycles);
 void block_run_pulses(unsigned count);           /* after 1 s, the program ends */
 void block_pin(block_pin_t which, bool high);

@@ -137,7 +137,7 @@ static void settings(void)
 
 static void memory(void)
 {
-    /* Output 2, 200 steps, wait for standstill, output 1, end. */
+    /* Program: set output 2, make 200 steps, wait for standstill, set output 1, end. */
     static const uint32_t words[10] = {0x0211, 1, 0x0001, 200, 0x0810, 0, 0x0111, 1, 0x0000, 0};
     pmc006_status_t status;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Feeds the C drivers with damaged replies. Usage: fuzz SEED COUNT. The program is built with sanitizers.
+/* Sends damaged replies to the C drivers. Usage: fuzz SEED COUNT. The program is built with sanitizers.
  * A call that does not return, a value from a damaged frame, or an access out of bounds ends it with an
  * error. Otherwise it prints how often each result occurred. */
 #include <stdio.h>

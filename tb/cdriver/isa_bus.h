@@ -19,7 +19,7 @@ void isa_out(unsigned port, uint8_t value);
 #define STMC_INB(port) isa_in(port)
 #define STMC_OUTB(port, value) isa_out((port), (value))
 
-void isa_reset(bool held);                   /* held: true: leave the reset active, false: pulse it */
+void isa_reset(bool held);                   /* true: keep the reset active, false: reset pulse */
 void isa_run(unsigned clk);                  /* run this number of cycles */
 void isa_run_steps(unsigned count);          /* run until `count` steps; after 1 s, the program ends */
 void isa_level(isa_input_t which, bool high);

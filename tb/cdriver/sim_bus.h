@@ -18,7 +18,7 @@ typedef enum { SIM_L1, SIM_L2, SIM_L3, SIM_L4, SIM_CNP, SIM_ALM } sim_switch_t;
 uint8_t sim_read(void *ctx, unsigned reg);
 void sim_write(void *ctx, unsigned reg, uint8_t value);
 
-void sim_reset(bool held);               /* held: true: leave the reset active (no responses), false: pulse it */
+void sim_reset(bool held);               /* true: keep the reset active (no responses), false: reset pulse */
 void sim_run(unsigned clk);              /* run this number of cycles */
 void sim_run_pulses(unsigned count);     /* run until `count` pulses; after 1 s, the program ends */
 void sim_switch(sim_switch_t which, bool active);

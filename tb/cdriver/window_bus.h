@@ -15,7 +15,7 @@ extern "C" {
 uint8_t window_read(void *ctx, unsigned address);
 void window_write(void *ctx, unsigned address, uint8_t value);
 
-void window_reset(bool held);                              /* held: true: leave the reset active, false: pulse it */
+void window_reset(bool held);                              /* true: keep the reset active, false: reset pulse */
 void window_run(unsigned clk);                             /* run this number of cycles */
 void window_run_pulses(unsigned axis, unsigned count);     /* run until `count` pulses; at most 1 s */
 void window_limit(unsigned axis, bool active);             /* CW limit of the axis */

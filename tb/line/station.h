@@ -36,21 +36,22 @@ class Station {
         }
     }
 
-    // The master sends a byte. If it may be for this station, return true; the station then receives it.
+    // Call when the master sends a byte. Return true if the byte may be for this station, so that the station
+    // must receive it.
     bool hear(uint8_t byte, uint64_t now) {
         addressed_ = node_.named(byte, addressed_);
         wait(now);
         return addressed_;
     }
 
-    // A byte to this station is still being received.
+    // Keep the station awake while it is receiving a byte that may be for it.
     void wait(uint64_t now) {
         if (addressed_) until_ = now + linger_;
     }
 
     // Return true if the station need not be simulated from edge `now` on, because it is idle and was not
-    // addressed for some time. quiet: the master is silent; the station does not fall asleep during a
-    // character.
+    // addressed for some time. quiet: the master is sending no character; the station falls asleep only if
+    // quiet is true.
     bool asleep(uint64_t now, bool quiet) {
         if (now < until_ || dut_.top.busy || !dut_.top.line)
             asleep_ = false;

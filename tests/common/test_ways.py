@@ -101,7 +101,7 @@ def test_help_costs_little_more_than_typer() -> None:
 def test_a_part_has_few_bases_and_names() -> None:
     """A `Ppmc104` has few base classes and few public names."""
     few([base.__name__ for base in Ppmc104.__mro__[1:-1]], 5)
-    few([name for name in dir(Ppmc104) if not name.startswith("_")], 34)
+    few([name for name in dir(Ppmc104) if not name.startswith("_")], 35)
 
 
 def private_names(path: Path) -> list[str]:
@@ -130,7 +130,7 @@ def test_users_of_the_host_package_need_no_private_name() -> None:
 
 @pytest.mark.parametrize(
     ("folder", "longest", "bound"),
-    [("openppmc/host", 0, 65), ("cocotb_tests/harness", 0, 36), ("openppmc", 0, 281), ("openppmc", 60, 75)],
+    [("openppmc/host", 0, 66), ("cocotb_tests/harness", 0, 36), ("openppmc", 0, 282), ("openppmc", 60, 69)],
 )
 def test_few_files(folder: str, longest: int, bound: int) -> None:
     """A folder has few files, and only few of them are short.

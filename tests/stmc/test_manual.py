@@ -32,8 +32,8 @@ int outp(unsigned short port, int byte) { return on_outp(port, byte); }
 
 
 class Board:
-    """The board with access by INP and OUT; `switches` are (number of steps after which it changes,
-    levels).
+    """The board with access by INP and OUT. `switches` lists (number of steps, levels): the levels change
+    after this number of steps.
     """
 
     def __init__(self, **parameters: object) -> None:

@@ -137,8 +137,8 @@ async def isa_write_makes_a_new_edge(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_service_after_the_restart(dut: Any) -> None:
-    """If axes are started again before a late handler reads their ends, the handler nevertheless returns each
-    time. If a periodic write re-arms pending causes, the last end of every axis is found.
+    """If axes are started again before a late handler reads their end statuses, the handler still returns
+    each time. If a periodic write re-arms pending causes, the last end of every axis is found.
     """
     setting = await Setting.start(dut)
     bench, controller, rng = setting.bench, Controller(setting), setting.bench.rng

@@ -201,7 +201,7 @@ def test_handler_after_the_restart(program):
     module.enabled = False
     steps(library, 1, 2, 3, 4)
     module.pass_time(1000)
-    assert library.move(1, 0x43, 1000, 0) == 0  # the host has not read the end of this axis
+    assert library.move(1, 0x43, 1000, 0) == 0  # the host has not read the end status of this axis
     module.enabled = True
     since = module.t
     module.run_program(3000)

@@ -100,7 +100,7 @@ async def interval_exact(dut, clk):
         rates = some_rates(rand, tick, 24 if base < 4 else 6)
         async with Bench(u) as bench:
             u.put(base_i=base)
-            await Timer(2 * rand.randint(1, 60), "step")  # any phase of the prescaler
+            await Timer(2 * rand.randint(1, 60), "step")  # start at any phase of the prescaler
             armed = await bench.strobe(arm_i=1)
             edges = [await bench.fire(rate) for rate in rates]
             await Timer(2 * width + 4, "step")

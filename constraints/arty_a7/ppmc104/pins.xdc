@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Written by `make boards` from constraints/arty_a7/board.yml and ppmc104_carrier.sv; change those, not this.
 # board_arty_a7_ppmc104: PPMC-104 with UART or bus host on Arty A7-35T, -100T. Wiring: docs/boards.md.
-# For Vivado; linted, but not built or run by this project.
+# Use Vivado. This project has linted this board, but not built or run it.
 
 # The configuration bank has 3.3 V.
 set_property CFGBVS VCCO [current_design]

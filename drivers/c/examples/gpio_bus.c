@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A PPMC-104 on the pins of a microcontroller; the software generates the strobes. A sketch: insert your
- * pin functions. The part requires (docs/ppmc104/README.md, chapter 4, at CLK_HZ = 16 MHz): read data are
- * valid 250 ns after the start of the read strobe, a write strobe lasts 73 ns, and 73 ns pass between
- * strobes. On most controllers, a function call per pin is slow enough; on a faster one, call bus_delay().
- * The port must be 5 V tolerant, or the part must run at 3.3 V. */
+ * pin functions. Times of the part (docs/ppmc104/README.md, chapter 4, at CLK_HZ = 16 MHz): read data are
+ * valid 250 ns after the start of the read strobe, a write strobe lasts at least 73 ns, and strobes are at
+ * least 73 ns apart. On most controllers, one function call per pin takes long enough. On a faster
+ * controller, call bus_delay(). The port must be 5 V tolerant, or the part must run at 3.3 V. */
 #include "../ppmc104.h"
 
 #include <stdio.h>

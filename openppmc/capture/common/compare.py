@@ -234,7 +234,7 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _ModelEdges:
     try:
         model = new_model(decoded.part, params | ({"STRAPS": straps} if straps else {}))
     except (TypeError, ValueError) as error:
-        raise CaptureError(f"{decoded.capture}: the model does not take these parameters: {error}") from None
+        raise CaptureError(f"{decoded.capture}: the model rejects these parameters: {error}") from None
     lead = round(LEAD_S * clk_hz)
     scale = clk_hz * ratio / SECOND
 

@@ -182,9 +182,7 @@ class _Table:
                     continue
                 if self.unit == 0:
                     self.line -= 1
-                    raise self.fail(
-                        f"{heads[0]!r} is no unit of time that is known; write s, ms, us, ns or ps"
-                    )
+                    raise self.fail(f"{heads[0]!r} is not a known unit of time; write s, ms, us, ns or ps")
             elif not self.rate:
                 continue
             heads = [one.strip() for one in heads]

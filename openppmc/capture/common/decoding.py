@@ -65,7 +65,7 @@ class Decoded:
             else "are lines of d mixed up, is a0 (rs) right"
         )
         return (
-            f"{self.invalid_lines} of {len(rows)} {self.decoder.row_noun} are none of "
+            f"{self.invalid_lines} of {len(rows)} {self.decoder.row_noun} are invalid for "
             f"{self.decoder.title}: is the "
             f"capture of another part, {wires}?"
         )
@@ -153,7 +153,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     lines = decoder.lines(wires)
     if not lines:
         raise CaptureError(
-            f"{capture.name}: the host never says anything to {decoder.title}: is the pin map right "
+            f"{capture.name}: the host never sends anything to {decoder.title}: is the pin map right "
             f"({', '.join(decoder.needs(wires).pins)}), was the program running?"
         )
     if not any(line.data[:2] not in ("st", "CS", "→ ", " →") for line in lines):

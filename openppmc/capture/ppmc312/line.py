@@ -109,7 +109,7 @@ def _station(wires: Wires) -> int:
     )
     if not seen:
         raise CaptureError(
-            "txd never says anything: which station is this? add `parameters: {ADR: 3}` to the map"
+            "txd never sends anything: which station is this? add `parameters: {ADR: 3}` to the map"
         )
     return seen.most_common(1)[0][0]
 

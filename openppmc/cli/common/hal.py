@@ -76,7 +76,7 @@ def closed_on_error(device: DeviceT) -> Iterator[DeviceT]:
 
 
 class HalGuard(Guard):
-    """Guard for which repeated SIGTERMs are one: halcmd may send several during a deceleration."""
+    """Guard that counts repeated SIGTERMs as one, because halcmd may send several during a deceleration."""
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if number != signal.SIGTERM or not self.count:

@@ -225,7 +225,7 @@ def _meaning(name: str, value: int, text: str) -> str:
     if name == "current":
         return f"{text}: drives {drive_current(value)} mA"
     if name in ("acceleration", "deceleration"):
-        return f"{mean_acceleration(value)} steps/s² in the mean"
+        return f"{mean_acceleration(value)} steps/s² on average"
     if name == "attenuation":
-        return f"current at rest {100 / 2**value:g} % of the peak"
+        return f"current at standstill {100 / 2**value:g} % of the peak"
     return text

@@ -51,9 +51,9 @@ class BankMotion(Motion):
         """
         if not self.over and self._bank_axis._in_open_group:
             raise NotCalledError(
-                f"{self._bank_axis._message_prefix}its group holds it until the end of the with block: "
-                "start it there with "
-                "start_move, start_constant, jog or search, and wait behind the block"
+                f"{self._bank_axis._message_prefix}its group holds this motion until the end of the with "
+                "block: start it there with "
+                "start_move, start_constant, jog or search, and wait after the block"
             )
         return super().wait(timeout, progress)
 
@@ -107,8 +107,8 @@ class BankAxis(Axis):
         return motion.wait()
 
     def _on_status(self, status: int) -> None:
-        # While the end of a motion of another axis is unread, int_n stays low. Then the end of this motion
-        # sends no message. Therefore, read the ends of other axes first.
+        # While the finish status of another axis is unread, int_n stays low. Then the end of this motion
+        # sends no message. Therefore, read the finish statuses of other axes first.
         self._bank._resolve_others(self.number)
 
     def _add_position_read(self, script: Script) -> Script:

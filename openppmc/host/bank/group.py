@@ -43,7 +43,7 @@ def numbers_of(kind: RateCapabilities, axes: Iterable[int]) -> tuple[int, ...]:
         OutOfRange: the group is empty, a number occurs twice, or the bank has no such axis.
     """
     if isinstance(axes, str | bytes) or not isinstance(axes, Iterable):
-        raise OutOfRange(f"axes {axes!r}: a group wants the numbers of its axes, as in (1, 2, 5)")
+        raise OutOfRange(f"axes {axes!r}: a group needs the numbers of its axes, as in (1, 2, 5)")
     numbers = [kind.check_axis(whole(axis, "axis")) for axis in axes]
     if not numbers:
         raise OutOfRange("a group without axes: name one at least")

@@ -52,7 +52,7 @@ class PpmcBank(Part):
     """Bank of axes, which is a context manager; see `part.Part`.
 
     `axis[1]` to `axis[N]` are axes 0 to N − 1 of the window. Opening the bank reads and checks INFO
-    (WrongDevice), reads the ends of motions that other programs left unread, and clears MASK. Running motions
+    (WrongDevice), reads finish statuses that other programs left unread, and clears MASK. Running motions
     continue. All axes share the bridge, so only one call at a time is allowed for all of them.
     """
 
@@ -119,9 +119,9 @@ class PpmcBank(Part):
     def pending(self) -> tuple[int, ...]:
         """Return the numbers of the axes whose interrupt is pending (BANK-WIN-08).
 
-        The call is allowed at any time.
+        The motion of each of these axes has ended, and no program has read its finish status yet.
 
-        The motion of each of these axes has ended, and no program has read its end.
+        The call is allowed at any time.
         """
         count = (self._info.axes + 7) // 8
         seen = visit(self.link, [(k + 1, Script().read(PENDING)) for k in range(count)])
@@ -297,7 +297,7 @@ class PpmcBank(Part):
             self._group.started.add(number)
 
     def _resolve_others(self, number: int) -> None:
-        """After the status of this axis was read, read the ends of motions of other axes.
+        """After the status of this axis was read, read the pending finish statuses of other axes.
 
         Otherwise, int_n would stay low.
         """
@@ -322,7 +322,7 @@ class PpmcBank(Part):
 
 def _table(moves: Any) -> Mapping[int, int]:
     if not isinstance(moves, Mapping):
-        raise OutOfRange(f"moves {moves!r}: wants pulses by axis, as in {{1: 1000, 2: -500}}")
+        raise OutOfRange(f"moves {moves!r}: expected pulses by axis, as in {{1: 1000, 2: -500}}")
     return moves
 
 

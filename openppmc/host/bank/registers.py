@@ -16,7 +16,7 @@ from ..registers import Inputs, Status
 
 # Errors of an axis of a bank.
 
-NOTHING_HELD = "GO found no motion that it holds: start one while it is in the group"
+NOTHING_HELD = "GO found no waiting motion: start one while the axis is in the group"
 
 
 def command_error(status: int, number: int) -> CommandRefused:

@@ -210,7 +210,7 @@ class Axis(Settings):
                 0, f"{self._message_prefix}another program has started the motor: wait, or stop it"
             )
         return StartRefused(
-            0, f"{self._message_prefix}the part refused to start, but nothing is in the way now: try again"
+            0, f"{self._message_prefix}the part rejected the start, but its cause is gone: try again"
         )
 
     def _stop(self, now: bool, wait: bool) -> MotionResult | None:
@@ -230,7 +230,7 @@ class Axis(Settings):
     def _foreign_motion(self) -> Motion:
         """Return a motion of another program. Raises NothingToStop if the motor is stopped."""
         if not self.flags().busy:
-            raise NothingToStop(0, f"{self._message_prefix}nothing to stop: the motor is at rest")
+            raise NothingToStop(0, f"{self._message_prefix}nothing to stop: the motor is at standstill")
         running = self.modes().running
         return Motion(self, None if running else LONGEST, FORWARD, None)
 
@@ -324,7 +324,7 @@ class Homing:
         if self._switch not in stops:
             other = " and ".join(f"EXT{number}" for number in stops) or end.cause_text
             raise OriginNotFound(
-                f"{axis._message_prefix}{other} came before EXT{self._switch}: home in the other "
+                f"{axis._message_prefix}{other} ended the search for EXT{self._switch}: home in the other "
                 "direction, or check the "
                 "switch",
                 end,
@@ -342,8 +342,8 @@ class Homing:
                 return end
             if gone > LONGEST_WAY_OFF:
                 raise OriginNotFound(
-                    f"{axis._message_prefix}EXT{self._switch} is still active {gone} steps away from "
-                    "where it was: check "
-                    "it",
+                    f"{axis._message_prefix}EXT{self._switch} is still active after a move of {gone} "
+                    "steps away from it: check "
+                    "the switch",
                     end,
                 )

@@ -153,7 +153,7 @@ class Memory(Axis):
             raise ProgramRuns(0, f"{self._message_prefix}{ProgramRuns.text}")
 
     def _resolve_tried(self) -> int | None:
-        raise self._lost_reply("it cannot be seen whether the instruction was carried out")
+        raise self._lost_reply("it is unknown whether the instruction was executed")
 
     def program_runs(self) -> bool:
         """Return True if a program runs, waits or is paused.

@@ -98,7 +98,7 @@ class Setting:
         got = node.execute(self.write, data, good=lambda reply: reply == data, sure=False)
         if got != data:
             raise SettingRefused(
-                got, f"{node._message_prefix}{self.name} {value} was refused: it is {self.known(got)}"
+                got, f"{node._message_prefix}{self.name} {value} was rejected; it is still {self.known(got)}"
             )
         if self.name in _SHOW_A_RESET:
             node.unsaved[self.name] = value
@@ -172,7 +172,7 @@ class Settings(StationLink):
         Code.READ_MAX_SPEED,
         range(1, 16_001),
         "1 to 16000",
-        "top speed of moves and speed of free runs, at once",
+        "top speed of moves and speed of free runs, effective immediately",
         "steps/s",
         saved=False,
     )
@@ -182,20 +182,25 @@ class Settings(StationLink):
         Code.ACCELERATION, Code.READ_ACCELERATION, range(6), "0 to 5", "coefficient n: 1700 x 2^n steps/s²"
     )
     deceleration = Setting(
-        Code.DECELERATION, Code.READ_DECELERATION, range(6), "0 to 5", "the same for slowing down"
+        Code.DECELERATION, Code.READ_DECELERATION, range(6), "0 to 5", "coefficient n, as for acceleration"
     )
     auto_decay = _InStatus1(
-        Code.AUTO_DECAY, Code.STATUS_1, range(2), "0 or 1", "less current 100 ms after each motion", shift=3
+        Code.AUTO_DECAY,
+        Code.STATUS_1,
+        range(2),
+        "0 or 1",
+        "1: less current 100 ms after a motion",
+        shift=3,
     )
     attenuation = Setting(
         Code.ATTENUATION,
         Code.READ_ATTENUATION,
         range(1, 5),
         "1 to 4",
-        "n: current at rest is 1/2^n of the peak",
+        "n: reduced current at standstill is 1/2^n of the peak",
     )
     current_compensation = Setting(
-        Code.CURRENT_COMPENSATION, None, range(100, 1201), "100 to 1200", "more current at speed"
+        Code.CURRENT_COMPENSATION, None, range(100, 1201), "100 to 1200", "additional current at speed"
     )
     speed_compensation = Setting(
         Code.SPEED_COMPENSATION, None, range(300, 2001), "300 to 2000", "phase lead at speed"
@@ -205,7 +210,7 @@ class Settings(StationLink):
         Code.READ_TRIGGER,
         range(4),
         "0 to 3",
-        "edge that stops, bit 0 EXT1, bit 1 EXT2: 0 falling, 1 rising",
+        "edge that stops the motor, bit 0 EXT1, bit 1 EXT2: 0 falling, 1 rising",
     )
     offline = Setting(
         Code.OFFLINE,
@@ -222,7 +227,7 @@ class Settings(StationLink):
         Code.STATUS_2,
         range(4),
         "0 to 3",
-        "emergency stops that work, bit 0 EXT1, bit 1 EXT2",
+        "enabled emergency stops, bit 0 EXT1, bit 1 EXT2",
         shift=1,
         bits=2,
     )
@@ -231,13 +236,13 @@ class Settings(StationLink):
         Code.STATUS_2,
         range(2),
         "0 or 1",
-        "of the next motion: 1 forward, 0 backward",
+        "direction of the next motion: 1 forward, 0 backward",
         shift=4,
         bits=1,
     )
     free = _InStatus2(Code.FREE, Code.STATUS_2, range(2), "0 or 1", "motor off-line, without current", bits=1)
     stall_length = Setting(
-        Code.STALL_LENGTH, None, range(64), "0 to 63", "samples in a row that mean a stall", saved=False
+        Code.STALL_LENGTH, None, range(64), "0 to 63", "consecutive samples that mean a stall", saved=False
     )
     stall_config = Setting(
         Code.STALL_CONFIG, None, range(8), "0 to 7", "bit 0 detect, 1 stop, 2 raise GPO5", saved=False

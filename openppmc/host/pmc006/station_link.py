@@ -206,7 +206,7 @@ class StationLink(Checked):
     def _lost_reply(self, reason: str) -> LostReply:
         """Return the exception for an instruction that may have been executed."""
         return LostReply(
-            f"{self._message_prefix}the reply to an instruction was lost, it may have been carried out; "
+            f"{self._message_prefix}the reply to an instruction was lost, so it may have been executed; "
             f"{reason}: check "
             "the status of the controller before you repeat the instruction"
         )

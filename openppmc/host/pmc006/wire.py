@@ -205,7 +205,7 @@ class StorageBusy(CommandRefused):
 class StorageFailed(CommandRefused):
     """The EEPROM did not respond."""
 
-    text = "the EEPROM did not answer, what was to be kept is not: is there one, are its wires right?"
+    text = "the EEPROM did not respond, so nothing was stored: check that it exists, and its wires"
 
 
 class ProgramRuns(CommandRefused):
@@ -222,14 +222,14 @@ def locked(numbers: tuple[int, ...], prefix: str = "") -> ExtStopActive:
     """Return the exception for these EXT flags.
 
     >>> str(locked((1,)))
-    'EXT1 has stopped it: clear the flag (clear_stops, reset-flags), then move off the switch'
+    'EXT1 has stopped the motor: clear the flag (clear_stops, reset-flags), then move off the switch'
     """
     names, flags = " and ".join(f"EXT{number}" for number in numbers), "flags" if len(numbers) > 1 else "flag"
     have = "have" if len(numbers) > 1 else "has"
     return ExtStopActive(
         sum(1 << number for number in numbers),
-        f"{prefix}{names} {have} stopped it: clear the {flags} (clear_stops, reset-flags), then move off the "
-        "switch",
+        f"{prefix}{names} {have} stopped the motor: clear the {flags} (clear_stops, reset-flags), "
+        "then move off the switch",
     )
 
 

@@ -92,8 +92,8 @@ class Axis2104(Axis):
         return super()._motion_started(request, begin)
 
     def _on_status(self, status: int) -> None:
-        # While the end of a motion of the other axis is unread, int_n stays low. Then the end of this motion
-        # sends no message. Therefore, read the end of the other axis first.
+        # While the end status of the other axis is unread, int_n stays low. Then the end of this motion
+        # sends no message. Therefore, read the end status of the other axis first.
         self.part._other_axis(self.number)._resolve(status)
 
     def _resolve(self, status: int) -> None:

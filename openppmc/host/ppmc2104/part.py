@@ -214,9 +214,9 @@ class Ppmc2104(Part):
         self._foreign.discard(number)
 
     def _resolve_foreign(self, number: int) -> None:
-        """Read the end of a motion of another program, once, because int_n stays low until then.
+        """Read the end status of a motion of another program, once, because int_n stays low until then.
 
-        This axis has stopped.
+        The motion on this axis has ended.
         """
         if number in self._foreign:
             self._foreign.discard(number)

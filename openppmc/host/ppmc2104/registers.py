@@ -46,14 +46,14 @@ class IncompleteCommand(CommandRefused):
 class InvalidChopperTimes(CommandRefused):
     """Error 11 of the PPMC-2104: invalid chopper times."""
 
-    text = "the part refuses these chopper times: 32 us or more each at a 16 MHz crystal"
+    text = "the part rejects these chopper times: 32 us or more each at a 16 MHz crystal"
 
 
 class RateLimitExceeded(CommandRefused):
     """Errors 12 and 13 of the PPMC-2104 with DATASHEET timing: the speed is too high."""
 
     text = (
-        "the part refuses this speed: with DATASHEET timing one axis cannot run so fast, choose a lower one"
+        "the part rejects this speed: with DATASHEET timing it is too high for one axis, choose a lower one"
     )
 
 
@@ -69,16 +69,16 @@ BY_NUMBER: dict[int, tuple[type[CommandRefused], str]] = {
         AxisBusy,
         "it is busy with a motion: wait for its end or stop it first",
     ),
-    Error.NOTHING_TO_STOP: (NothingToStop, "nothing to stop: it is at rest"),
+    Error.NOTHING_TO_STOP: (NothingToStop, "nothing to stop: it is at standstill"),
     Error.START_REFUSED: (StartRefused, ""),
     Error.CANNOT_DECELERATE: (
         AlreadyDecelerating,
-        "the motor is decelerating already, runs at constant speed or waits for RUN: wait for its end, or "
-        "halt it at once",
+        "the motor is already decelerating, runs at constant speed or waits for RUN: wait for its end, or "
+        "stop it immediately",
     ),
     Error.BAD_RATE: (
         InvalidRamp,
-        "the part refuses this ramp or speed: it needs 4 pulses or more, a start rate at least 2 above the "
+        "the part rejects this ramp or speed: use 4 pulses or more, a start rate at least 2 above the "
         "high rate, and no rate 0 with an internal base clock",
     ),
     Error.PA_TOO_LARGE: (RampTooLong, ""),
@@ -86,8 +86,8 @@ BY_NUMBER: dict[int, tuple[type[CommandRefused], str]] = {
     Error.RATE_ONE_AXIS: (RateLimitExceeded, ""),
     Error.RATE_TWO_AXES: (
         RateLimitExceeded,
-        "the part refuses this speed while the other axis is in use (DATASHEET timing): choose a lower one, "
-        "or wait until the other axis rests",
+        "the part rejects this speed while the other axis is in use (DATASHEET timing): choose a lower one, "
+        "or wait until the other axis is at standstill",
     ),
 }
 

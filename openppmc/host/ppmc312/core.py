@@ -35,7 +35,8 @@ class Instructions(Protocol):
     def answers(self) -> int:
         """Number of responses so far.
 
-        A report that arrives after a response was sent after the execution of its instruction.
+        The part sends a report that follows a response only after it has executed the instruction of this
+        response.
         """
 
     def open(self) -> None:
@@ -109,11 +110,15 @@ class Core(Checked, Generic[MotionT]):
         """
         response = self.window.execute(block, gives, milliseconds)
         if response.code != block[2]:
-            raise ProtocolError(
-                f"{self.link.name}: the part answers {response.code:02X} to {block[2]:02X}: does another "
-                "program use it?"
-            )
+            raise self._wrong_answer(response, block[2])
         return response.data
+
+    def _wrong_answer(self, response: Response, code: int) -> ProtocolError:
+        """Return the exception for a response to another instruction."""
+        return ProtocolError(
+            f"{self.link.name}: the part answers {response.code:02X} to {code:02X}: does another "
+            "program use it?"
+        )
 
     def _plain(self, code: int, gives: int = 0) -> bytes:
         """Execute an instruction without parameters.

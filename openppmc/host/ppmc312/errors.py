@@ -60,7 +60,7 @@ class HeldByRun(CommandRefused):
 class InvalidBlockLength(CommandRefused):
     """Error F6: the length byte does not match the block."""
 
-    text = "the part could not make sense of the block (its length): send the command again"
+    text = "the length of the block is wrong for the part: send the command again"
 
 
 class RegistrationRefused(CommandRefused):
@@ -80,14 +80,14 @@ class AlarmRaised(CommandRefused):
 
 
 _PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
-    0x00: (ParameterRefused, "the part refuses the length of this setting: renew the package"),
+    0x00: (ParameterRefused, "the part rejects the length of this setting: renew the package"),
     0x01: (
         RateRefused,
         "a rate of the setting is out of range: high rate 2 to 65519, start and stop from 17",
     ),
-    0x02: (TableRefused, "start (or stop) and high speed are too close: more than 127 rate steps between"),
+    0x02: (TableRefused, "start (or stop) and high speed are too close: 128 or more rate steps between"),
     0x03: (TableRefused, "the high speed must be above start and stop speed"),
-    0x04: (TableRefused, "one of start and stop speed is too close to the high speed: 127 rate steps"),
+    0x04: (TableRefused, "start or stop speed is too close to the high speed: 128 rate steps or more"),
     0x05: (TableRefused, "the ramp is too short: each of its stages needs 2 pulses"),
     0x10: (CurveRefused, "a free curve begins with its number of stages"),
     0x11: (CurveRefused, "a free curve has 2 to 127 stages a side"),
@@ -99,33 +99,34 @@ _PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
     0x1A: (CurveRefused, "the free curve has more than 16777215 pulses on a side"),
     0x20: (RateRefused, "the speed is outside those of the table"),
     0x21: (ParameterRefused, "a start cannot wait for a position: use an event"),
-    0x23: (ParameterRefused, "an operand is wrong: a number of pulses, or which position"),
+    0x23: (ParameterRefused, "an operand is invalid: a number of pulses, or the choice of a position"),
     0x24: (ParameterRefused, "there are event buffers 1 and 2"),
-    0x25: (ParameterRefused, "an event buffer takes one instruction of up to 14 bytes"),
+    0x25: (ParameterRefused, "a place in an event buffer holds one instruction of up to 14 bytes"),
     0x26: (ParameterRefused, "the in-position range must be 1 to 65535"),
     0x27: (ParameterRefused, "the encoder range must be 1 to 65535"),
 }
 STATES: dict[int, tuple[type[CommandRefused], str]] = {
-    State.INI: (NotInitialised, "the part has no table (power-up, reset, refused setting): initialise it"),
-    State.NOR: (NothingToStop, "nothing to stop or to change: the motor is at rest"),
+    State.INI: (NotInitialised, "the part has no table (power-up, reset, rejected setting): initialise it"),
+    State.NOR: (NothingToStop, "nothing to stop or to change: the motor is at standstill"),
     State.ACC: (AxisBusy, "the part is busy with a motion (speed changing): wait, or stop it first"),
     State.FIX: (AxisBusy, "the part is busy with a motion: wait for its end or stop it first"),
     State.ABN: (InAlarm, ""),
     State.WRN: (HeldByRun, ""),
 }
-LIMIT = "it may not start: a limit switch of this direction is active: move the other way"
+LIMIT = "the motor cannot start: a limit switch of this direction is active: move in the other direction"
 _ALARMS = {
     0: "the alarm input is active: clear the drive's alarm, then clear the part's",
-    1: "an instruction, override or event met an unread answer: read the part's reports more often, clear "
+    1: "an unread answer prevented an instruction, override or event: read the part's reports more often, "
+    "clear the alarm",
+    2: "a report of interlock or RUN was unread at the next one: read the part's reports more often, clear "
     "the alarm",
-    2: "two reports of interlock or RUN met: read the part's reports more often, clear the alarm",
-    3: "a stop report met an unread one: read the part's reports more often, clear the alarm",
+    3: "a stop report was unread at the next one: read the part's reports more often, clear the alarm",
 }
 _FAILURES = {
-    0: "a parameter was refused",
+    0: "a parameter was rejected",
     1: "the state did not allow it",
     2: "a limit switch was active",
-    5: "its code is not known",
+    5: "its code is unknown",
 }
 
 
@@ -142,7 +143,7 @@ def command_error(code: int, parameters: bytes) -> CommandRefused | None:
     first = parameters[0] if parameters else 0
     if code == Answer.PARAMETER:
         kind, text = _PARAMETERS.get(
-            first, (ParameterRefused, f"the part refuses this instruction (error {first:02X})")
+            first, (ParameterRefused, f"the part rejects this instruction (error {first:02X})")
         )
         error = kind(first, text)
         error.number, error.echo = first, parameters[1:]
@@ -163,17 +164,13 @@ def command_error(code: int, parameters: bytes) -> CommandRefused | None:
             first,
             "this event is in use by its buffer: delete the buffer's instructions first"
             if first
-            else "eight overrides wait already: let some of them happen first",
+            else "eight overrides are already waiting: wait until some of them are executed",
         )
     if code in (Answer.OVERRIDE_FAILED, Answer.EVENT_FAILED):
         reason = _FAILURES.get(first, f"reason {first:02X}")
         if code == Answer.OVERRIDE_FAILED:
-            return OverrideFailed(
-                first, f"an override was not carried out ({reason}); the others are dropped"
-            )
-        return EventFailed(
-            first, f"an event's instruction was not carried out ({reason}); its buffer is empty"
-        )
+            return OverrideFailed(first, f"an override was not executed ({reason}); the others are discarded")
+        return EventFailed(first, f"an event's instruction was not executed ({reason}); its buffer is empty")
     if code == Answer.ALARM:
         return AlarmRaised(first, _ALARMS.get(first, f"alarm {first:02X}"))
     return None

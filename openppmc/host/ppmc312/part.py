@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
+
 from ...model.ppmc312.codes import Answer
 from .. import speeds
 from ..axis import CCW, CW, OnProgress
 from ..capabilities import PULSE_ONLY
-from ..errors import NothingToStop, OutOfRange, ProtocolError
+from ..check import wholes
+from ..errors import CommandRefused, NothingToStop, OutOfRange, PpmcError, ProtocolError, Timeout
 from ..link import Link
 from ..motion_result import Cause, MotionResult
+from ..moves import LONGEST_WAIT_MS, run_moves
 from ..part import Part
 from ..script import Script
 from . import blocks
-from .answers import EventBuffer
+from .answers import EventBuffer, Response, signed
 from .blocks import Trigger
 from .core import MotionT, Settings
 from .errors import RegistrationRefused
@@ -161,6 +165,20 @@ class Axis(Overrides[MotionT]):
     ) -> MotionResult:
         """Move at constant speed and wait for the end; raises the same errors as `move`."""
         return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
+
+    def moves(self, pulses: Iterable[int], pps: speeds.Number | None = None) -> Iterator[MotionResult]:
+        """Move by each number of pulses in order, and yield the result of each move.
+
+        The iteration starts the moves. A move that does not end as requested is the last one.
+
+        Args:
+            pps: constant speed, `None` for moves with ramps.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedByCommand: a move ended before all pulses were output.
+        """
+        numbers = wholes(pulses, "pulses")
+        return (self.move_constant(one, pps) if pps and one else self.move(one) for one in numbers)
 
     # ------------------------------------------------------------------ motions
 
@@ -344,6 +362,7 @@ def _side(pulses: int) -> int:
     return CCW if pulses < 0 else CW
 
 
+MOVES_PER_FRAME = 5
 RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
 """Strap bits of the board: RUN, and the event inputs, which are active at 0."""
 
@@ -359,6 +378,7 @@ class Ppmc312(Axis[Motion], Part):
 
     kind = CAPABILITIES
     link: Link
+    window: Window
 
     def __init__(self, link: Link) -> None:
         self._straps = 0xFF
@@ -373,6 +393,56 @@ class Ppmc312(Axis[Motion], Part):
     @property
     def axes(self) -> tuple[Ppmc312, ...]:
         return (self,)
+
+    def moves(self, pulses: Iterable[int], pps: speeds.Number | None = None) -> Iterator[MotionResult]:
+        """Move by each number of pulses in order, and yield the result of each move.
+
+        One frame contains up to five moves; see `axis.Axis.moves`.
+        """
+        numbers = wholes(pulses, "pulses")
+        return run_moves(
+            numbers, MOVES_PER_FRAME, lambda moves: self._execute_moves(moves, pps), self._empty_move_result
+        )
+
+    def _execute_moves(
+        self, moves: Sequence[int], pps: speeds.Number | None
+    ) -> tuple[list[Motion], PpmcError | None]:
+        """Execute moves with one frame; return the motions that were started, and the error after them."""
+        motions: list[Motion] = []
+        begin: int | None = None
+        error: PpmcError | None = None
+
+        def on_answer(response: Response) -> None:
+            nonlocal begin, error
+            code = (steps[len(motions)] if begin is not None and len(motions) < len(steps) else position)[2]
+            if response.error is not None:
+                error = response.error
+            elif response.code != code:
+                error = self._wrong_answer(response, code)
+            elif begin is None:
+                begin = signed(int.from_bytes(response.data[1:5], "big"))
+            else:
+                pulses = moves[len(motions)]
+                self._mark = self.window.answers - 1
+                self._motion = motion = self._make_motion(abs(pulses), _side(pulses), begin)
+                motion._on_start_response(response.data[0] if response.data else None)
+                motions.append(motion)
+                begin += pulses
+
+        position, steps = blocks.read_position(), [self.move_block(pulses, pps) for pulses in moves]
+        before, self._mark = self._motion, self.window.answers
+        self._motion = self._make_motion(None, CW, None)  # a move may be running if an exception is raised
+        self._motion.stop_ordered = True
+        self.link.forget_events()
+        try:
+            self.window.execute_moves(position, steps, LONGEST_WAIT_MS, on_answer)
+            if not motions and error is None:
+                error = Timeout(f"{self.link.name}: the part does not answer: is it in reset?")
+        except PpmcError as caught:
+            error = error or caught
+        if not motions and isinstance(error, CommandRefused):
+            self._motion = before
+        return motions, error
 
     def reset(self) -> None:
         """Reset the part with its pin, in any state.

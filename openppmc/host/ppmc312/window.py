@@ -10,8 +10,9 @@ a pending report.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
+from ...model.ppmc312.codes import Cause
 from ..errors import ProtocolError, Timeout
 from ..link import Link
 from ..script import Answer, Result, Script
@@ -37,8 +38,12 @@ With a response, RAR is this value minus the number of bytes left, 1 to 32.
 """
 MASK, LEFT = 0x60, 0x20
 """Mask of RAR, and the masked value that indicates that bytes are left."""
+WAIT_READ = 0x70 | READ
+"""Op code of a wait that reads bytes of a response."""
 SHORTEST, MOST_REPORTS = 3, 64
 ANSWER_MS, READY_MS = 250, 50
+POSITION_SIZE, START_SIZE, STOPPED_SIZE, POSITION_BYTES = 8, 4, 8, 4
+"""Sizes of the responses to a position read and to a start, of the report of an end, and of its position."""
 
 
 class Window:
@@ -57,6 +62,7 @@ class Window:
         self._count = 0
         self.answers = 0
         """Number of responses so far; see `core.Instructions.answers`."""
+        self._on_answer: Callable[[Response], None] = lambda response: None
 
     def open(self) -> None:
         """Prepare the registers after a reset, or after another program used them.
@@ -87,14 +93,47 @@ class Window:
         """
         if self._state_unknown:
             self.open()
-        script = Script().wait(CSR, MWEF, 0)
-        script.write(CONTROL, WINDOW).write(ADDRESS, start_address(block))
-        script.write_many(WRITE, bus_order(block)).timeout(milliseconds)
+        script = self._append_block(Script().wait(CSR, MWEF, 0).write(CONTROL, WINDOW), block)
+        script.timeout(milliseconds)
         answer = self._exchange(self._append_read(script, gives))
         found = answer or self._await(milliseconds)
         if (error := found.error) is not None:
             raise error
         return found
+
+    def execute_moves(
+        self, first: bytes, moves: Sequence[bytes], milliseconds: int, on_answer: Callable[[Response], None]
+    ) -> None:
+        """Execute a read of the position and then moves, with one frame.
+
+        The next move starts only if the part reports the normal end of the move before it, and no other
+        report. Otherwise, the script ends.
+
+        Args:
+            first: instruction that reads the position.
+            milliseconds: longest wait for the end of a move.
+            on_answer: called with each response to an instruction, before the report of the end is processed.
+
+        Raises:
+            ProtocolError, LinkError: the transfer failed.
+        """
+        if self._state_unknown:
+            self.open()
+        script = Script().timeout(milliseconds).wait(CSR, MWEF, 0).write(CONTROL, WINDOW)
+        self._append_exact_read(self._append_block(script, first), POSITION_SIZE)
+        for block in moves:
+            self._append_exact_read(self._append_block(script, block), START_SIZE)
+            self._append_exact_read(script, STOPPED_SIZE, POSITION_BYTES)
+            # With the limit 0, the wait reads one byte, the cause.
+            script.timeout(0).wait(READ, 0xFF, Cause.NORMAL).timeout(milliseconds)
+            script.read_many(READ, STOPPED_SIZE - POSITION_BYTES - 1)
+        self._on_answer, before = on_answer, self.answers
+        try:
+            self._exchange(script)
+            if self.answers - before <= len(moves):
+                self.collect()  # the response to a rejected start has another size
+        finally:
+            self._on_answer = lambda response: None
 
     def next_block(self) -> Response:
         """Return the next block of a response of several blocks."""
@@ -122,6 +161,16 @@ class Window:
         raise ProtocolError(f"{self._link.name}: reports without end: reset the part")
 
     # ------------------------------------------------------------------ internal
+
+    @staticmethod
+    def _append_block(script: Script, block: bytes) -> Script:
+        """Append the operations that write an instruction block into the open write window."""
+        return script.write(ADDRESS, start_address(block)).write_many(WRITE, bus_order(block))
+
+    @staticmethod
+    def _append_exact_read(script: Script, size: int, part: int = 0) -> Script:
+        """Append a wait for a response of this size, and a read of it, or of its first bytes on the bus."""
+        return script.wait(ADDRESS, 0xFF, EMPTY - size).read_many(READ, part or size)
 
     @staticmethod
     def _append_read(script: Script, gives: int) -> Script:
@@ -157,10 +206,15 @@ class Window:
         found, left, received = None, None, False
         giving = [op for op in script.ops if op.response_size]
         for op, value in zip(giving, answer.values, strict=False):
-            if op.name == "WAIT" and op.code[0] & 15 == ADDRESS:
+            register = op.code[0] & 15
+            if op.name == "WAIT" and register == ADDRESS:
                 left = EMPTY - value[0]
-            elif op.name != "WAIT" and left is not None:
+            elif register == READ and left is not None:
                 found, received = self._feed(left, value) or found, True
+                left = self._bytes_left
+        failed = answer.failed
+        if left and failed is not None and failed.code[0] == WAIT_READ and answer.result is Result.TIMED_OUT:
+            self._feed(left, [answer.last])  # the cause of an end that is not normal
         if answer.result is Result.TIMED_OUT and (received or not patient):
             return found
         if answer.result is Result.TIMED_OUT and answer.failed is not None:
@@ -172,8 +226,8 @@ class Window:
     def _no_response_text(answer: Answer) -> str:
         assert answer.failed is not None
         if answer.failed.code[0] & 15 == CSR:
-            return "the part takes no instruction: is it in reset, or busy with another program's one?"
-        return "the part does not answer: is it in reset?"
+            return "the part accepts no instruction: check for a reset, and for another program that uses it"
+        return "the part does not respond: check whether it is in reset"
 
     def _feed(self, left: int, data: Iterable[int]) -> Response | None:
         """Process bytes of a response.
@@ -197,6 +251,7 @@ class Window:
                 if response.to_host:
                     found = response
                     self.answers += 1
+                    self._on_answer(response)
                 else:
                     self._on_response(response)
         return found

@@ -158,7 +158,7 @@ class Effect(NamedTuple):
         action: function for any other effect, called with the context and the edge.
         early_action: as `action`, but called before the motion is processed at that edge.
         excludes_step: True if no step may be counted in that cycle.
-        program_index: number of the instruction of the program that E executes.
+        program_index: number of the program instruction that instruction E executes.
     """
 
     reply: int | Callable[[ExecutionContext], int] = 0

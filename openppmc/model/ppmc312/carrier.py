@@ -168,7 +168,7 @@ def predict_setting(
         at += width
     if len(values) == 3:
         if separate:
-            raise ValueError("a deceleration of its own needs 13 parameters")
+            raise ValueError("a separate deceleration needs 13 parameters")
         start, high, na = values
         stop, nd = start, na
     else:

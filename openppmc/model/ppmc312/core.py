@@ -109,7 +109,7 @@ class Core:
     def drop_overrides(self, t: int) -> None:
         """Clear the FIFO after an override has failed.
 
-        If a position has stopped the pulses, they do not resume.
+        If a stop at a position has already ended the pulses, they do not resume.
         """
         self.fifo.clear()
 

@@ -106,7 +106,8 @@ class TimedMotion(Motion):
         since += context.latency.ds_motor
         self._port.close_until(since + context.timebase.cyc(open_cycles))
         self._ending(t)
-        # This precedes Phase.COMMAND, so that a byte that waited for this edge is checked with BUSY = 0.
+        # Phase.BEGIN precedes Phase.COMMAND, so that a byte that waited for this edge is checked with BUSY =
+        # 0.
         context.queue.at(since + context.timebase.cyc(end_cycles), Phase.BEGIN, self._finish)
 
     def _ending(self, t: int) -> None:

@@ -69,7 +69,7 @@ class Carrier(carrier.Carrier[Stmc]):
         elif edge.value not in (
             0,
             ALL_PHASES,
-        ):  # others: chopper or not initialised
+        ):  # these two: chopper or not initialised
             step = self._directions_of.get((self._phases, edge.value))
             self._phases = edge.value
             if step is not None:

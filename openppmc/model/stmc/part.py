@@ -20,7 +20,7 @@ from .codes import READ_MAPS
 from .commands import CommandUnit, Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
-# Its table of 16-bit thresholds takes longer to build than the tables of related parts.
+# The table of the STMC has 16-bit thresholds and takes longer to build than those of related parts.
 LATENCY = Latency(build_base=2032, build_per_rate=144)
 
 

@@ -237,7 +237,7 @@ def _load(words: dict[str, str]) -> MechanicalLoad:
 
 
 def _addresses(text: str) -> tuple[int, ...]:
-    """`5`, `1..3` or `10+20`."""
+    """Parse addresses: `5`, `1..3` or `10+20`. Raise ValueError for any other text."""
     first, dots, last = text.partition("..")
     if dots:
         low, high = _address(text, first), _address(text, last)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by `make boards` from constraints/arty_a7/board.yml and ppmc104_carrier.sv; change those, not this.
-// board_arty_a7_ppmc104: PPMC-104 with UART or bus host on Arty A7-35T, -100T (XC7A35T, XC7A100T), clk 100 MHz, its
-//         oscillator.
-// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/arty_a7/ppmc104/pins.xdc. For Vivado; linted, but not built
-//         or run by this project.
+// board_arty_a7_ppmc104: PPMC-104 with UART or bus host on Arty A7-35T, -100T (XC7A35T, XC7A100T), clk 100 MHz from
+//         the oscillator.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/arty_a7/ppmc104/pins.xdc. Use Vivado. This project has
+//         linted this board, but not built or run it.
 // Timing: see ppmc104_carrier.
 `default_nettype none
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_led_stretch: stretches a short event, so that an LED shows it visibly.
+// ppmc_board_led_stretch: stretches a short event, so that it is visible on an LED.
 // Rules:  docs/boards.md, LEDs.
 // Timing: led_o rises one cycle after on_i. It falls 2**n cycles (1/32 .. 1/16 s) after the last cycle in
 //         which on_i = 1.

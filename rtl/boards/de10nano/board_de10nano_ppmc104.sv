@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by `make boards` from constraints/de10nano/board.yml and ppmc104_carrier.sv; change those, not this.
-// board_de10nano_ppmc104: PPMC-104 with UART or bus host on DE10-Nano (5CSEBA6U23I7), clk 50 MHz, its oscillator.
-// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/de10nano/ppmc104/pins.qsf. For Quartus; linted, but not
-//         built or run by this project.
+// board_de10nano_ppmc104: PPMC-104 with UART or bus host on DE10-Nano (5CSEBA6U23I7), clk 50 MHz from the oscillator.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/de10nano/ppmc104/pins.qsf. Use Quartus. This project has
+//         linted this board, but not built or run it.
 // Timing: see ppmc104_carrier.
 `default_nettype none
 

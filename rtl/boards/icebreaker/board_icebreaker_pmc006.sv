@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by `make boards` from constraints/icebreaker/board.yml and pmc006_carrier.sv; change those, not this.
 // board_icebreaker_pmc006: PMC006B4 on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz oscillator.
-// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/pmc006/pins.pcf. There are pins for three of the
-//         five inputs and three of the five outputs, and for no converter: no analog speed, no stall detection.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/pmc006/pins.pcf. Three of the five inputs and
+//         three of the five outputs have pins. The A/D converter has no pins, so there is no analog speed and no
+//         stall detection.
 // Timing: see pmc006_carrier.
 `default_nettype none
 

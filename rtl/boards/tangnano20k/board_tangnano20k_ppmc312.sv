@@ -3,7 +3,7 @@
 // board_tangnano20k_ppmc312: PPMC-312 with UART host on Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from the 27
 //         MHz oscillator.
 // Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano20k/ppmc312/pins.cst. Only two general inputs and
-//         two general outputs, and no bus, because the header has no more pins.
+//         two general outputs have pins, and the bus is omitted, because the header has no more pins.
 // Timing: see ppmc312_carrier.
 `default_nettype none
 

@@ -16,8 +16,8 @@ module ppmc_clock_ulx3s #(
     $fatal(1, "ppmc_clock_ulx3s: Divisor must be 6, 8 or 12");
   end
 
-  // The attributes set the currents and the filter of the loop, which the tool of the vendor would
-  // calculate.
+  // The attributes set the currents and the filter of the PLL loop. The tool of the vendor would calculate
+  // these attributes.
   (* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8",
      MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
   EHXPLLL #(

@@ -24,8 +24,8 @@ module pmc006_drive
     input  wire logic                   step_i,          // a step is made at the next rising edge
     input  wire logic                   forward_i,       // 1: the step is forward
     input  wire logic            [ 7:0] increment_i,     // angle of a step, 512 per electrical turn
-    input  wire logic            [10:0] current_comp_i,  // B, current compensation
-    input  wire logic            [ 6:0] lead_angle_i,    // W, lead angle
+    input  wire logic            [10:0] current_comp_i,  // current compensation B
+    input  wire logic            [ 6:0] lead_angle_i,    // lead angle W
     // pins
     input  wire logic                   cmp_a_i,         // comparator of phase A, raw pin
     input  wire logic                   cmp_b_i,         // comparator of phase B, raw pin

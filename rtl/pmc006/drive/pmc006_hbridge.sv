@@ -10,9 +10,9 @@
 `default_nettype none
 
 module pmc006_hbridge #(
-    parameter int unsigned OffCycles   = 320,  // TOFF, cycles
-    parameter int unsigned BlankCycles = 16,   // BL, cycles
-    parameter int unsigned FastCycles  = 160   // TF, cycles; at least BL
+    parameter int unsigned OffCycles   = 320,  // off time T_OFF in cycles
+    parameter int unsigned BlankCycles = 16,   // blanking time T_BLANK in cycles
+    parameter int unsigned FastCycles  = 160   // longest fast decay in cycles; at least BlankCycles
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,

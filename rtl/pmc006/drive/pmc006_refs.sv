@@ -16,11 +16,11 @@ module pmc006_refs (
     input  wire logic        off_i,           // 1: no current (boot, or motor released)
     input  wire logic        decay_i,         // 1: reduce the current (standstill)
     input  wire logic [ 2:0] att_i,           // attenuation coefficient, 1 .. 4
-    input  wire logic [ 7:0] base_i,          // RB; valid one cycle after the other inputs
-    input  wire logic [10:0] current_comp_i,  // B, current compensation
-    input  wire logic [ 6:0] lead_angle_i,    // W, lead angle
+    input  wire logic [ 7:0] base_i,          // base code RB; valid one cycle after the other inputs
+    input  wire logic [10:0] current_comp_i,  // current compensation B
+    input  wire logic [ 6:0] lead_angle_i,    // lead angle W
     input  wire logic        forward_i,       // direction of the motion
-    input  wire logic [ 8:0] angle_i,         // TH, 512 per electrical turn
+    input  wire logic [ 8:0] angle_i,         // electrical angle, 512 per turn
     output logic      [ 7:0] a_ref_o,         // current reference of phase A
     output logic             a_sign_o,        // sign of a_ref_o
     output logic      [ 7:0] b_ref_o,         // current reference of phase B

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_stall: detects a stall, which means that at constant speed, length_i consecutive samples of the back
-//         EMF are below limit_i.
+// pmc006_stall: detects a stall: at constant speed, length_i consecutive samples of the back EMF are below
+//         limit_i.
 // Rules:  P006-STA-03/14, P006-STL-01..06.
 // Timing: a sample is compared at the edge that ends the cycle of sample_i.valid. It is counted in the next
 //         cycle c. stall_o is set at the end of c. stop_o is combinational and already asserted in c, so

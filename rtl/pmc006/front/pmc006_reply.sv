@@ -7,7 +7,7 @@
 module pmc006_reply
   import pmc006_pkg::*;
 #(
-    parameter bit          Echo    = 1'b0,          // 1: the reply to s contains its data
+    parameter bit          Echo    = 1'b0,          // 1: the reply to instruction s contains the data of s
     parameter logic [31:0] Version = 32'h0000_0123
 ) (
     input wire logic clk_i,

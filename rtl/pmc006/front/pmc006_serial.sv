@@ -37,10 +37,11 @@ module pmc006_serial
   localparam logic [Width-1:0] Wrap = Width'(BitUnits + WrapOffset);
   localparam logic [Width-1:0] WrapHalf = Width'(BitUnits + WrapOffset + Modulus / 64'd2);
   // Initial phases for the cycle of valid, which is two cycles after the sample. With PhaseZero, a bit ends
-  // one bit after the sample, with PhaseHalf half a bit after it.
+  // one bit time after the sample. With PhaseHalf, it ends half a bit time after the sample.
   localparam logic [Width-1:0] PhaseZero = Width'(WrapOffset + 64'd2 * BitUnits);
   localparam logic [Width-1:0] PhaseHalf = Width'(WrapOffset + 64'd2 * BitUnits + Modulus / 64'd2);
-  // 192 bits until the next start bit, and 9.5 bits to the middle of the stop bit of this byte; rounded up.
+  // 192 bits until the start bit of the next byte, and 9.5 bits from there to the middle of the stop bit of
+  // that byte; rounded up.
   localparam int unsigned SilenceBits = 202;
 
   logic [7:0] char, next_byte, sum_q, bits_q;

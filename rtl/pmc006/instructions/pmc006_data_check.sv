@@ -11,7 +11,7 @@ module pmc006_data_check
 (
     input  wire logic            clk_i,
     input  wire logic            read_i,     // 1: read limits and register of op_i
-    input  wire logic            program_i,  // with read_i; 1: opcode of the user program, 0: of a frame
+    input  wire logic            program_i,  // with read_i; 1: op_i is a program code, 0: a frame code
     input  wire logic      [7:0] op_i,       // with read_i: instruction code
     input  wire exec_cmd_t       cmd_i,      // instruction with code op_i, from the cycle after read_i on
     output reg_access_t          access_o,   // register of the instruction that was read last

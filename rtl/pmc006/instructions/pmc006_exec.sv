@@ -36,7 +36,7 @@ module pmc006_exec
     output logic               exec_o,          // strobe: cmd_o is executed
     output logic               set_position_o,  // strobe: set the position
     input  wire logic          step_i,          // 1: a step is counted in this cycle
-    input  wire logic          try_accept_i,    // 1: E is accepted; valid with exec_o
+    input  wire logic          try_accept_i,    // 1: instruction E is accepted; valid with exec_o
     output logic               reply_sample_o   // strobe: sample the reply data
 );
 

@@ -23,9 +23,9 @@ module pmc006_program
     input  wire logic            word1_i,       // word to be addressed, 1: W1, 0: W0
     input  wire logic            use_pp_i,      // 1: address the instruction at PP
     output logic           [7:0] word_addr_o,   // address of a word in the buffer
-    output logic                 try_accept_o,  // strobe: E is accepted
+    output logic                 try_accept_o,  // strobe: instruction E is accepted
     output logic                 put_o,         // strobe: write a word into the buffer
-    output logic                 accepted_o,    // strobe: W, G, z or E is accepted
+    output logic                 accepted_o,    // strobe: instruction W, G, z or E is accepted
     input  wire logic            burning_i,     // 1: program being written, words must not change
     output logic           [7:0] pp_o,          // pointer PP, word address 0 .. 200
     // sources

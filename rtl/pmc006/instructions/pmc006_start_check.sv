@@ -3,8 +3,8 @@
 // Rules:  P006-STA-01..04/10/11/13/14/16/18/19, P006-CMD-55, P006-EXT-11.
 // Timing: start_o, run_o and halt_o are combinational. They are asserted in the cycle before the edge at
 //         which BUSY changes, and at most one of them is high in a cycle. speed_o is also combinational:
-//         during a speed run, it is 1 in the cycle of "N 1". Therefore "N 1" resumes a run that would end
-//         at the next edge.
+//         during a speed run, it is 1 in the cycle of instruction "N 1". Therefore this instruction resumes a
+//         run that would end at the next edge.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_eeprom: boot, save, burn and factory restore: transfers over the EEPROM bus and loads registers.
+// pmc006_eeprom: executes boot, save, burn and factory restore: transfers data over the EEPROM bus, and loads
+//         the registers.
 // Rules:  P006-EEP-01/10/11/20..23, P006-CMD-02/41, P006-BAD-12..15/22/24.
 // Timing: the bus uses ticks with the frequency 4 * I2C_HZ, see ppmc_i2c_master. A byte to be written is
 //         sampled at the tick at which its first bit begins. During the boot, the parameter page is first
@@ -167,7 +168,7 @@ module pmc006_eeprom
 
   // ---- factory restore ------------------------------------------------------------------------------------
 
-  // A restore at boot resets the parameter registers to the factory values, until the end of the boot.
+  // A restore at boot holds the parameter registers at the factory values until the end of the boot.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) rst_settings_no <= 1'b0;
     else rst_settings_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc: sequential processor of the motion planner. It has one adder, which multiplies and divides
-//         one bit per cycle, a small memory, and the program in pmc006_calc_rom (source: pmc006_calc.asm).
+// pmc006_calc: sequential processor of the motion planner. Contains one adder, a small memory, and the
+//         program in pmc006_calc_rom (source: pmc006_calc.asm). The adder multiplies and divides one bit per
+//         cycle.
 // Rules:  P006-MOT-10..23, P006-EXC-20..23; docs/pmc006/README.md, 6.1.
 // Timing: an instruction takes 2 cycles without an operand, 3 cycles with an operand, n + 2 cycles with n
 //         steps. A run ends within 785 cycles of plan_i, and within 590 cycles of advance_i. plan_i aborts
@@ -18,28 +19,28 @@ module pmc006_calc
     input  wire logic        advance_i,       // strobe: start the run of an update tick
     output logic             busy_o,          // 1: a run is in progress
     // motion; all except left_i are stable while busy_o is high
-    input  wire logic        short_i,         // 1: motion of kind L
-    input  wire logic        speed_i,         // 1: motion of kind V
+    input  wire logic        short_i,         // 1: short move (at most 255 steps)
+    input  wire logic        speed_i,         // 1: speed run
     input  wire logic        stop_i,          // 1: stop requested
     input  wire logic        analog_i,        // 1: the target speed is analog
     input  wire logic [ 2:0] acc_i,           // acceleration coefficient, sampled with plan_i
     input  wire logic [ 2:0] dec_i,           // deceleration coefficient, sampled with plan_i
-    input  wire logic [13:0] v_i,             // V
+    input  wire logic [13:0] v_i,             // current speed V
     input  wire logic [11:0] ve_i,            // VSTOP
-    input  wire logic [30:0] left_i,          // R; stable until 6 cycles after the strobe
-    input  wire logic [ 7:0] mstep_i,         // 1, 2, 4, .. 128
+    input  wire logic [30:0] left_i,          // remaining steps R; stable until 6 cycles after the strobe
+    input  wire logic [ 7:0] mstep_i,         // microsteps per full step: 1, 2, 4, .. 128
     // sampled settings; stable while busy_o is high
     input  wire logic [13:0] vmax_i,          // VMAX
-    input  wire logic [ 9:0] adc_i,           // h
+    input  wire logic [ 9:0] adc_i,           // sample h of the analog speed input
     input  wire logic [ 7:0] base_i,          // base code RB of the current
     input  wire logic [10:0] ccomp_i,         // CCOMP
     input  wire logic [10:0] scomp_i,         // SCOMP
     // results
     output phase_e           phase_o,         // phase of the motion
-    output logic      [13:0] next_v_o,        // Vn
+    output logic      [13:0] next_v_o,        // Vn, next value of V
     output logic             load_v_o,        // strobe: load V with Vn
-    output logic      [10:0] current_comp_o,  // Bn
-    output logic      [ 6:0] lead_angle_o     // Wn
+    output logic      [10:0] current_comp_o,  // Bn, next value of B
+    output logic      [ 6:0] lead_angle_o     // Wn, next value of W
 );
 
 

@@ -3,7 +3,9 @@
 //         pmc006_calc.
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, which the program in pmc006_calc.asm implements.
 // How:    an instruction is {operation, aux, operand} or {jump, condition, target}. {hi, lo} is the 64-bit
-//         accumulator; the adder has 32 bits, and load, add and sub use only hi.
+//         accumulator; the adder has 32 bits, and load, add and sub use only hi. V is the current speed, VT
+//         the target speed, R the remaining steps, h the analog sample, na and nd are the coefficients of
+//         acceleration and deceleration. Vn, Bn and Wn are the next values of V, B and W.
 `default_nettype none
 
 package pmc006_calc_pkg;
@@ -28,7 +30,7 @@ package pmc006_calc_pkg;
   // aux of a load, addition, subtraction or division.
   typedef enum logic [3:0] {
     OperandPlain,
-    OperandDec,    // RWay uses nd, not na
+    OperandDec,    // RWay uses nd instead of na
     OperandLow,    // result in lo; then hi = 0
     OperandLowDec
   } operand_mode_e;
@@ -54,7 +56,7 @@ package pmc006_calc_pkg;
   // Bits 6:5 select 00: a word of pmc006_calc_words, 01: a table of pmc006_calc_words, 10: a register.
   typedef enum logic [6:0] {
     // words that the program writes
-    MLt     = 7'h00,  // last live target
+    MLt     = 7'h00,  // last target speed
     MU      = 7'h01,  // progress of the ramp
     MDu     = 7'h02,  // increment of MU; 0 represents 2^32
     MV1     = 7'h03,  // first speed of the ramp
@@ -85,10 +87,10 @@ package pmc006_calc_pkg;
     RVmax   = 7'h43,
     RAdc    = 7'h44,  // h << 6
     RAdc9   = 7'h45,  // h[9] << 6
-    RBase   = 7'h46,  // RB
+    RBase   = 7'h46,  // base code RB of the current
     RCcomp  = 7'h47,
     RScomp  = 7'h48,
-    RMstep  = 7'h49,  // 1, 2, 4, .. 128
+    RMstep  = 7'h49,  // microsteps per full step: 1, 2, 4, .. 128
     // registers of pmc006_calc
     RLo     = 7'h4c,
     RMid    = 7'h4d,  // {hi, lo} >> 16
@@ -101,9 +103,9 @@ package pmc006_calc_pkg;
     CondCarry,
     CondNotCarry,
     CondZero,      // hi = 0
-    CondShort,     // kind L
-    CondSpeed,     // kind V
-    CondStop,      // kind V, and the stop request is active
+    CondShort,     // short move: at most 255 steps
+    CondSpeed,     // speed run
+    CondStop,      // speed run, and the stop request is active
     CondAnalog,
     CondPlan,      // run that was started by plan_i, before t = 0
     CondEnding,    // phase STOP or END
@@ -115,7 +117,7 @@ package pmc006_calc_pkg;
     CondDec5       // nd = 5
   } cond_e;
 
-  // Bit 2 = 1 is a ramp; bit 2 = 0 is the phase that follows this ramp.
+  // Bit 2 = 1: a ramp. Bit 2 = 0: the phase that follows the ramp with the same bits 1:0.
   typedef enum logic [2:0] {
     PhCruise = 3'b000,
     PhCreep  = 3'b001,

@@ -93,7 +93,7 @@ module pmc006_motion
       stop_q   <= !motion_start_i.speed;
       ccomp_q  <= settings_i.ccomp;
       scomp_q  <= settings_i.scomp;
-      steady_q <= busy_q && phase == PhCruise && next_v != '0;  // at t = 0, Vn is the planned V
+      steady_q <= busy_q && phase == PhCruise && next_v != '0;  // at t = 0, next_v is the planned speed
     end
   end
 

@@ -13,25 +13,25 @@ module pmc006_rate (
     input  wire logic        rst_ni,
     input  wire logic        us_i,            // strobe every microsecond
     input  wire logic [30:0] count_i,         // number of steps, sampled in the cycle before busy_i rises
-    input  wire logic [11:0] vstart_i,        // VSTART, the first V; sampled with count_i
-    input  wire logic        endless_i,       // 1: motion of kind V, which left_o does not end
+    input  wire logic [11:0] vstart_i,        // VSTART, first value of V; sampled with count_i
+    input  wire logic        endless_i,       // 1: speed run, which left_o does not end
     input  wire logic        busy_i,          // the motion is in progress
     input  wire logic        halt_i,          // 1: stop the motion immediately
     input  wire logic        end_run_i,       // 1: end the motion at the next update tick
     input  wire logic        load_v_i,        // strobe: load Vn into V
-    input  wire logic [13:0] next_v_i,        // Vn
-    input  wire logic [10:0] current_comp_i,  // Bn
-    input  wire logic [ 6:0] lead_angle_i,    // Wn
+    input  wire logic [13:0] next_v_i,        // Vn, next value of V
+    input  wire logic [10:0] current_comp_i,  // Bn, next value of B
+    input  wire logic [ 6:0] lead_angle_i,    // Wn, next value of W
     output logic             t0_o,            // strobe: t = 0
     output logic             update_o,        // strobe: update tick, every 100 µs
     output logic             sample_o,        // strobe: in every 100th update tick
     output logic             advance_o,       // strobe: begin the computation for the next update tick
     output logic             step_o,          // combinational; 1: a step is made at the next edge
     output logic             motion_end_o,    // combinational; 1: the motion ends (halted or complete)
-    output logic      [13:0] v_o,             // V
-    output logic      [30:0] left_o,          // R
-    output logic      [10:0] current_comp_o,  // B
-    output logic      [ 6:0] lead_angle_o     // W
+    output logic      [13:0] v_o,             // current speed V
+    output logic      [30:0] left_o,          // remaining steps R
+    output logic      [10:0] current_comp_o,  // current compensation B
+    output logic      [ 6:0] lead_angle_o     // lead angle W
 );
 
   // Minimum time from acceptance to t = 0, in cycles. The planner needs fewer cycles, see pmc006_calc.

@@ -88,8 +88,8 @@ module ppmc312_bus #(
     end
   end
 
-  // A data access that begins less than T_WRQ after the end of the previous data access is stretched by the
-  // wait request for the remaining time.
+  // If a data access begins less than T_WRQ after the end of the previous data access, the wait request
+  // stretches it for the remaining time.
   logic [Width-1:0] age_q;  // cycles since the end of the last data access
   logic [Width-1:0] wait_q;  // remaining cycles of the wait
   logic early;

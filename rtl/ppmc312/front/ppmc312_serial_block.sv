@@ -22,8 +22,8 @@ module ppmc312_serial_block
 
   localparam logic [3:0] FlagsAt = 4'd3;  // position of the first parameter
   localparam logic [3:0] InnerLenAt = 4'd5;  // position of the length byte of the embedded block
-  localparam logic [BLOCK_BITS:0] InnerOverhead = 6'd6;  // bytes that the inner length excludes
-  localparam logic [BLOCK_BITS:0] InvalidSize = 6'd2;  // causes the error "size abnormality"
+  localparam logic [BLOCK_BITS:0] InnerOverhead = 6'd6;  // bytes that the embedded length byte does not count
+  localparam logic [BLOCK_BITS:0] InvalidSize = 6'd2;  // size that causes the error "size abnormality"
 
   logic [3:0] inner_q;
   logic too_long_q;

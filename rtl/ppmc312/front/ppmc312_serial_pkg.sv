@@ -67,7 +67,7 @@ package ppmc312_serial_pkg;
 
   typedef struct packed {
     reply_kind_e     kind;
-    logic [2:0]      count;          // data bytes
+    logic [2:0]      count;          // number of data bytes
     logic            from_response;  // 1: the response queue contains the data bytes
     logic [2:0][7:0] data;           // from_response = 0: data bytes, data[0] first
   } reply_t;

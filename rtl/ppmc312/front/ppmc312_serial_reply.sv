@@ -78,7 +78,7 @@ module ppmc312_serial_reply
 
   always_comb begin
     fails = 1'b0;
-    error = host_result_i.code[3:0] + 4'd2;  // error of response F0: 42, F1: 43, F2: 44, F6: 48, F7: 49
+    error = host_result_i.code[3:0] + 4'd2;  // error code for response F0: 42, F1: 43, F2: 44, F6: 48, F7: 49
     if (host_result_i.code[7:4] == 4'hf) fails = 1'b1;
     else if (host_result_i.code == I_EVT_SET && host_result_i.first inside {3'd1, 3'd2, 3'd5}) begin
       fails = 1'b1;

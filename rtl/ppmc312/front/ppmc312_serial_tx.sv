@@ -47,7 +47,7 @@ module ppmc312_serial_tx
   logic bit_end, last_q;
   logic [GapBits-1:0] gap_q;  // bit times until the line is free
   logic [Width-1:0] phase_q;
-  logic [2:0] at_q;  // data bytes sent
+  logic [2:0] at_q;  // number of data bytes sent
   logic [3:0] left_q;  // remaining bits of the character
   logic [7:0] bits_q, char;
   logic [6:0] sum_q, control;
@@ -78,8 +78,8 @@ module ppmc312_serial_tx
 
   assign sent_o = snd_o && bit_end && left_q == '0 && last_q;
 
-  // The phase starts one step ahead, to compensate for the registers of the pins. It also times the gap.
-  // The gap has at most 9 bits, so it ends before the next stop bit can be received.
+  // The phase starts one step ahead, to compensate for the registers of the pins. The phase also times the
+  // gap before the reply. This gap has at most 9 bits, so it ends before the next stop bit can be received.
   always_ff @(posedge clk_i) begin
     if (!snd_o && gap_q == '0) {bit_end, phase_q} <= {1'b0, wrap_i};
     else {bit_end, phase_q} <= {1'b0, phase_q} + {1'b0, bit_end ? wrap_i : step_i};

@@ -168,7 +168,7 @@ module ppmc312_instr_check
     endcase
   end
 
-  function automatic logic stages_bad(logic [7:1] n);  // n: number of stages without its lowest bit
+  function automatic logic stages_bad(logic [7:1] n);  // n: bits 7:1 of the number of stages
     return n[7] || n[6:1] == '0;  // below 2 or above 127
   endfunction
 

@@ -39,8 +39,8 @@ module ppmc312_instr_queue
     logic [1:0] trig;
   } tag_t;
 
-  // enqueue_i.code, trig and pos are stable while the bytes of an entry are written, so each of these
-  // writes also writes the head. No block uses data that are read from an address while it is written.
+  // enqueue_i.code, trig and pos are stable while the bytes of an entry are written, so each write of a byte
+  // also writes the head. No block uses data that are read from an address while it is written.
   (* ram_style = "block", no_rw_check *)
   logic [34:0] heads[16];
   logic [34:0] ahead_q;  // head of the entry that is armed next

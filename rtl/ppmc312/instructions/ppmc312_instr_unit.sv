@@ -37,7 +37,7 @@ module ppmc312_instr_unit
     // table
     output logic built_o,  // strobe: a new table becomes active
     output table_t table_o,  // active table
-    output target_t start_target_o,  // look-up result of rate table_o.rate_acc
+    output target_t start_target_o,  // look-up result for table_o.rate_acc
     input wire table_addr_t table_addr_i,  // read port of the motion
     output stage_t stage_o,  // stage at table_addr_i, two cycles later
     // responses, class 2
@@ -271,7 +271,8 @@ module ppmc312_instr_unit
       .size_o(table_size)
   );
 
-  // The register delays the bytes by one cycle, so the last byte is written in the cycle of the commit.
+  // The register delays the bytes by one cycle, so the last byte is written in the cycle of
+  // response_done_o.valid.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) response_write_o <= '0;
     else begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_settings: stores the settings of motions that instructions change. These are the high-speed limit,
-//         and whether END and RUN are monitored.
+// ppmc312_settings: stores settings for motions, which instructions change: the high-speed limit, and whether
+//         END and RUN are monitored.
 // Rules:  P312-CMD-05/06/45, P312-CMD-00, P312-GEN-12.
 // Timing: outputs follow execute_i and built_i by one cycle.
 `default_nettype none
@@ -15,7 +15,7 @@ module ppmc312_settings
     input  wire logic [15:0] value_i,          // first two parameters
     input  wire logic        built_i,          // strobe: a new table is active
     input  wire logic [15:0] high_rate_i,      // high-speed rate of the table
-    output logic      [15:0] limit_rate_o,     // HSL, base clocks
+    output logic      [15:0] limit_rate_o,     // rate limit HSL in base clocks
     output logic             end_monitored_o,  // 1: END is monitored
     output logic             run_ignored_o     // 1: RUN is not monitored
 );

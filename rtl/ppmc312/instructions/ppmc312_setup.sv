@@ -79,7 +79,7 @@ module ppmc312_setup
       begun_q <= 1'b0;
       split_q <= 1'b0;
     end else begin
-      begun_q <= state_q inside {StBuild, StClose};  // unit_busy_i is valid from then on
+      begun_q <= state_q inside {StBuild, StClose};  // unit_busy_i is valid while begun_q = 1
       if (new_curve) split_q <= le;
       unique case (state_q)
         StIdle: begin

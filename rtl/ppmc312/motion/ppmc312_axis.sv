@@ -23,7 +23,7 @@ module ppmc312_axis
     // active table
     input  wire logic         built_i,         // strobe: a new table is active
     input  wire table_t       table_i,         // description of the table
-    input  wire target_t      start_target_i,  // look-up result of rate table_i.rate_acc
+    input  wire target_t      start_target_i,  // look-up result for table_i.rate_acc
     output table_addr_t       table_addr_o,    // read port of the table
     input  wire stage_t       stage_i,         // stage at table_addr_o, two cycles later
     // pins

@@ -21,7 +21,7 @@ module ppmc312_motion
     input  wire logic             rst_ni,          // reset, asynchronous
     // active table
     input  wire table_t           table_i,         // description of the table
-    input  wire target_t          start_target_i,  // look-up result of rate table_i.rate_acc
+    input  wire target_t          start_target_i,  // look-up result for table_i.rate_acc
     output table_addr_t           table_addr_o,    // read port of the table
     input  wire stage_t           stage_i,         // stage at table_addr_o, two cycles later
     // instructions
@@ -118,7 +118,7 @@ module ppmc312_motion
     request.als = enter || abn_q;
     request.stl = limit;
     request.org = op_q.origin && origin;
-    request.stp = halt_i || (motion_req_i.pos_halt && !complete_q);  // ignored after the last pulse
+    request.stp = halt_i || (motion_req_i.pos_halt && !complete_q);  // no pos_halt after the last pulse
     immediate   = state_q == StPulses && request != '0;
   end
 
@@ -194,7 +194,7 @@ module ppmc312_motion
           if (enter && (phase2_next_q || (wait_pos_q && cause_q.stp))) begin
             cause_q <= '{als: 1'b1, default: 1'b0};
             phase2_next_q <= 1'b0;
-          end else if (stop_between) begin  // stop between the two phases
+          end else if (stop_between) begin  // stop between the two phases of a zero return
             cause_q <= '{stp: halt_i, low: !halt_i, default: 1'b0};
             phase2_next_q <= 1'b0;
           end else if (output_end) state_q <= stop_o ? StIdle : StWaitEnd;
@@ -266,7 +266,7 @@ module ppmc312_motion
       .single_i(motion_req_i.single_pulse),
       .change_i(motion_req_i.change && state_q == StPulses),
       .change_ramp_i,
-      .slow_i((too_fast || decel_q || at_origin) && state_q == StPulses),  // at most 4 cycles after the pin
+      .slow_i((too_fast || decel_q || at_origin) && state_q == StPulses),  // delay from pin: <= 4 cycles
       .next_end_o(next_end),
       .next_low_o(next_low),
       .next_count_o(next_count),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_move: executes a motion or a rate change that has passed the check. First checks the limits, then
-//         makes a look-up or plan, then starts or changes the motion.
+//         looks up the rate or plans the operation, then starts or changes the motion.
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (check 8), P312-STA-04.
 // Timing: result_o.done follows begin_i by 4 cycles for a single step, which needs no look-up. Otherwise
 //         the time of the planner is added. start_o or change_o is asserted together with result_o.done.
@@ -20,7 +20,7 @@ module ppmc312_move
     input wire status_e status_i,  // status of the device
     input wire table_t table_i,  // active table
     input wire motor_inputs_t levels_i,  // input pins, filtered
-    input wire logic [15:0] limit_rate_i,  // HSL, base clocks
+    input wire logic [15:0] limit_rate_i,  // rate limit HSL in base clocks
     input wire logic gate_i,  // 0: the start gate holds a start
     input wire logic elapsed_i,  // the processing time has passed
     output move_status_t result_o,  // result

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_position: counts position and encoder position, releases the interlock at its position, and
-//         monitors positions.
+// ppmc312_position: counts position and encoder position, ends interlock control at the interlock position,
+//         and monitors positions.
 // Rules:  P312-MOT-05, P312-MON-01..06, P312-OUT-03, P312-CMD-04/43/44.
 // Timing: pos_o and counted_o follow count_i by one cycle. The monitors evaluate a position 3 cycles after it
 //         is valid on pos_o or enc_o. The in-position monitor does not evaluate while pulses are output, nor
@@ -27,7 +27,7 @@ module ppmc312_position
     input wire logic set_lock_i,  // strobe: set the interlock position
     input wire logic toggle_lock_i,  // strobe: toggle interlock control
     input wire logic [1:0] set_window_i,  // strobes: latch flags and range
-    input wire logic [2:0] window_flags_i,  // FO, RES, EN
+    input wire logic [2:0] window_flags_i,  // flags FO, RES, EN of the instruction
     input wire logic [15:0] window_range_i,  // range in pulses
     // positions
     output logic [31:0] pos_o,  // position in pulses
@@ -44,7 +44,7 @@ module ppmc312_position
     input wire logic [1:0] load_i,  // strobes: the report is being loaded
     input wire logic [1:0] read_i,  // strobes: the report has been read
     output logic coupled_inside_o,  // 1: coupled_o = 1, and the position is inside
-    output logic coupled_o  // 1: zero clamp coupled, in-position evaluated
+    output logic coupled_o  // 1: in-position is evaluated and coupled to the zero clamp
 );
 
   logic epin_q, couple_q, hit, settled;

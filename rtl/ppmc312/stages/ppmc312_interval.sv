@@ -37,7 +37,8 @@ module ppmc312_interval #(
   logic [2:0] age_q;  // cycles since the pulse, 0 .. 4
   logic [PreBits-1:0] pre_q, pre_load;
   logic rest_q;  // 1: pre_q is 0; a separate register, because of its fan-out
-  logic [RateBits-1:0] left_q, half_q;  // remaining base clocks; left_q in the middle of the interval
+  // left_q: remaining base clocks; half_q: value of left_q in the middle of the interval
+  logic [RateBits-1:0] left_q, half_q;
 
   assign external = base_i >= ExtRise;
   assign restart  = fire_i && first_i;

@@ -24,8 +24,8 @@ module ppmc312_muldiv #(
     input wire logic keep_i,  // 1: continue with {hi, lo} instead of h and lo_i
     input wire logic [5:0] steps_i,  // number of steps, 1 .. LoBits
     input wire logic [LoBits-1:0] lo_i,  // multiplication: multiplier; division: low part of the dividend
-    // In the cycle of start_i: h, which is the summand or the upper part of the dividend. Then the operand,
-    // which is stable while busy_o = 1.
+    // In the cycle of start_i, operand_i is h: the summand, or the upper part of the dividend. From the next
+    // cycle on, it is the operand, and is stable while busy_o = 1.
     input wire logic [HiBits-1:0] operand_i,  // h, then the operand
     output logic busy_o,  // 1: the result is not valid yet
     output logic [HiBits-1:0] hi_o,  // multiplication: product; division: remainder
@@ -36,11 +36,7 @@ module ppmc312_muldiv #(
   logic mul_q, load, last;
   logic busy_q, shift_q;  // busy_q: left_q is not 0; shift_q: a division is in progress
   logic correct_q;  // 1: add the operand if the remainder is below 0
-  logic
-      use_operand_q,
-      subtract_q,
-      use_operand,
-      subtract;  // use_operand: the operand is used; subtract: it is subtracted
+  logic use_operand_q, subtract_q, use_operand, subtract;
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;

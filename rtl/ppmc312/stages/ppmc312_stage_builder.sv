@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_builder: fills the stage table from the start-up, stop and high-speed rates and the pulses
-//         of both sides.
+// ppmc312_stage_builder: fills the stage table. Computes it from the start-up, stop and high-speed rates, and
+//         from the pulses of the acceleration side and the deceleration side.
 // Rules:  P312-TBL-01..06, P312-CMD-00 (0x05).
 // Timing: busy_o rises at the edge that ends the cycle of start_i. It falls when the table and its
 //         description are complete, after at most 127 * 300 cycles.
@@ -49,7 +49,7 @@ module ppmc312_stage_builder
     StHalf,    // D / 2
     StCurve,   // C + D / 2
     StRate,    // R = (C + D / 2) / D
-    StBegin,   // checks whether a side begins here
+    StBegin,   // checks whether a side begins at this stage
     StSum,     // S + D; S: sum of D
     StProportion,   // P * D + remainder; P: pulses of the side
     StPulses,  // divides the result of StProportion by S
@@ -66,7 +66,7 @@ module ppmc312_stage_builder
     WordSpeed,
     WordHalf,
     WordZero,    // never written
-    WordSum,     // sum of the first side
+    WordSum,     // sum S of the acceleration side
     WordSumDec,
     WordRemainder,
     WordRemainderDec

@@ -20,8 +20,8 @@ package ppmc312_stage_pkg;
   // Start of a deceleration along the table.
   typedef struct packed {
     logic [6:0]  stage;
-    logic        is_partial;  // 1: uses only some of the pulses of this stage
-    logic [23:0] pulses;      // with is_partial: number of pulses used
+    logic        is_partial;  // 1: the deceleration uses only some pulses of `stage`
+    logic [23:0] pulses;      // with is_partial: number of used pulses
   } ramp_pos_t;
 
   // Ramp of an initialisation, or description of a free curve at the start of its transfer.

@@ -31,7 +31,7 @@ module ppmc312_stage_plan
     input wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
     input wire logic [23:0] table_acc_i,  // acceleration pulses of this stage, two cycles later
     input wire logic [23:0] table_dec_i,  // deceleration pulses of this stage; valid with both_o
-    output target_t target_o,  // look-up result of rate_i
+    output target_t target_o,  // look-up result for rate_i
     // plan
     output logic starts_with_accel_o,  // the operation begins with acceleration
     output logic [7:0] kind_o,  // status byte: 00: trapezoidal, 10: triangular, 20, 40: right-angled
@@ -53,7 +53,7 @@ module ppmc312_stage_plan
     StFind,          // looks up the rate, adds the pulses
     StOneSide,       // adds the pulses of stages that only one side has
     StAcc,           // adds the acceleration pulses of stages that both sides have
-    StDec,           // adds the deceleration pulses of these stages
+    StDec,           // adds the deceleration pulses of stages that both sides have
     StKind,
     StDecOneSide,    // adds all pulses of the deceleration side
     StDecAll,
@@ -69,8 +69,8 @@ module ppmc312_stage_plan
 
   state_e state_q;
   logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
-  // valid_q[1] = 1: the table outputs stage `at`. in_acc_q, in_dec_q: the side contains [0]: stage `at`,
-  // [1]: the stage before it.
+  // valid_q[1] = 1: the table outputs stage `at`. in_acc_q[0], in_dec_q[0]: the side contains stage `at`;
+  // in_acc_q[1], in_dec_q[1]: it contains the stage before `at`.
   logic [1:0] valid_q, in_acc_q, in_dec_q;
   // Signals of StSearch. over_none: no pulse remains. The registers are one cycle late. below_q: `ahead` is
   // negative; begins_q: first cycle of the search; counts_q: the pulses of the stage are added.
@@ -87,8 +87,8 @@ module ppmc312_stage_plan
 
   // ---- passes -------------------------------------------------------------------------------------
 
-  // The table outputs stage `at`. A look-up begins with the address before stage 0, because t(x) may be this
-  // address.
+  // The table outputs stage `at`. A look-up begins one address before stage 0, because its result t(x) may be
+  // this address.
   assign at = at_q[1];
   assign both = in_acc_q[0] && in_dec_q[0];
   assign step = valid_q[1];
@@ -172,7 +172,7 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_pulses_o: number of pulses of the complete deceleration, or of the pulses that remain for it
+  // dec_pulses_o: number of pulses of the complete deceleration, or number of pulses that remain for it
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 

@@ -25,12 +25,12 @@ module ppmc312_stage_seq
     // active table
     input wire logic [6:0] first_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
-    input wire logic [15:0] rate_dec_i,  // R[first_dec_i], base clocks
+    input wire logic [15:0] rate_dec_i,  // rate of stage first_dec_i, base clocks
     output table_addr_t table_addr_o,  // read port of the table
     input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
     input wire logic load_i,  // strobe: start profile_i
-    input wire profile_t profile_i,  // with load_i; target for a change: 2 cycles after change_i
+    input wire profile_t profile_i,  // sampled with load_i; target also 2 cycles after change_i
     input wire logic single_i,  // with load_i; 1: one pulse, regardless of dec_pulses
     // requests
     input wire logic change_i,  // strobe: change the rate; replaces a pending change
@@ -77,7 +77,8 @@ module ppmc312_stage_seq
   boundary_action_t action, action_q, action_q2;
   interval_mode_t mode_q, next, next_q, next_q2;
   logic [1:0][6:0] addr_q;
-  logic [1:0] low_end_q, ramp_end_q;  // low_end_q: the ramp ends at first_dec_i; ramp_end_q: at ramp_to
+  // low_end_q: the ramp ends at first_dec_i; ramp_end_q: the ramp ends at ramp_to
+  logic [1:0] low_end_q, ramp_end_q;
   logic low_end, ramp_end;
   target_t pending_q, target_q;
   logic pending_valid_q, pending_ramp_q, load_q, endless_q, no_decel_point_q, first_q;
@@ -117,8 +118,8 @@ module ppmc312_stage_seq
   always_ff @(posedge clk_i) begin
     zero_q <= left_q == '0 && !endless_q;
     decel_point_q <= left_q == 32'(dec_q) && !no_decel_point_q;
-    // If a constant rate is faster than R[first_dec_i], the look-up has found a stage at or above
-    // first_dec_i.
+    // If a constant rate is faster than the rate of stage first_dec_i, the look-up has found a stage at or
+    // above first_dec_i.
     can_decel_q <= rate_q < rate_dec_i && (mode_q.const_rate || !ppmc_pkg::less(
         32'(stage_q), 32'(first_dec_i)
     ));
@@ -180,7 +181,7 @@ module ppmc312_stage_seq
         if (!can_decel_q) begin
           next.const_rate = 1'b1;
           next.last = mode_q.last;
-          action.keep_rate = !mode_q.const_rate;  // the running stage becomes a constant rate
+          action.keep_rate = !mode_q.const_rate;  // the stage rate becomes the constant rate
         end
       end
     end else if (pending_valid_q && mode_q.const_rate && ramp_ready_q[3]) begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_table: stores a ramp of up to 127 stages in block RAM. For each stage, it contains the
-//         rate, and the pulses for both sides.
+// ppmc312_stage_table: stores a ramp of up to 127 stages in block RAM. Each stage has a rate, a number of
+//         acceleration pulses and a number of deceleration pulses.
 // Rules:  P312-TBL-01, P312-CMD-FC-10.
 // Timing: read latency 2 cycles.
 // How:    each of the two read ports has a separate copy of the RAM. The motion uses port a, and planner

@@ -27,7 +27,7 @@ module ppmc312_stage_unit
     input wire logic close_i,  // strobe: the transfer is complete; latch curve_i.acc, .dec
     // active table
     output table_t table_o,  // description of the table
-    output target_t start_target_o,  // look-up result of rate table_o.rate_acc
+    output target_t start_target_o,  // look-up result for table_o.rate_acc
     input wire table_addr_t read_addr_i,  // read-back address
     output stage_t read_stage_o,  // stage at read_addr_i, two cycles later; not valid while busy
     // planning
@@ -43,7 +43,7 @@ module ppmc312_stage_unit
   typedef enum logic [1:0] {
     StIdle,
     StBuild,
-    StStartRate  // looks up rate R[first_acc]
+    StStartRate  // looks up the rate of stage first_acc
   } state_e;
 
   state_e state_q;

@@ -1,7 +1,10 @@
-"""Constraint files in the formats of nextpnr (.pcf, .lpf, .cst), Vivado (.xdc) and Quartus (.qsf)."""
+"""Constraint files for nextpnr (.pcf, .lpf, .cst) and vendors' tools (.xdc, .qsf, .pdc, .isf, .cst)."""
 
 from __future__ import annotations
 
+import re
+
+from scripts.fpga.boards.description import LANGUAGES
 from scripts.fpga.boards.pads import Fitted, Pad
 from scripts.fpga.boards.texts import head, title, wrapped
 
@@ -37,42 +40,67 @@ def xdc(fitted: Fitted, pad: Pad) -> list[str]:
 def qsf(fitted: Fitted, pad: Pad) -> list[str]:
     """Return the lines of a pad for the Cyclone V."""
     lines = [
-        f"set_location_assignment PIN_{pad.pin} -to {pad.bit}  ;# {pad.where}",
-        f'set_instance_assignment -name IO_STANDARD "{pad.standard}" -to {pad.bit}',
+        f"set_location_assignment PIN_{pad.pin} -to {{{pad.bit}}}  ;# {pad.where}",
+        f'set_instance_assignment -name IO_STANDARD "{pad.standard}" -to {{{pad.bit}}}',
     ]
     if pad.pull == "up":
-        lines.append(f"set_instance_assignment -name WEAK_PULL_UP_RESISTOR ON -to {pad.bit}")
+        lines.append(f"set_instance_assignment -name WEAK_PULL_UP_RESISTOR ON -to {{{pad.bit}}}")
     return lines
 
 
-PADS = {"pcf": pcf, "lpf": lpf, "cst": cst, "xdc": xdc, "qsf": qsf}
-COMMENT = {"pcf": "#", "lpf": "#", "cst": "//", "xdc": "#", "qsf": "#"}
-APART = ("cst", "qsf")
+def pdc(fitted: Fitted, pad: Pad) -> list[str]:
+    """Return the lines of a pad of the iCE40 for Radiant."""
+    pull = " PULLMODE=100K" if pad.pull == "up" else ""
+    return [
+        f"ldc_set_location -site {{{pad.pin}}} [get_ports {{{pad.bit}}}] ;# {pad.where}",
+        f"ldc_set_port -iobuf {{IO_TYPE={pad.standard}{pull}}} [get_ports {{{pad.bit}}}]",
+    ]
+
+
+def isf(fitted: Fitted, pad: Pad) -> list[str]:
+    """Return the lines of a pad for the Trion: calls of Efinity's Interface Designer."""
+    way = {"in": "input", "out": "output"}[pad.way]
+    bits = fitted.bits(pad.port)
+    lines = []
+    if pad.bit == bits[0]:
+        high, low = (re.sub(r"\D", "", bit.removeprefix(pad.port)) for bit in (bits[-1], bits[0]))
+        bus = f", {high}, {low}" if low else ""
+        lines.append(f'design.create_{way}_gpio("{pad.port}"{bus})')
+    lines += [
+        f'design.assign_pkg_pin("{pad.bit}", "{pad.pin}")  # {pad.where}',
+        f'design.set_property("{pad.bit}", "IO_STANDARD", "{pad.standard}")',
+    ]
+    if pad.pull == "up":
+        lines.append(f'design.set_property("{pad.bit}", "PULL_OPTION", "WEAK_PULLUP")')
+    return lines
+
+
+PADS = {"pcf": pcf, "lpf": lpf, "cst": cst, "xdc": xdc, "qsf": qsf, "pdc": pdc, "isf": isf}
+COMMENT = dict.fromkeys(PADS, "#") | {"cst": "//"}
+APART = ("cst", "qsf", "isf")
 """Formats without clock constraints: the clocks are in clocks.sdc."""
 
 
-def preamble(fitted: Fitted) -> list[str]:
+def preamble(fitted: Fitted, language: str) -> list[str]:
     """Return the lines before the pins: the board's own statements, and the device for Quartus."""
     board, lines = fitted.board, list[str]()
-    mark = COMMENT[board.language]
+    mark = COMMENT[language]
     if board.statements:
         lines += ["", f"{mark} {board.statements['reason']}", *board.statements["lines"]]
-    if board.language == "qsf":
+    if language == "qsf":
         lines += [
             "",
-            "# To be sourced into a project: device, top, pins. The sources are listed by rtl/files.yml.",
+            "# To be sourced into a project: device, top, pins. Also add the plain Verilog and clocks.sdc.",
             f'set_global_assignment -name FAMILY "{board.vendor["family"]}"',
             f"set_global_assignment -name DEVICE {board.vendor['device']}",
             f"set_global_assignment -name TOP_LEVEL_ENTITY {fitted.top}",
-            "set_global_assignment -name SDC_FILE clocks.sdc",
         ]
     return lines
 
 
-def clock(fitted: Fitted) -> list[str]:
+def clock(fitted: Fitted, language: str) -> list[str]:
     """Return the constraint of the oscillator."""
     port, mhz = fitted.board.clock["port"], fitted.board.clock["mhz"]
-    language = fitted.board.language
     derived = "; the PLL's output follows from it" if "module" in fitted.board.clock else ""
     lines = [f"# oscillator{derived}"]
     if language == "pcf":
@@ -95,17 +123,24 @@ def clock(fitted: Fitted) -> list[str]:
 
 def files(fitted: Fitted) -> dict[str, str]:
     """Return the constraint files of a board with a part: name below constraints/ -> text."""
-    board, on = fitted.board, fitted.on
-    language = board.language
-    mark = COMMENT[language]
+    return {
+        name: text
+        for language in LANGUAGES[fitted.board.family]
+        for name, text in files_in(fitted, language).items()
+    }
+
+
+def files_in(fitted: Fitted, language: str) -> dict[str, str]:
+    """Return the pin file in one language, and the file of its clocks if they are apart."""
+    board, on, mark = fitted.board, fitted.on, COMMENT[language]
     about = f"{fitted.top}: {title(fitted)}. Wiring: docs/boards.md."
     lines = [*head(fitted, mark), *wrapped(mark, about, on.note)]
-    lines += preamble(fitted)
+    lines += preamble(fitted, language)
     for group in fitted.groups:
         lines += ["", f"{mark} {group.title}"]
         lines += [line.rstrip() for pad in group.pads for line in PADS[language](fitted, pad)]
-    name = board.constraints(on)
+    name = board.constraints(on, language)
     if language not in APART:
-        return {name: "\n".join([*lines, "", *clock(fitted), ""])}
-    clocks = [*head(fitted, "#"), *wrapped("#", about), "", *clock(fitted), ""]
+        return {name: "\n".join([*lines, "", *clock(fitted, language), ""])}
+    clocks = [*head(fitted, "#"), *wrapped("#", about), "", *clock(fitted, language), ""]
     return {name: "\n".join([*lines, ""]), f"{board.name}/{on.name}/clocks.sdc": "\n".join(clocks)}

@@ -23,8 +23,15 @@ HOSTS = ("uart", "bus", "spi")
 SHOWS = ("link", "moving", "switch", "running")
 """States that an LED can indicate, in the order of the bits of leds_o of ppmc_board_leds."""
 
-LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cyclone5": "qsf"}
-"""FPGA family -> suffix of its constraint files."""
+LANGUAGES = {
+    "ice40": ("pcf", "pdc"),
+    "ecp5": ("lpf",),
+    "gowin": ("cst",),
+    "artix7": ("xdc",),
+    "cyclone5": ("qsf",),
+    "trion": ("isf",),
+}
+"""FPGA family -> suffixes of its pin files; the first is that of the tool in the table of boards."""
 
 # Section -> (required keys, optional keys).
 KEYS = {
@@ -33,7 +40,7 @@ KEYS = {
         "revisions code devices vendor suffix loader port ties defaults statements",
     ),
     "device": ("title device route", "chip"),
-    "vendor": ("tool target device", "family"),
+    "vendor": ("tool device", "family grade target"),
     "clock": ("port pin mhz what", "module set"),
     "reset": ("port pin active what", "pull"),
     "leds": ("active pins", ""),
@@ -136,12 +143,12 @@ class Description:
 
     @property
     def language(self) -> str:
-        """Suffix of the constraint files."""
-        return LANGUAGES[self.family]
+        """Suffix of the first pin file."""
+        return LANGUAGES[self.family][0]
 
-    def constraints(self, on: Carried) -> str:
-        """Return the path of the pin file with this part, below constraints/."""
-        return f"{self.name}/{on.name}/pins.{self.language}"
+    def constraints(self, on: Carried, language: str = "") -> str:
+        """Return the path of a pin file with this part, below constraints/; default: the first one."""
+        return f"{self.name}/{on.name}/pins.{language or self.language}"
 
 
 def checked(where: str, section: str, found: Any) -> dict[str, Any]:
@@ -207,8 +214,8 @@ def load(path: Path) -> Description:
         line = error.problem_mark.line + 1 if error.problem_mark else 1
         raise ProjectError(f"{where}: line {line}: {error.problem}") from None
     keys = dict(checked(where, "board", found))
-    if ("devices" in keys) == ("vendor" in keys):
-        raise ProjectError(f"{where}: expected either devices (built here) or vendor (by the vendor's tool)")
+    if "devices" not in keys and "vendor" not in keys:
+        raise ProjectError(f"{where}: expected devices (built here) or vendor (by the vendor's tool)")
     if keys["family"] not in LANGUAGES:
         raise ProjectError(f"{where}: family {keys['family']}: expected {', '.join(LANGUAGES)}")
     for section in ("clock", "reset", "leds", "uart", "pads"):

@@ -30,7 +30,7 @@ def board_table(boards: tuple[Description, ...]) -> str:
         rates = dict.fromkeys(f"{on.mhz:g}" for on in board.parts)
         parts = ", ".join(dict.fromkeys(f"`{on.part}`" for on in board.parts))
         tool = board.vendor.get("tool", "").capitalize()
-        built = f"**not run here**: for {tool}" if tool else "yes"
+        built = "yes" if board.devices else f"**not run here**: for {tool}"
         clocks = f"{board.clock['mhz']:g} MHz | {' or '.join(rates)} MHz"
         rows.append(f"| {names} | {board.title} | {board.chip} | {clocks} | {parts} | {built} |")
     return "\n".join(rows)

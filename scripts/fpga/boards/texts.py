@@ -37,5 +37,5 @@ def wrapped(mark: str, *texts: str) -> list[str]:
 def clk(fitted: Fitted) -> str:
     """Return a text about the part's clock and its source."""
     osc = fitted.board.clock
-    from_it = f" from the {osc['mhz']:g} MHz oscillator" if "module" in osc else ", its oscillator"
+    from_it = f" from the {osc['mhz']:g} MHz oscillator" if "module" in osc else " from the oscillator"
     return f"clk {fitted.on.mhz:g} MHz{from_it}"

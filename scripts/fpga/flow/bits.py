@@ -182,13 +182,15 @@ def verilog(of: Bitstream, folder: Path) -> str:
     command = ["icebox_vlog", "-s", "-c", "-d", of.package, "-p", "pins.pcf", "-n", of.top, "unpacked.asc"]
     text = board_route.run(command, folder, of.top)
     if of.pll:
-        # It does not connect the pad of the PLL to the port. The test bench makes the clock of the output.
+        # icebox_vlog does not connect the pad of the PLL to the port. The test bench drives the clock after
+        # the PLL.
         check_pll(of, text)
         text = text.replace("// Warning: unmatched port 'clk'\n", "")
         text = re.sub(r"SB_PLL40_PAD #\(.*?\n\);\n", without_pll, text, count=1, flags=re.S)
     if warnings := re.findall("// Warning: (.*)", text):
         raise ProjectError(f"{of.file.name}: {', '.join(warnings)}")
-    # It declares each port twice, some as reg, which is only permitted if the header has the names alone.
+    # icebox_vlog declares each port twice, some as reg. This is legal only if the header contains just the
+    # names.
     header = re.search(r"^module \w+ \((.*)\);$", text, re.M)
     assert header is not None
     ports = [port.replace("\\", "").strip() for port in header[1].split(",")]

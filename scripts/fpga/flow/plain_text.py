@@ -126,7 +126,7 @@ def _one_bit(value: str) -> bool:
 
 
 def _inline(module: Module) -> None:
-    """Replace numbered wires that are used once by their expression, where this does not change the value."""
+    """Replace each numbered wire that is used once with its expression if this does not change the value."""
     made, uses = {}, dict[str, list[int]]()
     for number, line in enumerate(module.lines):
         if match := _ASSIGN.match(line):

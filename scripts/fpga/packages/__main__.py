@@ -10,6 +10,7 @@ from cocotb_tests.harness.project import ProjectError, console, relative
 from scripts.fpga.packages.cores import core_files
 from scripts.fpga.packages.lists import list_files
 from scripts.fpga.packages.registers import register_files
+from scripts.fpga.packages.vendors import vendor_files
 
 
 def main() -> int:
@@ -23,7 +24,7 @@ def main() -> int:
     )
     parser.add_argument("--verilator", metavar="PROGRAM", help="with --try: use only this Verilator")
     options = parser.parse_args()
-    expected = {**core_files(), **list_files(), **register_files()}
+    expected = {**core_files(), **list_files(), **register_files(), **vendor_files()}
     stale = [path for path, text in expected.items() if not path.is_file() or path.read_text() != text]
     if options.check:
         for path in stale:

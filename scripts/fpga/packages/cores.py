@@ -39,7 +39,7 @@ def vendor_boards() -> dict[str, Vendor]:
     """Return FuseSoC target -> board; for the first part of a board, the target's name has no suffix."""
     found = {}
     for board in load_all():
-        for on in board.parts if board.vendor else ():
+        for on in board.parts if "target" in board.vendor else ():
             name = board.vendor["target"] + ("" if on is board.parts[0] else f"-{on.name}")
             files = sorted((FOLDER / board.name / on.name).iterdir(), reverse=True)  # pins, then clocks
             found[name] = Vendor(

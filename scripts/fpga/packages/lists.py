@@ -1,4 +1,4 @@
-"""Bender.yml and file lists: each part for Verilator, plain Verilog for vendors' tools."""
+"""Bender.yml and the file lists of the parts for Verilator."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from openppmc.sources import Group
 from scripts.fpga.packages.cores import board_groups
 
 FROM = "Written by `make packages` from rtl/files.yml; change that, not this."
-NOT_RUN = "Not run by this project's tests, which have no vendor tools; please report what does not work."
 FOLDER = ROOT / "packages"
 
 
@@ -50,53 +49,9 @@ def dot_f(part: Row) -> str:
     return "\n".join([*lines, *(f"../{relative(path)}" for path in part_files(part)), ""])
 
 
-WRITE = "make verilog TOP=<top> PARAMS=CLK_HZ=<Hz of your clk>"
-
-
-def plain_tcl(use: str, add: str) -> str:
-    """Return Tcl that adds the plain Verilog of one top; without this file, it stops with one line."""
-    return (
-        f"# {FROM}\n# {NOT_RUN}\n"
-        "# Plain Verilog-2005 of one part, bridge or board, written earlier by\n"
-        f"#   {WRITE}\n"
-        f"# {use}\n"
-        "if {![info exists root]} {set root [file normalize [file join [file dirname [info script]] ..]]}\n"
-        "if {![info exists top]} {set top ppmc104}\n"
-        "set plain $root/build/verilog/$top.v\n"
-        'if {![file exists $plain]} {error "${plain}: not written; run `make verilog TOP=$top` in $root"}\n'
-        f"{add}\n"
-    )
-
-
-def vivado() -> str:
-    """Return Tcl that adds the files to a Vivado project or to a non-project script."""
-    return plain_tcl(
-        "Vivado, in a project: set top ppmc104; source .../packages/vivado.tcl", "add_files -norecurse $plain"
-    )
-
-
-def quartus() -> str:
-    """Return the lines that add the files to a Quartus settings file."""
-    return plain_tcl(
-        "Quartus, in the .qsf: set root <checkout>; set top ppmc104; source $root/packages/quartus.qsf",
-        "set_global_assignment -name VERILOG_FILE $plain",
-    )
-
-
-def gowin() -> str:
-    """Return Tcl that adds the files in gw_sh or in the console of Gowin EDA."""
-    return plain_tcl(
-        "Gowin EDA, with a project open: set top ppmc104; source .../packages/gowin.tcl",
-        "add_file -type verilog $plain",
-    )
-
-
 def list_files() -> dict[Path, str]:
     """Return all lists: path -> text."""
     return {
         ROOT / "Bender.yml": bender(),
         **{FOLDER / f"{part.rtl}.f": dot_f(part) for part in tops()},
-        FOLDER / "vivado.tcl": vivado(),
-        FOLDER / "quartus.qsf": quartus(),
-        FOLDER / "gowin.tcl": gowin(),
     }

@@ -20,12 +20,12 @@ from openppmc.host import PpmcError
 from openppmc.sim import SimError as BoardError
 from scripts.demo.demos import Demo
 from scripts.fpga.flow.machine import machine
-from scripts.measure.bench import board, captures, costs
+from scripts.measure.bench import board, captures, costs, moves
 from scripts.measure.bench.run_times import LABELS, PLAIN, Times, turns
 from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
-HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Verilator alone = 1"]
+HEADS = ["simulation", "cycles", "output edges", "seconds", "cycles / s", "time, Verilator alone = 1"]
 
 
 def write_section(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
@@ -66,9 +66,9 @@ def bench(name: str, demo: Demo) -> None:
     times, rows = played(name, demo)
     mhz = int(str(times.recording.params["CLK_HZ"])) / 1e6
     text = (
-        f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} turns, start of the simulator included.\n"
-        "All sides produce the same output edges. The seconds depend on the machine and its load; the "
-        f"last column is the median of the ratios in one turn. {machine()}."
+        f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} rounds, start of the simulator included.\n"
+        "All simulations produce the same output edges. The seconds depend on the machine and its load. "
+        f"Each round has a ratio; the last column is their median. {machine()}."
     )
     if name == costs.PART:
         figures = board.measure()
@@ -104,8 +104,9 @@ def bench(name: str, demo: Demo) -> None:
             costs.HEADS,
             costs.rows(costs.measure()),
         )
+        moves.bench()
         captures.bench()
-    write_section(name, f"run of `make demo PART={name}`, median of {RUNS} turns", text, HEADS, rows)
+    write_section(name, f"run of `make demo PART={name}`, median of {RUNS} rounds", text, HEADS, rows)
     console.print("written: docs/benchmarks.md")
 
 

@@ -16,7 +16,7 @@ from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
 SIDES = ("RTL in Verilator alone", "golden model, same pin changes")
-HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
+HEADS = ["simulation", "cycles", "output edges", "seconds", "cycles / s"]
 
 
 def measure() -> tuple[int, int, list[list[float]]]:
@@ -55,8 +55,8 @@ def main() -> int:
         rows.append([side, f"{clk:,}", f"{edges:,}", f"{middle:.2f}", f"{clk / middle:,.0f}"])
     text = (
         f"{AXES} axes of a bank: the run of `make demo PART={NAME}` at {CLK_HZ / 1e6:g} MHz, median of "
-        f"{RUNS} runs, files of pin changes and edges included. Both sides produce the same output edges. "
-        f"{machine()}."
+        f"{RUNS} runs, files of pin changes and edges included. Both simulations produce the "
+        f"same output edges. {machine()}."
     )
     project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(HEADS, rows))
     console.print("written: docs/benchmarks.md")

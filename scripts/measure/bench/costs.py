@@ -15,7 +15,7 @@ from scripts.measure.bench.run_times import FOLDER
 
 PART, MODULE, TEST = "ppmc104", "cocotb_tests.ppmc104.costs", "count_costs"
 CLOCKS = (16, 100)  # MHz
-HEADS = ["what", "cycles", *(f"µs at {mhz} MHz" for mhz in CLOCKS)]
+HEADS = ["wait", "cycles", *(f"µs at {mhz} MHz" for mhz in CLOCKS)]
 
 
 def measure() -> dict[str, int]:

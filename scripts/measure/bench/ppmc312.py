@@ -100,7 +100,7 @@ def main() -> int:
     except SimError as error:
         return project.fail(str(error))
     rows = rows_of(measured, F8L.clk_hz)
-    heads = ["side", "cycles", "seconds", "processor s", "cycles / s", "of real time", f"goal 1/{GOAL}"]
+    heads = ["simulation", "cycles", "seconds", "processor s", "cycles / s", "of real time", f"goal 1/{GOAL}"]
     table = Table(title=f"{STATIONS} stations on a line, median of {RUNS} runs", title_justify="left")
     for index, head in enumerate(heads):
         table.add_column(head, justify="right" if index else "left")

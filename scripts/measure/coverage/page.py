@@ -16,10 +16,11 @@ HEAD = """# Coverage
 
 `make coverage` writes this page: it runs all simulations of `make test` with builds in which Verilator \
 counts.
-A point (a line, a way of a branch, a bit that rises or falls) is covered if any instance in any simulation \
-reaches it.
+A point (a line, one outcome of a branch, a rising or falling bit) is covered if any instance in any \
+simulation reaches it.
 The page [mutants](mutants.md) shows whether a test would detect a fault there.
-Each figure of all points is followed by the figure without the explained points.
+A first figure includes all points; a figure "without … explained" excludes the points that cannot be \
+covered for a known reason.
 
 Counting builds have copies of the sources in which Verilator counts `return` and packages correctly \
 ([how](testing.md#coverage)).
@@ -53,7 +54,7 @@ def folders(sums: Sums) -> Iterator[str]:
     for folder in sums.folders():
         yield f"| {folder} | " + " | ".join(cell(sums, folder, kind) for kind in KINDS) + " |"
     for folder, why in LEFT_OUT.items():
-        yield f"\n{folder}: {why}."
+        yield f"\n`{folder}`: {why}."
 
 
 def files(sums: Sums) -> Iterator[str]:
@@ -108,7 +109,7 @@ def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
                 reasons[why] = None
         yield f"| {row} | " + " | ".join(shown) + " |"
     if reasons:
-        yield "\n– : " + "; ".join(reasons) + "."
+        yield "\nReasons for –: " + "; ".join(reasons) + "."
 
 
 def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
@@ -146,8 +147,9 @@ def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool
         *elaborated(),
     ]
     lines += ["\n## Crosses of the data sheets\n"]
-    lines += ["They are counted in the golden models that the simulations are compared with."]
-    lines += ["A **0** was not observed.\n"]
+    lines += ["A cross is a table of combinations, such as an operation and the cause of its end."]
+    lines += ["The golden models that follow the simulations count how often each combination occurs."]
+    lines += ["A **0** was not observed; – cannot occur, for one of the reasons below the table.\n"]
     for part in parts.having("crosses"):
         lines += of_part(part, counts)
     return "\n".join(lines).rstrip() + "\n"

@@ -14,7 +14,7 @@ from scripts.measure.coverage.elaborated import left_out
 from scripts.measure.coverage.points import BRANCH, LINE, TOGGLE, Points, lines_of
 
 HOLES = Path(__file__).with_name("holes.yml")
-LEFT_OUT = {"boards": "tops of FPGA boards, which `make test-board` simulates, are not counted here"}
+LEFT_OUT = {"boards": "the tops of FPGA boards are simulated (`cocotb_tests/board`), but not counted here"}
 """Folders of rtl/ that have no figures, with the reason."""
 
 

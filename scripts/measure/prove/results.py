@@ -40,7 +40,7 @@ def digest(proof: Proof) -> str:
 
 
 def changed(every: Sequence[Proof]) -> list[Proof]:
-    """Return the proofs that are not in docs/proved.json with their present digest."""
+    """Return the proofs whose present digest is not in docs/proved.json."""
     known = _read(PROVED)
     return [proof for proof in every if known.get(proof.name) != digest(proof)]
 

@@ -28,8 +28,6 @@ WHERE = {
 """Addresses of the designs in docs/benchmarks.md."""
 
 OLDER = (
-    ("riocore stepdir", "divider; the host makes the ramp", 376, 100, 0),
-    ("fsref step_motor", "ramp table; no bus, limits or phases", 854, 348, 2),
     ("hostmot2 stepgen (LinuxCNC)", "velocity DDS; the host makes the ramp", 271, 212, 0),
     ("LiteX-CNC stepgen", "velocity with an acceleration limit", 887, 213, 0),
     ("scurvegen", "7-phase S-curve; the host computes the phases", 661, 229, 0),

@@ -25,7 +25,7 @@ BEHIND = {
     "power stage": ("windings A and B, motor supply", FIVE),
     "DRV8825 carrier": ("A1, A2, B1, B2: motor; VMOT: supply", FIVE),
 }
-"""Modules at the end of a drawing -> their connections, and the colour."""
+"""Module at the end of a drawing -> text about its connections, and colour of the wire to this text."""
 
 
 def draw(fitted: Fitted) -> bytes:

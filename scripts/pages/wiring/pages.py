@@ -28,8 +28,8 @@ These circuits were not built or tested.
 a pull-up.
   5 V and more are allowed only on the right side of the drawings, on the far side of the shifter, buffer, \
 optocoupler or driver.
-- {resistor} at a wire is connected from there to GND or 3.3 V, on the FPGA's side.
-  It holds the line at a fixed level while the FPGA is not configured.
+- A resistor of {resistor} at a wire connects the wire to GND or 3.3 V, on the FPGA's side of the circuit.
+  It holds the wire at a fixed level while the FPGA is not configured.
 - Build only the circuits that your machine needs, and omit the lines of the others in the order list.
   With `HOST=uart` nothing is connected to the bus pins.
 - Order numbers are examples of components that were sold when this page was written.
@@ -71,9 +71,15 @@ def _section(one: Fitted) -> str:
     found = uses(one)
     rows = [f'<a id="{one.on.name}"></a>', "", f"## {_title(one)}", ""]
     rows += [f"![Wiring](img/{one.board.name}-{one.on.name}.svg)", ""]
-    rows += ["| circuit | header pins | the other side |", "|---|---|---|"]
+    rows += ["| circuit | header pins | far side of the circuit |", "|---|---|---|"]
     rows += [_levels(use) for use in found]
-    rows += ["", "Order list for all circuits:", "", "| number | what | order number |", "|---:|---|---|"]
+    rows += [
+        "",
+        "Order list for all circuits:",
+        "",
+        "| quantity | component | order number |",
+        "|---:|---|---|",
+    ]
     rows += [f"| {number} | {what} | {which} |" for number, what, which in order(found)]
     return "\n".join([*rows, ""])
 

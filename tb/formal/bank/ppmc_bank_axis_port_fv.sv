@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_axis_port_fv: the axis port, driven by the strobe master of the bridges. Proves that the bank
-// receives no strobe for an axis that does not exist or for the axis selection. Proves that the
-// address is stable while a strobe is low.
+// receives no strobe for an axis that does not exist, and no strobe for register 3, which selects the axis.
+// Proves that the address is stable while a strobe is low.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -48,7 +48,7 @@ module ppmc_bank_carrier_fv (
     if (!dut.part_rst_n) axis_q <= '0;
     else if (select_write) axis_q <= dut.to_part;
 
-  logic was_reset_q;  // 1: the host has reset the bank; ppmc_uart_host begins with this
+  logic was_reset_q;  // 1: the host has reset the bank; ppmc_uart_host begins with this reset
   always_ff @(posedge clk_i) was_reset_q <= rst_ni && (was_reset_q || !dut.part_rst_n);
 
   logic accessed_q;

@@ -112,7 +112,8 @@ module ppmc_bank_engine_fv
       end
     end
 
-  // For the induction: the words are also the same in all stages before the stage that uses them.
+  // Lemmas for the induction: axis and reset of each stage. In all stages before its use, a word equals the
+  // word that the previous visit has written.
   for (genvar i = 1; i < 6; i++) begin : g_stage
     `FV_ASSERT(lemma_axis, cycles_q < 5'(i) || axis[i] == axis[0] - 3'(i))
     `FV_ASSERT(lemma_clear, clear[i] == (cycles_q < 5'(8 + i)))
@@ -194,7 +195,8 @@ module ppmc_bank_engine_fv
       chop_units_word == chop_units_q);
   `FV_ASSERT(lemma_mem_host, lemma_mem_host_holds)
 
-  // For the induction: the stages of the watched axis, and the state that follows from the last outputs.
+  // Lemmas for the induction: the words of the watched axis in stages 3 and 4, and the relation between these
+  // words and the last outputs.
   localparam int unsigned BusyAt = $bits(parser_t) + $bits(init_state_t) + $bits(motion_state_t) - 1;
   `FV_ASSERT(
       lemma_visit3,
@@ -210,7 +212,7 @@ module ppmc_bank_engine_fv
       (dut.pin_status_s4_q.armed && dut.state1_s4_q.motion.busy);
   `FV_ASSERT(lemma_visit_armed, lemma_visit_armed_holds)
 
-  // Assumptions about the visits, for every axis in every stage.
+  // Lemmas for the induction: the state of every axis is valid in every stage.
   for (genvar n = 0; n < 8; n++) begin : g_axis
     logic [$bits(state1_q)-1:0] word;
     motion_state_t motion;

@@ -171,7 +171,7 @@ module ppmc_bank_window_fv
   // ---- responses -------------------------------------------------------------------------------------
 
   typedef struct packed {
-    logic        newest;  // 1: no other response has been stored since then
+    logic        newest;  // 1: no newer response has been stored
     logic [1:0]  bytes;
     logic [1:0]  read;    // number of bytes that have been read
     logic [23:0] data;
@@ -211,8 +211,9 @@ module ppmc_bank_window_fv
   `FV_ASSERT(bank_hsk_04_no_more_than_stored, queue_q.read <= queue_q.bytes)
   // ---- registers at edge 2 of the read ---------------------------------------------------------------
 
-  // A visit writes its status one cycle before its edge, and pending interrupts change in the same cycle. A
-  // read that loads d_o two cycles later returns the registers of this cycle.
+  // A visit writes its status one cycle before the first edge at which its pins can change. Pending
+  // interrupts change in the same cycle. A read that loads d_o two cycles later returns the registers of this
+  // cycle.
   typedef struct packed {
     logic [3:0] map, mask;
     logic [4:0] status;

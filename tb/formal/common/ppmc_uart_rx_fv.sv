@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_rx_fv: for any waveform of the line, proves that the receiver does not hang, and that it has
-// one outcome per character.
+// ppmc_uart_rx_fv: for any waveform of the line, proves that the receiver does not hang, and that it has one
+// outcome (byte or error) per character.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -54,9 +54,9 @@ module ppmc_uart_tx_fv (
       else if (rx_valid) {way_q, again_q} <= 2'b01;
     end
 
-  // For the induction: shift registers and phases are functions of the byte and its age. sent and seen
-  // count sixteenths of a bit that the transmitter has sent and the receiver has sampled. Their upper
-  // halves count bits.
+  // Lemmas for the induction: shift registers and phases are functions of the byte and its age. sent:
+  // sixteenths of a bit that the transmitter has sent; seen: sixteenths that the receiver has sampled. Bits
+  // 7:4 of sent and seen count whole bits.
   logic [7:0] sent, seen;
   logic [8:0] rest;  // bits that are still to be sent
   logic line, rx_idle;

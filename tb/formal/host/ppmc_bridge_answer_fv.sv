@@ -71,7 +71,8 @@ module ppmc_bridge_answer_fv (
       if (we_o && busy_o) read_q[8*2'(waddr_o-before_q[7:0])+:8] <= wdata_o;
     end
 
-  // For the induction: the position in the block, the bytes of the counter that match the current value,
+  // Lemmas for the induction: the position in the block, the bytes of the counter that match the current
+  // value,
   // and the meaning of the flags.
   logic [4:0] left;
   logic same;

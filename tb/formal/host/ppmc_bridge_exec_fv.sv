@@ -48,7 +48,7 @@ module ppmc_bridge_exec_fv
 
   logic begun_q;  // 1: a script has begun, so registers without a reset have a value
   logic [5:0] stay_q;  // cycles in the current state
-  logic [7:0] loop_q;  // bytes that were left in the last StLoop of the op
+  logic [7:0] loop_q;  // remaining bytes at the last StLoop of the op
   logic looped_q;
   logic [3:0] over_q;  // cycles since the end of a wait
 

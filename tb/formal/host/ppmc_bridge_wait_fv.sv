@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_wait_fv: proves that timeout_o rises with millisecond tick number limit + 1 of the wait, so
-// after more than limit and at most limit + 1 milliseconds. With a limit of 0, timeout_o is high
-// immediately.
+// ppmc_bridge_wait_fv: proves that timeout_o rises with millisecond tick number limit + 1 of the wait. This
+// tick occurs more than limit, but at most limit + 1, milliseconds after the wait has begun. With a limit of
+// 0, timeout_o is high immediately.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -31,7 +31,7 @@ module ppmc_host_port_fv (
   assign take_i = want_i && ready_o;
   assign write  = !cs_ni && !wr_ni && rd_ni;
 
-  logic w1_q, w2_q, w3_q, full_q;  // w…_q: write was high 1, 2, 3 cycles ago; full_q: a byte is pending
+  logic w1_q, w2_q, w3_q, full_q;  // wN_q: write was high N cycles ago; full_q: a byte is pending
   // at1_q, at2_q: register and data 1 and 2 cycles ago; last_q: last write; held_q: pending byte
   logic [8:0] at1_q, at2_q, last_q, held_q;
 

@@ -26,7 +26,7 @@ module ppmc_mailbox_fv (
   `FV_ASSUME(take_when_ready, !take_i || ready_o)
   `FV_ASSUME(read_what_is_there, !rd_done_i || obf_o)
 
-  // Input: one entry.
+  // Input: the mailbox stores one byte.
   logic full_q;
   logic [8:0] held_q;
 

@@ -33,7 +33,7 @@ module ppmc_strobe_bus_fv (
   assign read  = !cs_ni && (style_i ? !wr_ni && rd_ni : !rd_ni && wr_ni);
   assign write = !cs_ni && !wr_ni && (style_i ? !rd_ni : rd_ni);
 
-  logic w1_q, w2_q, w3_q, r1_q, r2_q;  // w…_q, r…_q: a write, a read was sampled 1, 2, 3 cycles ago
+  logic w1_q, w2_q, w3_q, r1_q, r2_q;  // wN_q, rN_q: a write (w) or a read (r) was sampled N cycles ago
   logic [8:0] byte1_q, byte2_q, byte3_q;  // register and data of the writes
 
   always_ff @(posedge clk_i)

@@ -24,7 +24,9 @@ module ppmc_strobe_master_fv (
   logic way_q, write_q;  // way_q: an access is in progress; write_q: the access is a write
   logic [1:0] addr_q;
   logic [7:0] data_q;
-  logic [3:0] age_q, low_q, high_q;  // cycles since the request, of the strobe, of the gap; saturate at 15
+  // age_q: cycles since the request; low_q: cycles of the strobe; high_q: cycles of the gap. age_q and high_q
+  // saturate at 15.
+  logic [3:0] age_q, low_q, high_q;
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {way_q, write_q, addr_q, data_q, age_q, low_q, high_q} <= '1;

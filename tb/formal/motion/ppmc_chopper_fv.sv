@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_chopper_fv: proves that a phase lasts exactly base + unit * units quanta, with the settings at the
-// beginning of the phase, and that the first phase is ON.
+// ppmc_chopper_fv: proves that a phase lasts exactly base + UnitQuanta * units quanta, with the base time and
+// units at the beginning of the phase. Proves that the first phase is ON.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -38,8 +38,8 @@ module ppmc_pulse_shaper_fv (
   );
 
   logic [3:0] since_q;  // cycles since the pulse or the arming, saturates at 15
-  // pulse_q: the last event was a pulse; full_q: it is a full pulse; may_q: cut_i or halve_i may have ended
-  // it
+  // pulse_q: the last event was a pulse; full_q: it was a full pulse; may_q: cut_i or halve_i may have ended
+  // the low time
   logic pulse_q, full_q, may_q;
 
   always_ff @(posedge clk_i) begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish_status_fv: proves that the end of each motion that is not silent asserts the interrupt until
-// the finish status is read, and that no other event changes the interrupt.
+// ppmc_finish_status_fv: proves that a motion with interrupt asserts the interrupt at its end, that the
+// interrupt stays asserted until the finish status is read, and that no other event changes it.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -12,7 +12,7 @@ module ppmc_proc_time_fv
     input wire logic [7:0] code_i
 );
 
-  localparam int unsigned Longest = 200;  // limit in cycles of a command that is not an initialisation
+  localparam int unsigned Longest = 200;  // time limit in cycles; not for an initialisation
 
   action_t act_i, act_o;
   logic [ 7:0] code_o;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_setup_fv: proves that the settings that must not change until Excitation OFF do not change before
-// it, and that operations require a complete initialisation.
+// ppmc_setup_fv: proves that motor type, step type and polarity do not change between the first
+// initialisation and Excitation OFF, and that operations require a complete initialisation.
 `include "ppmc_fv.svh"
 `default_nettype none
 

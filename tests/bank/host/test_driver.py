@@ -60,7 +60,7 @@ def test_info_that_is_none_of_ours(info: tuple[int, ...], text: str) -> None:
 
 
 def test_opening_takes_what_others_left() -> None:
-    """A new driver works although another program left unread ends and bits in MASK."""
+    """A new driver works even if another program has left finish statuses unread and bits in MASK set."""
     with opened() as first:
         first.axis[2].start_move(10)
         first.axis[4].start_move(10)

@@ -110,7 +110,7 @@ def test_go_finds_nothing_held() -> None:
     states this.
     """
     with opened() as bank:
-        with pytest.raises(GroupRefused, match="axis 2: GO found no motion that it holds"):  # noqa: PT012
+        with pytest.raises(GroupRefused, match="axis 2: GO found no waiting motion"):  # noqa: PT012
             with bank.group((2,)):
                 at(bank.link, 1, Script().write(8, 0))
                 bank.axis[2].start_move(3)
@@ -139,7 +139,7 @@ def test_the_early_end_of_one_stops_the_others() -> None:
 def test_waiting_inside_would_never_end() -> None:
     with opened() as bank:
         with pytest.raises(
-            NotCalledError, match="axis 1: its group holds it until the end of the with block"
+            NotCalledError, match="axis 1: its group holds this motion until the end of the with block"
         ):
             with bank.group((1,)):
                 bank.axis[1].move(10)
@@ -157,9 +157,9 @@ def test_waiting_inside_would_never_end() -> None:
         ((1, 5), "axis 5: a PPMC bank has axes 1 to 4"),
         ((0,), "axis 0: a PPMC bank has axes 1 to 4"),
         (("1",), "axis '1' is not a whole number"),
-        ("12", "axes '12': a group wants the numbers"),
-        (3, "axes 3: a group wants the numbers"),
-        (None, "axes None: a group wants the numbers"),
+        ("12", "axes '12': a group needs the numbers"),
+        (3, "axes 3: a group needs the numbers"),
+        (None, "axes None: a group needs the numbers"),
     ],
 )
 def test_groups_that_are_none(axes: object, text: str) -> None:
@@ -174,8 +174,8 @@ def test_groups_that_are_none(axes: object, text: str) -> None:
         ({1: 10, 9: 5}, "axis 9: a PPMC bank has axes 1 to 4"),
         ({1: 10, 2: 0}, "axis 2: 0 pulses: a move has 1 to"),
         ({1: "x"}, "axis 1: pulses 'x' is not a whole number"),
-        ([10, 20], r"moves \[10, 20\]: wants pulses by axis"),
-        (7, "moves 7: wants pulses by axis"),
+        ([10, 20], r"moves \[10, 20\]: expected pulses by axis"),
+        (7, "moves 7: expected pulses by axis"),
     ],
 )
 def test_moves_that_are_none(moves: object, text: str) -> None:

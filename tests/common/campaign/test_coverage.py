@@ -83,7 +83,7 @@ def test_figures_and_holes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_explained_holes_fit_the_tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each text of holes.yml is in its file; for a text that is not, the error is one line."""
+    """Each text of holes.yml is in its file; a text that is not there is reported in one line."""
     assert all(entry["why"] for entry in sums.explained())
     monkeypatch.setattr(sums, "HOLES", tmp_path / "holes.yml")
     sums.HOLES.write_text(f"- {{file: {FILE}, line: no such line, why: none}}", encoding="utf-8")
@@ -224,8 +224,8 @@ def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.Mo
     chip.run_until(t + 20_100)
     crosses.leave()
     text = (tmp_path / f"{os.getpid()}{crosses.SUFFIX}").read_text(encoding="utf-8")
-    assert '["ppmc104", "operation and cause of its end", "ramp, counted", "count done", 1]' in text
-    assert '["ppmc104", "error and state", "UNASKED_DATA", "at rest", 1]' in text
+    assert '["ppmc104", "operation and cause of its end", "ramp, counted", "all pulses output", 1]' in text
+    assert '["ppmc104", "error and state", "UNASKED_DATA", "at standstill", 1]' in text
 
 
 def test_counts_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

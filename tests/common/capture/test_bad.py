@@ -82,13 +82,13 @@ def test_a_difference_is_an_error(wired: Path, run: Run, tmp_path: Path) -> None
         ("part: ppmc104", "part: ppmc105", "part ppmc105: there is no such part"),
         ("part: ppmc104\n", "", "which part is this? name it with --part"),
         ("timing: FAST", "timing: SLOW", "map.yml: timing: SLOW: neither FAST nor DATASHEET"),
-        ("rd_n: RD\n  wr_n: WR", "rd_n: WR\n  wr_n: RD", "are none of a PPMC-104: is the capture"),
+        ("rd_n: RD\n  wr_n: WR", "rd_n: WR\n  wr_n: RD", "are invalid for a PPMC-104: is the capture"),
         ("pins:", "pens:", "map.yml: no pin map: it needs `pins:`"),
         ("pins:", "pins: [", "map.yml: no pin map"),
         (
             "D0, D1, D2, D3, D4, D5, D6, D7",
             "D7, D6, D5, D4, D3, D2, D1, D0",
-            "are none of a PPMC-104: is the capture",
+            "are invalid for a PPMC-104: is the capture",
         ),
     ],
 )
@@ -109,7 +109,7 @@ def test_of_another_part(wired: Path, run: Run, tmp_path: Path) -> None:
     file = write_vcd(seen, tmp_path / "other.vcd")
     outcome = run("decode", str(file), "--part", "ppmc104")
     assert outcome.code == 1
-    assert "commands are none of a PPMC-104: is the capture of another part" in outcome.err
+    assert "commands are invalid for a PPMC-104: is the capture of another part" in outcome.err
 
 
 def test_a_clock_too_slow(run: Run, tmp_path: Path) -> None:

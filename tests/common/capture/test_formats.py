@@ -143,7 +143,7 @@ def test_columns_of_times(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("rows", "says"),
     [
-        ("Time [min],A\n0,1\n1,0\n", r"line 1: 'Time \[min\]' is no unit of time"),
+        ("Time [min],A\n0,1\n1,0\n", r"line 1: 'Time \[min\]' is not a known unit of time"),
         ("Time,A\n0,1\n1000,0\n", "whole numbers without a unit"),
         ("Sample,A\n0,1\n1000,0\n", "numbers of samples without a sample rate"),
         ("Time [s],A\n0,1\n0.5,5\n", "line 3: '0.5,5' is cut off or no row of levels"),

@@ -28,7 +28,7 @@ def test_four_million_edges(name: str, tmp_path: Path) -> None:
 
 
 def test_compare_needs_columns(tmp_path: Path) -> None:
-    """A comparison needs only two more columns of times and levels per edge, no object per edge."""
+    """A comparison needs only two additional columns of times and levels, and no object for each edge."""
     small, large = (measure(tmp_path, COMPARED, edges, runs=1) for edges in (50_000, 250_000))
     assert (large.size * large.edges - small.size * small.edges) / (large.edges - small.edges) <= 2 * BYTES
 
@@ -44,7 +44,7 @@ def test_a_side_without_edges(mine: int, other: int) -> None:
 
 
 def test_differences_need_columns() -> None:
-    """Also for edges that only one side has, a comparison needs only two more columns."""
+    """If no edge has a partner on the other side, a comparison still needs only two additional columns."""
     np = numpy()
     count = 40_000
     times = np.arange(count) * 1_000_000

@@ -346,7 +346,7 @@ def test_the_second_ctrl_c_is_not_patient(
 
         monkeypatch.setattr(axis, "stop", stop_and_ctrl_c)
         text = guard.stop_motors(axis)
-        assert ("stopped at once" in text) == again
+        assert ("stopped immediately" in text) == again
         assert text.endswith(f"position {axis.position}")
         assert least <= axis.position - before <= most
         assert not axis.status().busy
@@ -357,7 +357,7 @@ def test_the_second_ctrl_c_is_not_patient(
     ("body", "signals", "word"),
     [
         ("move 30000", 1, "stopped"),
-        ("init start=1000 high=1200 ramp=11000\nposition\nmove 30000", 2, "stopped at once"),
+        ("init start=1000 high=1200 ramp=11000\nposition\nmove 30000", 2, "stopped immediately"),
         ("jog cw for 30", 1, "stopped"),
         ("wait 30", 1, "nothing was moving"),
         ("repeat 1000\nmove 3\nmove -3\nend", 1, "interrupted"),
@@ -375,4 +375,4 @@ def test_ctrl_c(tmp_path: Path, body: str, signals: int, word: str) -> None:
         position = int(done.stderr.rsplit(" ", 1)[1])
         assert 300 < position < 8000
     if signals == 2:
-        assert "stopped at once" in done.stderr
+        assert "stopped immediately" in done.stderr

@@ -158,7 +158,9 @@ def test_axis_of_every_part(part: str, hal: Run) -> None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_enable_falls(part: str, hal: Run) -> None:
-    """The motor decelerates, without a fault; nothing moves when `enable` rises, only at the next change."""
+    """When `enable` falls, the motor decelerates without a fault. It moves again only when `enable` is set
+    and `position-cmd` changes.
+    """
     seen = []
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
@@ -292,7 +294,7 @@ def test_unconfirmed_end(hal: Run, devices: list[Any]) -> None:
 
 
 def test_unplugged_port(hal: Run, devices: list[Any]) -> None:
-    """A lost port is a fault, and the pins stay; `reset` opens the port again."""
+    """A lost port is a fault, after which the component continues; `reset` opens the port again."""
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
         axis = Axis(pins, 2)
@@ -493,7 +495,7 @@ def test_group_of_64_axes(hal: Run, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_no_such_axis(
     part: str, message: str, hal: Run, devices: list[Any], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """An axis that does not exist is one line, and the port is closed, so that it can be opened again."""
+    """A missing axis is reported in one line, and the port is closed, so that it can be opened again."""
     with pytest.raises(AssertionError, match=message):
         hal(lambda pins: iter(()), "model:speed=max", f"--part {part} | --axes 5")
     with pytest.raises(host.Disconnected):

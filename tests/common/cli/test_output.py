@@ -147,7 +147,7 @@ TABLES = {
 
 @pytest.mark.parametrize("name", TABLES)
 def test_tables_on_a_narrow_terminal(name: str, commands: dict[str, list[str]]) -> None:
-    """On a narrow terminal, a cell of a table is on a line after its heading, and no cell is cut."""
+    """On a narrow terminal, each cell of a table is on its own line with its heading, and no cell is cut."""
     wide = printed(commands[name], "utf-8")[1].splitlines()
     narrow = printed(commands[name], "utf-8", NARROW)[1].splitlines()
     table = [line for line in narrow if line not in wide]

@@ -45,6 +45,7 @@ MISTERY_NANO = "https://github.com/harbaum/MiSTeryNano/tree/main/src/tang/nano20
 ULX3S = "https://github.com/emard/ulx3s/tree/master/"
 APICULA = "https://github.com/YosysHQ/apicula (pin functions of the package in its chip database)"
 DIGILENT = "https://digilent.com/reference/programmable-logic/arty-a7/reference-manual"
+EFINIX = "https://github.com/Efinix-Inc/xyloni/tree/master/"
 TERASIC = "DE10-Nano User Manual, Terasic: figure of the two 40-pin expansion headers"
 
 SPECIAL: dict[str, tuple[Special, ...]] = {
@@ -152,5 +153,19 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
     "de10nano": (
         Special(pins("AF4 AD5"), Kind.NEAR_5V, "beside 5 V", TERASIC),
         Special(pins("AG26 AG25"), Kind.NEAR_5V, "beside 5 V", TERASIC),
+    ),
+    "xyloni": (
+        Special(pins("J4 H4 F4 H3"), Kind.NEVER, "configuration flash", EFINIX + "bsp/build.py"),
+        Special(pins("G5 G4 J3 J2"), Kind.NEVER, "card socket", EFINIX + "bsp/build.py"),
+        Special(
+            pins("F8 E7 F7 E6 F6 F5 G9 H9 J9 J8 G8 H8 J7 E8 D9 B9 D6 C8 B8 A9 A8 C7 C6 B6"),
+            Kind.LOADED,
+            "bank voltage of J1 and J2",
+            EFINIX + "README.md",
+        ),
+        Special(
+            pins("B3 C5 D7 D8 J6"), Kind.LOADED, "configuration", EFINIX + "docs/xyloni-github-headers.md"
+        ),
+        Special(pins("A5 G3 G1"), Kind.NEAR_5V, "near 5 V", EFINIX + "docs/xyloni-github-headers.md"),
     ),
 }

@@ -1,4 +1,4 @@
-"""Bitstreams as netlists: differences from the reports are errors, and a flipped bit must fail."""
+"""Bitstreams as netlists: differences from the reports are errors, and a flipped bit must be detected."""
 
 from __future__ import annotations
 

@@ -24,8 +24,9 @@ OSCILLATORS = {
     "tangnano20k": ("clk_27m", 27),
     "arty_a7": ("clk", 100),
     "de10nano": ("clk", 50),
+    "xyloni": ("clk", 33.33),
 }
-APART = (".cst", ".qsf")  # formats whose clock constraints are in clocks.sdc
+APART = (".cst", ".qsf", ".isf")  # formats whose clock constraints are in clocks.sdc
 
 
 def entries() -> list[tuple[str, str, str, str, float]]:
@@ -41,7 +42,7 @@ def entries() -> list[tuple[str, str, str, str, float]]:
 
 ALL = entries()
 EVERY = [on for known in BY_PART.values() for on in known.values()]
-IDS = [entry[1].rpartition("/")[0] for entry in ALL]
+IDS = [entry[1] for entry in ALL]
 
 # statement of each format that assigns a port to a pin
 PIN = {
@@ -49,14 +50,18 @@ PIN = {
     ".lpf": re.compile(r'^LOCATE COMP "(?P<port>[^"]+)" SITE "(?P<pin>[^"]+)";', re.M),
     ".cst": re.compile(r'^IO_LOC "(?P<port>[^"]+)" (?P<pin>\w+);', re.M),
     ".xdc": re.compile(r"PACKAGE_PIN (?P<pin>\w+) .*get_ports \{(?P<port>[^}]+)\}", re.M),
-    ".qsf": re.compile(r"^set_location_assignment PIN_(?P<pin>\w+) -to (?P<port>\S+)", re.M),
+    ".qsf": re.compile(r"^set_location_assignment PIN_(?P<pin>\w+) -to \{(?P<port>[^}]+)\}", re.M),
+    ".pdc": re.compile(r"^ldc_set_location -site \{(?P<pin>\w+)\} \[get_ports \{(?P<port>[^}]+)\}\]", re.M),
+    ".isf": re.compile(r'^design\.assign_pkg_pin\("(?P<port>[^"]+)", "(?P<pin>\w+)"\)', re.M),
 }
 PULLED_UP = {
     ".pcf": r"^set_io +-pullup +yes +{}\s",
     ".lpf": r'IOBUF PORT "{}" PULLMODE=UP ',
     ".cst": r'^IO_PORT "{}" IO_TYPE=LVCMOS\d+ PULL_MODE=UP',
     ".xdc": r"PULLUP TRUE\}} \[get_ports \{{{}\}}\]",
-    ".qsf": r"^set_instance_assignment -name WEAK_PULL_UP_RESISTOR ON -to {}$",
+    ".qsf": r"^set_instance_assignment -name WEAK_PULL_UP_RESISTOR ON -to \{{{}\}}$",
+    ".pdc": r"^ldc_set_port -iobuf \{{[^}}]* PULLMODE=100K\}} \[get_ports \{{{}\}}\]",
+    ".isf": r'^design\.set_property\("{}", "PULL_OPTION", "WEAK_PULLUP"\)$',
 }
 MHZ = {
     ".pcf": re.compile(r"^set_frequency (?P<port>\S+) (?P<mhz>[\d.]+)", re.M),
@@ -120,8 +125,8 @@ def test_files_of_a_board_are_checked_here(on: boards.Board) -> None:
     oscillator.
     """
     for host in on.top:
-        (entry,) = (entry for entry in ALL if entry[0] == on.top[host])
-        assert entry[1] == on.constraints[host]
+        (entry,) = (entry for entry in ALL if entry[1] == on.constraints[host])
+        assert entry[0] == on.top[host]
         assert entry[3:] == on.oscillator
 
 
@@ -159,9 +164,10 @@ def test_open_inputs_are_pulled_up(top: str, file: str, clock_file: str, clock: 
 
 @pytest.mark.parametrize(("top", "file"), [entry[:2] for entry in ALL], ids=IDS)
 def test_table_of_the_pins(top: str, file: str) -> None:
-    """docs/boards.md lists each port with its pin and direction."""
+    """docs/boards.md lists each port with its pin and direction, once for all tools."""
     page = (project.DOCS / "boards.md").read_text()
-    table = page.split(f"<!-- pins {file} -->")[1].split(f"<!-- /pins {file} -->")[0]
+    name = file.replace(".pdc", ".pcf")
+    table = page.split(f"<!-- pins {name} -->")[1].split(f"<!-- /pins {name} -->")[0]
     told = re.findall(r"^\| `([^`]+)` \| ([a-z, ]+) \| (\w+) \|", table, re.M)
     words = {"input": "in", "output": "out", "inout": "in, out"}
     direction = {bit: words[port.direction] for port in ports(top).values() for bit in port.bits}

@@ -1,4 +1,4 @@
-"""The table of proofs agrees with the tree (wrappers, rules, faults); each mistake of a user is one line.
+"""The table of proofs agrees with the tree (wrappers, rules, faults); each mistake of a user causes one line.
 
 `make prove` runs the proofs themselves. They need yosys, which `make test` does not use.
 """

@@ -107,7 +107,7 @@ def test_a_class_of_a_module_warns(place: tuple[str, str], new: str) -> None:
 @pytest.mark.parametrize(("owner", "old", "new"), METHODS)
 def test_an_attribute_of_a_driver_warns(owner: type, old: str, new: str) -> None:
     """The old name of a method or attribute of a driver emits a warning and returns the method or attribute
-    with the new name, which exists.
+    with the new name; each new name exists.
     """
     alias = owner.__dict__[old]
     assert isinstance(alias, Renamed)

@@ -47,6 +47,18 @@ def test_a_port_that_is_taken() -> None:
         os.close(slave)
 
 
+def test_the_adapter_is_asked_for_low_latency(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[bool] = []
+    monkeypatch.setattr("serial.Serial.set_low_latency_mode", lambda port, on: asked.append(on))
+    master, slave = pytest.importorskip("pty").openpty()
+    try:
+        open_port(os.ttyname(slave)).close()
+    finally:
+        os.close(master)
+        os.close(slave)
+    assert asked == [True]
+
+
 def test_no_permission(monkeypatch: pytest.MonkeyPatch) -> None:
     """Root may open any port, so a replacement raises the error."""
     pytest.importorskip("grp")

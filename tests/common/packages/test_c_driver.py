@@ -281,7 +281,7 @@ def test_stop_of_a_motion_that_lets_no_byte_in(lines, request):
 
 
 def test_time_out(lines):
-    """Each wait ends if no device responds or a device is not ready, and the result distinguishes
+    """A wait ends if no device responds, and if a device is not ready in time. The results distinguish
     both cases.
     """
     assert result(lines, "probe") == result(lines, "alive") == (0, "ok")

@@ -148,7 +148,7 @@ def test_the_python_package_of_a_trial(tmp_path):
 
 
 def test_the_site_reports_its_stages(tmp_path, monkeypatch):
-    """A release prints the lines of `make site` as soon as they appear; a failure is one line."""
+    """A release prints the lines of `make site` as soon as they appear; a failure is reported in one line."""
     told = []
     program = (
         "import sys; print('site: pages', flush=True); print('first\\nlast', file=sys.stderr); sys.exit({})"

@@ -18,9 +18,10 @@ from openppmc.parts import tops
 from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain_file import write
 from scripts.fpga.packages.cores import vendor_boards
+from scripts.fpga.packages.vendors import TOOLS
 
 # Constructs that Quartus Lite and Standard, Vivado or GowinSynthesis reject, and other words that only
-# SystemVerilog has.
+# SystemVerilog has. test_vendor_projects.py applies the search to the projects of all vendors' tools.
 REJECTED = re.compile(
     r"\$(?:fatal|error|warning|info)\b|\b(?:input|output|inout)\s+(?:wire|var)\s+[a-z]\w*\s+[a-z\[]"
     r"|\bfor\s*\(\s*genvar\b|\binside\b|\bparameter\s+string\b|\w+'\("
@@ -28,7 +29,7 @@ REJECTED = re.compile(
     r"|always_ff|always_comb|always_latch|unique|priority|assert|property|localparam\s+type|return|void)\b"
     r"|'\{|\+\+|::|[^']'[01xz]\b"
 )
-LISTS = ("quartus.qsf", "vivado.tcl", "gowin.tcl")
+LISTS = tuple(tool.file for tool in TOOLS.values() if tool.file)
 
 
 def rejected(text: str) -> list[str]:
@@ -70,7 +71,7 @@ def passed(name: str, folder: Path, top: str) -> list[str]:
     """Return the files that a vendor's list adds for a top; raise the Tcl error with which the list stops."""
     tkinter = pytest.importorskip("tkinter")
     tcl, files = tkinter.Tcl(), []
-    for command in ("add_files", "add_file", "set_global_assignment"):
+    for command in ("add_files", "add_file", "set_global_assignment", "prj_add_source"):
         tcl.createcommand(command, lambda *words: files.append(words))
     tcl.eval(f"set root {{{folder}}}; set top {top}")
     tcl.eval((ROOT / "packages" / name).read_text())

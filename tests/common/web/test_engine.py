@@ -42,7 +42,7 @@ def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
 
 
 def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
-    """Return the output edges; changes of words are combined into levels of outputs."""
+    """Return the output edges; the 32-bit words of a wide output are combined into one level."""
     outputs, levels = words(part.part, part.part.watched), part.part.reset_levels(part.params)
     found = []
     for t, word, value in rows:

@@ -105,7 +105,7 @@ def test_one_program_after_the_other(slow_line: SimLine, openppmc: CommandLine) 
     code, out, err = openppmc.run(slow_line.port, *run, "move", "--to", "-300", "-a", "2")
     assert code == 1 and one_line(err) and "EXT1 ended the motion at position -100" in err
     code, out, err = openppmc.run(slow_line.port, *run, "move", "5", "-a", "2")
-    assert code == 1 and one_line(err) and "EXT1 has stopped it: clear the flag" in err
+    assert code == 1 and one_line(err) and "EXT1 has stopped the motor: clear the flag" in err
     assert said("reset-flags", "-a", "2") == "flags cleared\n"
     assert said("move", "--to", "0", "-a", "2").endswith("complete\n")
 

@@ -62,7 +62,7 @@ def test_looks(run: Run) -> None:
     assert re.search(
         r"^current +800 +mA +\* +400 to 4000 +peak phase current: drives 850 mA", out, re.MULTILINE
     )
-    assert "current at rest 50 % of the peak" in out and "1700 steps/s² in the mean" in out
+    assert "current at standstill 50 % of the peak" in out and "1700 steps/s² on average" in out
     values = json.loads(run(*PART, "status", "--address", "2", "--json").out)
     assert (values["position"], values["state"], values["inputs"]) == (0, "at rest", 31)
     assert len(json.loads(run(*PART, "status", "--address", "1,2", "--json").out)) == 2
@@ -147,7 +147,7 @@ def test_settings_address_save(run: Run, tmp_path: Path) -> None:
     assert run(*PART, *port, "address", "44").out == "controller 255 has address 44 now\n"
     assert run(*PART, *port, "save").out == "saved\n"
     none = ("--port", "model:speed=max,eeprom=none")
-    assert "the EEPROM did not answer" in run(*PART, *none, "save").only_line
+    assert "the EEPROM did not respond" in run(*PART, *none, "save").only_line
     assert run(*PART, *port, "scan").out.splitlines()[1].split()[0] == "255"  # the address was not saved
     assert "address 2 is taken" in run(*PART, "address", "2", *ONE).only_line
 
@@ -205,7 +205,7 @@ def test_programs(run: Run, shuttle: str, tmp_path: Path) -> None:
         (("speed", "17000", *ONE), "max_speed 17000: there are 1 to 16000 steps/s"),
         (("home", "--switch", "3", *ONE), "Invalid value for '--switch'"),
         (("home", "--speed", "30", *ONE), "speed 30 is outside 65 to 3000 steps/s"),
-        (("home", "--direction", "forward", "--switch", "1", *ONE), "EXT2 came before EXT1"),
+        (("home", "--direction", "forward", "--switch", "1", *ONE), "EXT2 ended the search for EXT1"),
         (("set", "speed=5", *ONE), "no setting 'speed': there are microsteps, current"),
         (("set", "current=much", *ONE), "current=much: not a whole number"),
         (("set", "current=399", *ONE), "current 399: there are 400 to 4000 mA"),

@@ -151,7 +151,7 @@ def test_a_value_that_the_part_refuses_is_told(motor: tuple[SpoiledLine, Pmc006]
     node = settings.SETTINGS["current"]
     odd = settings.Setting(node.write, node.read, range(10_000), "0 to 9999", "")
     object.__setattr__(odd, "name", "current")
-    with pytest.raises(SettingRefused, match="current 4321 was refused: it is 800"):
+    with pytest.raises(SettingRefused, match="current 4321 was rejected; it is still 800"):
         odd.__set__(part, 4321)
 
 
@@ -226,7 +226,7 @@ def test_free_runs(motor: tuple[SpoiledLine, Pmc006]) -> None:
     with pytest.raises(StoppedByCommand, match="stop command ended the motion at position .*: start again"):
         motion.result.check()
     for stop in (part.stop, part.halt):
-        with pytest.raises(NothingToStop, match="nothing to stop: the motor is at rest"):
+        with pytest.raises(NothingToStop, match="nothing to stop: the motor is at standstill"):
             stop()
 
 
@@ -283,7 +283,7 @@ def test_emergency_stops(motor: tuple[SpoiledLine, Pmc006]) -> None:
         part.move(900)
     assert part.flags().stops == (2,) and part.on_switch(2) and not part.on_switch(1)
     for call in (lambda: part.move(-5), lambda: part.jog(BACKWARD)):
-        with pytest.raises(ExtStopActive, match="EXT2 has stopped it: clear the flag"):
+        with pytest.raises(ExtStopActive, match="EXT2 has stopped the motor: clear the flag"):
             call()
     part.clear_stops((2,))
     assert part.move(-100).complete
@@ -354,7 +354,7 @@ def test_homing_on_ext2_and_wrong_ways(motor: tuple[SpoiledLine, Pmc006]) -> Non
     part.enable_stops()
     part.home(2, FORWARD, speed=2000, slow=500, off=30)
     assert port.node().position == 4370 and part.stops == 3
-    with pytest.raises(OriginNotFound, match="EXT1 came before EXT2: home in the other direction"):
+    with pytest.raises(OriginNotFound, match="EXT1 ended the search for EXT2: home in the other direction"):
         part.home(2, BACKWARD, speed=2000)
     for wrong in ({"speed": 64}, {"slow": 3001}, {"off": 0}, {"switch": 3}):
         with pytest.raises(OutOfRange):
@@ -367,7 +367,7 @@ def test_homing_with_a_dead_switch(
     _, part = motor
     monkeypatch.setattr("openppmc.host.pmc006.axis.LONGEST_WAY_OFF", 200)
     monkeypatch.setattr(Pmc006, "on_switch", lambda self, number: True)
-    with pytest.raises(OriginNotFound, match="EXT1 is still active 300 steps away"):
+    with pytest.raises(OriginNotFound, match="EXT1 is still active after a move of 300 steps away"):
         part.home(1, off=100, slow=2000)
 
 
@@ -389,7 +389,7 @@ def test_a_save_that_fails_is_an_error() -> None:
     port, part = one("eeprom=none")
     with part:
         for call in (part.save, part.burn_program):
-            with pytest.raises(StorageFailed, match="the EEPROM did not answer, what was to be kept is not"):
+            with pytest.raises(StorageFailed, match="the EEPROM did not respond, so nothing was stored"):
                 call()
         port.node().eeprom.missing = False
         part.save()
@@ -495,8 +495,8 @@ def test_the_first_that_answers() -> None:
 
 
 def test_other_builds_and_adapters() -> None:
-    """Moves work if `s` has an echo reply, at another baud rate, and if the adapter receives its own
-    bytes.
+    """Moves also work if the reply to instruction s echoes its data, at another baud rate, and if the adapter
+    receives its own bytes.
     """
     for text, baud in (("ack=echo", 9600), ("echo=on", 9600), ("ack=echo,echo=on,clk=25000000", 115_200)):
         with Pmc006.open(f"model:speed=max,eeprom=none,{text}", 255, baud) as part:

@@ -120,8 +120,8 @@ def test_end_edges_of_an_immediate_stop():
 
 
 def test_cause_at_the_start_needs_two_clk():
-    """A cause that is active at the start is decided on the edge after the start edge; the end follows one
-    cycle later (P104-LIM-07).
+    """If a cause is active at the start, the end is decided on the edge after the start edge and takes effect
+    one cycle later (P104-LIM-07).
     """
     host = ModelHost()
     host.run(INIT_A)

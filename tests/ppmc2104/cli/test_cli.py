@@ -209,7 +209,7 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
 
         monkeypatch.setattr(part.x, "stop", stop_and_ctrl_c)
         text = guard.stop_motors(part)
-        assert ("stopped at once" in text) == again
+        assert ("stopped immediately" in text) == again
         after = [part.x.position, part.y.position]
         assert text.endswith(f", axis 1: position {after[0]}, axis 2: position {after[1]}")
         low, high = (0, 500) if again else (1900, 2300)
@@ -256,7 +256,7 @@ def test_stop_what_another_program_left(run: Run, monkeypatch: pytest.MonkeyPatc
         monkeypatch.setattr(again.link, "close", lambda: None)
         outcome = run("stop")
         assert (
-            outcome.code == 1 and "axis 2: the motor is decelerating already, runs at constant" in outcome.err
+            outcome.code == 1 and "axis 2: the motor is already decelerating, runs at constant" in outcome.err
         )
         assert part.status().busy == (False, True)
         assert run("stop", "--now").out.startswith("axis 2: position ")

@@ -148,7 +148,7 @@ def test_a_motion_of_another_program_goes_on() -> None:
 
 @pytest.mark.parametrize("early", [True, False])
 def test_ends_that_nobody_read_hide_no_other(early: bool) -> None:
-    """While the end of another program's motion is unread, int_n stays low; this does not hide other ends.
+    """The driver reads the end status of another program's motion, so that int_n can report later ends.
 
     The motion may end before or after this program opens the part.
     """
@@ -222,8 +222,8 @@ def test_a_move_of_one_axis_leaves_the_other_alone(part: Ppmc2104) -> None:
 
 
 def test_the_end_of_the_other_axis_does_not_hide_this_one(part: Ppmc2104) -> None:
-    """int_n stays low while an end is unread, so the wait for one axis also reads the end of the
-    other axis.
+    """int_n stays low while an end status is unread, so the wait for one axis also reads the end status of
+    the other axis.
     """
     short, long = part.x.start_move(100), part.y.start_move(2000)
     before = part.link.clock()
@@ -284,7 +284,7 @@ def test_together_stops_both_when_one_meets_a_limit() -> None:
 def test_together_with_a_blocked_axis_moves_neither(blocked: int) -> None:
     suffix = "" if blocked == 1 else "2"
     with board(f"start{suffix}=40000") as part:
-        with pytest.raises(StartRefused, match=f"axis {blocked}: it may not start"):
+        with pytest.raises(StartRefused, match=f"axis {blocked}: the motor cannot start"):
             part.move_together(500, 500)
         assert model(part).counts == [0, 0]
         assert not any(part.status().busy) and not part.status().error
@@ -413,7 +413,7 @@ def test_a_refused_start_whose_switch_has_gone(part: Ppmc2104, monkeypatch: pyte
     quiet = part.x.inputs()
     model(part).set_pins(fl_n=0b10)
     monkeypatch.setattr(part.x, "inputs", lambda: quiet)
-    with pytest.raises(StartRefused, match="axis 1: it may not start: its limit switch"):
+    with pytest.raises(StartRefused, match="axis 1: the motor cannot start: the limit switch"):
         part.x.move(5)
 
 
@@ -471,7 +471,7 @@ def test_every_error_number_has_its_exception(part: Ppmc2104) -> None:
 def test_too_fast_with_datasheet_timing() -> None:
     """With DATASHEET timing, rates above the limits return errors 12 and 13 (P2104-DS-30)."""
     with board("timing=DATASHEET", high_pps=10_000) as part:
-        with pytest.raises(RateLimitExceeded, match="axis 1: .* one axis cannot run so fast"):
+        with pytest.raises(RateLimitExceeded, match="axis 1: .* too high for one axis"):
             part.x.start_constant(5, 250_000)
         assert part.x.move_constant(5, 20_000).complete
         part.y.jog(CW, 2000)

@@ -171,7 +171,9 @@ def test_reset_in_a_motion(lines):
 
 
 def test_time_out(lines):
-    """Each wait ends if the part is missing or the motion takes longer; the results distinguish the cases."""
+    """A wait ends if the part is missing, and if the motion takes longer than the wait. The results
+    distinguish both cases.
+    """
     assert result(lines, "dead ones")[0] == 17
     assert result(lines, "dead zeros")[0] == 16
     assert result(lines, "dead held")[0] == 17

@@ -100,7 +100,7 @@ def test_overrides_and_the_encoder(run: Run, curve: str) -> None:
     )
     outcome = run(*words, "--at", "5:5000")
     assert outcome.out == "position 900, 900 pulses CW: complete\n"
-    assert "error: an override was not carried out (the state did not allow it)" in outcome.only_line
+    assert "error: an override was not executed (the state did not allow it)" in outcome.only_line
     blocked = ("--port", PORT + ",block=4100", *words, "--encoder", "20")
     assert run(*blocked).out == "position 900, 900 pulses CW: complete\nencoder: outside its range\n"
 
@@ -213,7 +213,7 @@ def test_words_that_other_parts_do_not_know(run: Run, tmp_path: Path, line: str)
         (("--port", "model:", "home", "--index"), "index: a PPMC-104 does not have that", 1),
         (("--port", "model:", "table"), "table: a PPMC-104 does not have that", 1),
         (("--port", "model:", "init", "--sigmoid"), "ramps of other shapes: a PPMC-104", 1),
-        (("--port", "model:", "init", "--stop", "500"), "a deceleration of its own: a PPMC-104", 1),
+        (("--port", "model:", "init", "--stop", "500"), "a separate deceleration: a PPMC-104", 1),
     ],
 )
 def test_refusals_are_one_line(run: Run, words: tuple[str, ...], message: str, code: int) -> None:

@@ -318,7 +318,7 @@ def test_fewest_pulses_of_a_ramp(
         ({"start_pps": 0.2}, "start speed 0.2 pps is outside 0.238422 to 7812.5 pps"),
         ({"start_pps": 5000, "high_pps": 1000}, "must be above start and stop speed"),
         ({"start_pps": 4990, "ramp_pulses": 9000}, "too close"),
-        ({"stop_pps": 4990, "ramp_pulses": 9000}, "one of start and stop speed is too close"),
+        ({"stop_pps": 4990, "ramp_pulses": 9000}, "start or stop speed is too close"),
         (
             {"ramp_pulses": 761},
             "761 pulses: the ramp is too short: each of its stages needs 2 pulses: 762 or more",

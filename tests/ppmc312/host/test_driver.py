@@ -350,7 +350,7 @@ def test_limits_and_alarm() -> None:
             LimitReached, match="limit switch ended the motion at position 50 after 50 of 900"
         ):
             part.move(900)
-        with pytest.raises(StartRefused, match="move the other way"):
+        with pytest.raises(StartRefused, match="move in the other direction"):
             part.move(5)
         assert part.inputs().limit_cw and part.move(-10).complete
     with board("slow_cw=4050,alarm=3900..3950") as part:

@@ -123,7 +123,7 @@ def test_init_stop_reset(run: Run, tmp_path: Path) -> None:
         (("jog", "cw", "--axis", "0", "--ramped", "--speed", "100"), "exclude each other"),
         (("jog", "cw", "--axis", "0", "--seconds", "-1"), "not a valid time; use 0 or more"),
         (("init", "--axis", "0", "--curve", "x.csv"), "free curves: a PPMC-312 in serial mode"),
-        (("init", "--axis", "0", "--stop", "500"), "a deceleration of its own: a PPMC-312 in serial mode"),
+        (("init", "--axis", "0", "--stop", "500"), "a separate deceleration: a PPMC-312 in serial mode"),
         (("--baud", "9600", "scan"), "9600 bit/s is no speed of a line"),
         (("--line", "sum=odd", "scan"), "--line 'sum=odd': there are echo, rs485"),
         (("--line", "patience=x", "scan"), "--line patience=x: not a number"),
@@ -132,7 +132,7 @@ def test_init_stop_reset(run: Run, tmp_path: Path) -> None:
         (("--port", "/dev/none", "scan"), "no such port"),
         (("--port", "model:stations=0", "scan"), "a number from 1 to 16"),
         (("--port", "", "scan"), "no port given"),
-        (("--port", "model:echo=on,speed=max", "scan"), "hears its own bytes: say so (--line echo"),
+        (("--port", "model:echo=on,speed=max", "scan"), "receives its own bytes: set --line echo"),
         (("--port", "model:unplug=0.01,speed=max", "scan"), "the port went away"),
     ],
 )

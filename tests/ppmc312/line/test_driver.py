@@ -155,7 +155,7 @@ def test_limits_and_alarm() -> None:
             other.move(1000)
         with pytest.raises(LimitReached, match="station 0: limit switch"):
             other.move_constant(1000, 4000)
-        with pytest.raises(StartRefused, match="station 0: it may not start"):
+        with pytest.raises(StartRefused, match="station 0: the motor cannot start"):
             other.move(5)
         assert other.inputs().limit_cw and other.inputs().slow_cw
 
@@ -178,7 +178,7 @@ def test_refusals_say_what_they_are() -> None:
         axis.initialise(*FAST)
         with pytest.raises(RateRefused, match="station 0: the speed is outside"):
             axis.instruct(blocks.run(CW, 20))
-        with pytest.raises(ParameterRefused, match="station 0: the part refuses a value"):
+        with pytest.raises(ParameterRefused, match="station 0: the part rejects a value"):
             axis.instruct(blocks.block(0x06, b"\x02"))
         with pytest.raises(InvalidBlockLength, match="up to 10 bytes"):
             axis.instruct(blocks.event_register(1, bytes.fromhex("030984000000000000")))
@@ -201,7 +201,7 @@ def test_only_the_bus_can() -> None:
             axis.kind.plan(16_000_000, SetupRequest(curve="x.csv"))
         with pytest.raises(OutOfRange, match="free curves: only on the parallel bus"):
             axis.load_curve([(2500, 3), (5000, 4), (10_000, 5)])
-        with pytest.raises(OutOfRange, match="deceleration of its own"):
+        with pytest.raises(OutOfRange, match="separate deceleration"):
             axis.initialise(1000, 5000, 2000, stop_pps=800)
         with pytest.raises(OutOfRange, match="reading the table"):
             axis.read_table()

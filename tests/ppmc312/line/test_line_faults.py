@@ -154,18 +154,18 @@ def test_what_nobody_can_know_is_told() -> None:
         axis.initialise(*FAST)
         axis.event_add(1, blocks.single_step(CW))
         port.plan = once(0x49, LOSE_REPLY)
-        with pytest.raises(LostReply, match="station 1: the reply .* was lost.*held something before"):
+        with pytest.raises(LostReply, match="station 1: the reply .* was lost.*was not empty before"):
             axis.event_add(1, blocks.single_step(CW))
         axis.event_add(1, blocks.single_step(CW))
         port.plan = once(0x69, LOSE_REPLY)
-        with pytest.raises(LostReply, match="still holds something"):
+        with pytest.raises(LostReply, match="is still not empty"):
             axis.event_delete(1)
         axis.jog(CW)
         port.plan = once(0x90, LOSE_FRAME)
-        with pytest.raises(LostReply, match="may have happened meanwhile"):
+        with pytest.raises(LostReply, match="may have been executed since"):
             axis.override_stop(at=100_000, slow=False)
         port.plan = once(0x83, LOSE_REPLY)
-        with pytest.raises(LostReply, match="not known what the motor did"):
+        with pytest.raises(LostReply, match="unknown what the motor did"):
             axis.start_move(5)
         axis.halt()
         port.plan = lambda frame: LOSE_REPLY if frame[1:3] in (b"83", b"4d") else None
@@ -292,7 +292,7 @@ def test_positions_that_never_agree() -> None:
 
 
 def test_a_damaged_status_is_read_again() -> None:
-    """A status in which bit 7 of the first byte is inverted (RUN monitored or not) is read again."""
+    """A status is read again if bit 7 of its first byte, RUN monitored, was inverted on the line."""
     port, axis = station("A1 38 30 30 32 30 30 5C", REST, REST)
     assert axis.status().run_monitored and axis.counters.garbled == 1
 
@@ -381,7 +381,7 @@ def station(*replies: str, echo: bool = False, option: bool = False) -> tuple[Pl
 
 def test_another_station_replies() -> None:
     port, axis = station(*["A2 31 32 4B"] * 5)
-    with pytest.raises(CorruptReply, match="another station replied, 5 times: does a second master talk"):
+    with pytest.raises(CorruptReply, match="another station replied, 5 times: check for a second master"):
         axis.version()
     assert axis.counters.foreign == 5
     port, axis = station("A2 31 32 4B", "A1 31 32 4C")
@@ -437,7 +437,7 @@ def test_echo() -> None:
     port, axis = station("A1 31 32 4C", echo=True, option=True)
     assert axis.version() == 0x12 and axis.counters.faults == 0
     port, axis = station("A1 31 32 4C", echo=True)
-    with pytest.raises(LineEcho, match="hears its own bytes: say so"):
+    with pytest.raises(LineEcho, match="receives its own bytes: set --line echo"):
         axis.version()
     port, axis = station(option=True)
     with pytest.raises(LineEcho, match="does not receive its own bytes"):

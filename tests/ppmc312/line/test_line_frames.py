@@ -200,7 +200,7 @@ def test_noise_never_raises(noise: bytes, gives: int) -> None:
         (blocks.encoder_watch(True, 5, auto=False), "single report"),
         (blocks.input_mask(1, auto=False), "single report"),
         (blocks.acceleration(CW, 5, trigger=Trigger.EVENT1), "event buffer"),
-        (blocks.event_register(1, bytes(11)), "serial events take 10"),
+        (blocks.event_register(1, bytes(11)), "serial events hold 10"),
     ],
 )
 def test_what_the_line_cannot_do(block: bytes, text: str) -> None:

@@ -191,8 +191,8 @@ def test_bad_arguments(lines):
 
 
 def test_time_out(lines):
-    """Each wait ends if no device responds or a motion takes longer, and the results distinguish both
-    cases.
+    """A wait ends if no device responds, and if a motion takes longer than the wait. The results distinguish
+    both cases.
     """
     assert result(lines, "dead ports")[0] == result(lines, "dead init")[0] == 17
     assert result(lines, "short wait")[0] == 16

@@ -88,7 +88,7 @@ class Error(IntEnum):
 _SERIAL_PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
     Code.INITIAL: (
         TableRefused,
-        "the part refuses this table: the speeds are too close, or the ramp is too short",
+        "the part rejects this table: the speeds are too close, or the ramp is too short",
     ),
     **dict.fromkeys(
         (Code.RAMP, Code.CONSTANT),
@@ -119,7 +119,7 @@ def serial_command_error(prefix: str, code: int, error: int, state: int | None =
     kind: type[CommandRefused]
     if error == Error.PARAMETER:
         kind, text = _SERIAL_PARAMETERS.get(
-            code, (ParameterRefused, "the part refuses a value of this instruction")
+            code, (ParameterRefused, "the part rejects a value of this instruction")
         )
     elif error == Error.STATUS:
         if state == State.NOR and code not in _STOPPING:
@@ -138,15 +138,15 @@ def serial_command_error(prefix: str, code: int, error: int, state: int | None =
             "all places are taken, or the event is in use by an override or buffer",
         )
     else:
-        kind, text = CommandRefused, f"the part refuses this instruction (error {error:02X})"
+        kind, text = CommandRefused, f"the part rejects this instruction (error {error:02X})"
     return kind(error, prefix + (text or kind.text))
 
 
 def serial_failure(prefix: str, by: Source) -> CommandRefused:
     """Return the exception for an override interruption (4B) or event interruption (4A)."""
     if by is Source.OVERRIDE:
-        return OverrideFailed(0, f"{prefix}an override was not carried out; the others are dropped")
-    return EventFailed(0, f"{prefix}an event's instruction was not carried out; its buffer is empty now")
+        return OverrideFailed(0, f"{prefix}an override was not executed; the others are discarded")
+    return EventFailed(0, f"{prefix}an event's instruction was not executed; its buffer is empty now")
 
 
 XTAL_HZ = 16_000_000
@@ -214,7 +214,7 @@ class Line(Master[Reply]):
         sent = self._frame(station, data)
         got = self.request(station, sent, Receiver(station, gives, self.sum_mode), extra)
         if isinstance(got, MissingReply) and got.received.startswith(sent) and not self.echo:
-            raise LineEcho(f"{self.name}: the line hears its own bytes: say so (--line echo, echo=True)")
+            raise LineEcho(f"{self.name}: the master receives its own bytes: set --line echo (echo=True)")
         return got
 
     def send_instruction(self, station: int, data: bytes | None) -> bytes:

@@ -130,14 +130,14 @@ class LostReplyResolver:
         If a repeated change of speed is rejected, it is unknown whether the first one was executed.
         """
         if self.repeated and self._block[2] == Code.RAMP_CHANGE:
-            return self._lost_reply(f"sent again, it was refused ({refusal})")
+            return self._lost_reply(f"its repetition was rejected ({refusal})")
         return refusal
 
     def _started(self) -> bool:
         """Return True if the motion was started: from the state, the report of its end, or the position."""
         station, motion = self._station, self._motion
         if motion is None or self._was_busy:
-            raise self._lost_reply("it is not known what the motor did before")
+            raise self._lost_reply("it is unknown what the motor did before")
         if station.window.status().busy:
             return True
         station.window.answers += 1  # later reports may contain the end of this motion
@@ -151,7 +151,7 @@ class LostReplyResolver:
             return True
         if added == 0 and not now.busy and not now.override_events:
             return False  # the motor is stopped and no override waits for an event, so none was executed
-        raise self._lost_reply("overrides may have happened meanwhile")
+        raise self._lost_reply("overrides may have been executed since")
 
     def _buffered(self, now: Status) -> bool:
         assert self._before is not None
@@ -159,16 +159,16 @@ class LostReplyResolver:
         filled, was = number in now.events, number in self._before.events
         if self._block[3] & _DELETE:
             if was and filled:
-                raise self._lost_reply(f"event buffer {number} still holds something")
+                raise self._lost_reply(f"event buffer {number} is still not empty")
             return was
         if was:
-            raise self._lost_reply(f"event buffer {number} held something before")
+            raise self._lost_reply(f"event buffer {number} was not empty before")
         return filled
 
     def _lost_reply(self, reason: str) -> LostReply:
         return LostReply(
-            f"{self._station._message_prefix}the reply to an instruction was lost, it may have been "
-            f"carried out; {reason}: "
+            f"{self._station._message_prefix}the reply to an instruction was lost, so it may have "
+            f"been executed; {reason}: "
             "check the status of the station before you repeat the instruction"
         )
 

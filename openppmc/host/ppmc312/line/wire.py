@@ -191,7 +191,7 @@ def line_data(block: bytes) -> bytes:
         return bytes([_STOPS[Code(code)] | place]) + data[1:]
     if code == Code.INITIAL:
         if data[0] & LE:
-            raise OutOfRange("a deceleration of its own: serial mode has one ramp for both")
+            raise OutOfRange("a separate deceleration: serial mode has one ramp for both")
         return block[2:]
     if code in (Code.IN_POSITION, Code.ENCODE):
         flags = data[0]
@@ -226,7 +226,7 @@ def _event(flags: int, embedded: bytes) -> bytes:
     if flags & 2:
         return bytes([code])
     if len(embedded) > LONGEST_EVENT:
-        raise OutOfRange(f"an instruction of {len(embedded)} bytes: serial events take {LONGEST_EVENT}")
+        raise OutOfRange(f"an instruction of {len(embedded)} bytes: serial events hold {LONGEST_EVENT}")
     return bytes([code]) + embedded.ljust(LONGEST_EVENT, b"\0")
 
 

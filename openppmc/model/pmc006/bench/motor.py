@@ -208,7 +208,7 @@ class Plant:
         Args:
             volt: amplitude.
             hz: electrical frequency.
-            angle: angle at edge 0 in rad (B: its sine).
+            angle: angle at edge 0 in rad. Winding A has the cosine of the angle, winding B its sine.
 
         Raises:
             ValueError: the amplitude reaches the supply.

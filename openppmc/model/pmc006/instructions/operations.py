@@ -141,7 +141,7 @@ class Speed(Operation):
     """Instruction VSET."""
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome; in contrast to v, 0 is legal."""
+        """Return the outcome; in contrast to instruction v, 0 is legal."""
         if option not in BOTH or operand not in range(16001):
             return NOTHING
         return Outcome(Effect(registers={"vmax": operand, "analog": option}))

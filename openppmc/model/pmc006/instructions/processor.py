@@ -85,7 +85,7 @@ class Processor:
         return operation(self._context, option, operand)
 
     def single_effect(self, place: int) -> Effect:
-        """Return the effect of an instruction of the program that instruction E executes."""
+        """Return the effect of program instruction `place`, which instruction E executes."""
         operation, option, operand = self.fetch(place)
         return operation(self._context, option, operand).effect if operation.single else Effect()
 

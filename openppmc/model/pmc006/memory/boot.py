@@ -78,7 +78,7 @@ class Boot:
         )
 
     def _check_page(self, t: int) -> None:
-        """Check the parameter block; the program is stored."""
+        """Check the parameter block, after the program was stored or cleared."""
         if self._whole and framed(bytes(self._page)) and not self._restoring:
             self._at(t + self._context.services.core_timing.fields, self._load)
         else:

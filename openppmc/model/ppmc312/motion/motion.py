@@ -268,8 +268,8 @@ class Motion:
         if isinstance(step, Cause):
             self._end(t, step)
             return
-        # Cancel changes that were requested early enough for this boundary, but are dropped, or discarded
-        # because a deceleration begins.
+        # Cancel the changes that were requested early enough for this boundary, if the sequence has dropped
+        # its change or begins a deceleration.
         lead = 1 if sequence.decel_begins else self._core_timing.change_lead
         if sequence.decel_begins or sequence.change_dropped:
             for since, event in self._changes:
@@ -294,7 +294,7 @@ class Motion:
             self._context.queue.at(t + 1, Phase.RUN - 2, self._stop_at_position)
 
     def _stop_at_position(self, t: int) -> None:
-        """Process the position of a registered 80 (P312-OVR-12)."""
+        """Process the position at which a registered instruction 80 stops the pulses (P312-OVR-12)."""
         if not self.busy or self.sequence.complete:
             return
         self._at_position = True

@@ -29,8 +29,8 @@ class Operation:
         alarm: alarm(t, status) is called on a multiple occurrence.
         on_pulses_ended: on_pulses_ended(t) is called when the position has changed, and when the pulse output
             has ended.
-        overrides_done: overrides_done() returns False while an instruction is not processed yet whose
-            position has already stopped the pulses.
+        overrides_done: overrides_done() returns False while a registered stop has ended the pulses at its
+            position but is not processed yet.
         abnormal: abnormal() returns True in state ABN.
 
     Attributes:

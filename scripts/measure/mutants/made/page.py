@@ -23,8 +23,8 @@ A mutant is the RTL with one small fault: an operator, a constant, a condition, 
 It is killed if a proof or a test fails; the proofs of its block run first.
 *No end*: the tests do not terminate with it; these mutants are counted separately.
 *Equivalent*: a review found that it behaves like the RTL.
-The score is the share of the killed mutants among those that are killed, or that survived and are not \
-equivalent.
+*Survived* does not include equivalent mutants.
+The score is killed / (killed + survived).
 """
 QUICK = "**Only the first tests of each mutant were run here: some survivors would be killed.**\n"
 SO_FAR = "The mutants ran at different times; for some survivors only the first tests were run.\n"

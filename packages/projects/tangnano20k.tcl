@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+# Written by `make packages` from constraints/tangnano20k/board.yml; change that, not this.
+# Not run by this project's tests, which have no vendor tools; please report what does not work.
+# Tang Nano 20K with Gowin EDA:
+#   make verilog TOP=board_tangnano20k_ppmc312
+#   gw_sh packages/projects/tangnano20k.tcl
+# The environment variable PART selects another part of the board: ppmc312-serial.
+set root [file normalize [file join [file dirname [info script]] .. ..]]
+set parts {ppmc312 ppmc312-serial}
+set on [lindex $parts 0]
+if {[info exists ::env(PART)]} {set on $::env(PART)}
+if {[lsearch -exact $parts $on] < 0} {error "PART=$on: this board has $parts"}
+set top board_tangnano20k_[string map {- _} $on]
+set plain $root/build/verilog/$top.v
+if {![file exists $plain]} {error "${plain}: not written; run `make verilog TOP=$top` in $root"}
+set pins $root/constraints/tangnano20k/$on
+file mkdir $root/build/gowin/$top
+cd $root/build/gowin/$top
+
+set_device -name GW2AR-18C GW2AR-LV18QN88C8/I7
+add_file -type verilog $plain
+add_file -type cst $pins/pins.cst
+add_file -type sdc $pins/clocks.sdc
+set_option -top_module $top
+set_option -output_base_name $top
+set_option -verilog_std v2001
+set_option -use_sspi_as_gpio 1
+run all

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by `make boards` from constraints/xyloni/board.yml and ppmc104_carrier.sv; change those, not this.
+// board_xyloni_ppmc104: PPMC-104 with UART host on Xyloni (T8F81C2), clk 33.33 MHz from the oscillator.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/xyloni/ppmc104/pins.isf. For Efinity; linted, but not built
+//         or run by this project. CSEL and VSEL are strap outputs of the bridge. The supply of J1 and J2 must be set
+//         to 3.3 V.
+// Timing: see ppmc104_carrier.
+`default_nettype none
+
+module board_xyloni_ppmc104 #(
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter              TIMING     = "FAST",
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
+) (
+    input  wire logic       clk,       // 33.33 MHz
+    input  wire logic       btn_n,     // 0: reset
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // clock selection; with HOST = "UART", strap outputs of the bridge can also set csel and vsel to 0
+    input  wire logic       clock,
+    // switches, active low
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       alm_n,
+    // auxiliary
+    input  wire logic [3:0] auxi,
+    output logic      [3:0] auxo,
+    output logic            aux_n,
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    output logic            pout_n,
+    output logic            dir,
+    // LEDs, 1 = on
+    output logic      [3:0] led
+);
+
+  localparam int unsigned ClkHz = 33_330_000;
+
+  logic rst_n, led_link, led_moving, led_switch;
+  logic [3:0] leds;
+
+  ppmc_board_leds #(
+      .ClkHz(ClkHz)
+  ) u_leds (
+      .clk_i   (clk),
+      .lock_i  (1'b1),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .leds_o  (leds)
+  );
+
+  ppmc104_carrier #(
+      .CLK_HZ    (ClkHz),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .PHASE_IDLE(PHASE_IDLE),
+      .HOST      ("UART"),
+      .BAUD      (BAUD),
+      .RECORD    (RECORD)
+  ) u_carrier (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .a0   (1'b1),
+      .cs_n (1'b1),
+      .rd_n (1'b1),
+      .wr_n (1'b1),
+      .d_i  ('1),
+      .d_o  (),
+      .d_oe (),
+      .int_n(),
+      .csel (1'b1),
+      .vsel (1'b1),
+      .clock,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .alm_n,
+      .auxi,
+      .auxo,
+      .aux_n,
+      .s,
+      .hold,
+      .pout_n,
+      .dir,
+      .led_link,
+      .led_moving,
+      .led_switch
+  );
+
+  assign led = leds;
+
+endmodule
+
+`default_nettype wire
