@@ -8,6 +8,7 @@ changed (FRESH=1: all) and fails if a count has grown by more than 5 %.
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -19,11 +20,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import console, fail
-from scripts.fpga.flow.synthesis import synthesize
+from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST
 from scripts.measure.sizes import designs, figures, peers
 from scripts.measure.sizes.designs import SEEDS, TURNS, Design
-from scripts.measure.sizes.report import breakdown_table
 
 T = TypeVar("T")
 Work = tuple[str, Callable[[], T]]
@@ -121,13 +121,14 @@ def check(selected: Iterable[Design], fresh: bool) -> int:
 
 
 def show_instances(part: str) -> None:
-    """Print the cells of each instance of a part."""
+    """Print yosys' statistics of each module of a part, for each family."""
     design = next(d for d in designs.of_parts() if d.part == part)
-    results = {}
     for family in project.part(part).families:
-        folder = designs.FOLDER / f"instances-{part}"
-        results[family] = synthesize(folder, dict(design.job), family, BEST[family])[0]
-    console.print(breakdown_table(results))
+        job = {**design.job, "family": family, "recipe": BEST[family], "keep": True}
+        log = run_yosys(designs.FOLDER / f"instances-{part}", job).with_suffix(".log")
+        text = log.read_text(encoding="utf-8").rpartition("Printing statistics.")[2]
+        text = re.split(r"\n\n[\d.]+ Executing", text)[0]
+        console.print(f"{family}:{text}", markup=False, highlight=False)
 
 
 def main() -> int:
@@ -144,9 +145,7 @@ def main() -> int:
     parser.add_argument(
         "--peers", type=Path, metavar="FOLDER", help="measure the designs of FOLDER/peers.json"
     )
-    parser.add_argument(
-        "--instances", action="store_true", help="print the cells of each instance of the part"
-    )
+    parser.add_argument("--instances", action="store_true", help="print the cells of each module of the part")
     args = parser.parse_args()
     if args.instances:
         show_instances(args.part or "ppmc104")
