@@ -24,20 +24,11 @@ from openppmc.check.comparison import Comparison
 from openppmc.check.records import Recording
 from scripts.demo import waves
 from scripts.demo.demos import Demo
-from scripts.demo.steps import Steps
+from scripts.demo.steps import Steps, last_line
 
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
 MOST = 11  # bytes of a block that are printed
-
-
-def last_line(path: Path) -> str:
-    """Return the last line of a file; empty if the file does not exist yet."""
-    try:
-        lines = path.read_text(errors="replace").strip().splitlines()
-    except OSError:
-        return ""
-    return lines[-1] if lines else ""
 
 
 def newest_build(part: str) -> str:

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, TypeVar
 
 from rich.live import Live
@@ -14,6 +15,15 @@ from rich.text import Text
 from cocotb_tests.harness.project import console
 
 T = TypeVar("T")
+
+
+def last_line(path: Path) -> str:
+    """Return the last line of a file; empty if the file does not exist yet."""
+    try:
+        lines = path.read_text(errors="replace").strip().splitlines()
+    except OSError:
+        return ""
+    return lines[-1] if lines else ""
 
 
 class Steps:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import time
-from pathlib import Path
 
 from rich import box
 from rich.table import Table
@@ -20,20 +19,13 @@ from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
 from openppmc.check.comparison import Comparison
 from scripts.demo.ppmc312.line import waves
 from scripts.demo.ppmc312.line.picture import draw
-from scripts.demo.ppmc312.line.run import LineRun, load
-from scripts.demo.ppmc312.line.talk import Exchange
-from scripts.demo.steps import Steps
+from scripts.demo.ppmc312.line.talk import Exchange, LineRun, load
+from scripts.demo.steps import Steps, last_line
 
 NAME = "ppmc312-serial"
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
 REPRO = f"make demo PART={NAME}"
-
-
-def last_line(path: Path) -> str:
-    """Return the last line of a file; empty if the file does not exist yet."""
-    lines = path.read_text(errors="replace").split("\n") if path.is_file() else []
-    return next((line for line in reversed(lines) if line), "")
 
 
 def simulate(steps: Steps) -> LineRun:

@@ -13,7 +13,7 @@ from openppmc.capture.common.vcd_file import core_comment
 from openppmc.check.comparison import Comparison
 from scripts.demo import waves
 from scripts.demo.demos import View
-from scripts.demo.ppmc312.line.run import LineRun
+from scripts.demo.ppmc312.line.talk import LineRun
 from scripts.demo.scenes import pin
 
 PINS = ("txd", "snd", "pout", "dir", "cd_n")
