@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import subprocess
 import sys
 import sysconfig
 from collections.abc import Callable, Iterator
@@ -66,22 +65,13 @@ class Check:
 def ran(*command: str, env: dict[str, str] | None = None) -> tuple[int, str]:
     """Run a tool from the project's root; return its exit code and its output."""
     try:
-        done = subprocess.run(
-            command,
-            cwd=project.ROOT,
-            env=env,
-            text=True,
-            check=False,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-        )
+        code, text = project.ran(command, env)
     except FileNotFoundError:
         return 1, f"{command[0]}: not installed (run `make setup`)"
-    text = done.stdout.strip()
-    if done.returncode and not text:
-        text = f"{Path(command[0]).name} ended with exit code {done.returncode}"
-    return done.returncode, text
+    text = text.strip()
+    if code and not text:
+        text = f"{Path(command[0]).name} ended with exit code {code}"
+    return code, text
 
 
 def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
@@ -290,9 +280,7 @@ def checks() -> list[Check]:
         Check("ruff check", "Python", partial(ruff, "check", "--output-format=concise")),
         Check("ruff format", "Python", partial(ruff, "format", "--check")),
         Check(
-            "import-linter",
-            "Python",
-            partial(tool, project.tool("lint-imports"), *CONTRACTS, ok_output=True),
+            "import-linter", "Python", partial(tool, project.tool("lint-imports"), *CONTRACTS, ok_output=True)
         ),
         Check("mypy --strict", "openppmc", partial(module, "mypy")),
         Check("figures", "docs/sizes.json", lambda: "\n".join(figures.stale(figures.read()))),
@@ -304,11 +292,7 @@ def checks() -> list[Check]:
             Check(name.rpartition(".")[2], "up to date", partial(module, name, "--check"))
             for name in GENERATORS
         ),
-        Check(
-            "packages",
-            "templates and FuseSoC run",
-            partial(module, "scripts.fpga.packages", "--try"),
-        ),
+        Check("packages", "templates and FuseSoC run", partial(module, "scripts.fpga.packages", "--try")),
         Check("requirements.lock", "installed packages", locked),
         Check("texts", "marks, tabs, line ends", text_marks),
         Check("prose", "lint/prose.txt", prose.errors),

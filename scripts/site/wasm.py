@@ -19,12 +19,7 @@ from pathlib import Path
 from cocotb_tests.harness.build import locked, part_design
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative
-from openppmc.sim.common.build import (
-    package,
-    verilator_command,
-    verilator_environment,
-    verilator_version,
-)
+from openppmc.sim.common.build import package, verilator_command, verilator_environment, verilator_version
 from scripts.fpga.flow.plain_sim import assigned_cpp, word_cpp, words
 from scripts.site.webparts import WEB_PARTS, WebPart
 

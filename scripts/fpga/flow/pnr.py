@@ -27,9 +27,7 @@ class Device:
 
 
 ECP5 = Device(
-    "ECP5-25F",
-    "ecp5",
-    ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"),
+    "ECP5-25F", "ecp5", ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained")
 )
 HX8K = Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"))
 ASK_MHZ = 120

@@ -1,7 +1,6 @@
 """The mutants in <part>.yml of this folder. A mutant is a small change of one RTL file.
 
-An entry has these keys:
-    file    the RTL file
+A file of the RTL has its mutants by name. An entry has these keys:
     old     the text to replace, which occurs exactly once in the file
     new     the text in its place
     caught  the test that must fail
@@ -96,5 +95,6 @@ class Mutant:
 def mutants() -> Iterator[Mutant]:
     """Yield all mutants."""
     for path in sorted(HERE.glob("*.yml")):
-        for name, entry in yaml.safe_load(path.read_text(encoding="utf-8")).items():
-            yield Mutant(path.stem, name, **entry)
+        for file, entries in yaml.safe_load(path.read_text(encoding="utf-8")).items():
+            for name, entry in entries.items():
+                yield Mutant(path.stem, name, file, **entry)

@@ -48,20 +48,17 @@ def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
 
 def sizes(selected: list[Design]) -> figures.Figures:
     """Synthesise and count cells; designs with the same netlist are synthesised once."""
-    first: dict[tuple[str, str, str], Design] = {}
+    same: dict[tuple[str, str, str], list[Design]] = {}
     for design in selected:
-        first.setdefault((design.job["top"], design.key if not design.board else "", design.digest()), design)
+        key = (design.job["top"], design.key if not design.board else "", design.digest())
+        same.setdefault(key, []).append(design)
+    groups = list(same.values())
     found: dict[str, dict[str, Any]] = {}
-    works: list[Work[dict[str, int]]] = [(design.key, design.size) for design in first.values()]
-    listed = list(first.items())
 
     def keep(at: int, counts: dict[str, int]) -> None:
-        same, _ = listed[at]
-        for design in selected:
-            if (design.job["top"], design.key if not design.board else "", design.digest()) == same:
-                found[design.key] = {**counts, "of": design.digest()}
+        found.update({design.key: {**counts, "of": design.digest()} for design in groups[at]})
 
-    run_all(works, keep)
+    run_all([(group[0].key, group[0].size) for group in groups], keep)
     return found
 
 
