@@ -28,7 +28,7 @@ LENGTHS = {
     "window": {"lead": 1, "strobe": 2, "readStrobe": 6, "gap": 3},
     "block": {"lead": 0, "strobe": 3, "readStrobe": 5, "gap": 3},
 }
-"""Cycles of each phase of an access; the hosts of `players` use the same."""
+"""Cycles of each phase of an access; the players of tests/common/web use the same."""
 PLAYGROUND = wasm.OUT / "playground"
 
 
