@@ -72,8 +72,11 @@ def write(path: Path, signals: Iterable[Signal], recording: Recording, comment: 
     rows: list[tuple[int, Any, Any]] = []
     with path.open("w") as file, VCDWriter(file, timescale="1 ps", date="", comment=comment) as writer:
         for scope, name, kind, init, changes in signals:
-            size = kind if isinstance(kind, int) else 32 if kind == "integer" else None
-            var = writer.register_var(scope, name, "wire" if kind == size else kind, size=size, init=init)
+            if isinstance(kind, int):
+                var = writer.register_var(scope, name, "wire", size=kind, init=init)
+            else:
+                size = 32 if kind == "integer" else None
+                var = writer.register_var(scope, name, kind, size=size, init=init)
             rows += [(t, var, value) for t, value in changes]
         for t, var, value in sorted(rows, key=lambda row: row[0]):
             writer.change(var, max(0, t) * period, value)

@@ -60,4 +60,4 @@ def place_and_route(netlist: Path, folder: Path, seed: int) -> float:
     options = ("--seed", str(seed), "--freq", str(ASK_MHZ), "--timing-allow-fail", "--report", report.name)
     _nextpnr(netlist, folder, f"s{seed}", *options)
     clocks = {name: entry["achieved"] for name, entry in json.loads(report.read_text())["fmax"].items()}
-    return round(min([mhz for name, mhz in clocks.items() if CLOCK in name] or clocks.values()), 2)
+    return round(float(min([mhz for name, mhz in clocks.items() if CLOCK in name] or clocks.values())), 2)
