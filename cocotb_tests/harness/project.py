@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from rich.console import Console
@@ -90,6 +91,22 @@ def relative(path: Path) -> str:
 def tool(name: str) -> str:
     """Return the path of a program of this Python environment; else its name, to be found in PATH."""
     return shutil.which(name, path=str(Path(sys.executable).parent)) or name
+
+
+def ran(command: Sequence[str], env: Mapping[str, str] | None = None, cwd: Path = ROOT) -> tuple[int, str]:
+    """Run a tool without input; return its exit code, and its output and errors as one text."""
+    done = subprocess.run(
+        command,
+        cwd=cwd,
+        env=env,
+        text=True,
+        errors="replace",
+        check=False,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    return done.returncode, done.stdout
 
 
 def fail(message: str) -> int:

@@ -24,20 +24,11 @@ from openppmc.check.comparison import Comparison
 from openppmc.check.records import Recording
 from scripts.demo import waves
 from scripts.demo.demos import Demo
-from scripts.demo.steps import Steps
+from scripts.demo.steps import last_line, step
 
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
 MOST = 11  # bytes of a block that are printed
-
-
-def last_line(path: Path) -> str:
-    """Return the last line of a file; empty if the file does not exist yet."""
-    try:
-        lines = path.read_text(errors="replace").strip().splitlines()
-    except OSError:
-        return ""
-    return lines[-1] if lines else ""
 
 
 def newest_build(part: str) -> str:
@@ -52,12 +43,12 @@ def repro(demo: Demo) -> str:
     return "make demo" if demo.name == "ppmc104" else f"make demo PART={demo.name}"
 
 
-def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
+def simulate(demo: Demo) -> tuple[Recording, list[dict[str, Any]]]:
     """Build the RTL and run the demo; return the recording and the chapters."""
     design = part_design(demo.part, demo.config)
-    steps.run("build the RTL with Verilator", lambda: build(design), lambda: newest_build(demo.part))
+    step("build the RTL with Verilator", lambda: build(design), lambda: newest_build(demo.part))
     item = Item(demo.module, demo.test, demo.config, demo.part, ())
-    steps.run(
+    step(
         "drive it like a host",
         lambda: run_sim(design, item, seed=1, folder=RUN, repro=repro(demo)),
         lambda: last_line(RUN / "progress"),
@@ -192,24 +183,21 @@ def main(arguments: list[str] | None = None) -> int:
 
 def play(demo: Demo) -> int:
     """Run a demo on the pins of a part; return 0 if every edge of the RTL equals that of the golden model."""
-    steps = Steps()
     begin = time.monotonic()
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
-        recording, chapters = simulate(demo, steps)
-        comparison = steps.run("run the golden model", lambda: compare_recording(recording))
+        recording, chapters = simulate(demo)
+        comparison = step("run the golden model", lambda: compare_recording(recording))
         saved = write_waves(demo, comparison, chapters)
         picture = FOLDER / "profile.png"
         try:
-            steps.run("draw the picture", lambda: demo.draw(comparison, chapters, picture))
+            step("draw the picture", lambda: demo.draw(comparison, chapters, picture))
         except (IndexError, StopIteration):
             # The close-ups need edges that faulty RTL may not have.
             if comparison.mismatch is None:
                 raise
     except SimError as error:
         return fail(str(error))
-    if console.is_terminal:
-        console.print("\n".join(steps.done), style="green")
     show_talk(demo, recording, chapters)
     show_moves(demo, comparison, chapters)
     show_comparison(comparison)

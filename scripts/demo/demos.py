@@ -17,6 +17,17 @@ from openppmc.plot.signals import Run
 from scripts.demo.scenes import Changes, access_text, falls
 
 
+def signals(**groups: str) -> list[tuple[str, list[str]]]:
+    """Return (title, signals) of saved views from texts; a name without a scope is a pin.
+
+    An underscore in the name of a group is a space in its title.
+    """
+    return [
+        (title.replace("_", " "), [name if "." in name else f"pins.{name}" for name in text.split()])
+        for title, text in groups.items()
+    ]
+
+
 @dataclass(frozen=True)
 class View:
     """Content of the VCD.

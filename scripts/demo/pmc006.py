@@ -16,7 +16,7 @@ from cocotb_tests.pmc006.demo_program import BUILD, FINE, LEAD, MOTOR, MOVES, WA
 from openppmc.capture.pmc006.mnemonics import Pmc006Decoder
 from openppmc.model.pmc006.bench.motor import BRIDGES, Winding
 from openppmc.plot.motion import GREY, INK, PALE, bare
-from scripts.demo.demos import Demo, View
+from scripts.demo.demos import Demo, View, signals
 from scripts.demo.scenes import Changes, bit, frame_text, heading, pin, rises, subtitle
 
 PHASES = {"a": "#0b6fb8", "b": "#c26a1b"}
@@ -236,16 +236,15 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
     plt.close(figure)
 
 
-_BRIDGES = ("bridge_a_en", "m10", "m11", "cmp_a", "bridge_b_en", "m20", "m21", "cmp_b")
 VIEW = View(
     split={"gpo": [f"gpo{n}" for n in range(1, 6)], "gpi": [f"gpi{n}" for n in range(1, 6)]},
     motors={"motor": "mon_step"},
-    groups=(
-        ("line", ("host.access", "pins.rxd", "pins.txd", "pins.de")),
-        ("motor", ("motor.speed_pps", "motor.pulses", "pins.mon_step", "pins.mon_dir", "pins.mon_busy")),
-        ("currents", tuple(f"pins.phase_{phase}_{what}" for phase in "ab" for what in ("ref", "sign"))),
-        ("bridges", tuple(f"pins.{pin}" for pin in _BRIDGES)),
-        ("ports", ("pins.ext1", "pins.gpo1", "pins.gpo2")),
+    groups=signals(
+        line="host.access rxd txd de",
+        motor="motor.speed_pps motor.pulses mon_step mon_dir mon_busy",
+        currents="phase_a_ref phase_a_sign phase_b_ref phase_b_sign",
+        bridges="bridge_a_en m10 m11 cmp_a bridge_b_en m20 m21 cmp_b",
+        ports="ext1 gpo1 gpo2",
     ),
     pulses=rises,
     access=frame_text,

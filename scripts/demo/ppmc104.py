@@ -8,7 +8,7 @@ from typing import Any
 from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.plot.motion import SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
-from scripts.demo.demos import Demo, View
+from scripts.demo.demos import Demo, View, signals
 from scripts.demo.scenes import Levels, bit, micros, pin, spans, subtitle
 
 TITLES = {
@@ -91,33 +91,10 @@ def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
 VIEW = View(
     split={"s": ("s1", "s2", "s3", "s4", "s5")},
     motors={"motor": "pout_n"},
-    groups=(
-        (
-            "host",
-            (
-                "host.access",
-                "pins.cs_n",
-                "pins.a0",
-                "pins.wr_n",
-                "pins.rd_n",
-                "pins.d_i",
-                "pins.d_o",
-                "pins.d_oe",
-                "pins.int_n",
-            ),
-        ),
-        (
-            "motor",
-            (
-                "motor.speed_pps",
-                "motor.pulses",
-                "pins.pout_n",
-                "pins.dir",
-                *(f"pins.s{n}" for n in range(1, 6)),
-                "pins.hold",
-            ),
-        ),
-        ("switches", ("pins.l1_n", "pins.l2_n", "pins.l3_n", "pins.l4_n", "pins.cnp_n", "pins.alm_n")),
+    groups=signals(
+        host="host.access cs_n a0 wr_n rd_n d_i d_o d_oe int_n",
+        motor="motor.speed_pps motor.pulses pout_n dir s1 s2 s3 s4 s5 hold",
+        switches="l1_n l2_n l3_n l4_n cnp_n alm_n",
     ),
 )
 

@@ -8,8 +8,8 @@ from typing import Any
 from openppmc.capture.ppmc2104.mnemonics import Ppmc2104Decoder
 from openppmc.plot.motion import SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
-from scripts.demo.demos import Demo, View
-from scripts.demo.scenes import Changes, Levels, bit, micros, pin, spans, subtitle
+from scripts.demo.demos import Demo, View, signals
+from scripts.demo.scenes import Levels, bit, falls, first, micros, pin, spans, subtitle
 
 TITLES = {
     "move": "a straight line, started by RUN:\naxis 1 1000 pulses CW, axis 2 500 pulses CCW",
@@ -36,16 +36,6 @@ def axis_traces(
     ]
     name, port = SWITCHES[axis]
     return [*rows, Trace(name, 1, bit(pin(stimulus, port), axis - 1), colour)]
-
-
-def falls(outputs: Levels, axis: int) -> list[int]:
-    """Return the edges of the pulses of an axis."""
-    return [t for t, level in bit(outputs["pout_n"], axis - 1) if level == 0]
-
-
-def first(changes: Changes, level: int, since: int) -> int:
-    """Return the edge of the first change to a level."""
-    return next(t for t, value in changes if value == level and t >= since)
 
 
 def start(pulses: Mapping[int, list[int]], run: int, clk_hz: int) -> Section:
@@ -103,7 +93,7 @@ def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
     """Return the content of the picture for the compared recording."""
     recording, outputs = comparison.recording, comparison.actual
     clk_hz = int(recording.params["CLK_HZ"])
-    pulses = {axis: falls(outputs, axis) for axis in COLOURS}
+    pulses = {axis: falls(bit(outputs["pout_n"], axis - 1)) for axis in COLOURS}
     by_key = {chapter["key"]: chapter for chapter in chapters}
     run = [(0, 1), *pin(recording.stimulus, "run")]
     press = first(bit(pin(recording.stimulus, "fl_n"), 0), 0, 0)
@@ -132,20 +122,7 @@ def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
     )
 
 
-_PER_AXIS = (
-    "pout_n",
-    "dir",
-    "hold",
-    "run",
-    "csel",
-    "extck",
-    "fl_n",
-    "bl_n",
-    "fhl_n",
-    "bhl_n",
-    "org_n",
-    "alm_n",
-)
+_PER_AXIS = "pout_n dir hold run csel extck fl_n bl_n fhl_n bhl_n org_n alm_n".split()
 
 
 def _name(port: str, axis: int) -> str:
@@ -153,12 +130,11 @@ def _name(port: str, axis: int) -> str:
     return f"{port.removesuffix('_n')}{axis}{'_n' if port.endswith('_n') else ''}"
 
 
-def _axis_group(axis: int) -> tuple[str, Sequence[str]]:
-    pins = [_name(port, axis) for port in ("run", "pout_n", "dir")]
-    pins += [f"s{n}{axis}_n" for n in range(1, 6)]
-    pins += [_name(port, axis) for port in ("hold", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")]
-    signals = [f"axis{axis}.speed_pps", f"axis{axis}.pulses", *(f"pins.{pin}" for pin in pins)]
-    return f"axis {axis}", signals
+def _axis_group(axis: int) -> str:
+    phases = " ".join(f"s{n}{axis}_n" for n in range(1, 6))
+    switches = " ".join(_name(port, axis) for port in "fl_n bl_n fhl_n bhl_n org_n alm_n".split())
+    moves = f"axis{axis}.speed_pps axis{axis}.pulses run{axis} pout{axis}_n dir{axis}"
+    return f"{moves} {phases} hold{axis} {switches}"
 
 
 VIEW = View(
@@ -167,30 +143,10 @@ VIEW = View(
         **{f"s{axis}_n": [f"s{n}{axis}_n" for n in range(1, 6)] for axis in (1, 2)},
     },
     motors={"axis1": "pout1_n", "axis2": "pout2_n"},
-    groups=(
-        (
-            "host",
-            (
-                "host.access",
-                *(
-                    f"pins.{pin}"
-                    for pin in (
-                        "cs_n",
-                        "a0",
-                        "busc",
-                        "ds_wrs_n",
-                        "rw_rds_n",
-                        "d_i",
-                        "d_o",
-                        "d_oe",
-                        "int_n",
-                        "errint_n",
-                    )
-                ),
-            ),
-        ),
-        _axis_group(1),
-        _axis_group(2),
+    groups=signals(
+        host="host.access cs_n a0 busc ds_wrs_n rw_rds_n d_i d_o d_oe int_n errint_n",
+        axis_1=_axis_group(1),
+        axis_2=_axis_group(2),
     ),
 )
 

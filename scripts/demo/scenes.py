@@ -33,6 +33,11 @@ def rises(changes: Changes) -> list[int]:
     return [t for t, level in changes if level == 1]
 
 
+def first(changes: Sequence[tuple[int, int]], level: int, since: int) -> int:
+    """Return the edge of the first change to a level, at `since` or later."""
+    return next(t for t, value in changes if value == level and t >= since)
+
+
 def access_text(access: Any) -> str:
     """Return a host access as one word: C43 command, DE7 data, S04 status read, R83 data read."""
     return f"{('DC' if access.kind == 'write' else 'RS')[access.reg]}{access.byte:02X}"

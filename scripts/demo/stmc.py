@@ -9,8 +9,8 @@ from openppmc.capture.stmc.mnemonics import StmcDecoder
 from openppmc.check.records import steps
 from openppmc.plot.motion import COLOURS, SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
-from scripts.demo.demos import Demo, View
-from scripts.demo.scenes import Levels, bit, micros, pin, spans, subtitle
+from scripts.demo.demos import Demo, View, signals
+from scripts.demo.scenes import Levels, bit, first, micros, pin, spans, subtitle
 
 TITLES = {
     "move": "300 steps:\naccelerate, run, decelerate",
@@ -29,11 +29,6 @@ def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any])
     ]
     rows += [Trace(name, initial[port], outputs[port]) for name, port in (("HOLD", "hold"), ("IRQ", "irq"))]
     return rows + [Trace(name, 1, pin(stimulus, port)) for name, port in SWITCHES]
-
-
-def first(changes: Sequence[tuple[int, int]], level: int, since: int) -> int:
-    """Return the edge of the first change to a level, at `since` or later."""
-    return next(t for t, value in changes if value == level and t >= since)
 
 
 def start(outputs: Levels, moves: Sequence[int], begin: int, clk_hz: int) -> Section:
@@ -105,28 +100,13 @@ def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
     )
 
 
-_SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
 VIEW = View(
     split={"s": ("s1", "s2", "s3", "s4", "s5"), "drv": ("drv1", "drv2", "drv3", "drv4")},
     motors={"motor": "s"},
-    groups=(
-        (
-            "ISA bus",
-            (
-                "host.access",
-                *(f"pins.{pin}" for pin in ("sa", "aen", "iow_n", "ior_n", "sd_i", "sd_o", "sd_oe", "irq")),
-            ),
-        ),
-        (
-            "motor",
-            (
-                "motor.speed_pps",
-                "motor.pulses",
-                *(f"pins.drv{n}" for n in range(1, 5)),
-                "pins.hold",
-            ),
-        ),
-        ("switches", tuple(f"pins.{pin}" for pin in _SWITCHES)),
+    groups=signals(
+        ISA_bus="host.access sa aen iow_n ior_n sd_i sd_o sd_oe irq",
+        motor="motor.speed_pps motor.pulses drv1 drv2 drv3 drv4 hold",
+        switches="l1_n l2_n l3_n l4_n cnp_n mon",
     ),
     pulses=steps,
 )

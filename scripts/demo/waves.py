@@ -8,9 +8,9 @@ be half a gigabyte.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from vcd import VCDWriter
 
@@ -20,6 +20,8 @@ from openppmc.check.records import Recording
 from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 
+Signal = tuple[str, str, int | str, Any, Sequence[tuple[int, Any]]]
+"""Scope, name, width in bits or kind (string, real, integer), first value, changes (edge, value)."""
 TEXTS = ("host.access", "line.question", "line.answer")
 LATEST_FALL = 2.1e-3  # after this time in seconds without a pulse, the speed is 0
 
@@ -60,40 +62,51 @@ def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
     }
 
 
-def _writer(file: IO[str], recording: Recording) -> VCDWriter:
-    """Return a writer of a VCD that names part and parameters, so that `openppmc decode` can read it."""
-    comment = core_comment(recording.part, recording.params)
-    return VCDWriter(file, timescale="1 ps", date="", comment=comment)
+def write(path: Path, signals: Iterable[Signal], recording: Recording, comment: str = "") -> None:
+    """Write a VCD with these signals of a recorded run.
+
+    Args:
+        comment: names part and parameters, so that `openppmc decode` can read the file (`core_comment`).
+    """
+    period = round(1e12 / int(str(recording.params["CLK_HZ"])))
+    rows: list[tuple[int, Any, Any]] = []
+    with path.open("w") as file, VCDWriter(file, timescale="1 ps", date="", comment=comment) as writer:
+        for scope, name, kind, init, changes in signals:
+            if isinstance(kind, int):
+                var = writer.register_var(scope, name, "wire", size=kind, init=init)
+            else:
+                size = 32 if kind == "integer" else None
+                var = writer.register_var(scope, name, kind, size=size, init=init)
+            rows += [(t, var, value) for t, value in changes]
+        for t, var, value in sorted(rows, key=lambda row: row[0]):
+            writer.change(var, max(0, t) * period, value)
+        writer.close(max(0, recording.end) * period)
 
 
 def write_vcd(comparison: Any, view: View, path: Path) -> None:
     """Write all pins, the host's accesses, and each motor's pulse count and speed."""
     recording = comparison.recording
+    comment = core_comment(recording.part, recording.params)
+    write(path, _signals(comparison, view), recording, comment)
+
+
+def _signals(comparison: Any, view: View) -> Iterator[Signal]:
+    recording = comparison.recording
     part = recorded(recording.part, recording.params)
-    clk_hz = int(recording.params["CLK_HZ"])
-    period = round(1e12 / clk_hz)
     driven: dict[str, list[tuple[int, int]]] = {}
     for change in recording.stimulus:
         driven.setdefault(change.pin, []).append((change.t, change.value))
     pins = single_pins({"rst_n": 1, **part.inputs}, driven, view.split)
     pins |= single_pins(comparison.initial, comparison.actual, view.split)
-    rows: list[tuple[int, Any, Any]] = []
-    with path.open("w") as file, _writer(file, recording) as writer:
-        for name, (level, changes) in pins.items():
-            # A bit of a vector is not a port of the part.
-            size = part.width(name) if name in part.inputs or name in part.outputs else 1
-            var = writer.register_var("pins", name, "wire", size=size, init=level)
-            rows += [(t, var, value) for t, value in changes]
-        text = writer.register_var("host", "access", "string", init="")
-        rows += [(access.t, text, view.access(access)) for access in recording.accesses]
-        for scope, pulses in motor_pulses(comparison, view).items():
-            speed = writer.register_var(scope, "speed_pps", "real", init=0.0)
-            rows += [(t, speed, value) for t, value in speed_changes(pulses, clk_hz)]
-            count = writer.register_var(scope, "pulses", "integer", size=32, init=0)
-            rows += [(t, count, index + 1) for index, t in enumerate(pulses)]
-        for t, var, value in sorted(rows, key=lambda row: row[0]):
-            writer.change(var, max(0, t) * period, value)
-        writer.close(max(0, recording.end) * period)
+    for name, (level, changes) in pins.items():
+        # A bit of a vector is not a port of the part.
+        size = part.width(name) if name in part.inputs or name in part.outputs else 1
+        yield "pins", name, size, level, changes
+    yield "host", "access", "string", "", [(one.t, view.access(one)) for one in recording.accesses]
+    for scope, pulses in motor_pulses(comparison, view).items():
+        speeds = list(speed_changes(pulses, int(recording.params["CLK_HZ"])))
+        yield scope, "speed_pps", "real", 0.0, speeds
+        yield scope, "pulses", "integer", 0, [(t, index + 1) for index, t in enumerate(pulses)]
 
 
 def full_names(part: str, view: View) -> Mapping[str, str]:

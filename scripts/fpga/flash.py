@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import re
 import shutil
-import subprocess
 import sys
 
 from cocotb_tests.harness import project
@@ -51,18 +50,9 @@ def flash(on: Board, host: str, sram: bool) -> None:
         raise ProjectError(f"{file} is missing; run `make bitstream BOARD={on.name} HOST={host}{part}`")
     load = command(on, host, sram)
     with console.status(f"{on.title}, {on.revisions}: {file}"):
-        done = subprocess.run(
-            load,
-            cwd=project.ROOT,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            check=False,
-        )
-    if done.returncode:
-        said = complaint(done.stdout) or f"exit code {done.returncode}"
+        code, text = project.ran(load)
+    if code:
+        said = complaint(text) or f"exit code {code}"
         raise ProjectError(f"{LOADER} could not load {on.title} (is it plugged in?): {said}")
     console.print(f"{on.title}: {file} loaded{' until power-off' if sram else ''}; for {on.revisions}")
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import subprocess
 import sys
 import sysconfig
 from collections.abc import Callable, Iterator
@@ -47,6 +46,9 @@ BANKS = (
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".rdl", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
+TABLES = project.BUILD / "lint" / "tables"
+GENERATORS = ("scripts.pages", "scripts.fpga.rom.calc_rom", "scripts.fpga.packages", "scripts.fpga.boards")
+"""Modules with an option --check, which lists the outdated files."""
 BUILT = {".venv", "build", ".git", "node_modules"}
 MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA", "CK")))
 
@@ -60,25 +62,27 @@ class Check:
     run: Callable[[], str]
 
 
-def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
-    """Run a tool from the project's root; return its output. With `ok_output`, a success returns ""."""
+def ran(*command: str, env: dict[str, str] | None = None) -> tuple[int, str]:
+    """Run a tool from the project's root; return its exit code and its output."""
     try:
-        done = subprocess.run(
-            command,
-            cwd=project.ROOT,
-            env=env,
-            text=True,
-            check=False,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-        )
+        code, text = project.ran(command, env)
     except FileNotFoundError:
-        return f"{command[0]}: not installed (run `make setup`)"
-    text = done.stdout.strip()
-    if done.returncode:
-        return text or f"{Path(command[0]).name} ended with exit code {done.returncode}"
-    return "" if ok_output else text
+        return 1, f"{command[0]}: not installed (run `make setup`)"
+    text = text.strip()
+    if code and not text:
+        text = f"{Path(command[0]).name} ended with exit code {code}"
+    return code, text
+
+
+def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
+    """Return the output of a tool; with `ok_output`, a success returns ""."""
+    code, text = ran(*command, env=env)
+    return "" if ok_output and not code else text
+
+
+def module(name: str, *words: str) -> str:
+    """Return the output of a Python module that fails; "" if it succeeds."""
+    return tool(sys.executable, "-m", name, *words, ok_output=True)
 
 
 def rtl_files(*suffixes: str) -> list[str]:
@@ -139,19 +143,11 @@ def slang(top: str, files: list[Path], params: dict[str, int | str]) -> str:
         "top": top,
         "params": params,
     }
-    done = subprocess.run(
-        [sys.executable, "-m", "scripts.fpga.flow.elaborate", json.dumps(job)],
-        cwd=project.ROOT,
-        text=True,
-        check=False,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-    )
-    lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
+    code, text = ran(sys.executable, "-m", "scripts.fpga.flow.elaborate", json.dumps(job))
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
     messages = [line for line in lines if "warning:" in line.lower() or "error:" in line.lower()]
-    if done.returncode and not messages:
-        messages = lines[-4:] or [f"ended with exit code {done.returncode}"]
+    if code and not messages:
+        messages = lines[-4:]
     return "\n".join(dict.fromkeys(messages))
 
 
@@ -182,19 +178,13 @@ def group_dependencies() -> str:
 
 def text_files() -> list[Path]:
     """Return the text files of the project: tracked or new in git; without git, all except build files."""
-    listing = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-        cwd=project.ROOT,
-        text=True,
-        capture_output=True,
-        check=False,
+    code, text = ran("git", "ls-files", "--cached", "--others", "--exclude-standard")
+    every = project.ROOT.rglob("*")
+    paths = (
+        [path for path in every if not BUILT & set(path.relative_to(project.ROOT).parts)]
+        if code
+        else [project.ROOT / name for name in text.splitlines()]
     )
-    if listing.returncode == 0:
-        paths = [project.ROOT / name for name in listing.stdout.splitlines()]
-    else:
-        paths = [
-            path for path in project.ROOT.rglob("*") if not BUILT & set(path.relative_to(project.ROOT).parts)
-        ]
     return [path for path in paths if path.suffix in TEXT_SUFFIXES and path.is_file()]
 
 
@@ -218,7 +208,7 @@ def text_marks() -> str:
 def spelling() -> str:
     """Check the text files with codespell; `[tool.codespell]` in pyproject.toml has its settings."""
     files = [relative(path) for path in text_files()]
-    return tool(sys.executable, "-m", "codespell_lib", *files, ok_output=True)
+    return module("codespell_lib", *files)
 
 
 def locked() -> str:
@@ -287,50 +277,22 @@ def checks() -> list[Check]:
         *every,
         Check("verible-verilog-lint", "rtl/", verible_lint),
         Check("verible-verilog-format", "rtl/", verible_format),
-        Check("ruff check", "Python", lambda: ruff("check", "--output-format=concise")),
+        Check("ruff check", "Python", partial(ruff, "check", "--output-format=concise")),
+        Check("ruff format", "Python", partial(ruff, "format", "--check")),
         Check(
-            "ruff format",
-            "Python",
-            lambda: ruff("format", "--check"),
+            "import-linter", "Python", partial(tool, project.tool("lint-imports"), *CONTRACTS, ok_output=True)
         ),
-        Check(
-            "import-linter", "Python", lambda: tool(project.tool("lint-imports"), *CONTRACTS, ok_output=True)
-        ),
-        Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
+        Check("mypy --strict", "openppmc", partial(module, "mypy")),
         Check("figures", "docs/sizes.json", lambda: "\n".join(figures.stale(figures.read()))),
         Check("rtl/files.yml", "complete", file_list),
         Check("rtl/files.yml", "dependencies of groups", group_dependencies),
         Check("modules", "ports and lines", all_findings),
-        Check(
-            "tables",
-            "equal in netlist and simulation",
-            lambda: differences(project.BUILD / "lint" / "tables"),
+        Check("tables", "equal in netlist and simulation", partial(differences, TABLES)),
+        *(
+            Check(name.rpartition(".")[2], "up to date", partial(module, name, "--check"))
+            for name in GENERATORS
         ),
-        Check(
-            "docs",
-            "pictures and tables up to date",
-            lambda: tool(sys.executable, "-m", "scripts.pages", "--check", ok_output=True),
-        ),
-        Check(
-            "rom",
-            "up to date",
-            lambda: tool(sys.executable, "-m", "scripts.fpga.rom.calc_rom", "--check", ok_output=True),
-        ),
-        Check(
-            "packages",
-            "up to date",
-            lambda: tool(sys.executable, "-m", "scripts.fpga.packages", "--check", ok_output=True),
-        ),
-        Check(
-            "packages",
-            "templates and FuseSoC run",
-            lambda: tool(sys.executable, "-m", "scripts.fpga.packages", "--try", ok_output=True),
-        ),
-        Check(
-            "boards",
-            "up to date",
-            lambda: tool(sys.executable, "-m", "scripts.fpga.boards", "--check", ok_output=True),
-        ),
+        Check("packages", "templates and FuseSoC run", partial(module, "scripts.fpga.packages", "--try")),
         Check("requirements.lock", "installed packages", locked),
         Check("texts", "marks, tabs, line ends", text_marks),
         Check("prose", "lint/prose.txt", prose.errors),

@@ -8,7 +8,6 @@ yosys needs one.
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
@@ -56,18 +55,10 @@ def includes() -> list[str]:
 
 def run(*command: str) -> str:
     """Return the output of a command; raise ProjectError with its end if the command fails."""
-    done = subprocess.run(
-        command,
-        cwd=project.ROOT,
-        text=True,
-        check=False,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-    )
-    if done.returncode:
-        raise ProjectError("\n".join(done.stdout.strip().splitlines()[-4:]) or f"{command[0]} failed")
-    return done.stdout
+    code, text = project.ran(command)
+    if code:
+        raise ProjectError("\n".join(text.strip().splitlines()[-4:]) or f"{command[0]} failed")
+    return text
 
 
 def differences(folder: Path) -> str:

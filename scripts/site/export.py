@@ -1,8 +1,6 @@
 """Write the data of each part for the page: pins, texts, sessions, module.
 
 The data are scripts, which a page can also load from a file.
-
-    python -m scripts.site.export [PART …]          into build/site/playground
 """
 
 from __future__ import annotations
@@ -10,13 +8,12 @@ from __future__ import annotations
 import base64
 import json
 import shutil
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness.part import BusStyle
-from cocotb_tests.harness.project import ProjectError, run
+from cocotb_tests.harness.project import ProjectError
 from openppmc.capture.common.mnemonics import CommandDecoder
 from openppmc.parts import PARTS
 from openppmc.sim.common.build import SimError
@@ -31,7 +28,7 @@ LENGTHS = {
     "window": {"lead": 1, "strobe": 2, "readStrobe": 6, "gap": 3},
     "block": {"lead": 0, "strobe": 3, "readStrobe": 5, "gap": 3},
 }
-"""Cycles of each phase of an access; the hosts of `players` use the same."""
+"""Cycles of each phase of an access; the players of tests/common/web use the same."""
 PLAYGROUND = wasm.OUT / "playground"
 
 
@@ -123,23 +120,13 @@ def export(name: str, out: Path = PLAYGROUND) -> None:
     _script(out / f"parts/{name}.js", "data", name, data(part, module))
 
 
-def main(arguments: list[str]) -> int:
-    """Export these parts, or all."""
-    names = arguments or list(WEB_PARTS)
+def all_parts() -> None:
+    """Write all parts and their list; raise ProjectError if a module cannot be built."""
     try:
-        for number, name in enumerate(names, 1):
-            say(f"WebAssembly of {name}, {number} of {len(names)}")
+        for number, name in enumerate(WEB_PARTS, 1):
+            say(f"WebAssembly of {name}, {number} of {len(WEB_PARTS)}")
             export(name)
-        entries = [{"name": name, "title": PARTS[name].title} for name in names]
-        text = json.dumps(entries, ensure_ascii=False)
-        (PLAYGROUND / "parts.js").write_text(
-            f"(globalThis.openppmc??={{}}).parts={text};\n", encoding="utf-8"
-        )
-    except (ProjectError, SimError, ValueError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(run(lambda: main(sys.argv[1:])))
+    except SimError as error:
+        raise ProjectError(str(error)) from None
+    text = json.dumps([{"name": name, "title": PARTS[name].title} for name in WEB_PARTS], ensure_ascii=False)
+    (PLAYGROUND / "parts.js").write_text(f"(globalThis.openppmc??={{}}).parts={text};\n", encoding="utf-8")

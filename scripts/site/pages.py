@@ -1,19 +1,15 @@
-"""The playground's folder: its script by esbuild, tables and modules of all parts.
-
-python -m scripts.site.pages
-"""
+"""The playground's folder: its script by esbuild, tables and modules of all parts."""
 
 from __future__ import annotations
 
 import shutil
 import subprocess
-import sys
 from functools import cache
 from pathlib import Path
 
 from cocotb_tests.harness.build import locked
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import ProjectError, relative, run
+from cocotb_tests.harness.project import ProjectError, relative
 from scripts.site import export, wasm
 from scripts.site.progress import say
 
@@ -62,21 +58,6 @@ def _made() -> Path:
     say("script of the playground")
     node("npx", "tsc", "--noEmit")
     node("node", "build.mjs", str(export.PLAYGROUND))
-    if export.main([]):
-        raise ProjectError("the tables of the playground cannot be made")
+    export.all_parts()
     shutil.copy(SITE / "index.html", export.PLAYGROUND)
     return export.PLAYGROUND
-
-
-def main() -> int:
-    """Build the playground; return the exit code."""
-    try:
-        print(relative(playground() / "index.html"))
-    except ProjectError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(run(main))

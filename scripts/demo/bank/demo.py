@@ -35,7 +35,7 @@ from scripts.demo.bank import waves
 from scripts.demo.bank.moves import AXES, CLK_HZ, INIT, ORDERS, Order
 from scripts.demo.bank.picture import draw
 from scripts.demo.bank.session import READ_FINISH, Session
-from scripts.demo.steps import Steps
+from scripts.demo.steps import step
 from scripts.fpga.flow import plain_sim
 
 NAME = "bank"
@@ -152,19 +152,19 @@ def show(pulses: list[list[int]], played: Played, faults: dict[int, str]) -> Non
 
 def main() -> int:
     """Run the demo; return 0 if all edges equal the golden model's and all profiles equal the prediction."""
-    steps, begin = Steps(), time.monotonic()
+    begin = time.monotonic()
     picture, vcd = FOLDER / "profile.png", FOLDER / f"{NAME}.vcd"
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
-        program = steps.run("build the RTL with Verilator", build)
-        played = steps.run("run a host of 32 axes on the golden model", play)
-        comparison = steps.run("apply the same pin changes to the RTL", lambda: simulate(program, played))
+        program = step("build the RTL with Verilator", build)
+        played = step("run a host of 32 axes on the golden model", play)
+        comparison = step("apply the same pin changes to the RTL", lambda: simulate(program, played))
         pulses = trains(comparison)
         faults = {one.axis: text for one in ORDERS if (text := wrong(one, pulses[one.axis], played))}
         FOLDER.mkdir(parents=True, exist_ok=True)
         waves.write(comparison, pulses, vcd)
         waves.views(vcd, AXES)
-        steps.run("draw the picture", lambda: draw(comparison, pulses, played.first, picture))
+        step("draw the picture", lambda: draw(comparison, pulses, played.first, picture))
     except (SimError, ProjectError) as error:
         return fail(str(error))
     show(pulses, played, faults)

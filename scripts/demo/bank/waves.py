@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from vcd import VCDWriter
-
 from openppmc.check.records import bit_changes
-from scripts.demo.waves import speed_changes
+from scripts.demo import waves
+from scripts.demo.scenes import pin
 
 BUS = {"a": 10, "cs_n": 1, "rd_n": 1, "wr_n": 1, "d_i": 8}
 ANSWERS = {"d_o": 8, "d_oe": 1, "int_n": 1}
@@ -22,30 +21,21 @@ def write(comparison: Any, pulses: Sequence[Sequence[int]], path: Path) -> None:
     Args:
         pulses: edges of the pulses of each axis.
     """
-    recording = comparison.recording
-    clk_hz = int(recording.params["CLK_HZ"])
-    period = round(1e12 / clk_hz)
-    rows: list[tuple[int, Any, Any]] = []
-    with path.open("w") as file, VCDWriter(file, timescale="1 ps", date="") as writer:
-        drive = {
-            name: writer.register_var("host", name, "wire", size=size, init=IDLE[name])
-            for name, size in BUS.items()
-        }
-        rows += [(t, drive[pin], value) for t, pin, value in recording.stimulus if pin in drive]
-        for name, size in ANSWERS.items():
-            var = writer.register_var("host", name, "wire", size=size, init=comparison.initial[name])
-            rows += [(t, var, value) for t, value in comparison.actual[name]]
-        for axis, found in enumerate(pulses):
-            scope = f"axis{axis}"
-            for name in ("pout_n", "dir", "hold"):
-                start = comparison.initial[name]
-                var = writer.register_var(scope, name, "wire", size=1, init=start >> axis & 1)
-                rows += [(t, var, level) for t, level in bit_changes(comparison.actual[name], axis, start)]
-            speed = writer.register_var(scope, "speed_pps", "real", init=0.0)
-            rows += [(t, speed, value) for t, value in speed_changes(found, clk_hz)]
-        for t, var, value in sorted(rows, key=lambda row: row[0]):
-            writer.change(var, max(0, t) * period, value)
-        writer.close(recording.end * period)
+    waves.write(path, _signals(comparison, pulses), comparison.recording)
+
+
+def _signals(comparison: Any, pulses: Sequence[Sequence[int]]) -> Iterator[waves.Signal]:
+    recording, initial, actual = comparison.recording, comparison.initial, comparison.actual
+    for name, size in BUS.items():
+        yield "host", name, size, IDLE[name], pin(recording.stimulus, name)
+    for name, size in ANSWERS.items():
+        yield "host", name, size, initial[name], actual[name]
+    for axis, found in enumerate(pulses):
+        for name in ("pout_n", "dir", "hold"):
+            start = initial[name]
+            yield f"axis{axis}", name, 1, start >> axis & 1, bit_changes(actual[name], axis, start)
+        speeds = list(waves.speed_changes(found, int(recording.params["CLK_HZ"])))
+        yield f"axis{axis}", "speed_pps", "real", 0.0, speeds
 
 
 def views(vcd: Path, axes: int) -> None:

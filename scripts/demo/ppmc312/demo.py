@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from openppmc.capture.ppmc312.mnemonics import Ppmc312Decoder
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up, draw_speed
 from openppmc.plot.signals import Run, Section, Speed, Trace, speeds
-from scripts.demo.demos import Demo, View
+from scripts.demo.demos import Demo, View, signals
 from scripts.demo.scenes import Levels, heading, micros, pin, register_text, rises, spans, subtitle
 
 LINEAR, SIGMOID, FREE = SPEED, "#c0392b", "#2f9e6e"
@@ -210,16 +210,10 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
 VIEW = View(
     split={"auxo_n": [f"auxo{n}_n" for n in range(6)], "auxi": [f"auxi{n}" for n in range(8)]},
     motors={"motor": "pout"},
-    groups=(
-        (
-            "host",
-            (
-                "host.access",
-                *(f"pins.{pin}" for pin in ("cs_n", "rs", "we_n", "oe_n", "d_i", "d_o", "d_oe", "irq_n")),
-            ),
-        ),
-        ("motor", ("motor.speed_pps", "motor.pulses", "pins.pout", "pins.dir", "pins.cd_n")),
-        ("switches", tuple(f"pins.{pin}" for pin in ("evt0_n", "org_n", "fl_n", "bl_n", "run", "alm_n"))),
+    groups=signals(
+        host="host.access cs_n rs we_n oe_n d_i d_o d_oe irq_n",
+        motor="motor.speed_pps motor.pulses pout dir cd_n",
+        switches="evt0_n org_n fl_n bl_n run alm_n",
     ),
     pulses=rises,
     access=register_text,

@@ -35,12 +35,8 @@ def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
     boards = load_all()
     every = fitted_parts(boards)
     found = {path: text for one in every for path, text in own_files(one, layout).items()}
-    docs, sources = project.DOCS / "boards.md", project.RTL / "files.yml"
-    readme = project.ROOT / "README.md"
-    found[docs] = tables.page(boards, every, docs.read_text(encoding="utf-8"))
-    found[readme] = tables.readme(boards, readme.read_text(encoding="utf-8"))
-    bridge = project.DOCS / "uart_bridge.md"
-    found[bridge] = tables.bridge(bridge.read_text(encoding="utf-8"))
+    found |= tables.pages(boards, every)
+    sources = project.RTL / "files.yml"
     found[sources] = tables.listing(boards, every, sources.read_text(encoding="utf-8"))
     return found
 

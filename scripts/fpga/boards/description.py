@@ -7,7 +7,7 @@ error of one line.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -111,26 +111,26 @@ class Description:
     name: str
     path: Path
     title: str
-    revisions: str  # board revisions for which the pins were checked
-    code: str
     place: int
     chip: str
     family: str
     devices: tuple[Device, ...]
     vendor: Mapping[str, str]
-    suffix: str
-    loader: str
-    port: str
     clock: Mapping[str, Any]
     reset: Mapping[str, Any]
     leds: Mapping[str, Any]
     uart: Mapping[str, Any]
     ties: Mapping[str, Mapping[str, Any]]
     pads: Mapping[str, Any]
-    defaults: Mapping[str, Any]
     statements: Mapping[str, Any]
     headers: dict[str, str]
     parts: tuple[Carried, ...]
+    revisions: str = ""  # board revisions for which the pins were checked
+    code: str = ""
+    suffix: str = ""
+    loader: str = ""
+    port: str = ""
+    defaults: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def source(self) -> str:
@@ -240,15 +240,7 @@ def load(path: Path) -> Description:
     keys["parts"] = tuple(
         carried(f"{where}: parts: {part}", part, found) for part, found in keys["parts"].items()
     )
-    optional: dict[str, Any] = {
-        "revisions": "",
-        "code": "",
-        "suffix": "",
-        "loader": "",
-        "port": "",
-        "defaults": {},
-    }
-    return Description(name=name, path=path, devices=tuple(devices), **{**optional, **keys})
+    return Description(name=name, path=path, devices=tuple(devices), **keys)
 
 
 @cache

@@ -94,11 +94,6 @@ def record_width(row: parts.Row) -> int:
     return int(words[1]) + 8 * int(words[2] or 0)
 
 
-def bridge(text: str) -> str:
-    """Return docs/uart_bridge.md with an updated table of levels."""
-    return put(text, "<!-- recorder -->", "<!-- /recorder -->", recorder_table(), "docs/uart_bridge.md")
-
-
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
     """Return `text` with `body` between the lines `begin` and `end`.
 
@@ -111,19 +106,25 @@ def put(text: str, begin: str, end: str, body: str, where: str) -> str:
     return f"{head}{begin}\n{body}\n{end}{tail}"
 
 
-def page(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:
-    """Return docs/boards.md with all its tables updated."""
-    text = put(text, "<!-- boards -->", "<!-- /boards -->", board_table(boards), "docs/boards.md")
-    text = put(text, "<!-- jumpers -->", "<!-- /jumpers -->", jumper_table(fitted), "docs/boards.md")
-    for one in fitted:
-        name = f"pins {one.board.constraints(one.on)}"
-        text = put(text, f"<!-- {name} -->", f"<!-- /{name} -->", pin_table(one), "docs/boards.md")
-    return text
-
-
-def readme(boards: tuple[Description, ...], text: str) -> str:
-    """Return the README with an updated table of boards."""
-    return put(text, "<!-- boards -->", "<!-- /boards -->", flash_table(boards), "README.md")
+def pages(boards: tuple[Description, ...], fitted: list[Fitted]) -> dict[Path, str]:
+    """Return path and updated text of each page with tables between <!-- marker --> and <!-- /marker -->."""
+    tables = {
+        "docs/boards.md": {
+            "boards": board_table(boards),
+            "jumpers": jumper_table(fitted),
+            **{f"pins {one.board.constraints(one.on)}": pin_table(one) for one in fitted},
+        },
+        "README.md": {"boards": flash_table(boards)},
+        "docs/uart_bridge.md": {"recorder": recorder_table()},
+    }
+    found = {}
+    for name, bodies in tables.items():
+        path = project.ROOT / name
+        text = path.read_text(encoding="utf-8")
+        for marker, body in bodies.items():
+            text = put(text, f"<!-- {marker} -->", f"<!-- /{marker} -->", body, name)
+        found[path] = text
+    return found
 
 
 def listing(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:

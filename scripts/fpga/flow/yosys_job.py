@@ -12,40 +12,14 @@ import sys
 from pathlib import Path
 
 FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
-FLOW3 = "scratchpad -copy abc9.script.flow3mfs abc9.script"
 
-# Additions of each recipe: a command before the family's pass, and options of that pass. flow2 and flow3 are
-# abc9 scripts that repeat mapping and restructuring. With the delay targets (in ps), abc9 saves area on paths
-# with slack. -cmp2softlogic compares with constants without carry chains; on ECP5, each end of a chain costs
-# a cell.
+# Additions of each recipe: a command before the family's pass, and options of that pass. flow2 is an abc9
+# script that repeats mapping and restructuring. -cmp2softlogic compares with constants without carry chains;
+# on ECP5, each end of a chain costs a cell.
 RECIPES: dict[str, dict[str, tuple[str, str]]] = {
-    "ecp5": {
-        "default": ("", ""),
-        "nowidelut": ("", "-nowidelut"),
-        "relaxed": ("scratchpad -set abc9.D 9000", "-nowidelut"),
-        "soft": ("", "-nowidelut -cmp2softlogic"),
-        "flow2": (FLOW2, "-nowidelut"),
-        "flow3": (FLOW3, "-nowidelut"),
-        "flow2-soft": (FLOW2, "-nowidelut -cmp2softlogic"),
-        "flow3-soft": (FLOW3, "-nowidelut -cmp2softlogic"),
-        "flow2-noccu2": (FLOW2, "-nowidelut -noccu2"),
-    },
-    "ice40": {
-        "default": ("", ""),
-        "dff": ("", "-dff"),
-        "relaxed": ("scratchpad -set abc9.D 18000", ""),
-        "flow2": (FLOW2, ""),
-        "flow3": (FLOW3, ""),
-        "flow2-dff": (FLOW2, "-dff"),
-    },
-    "gowin": {
-        "default": ("", ""),
-        "noalu": ("", "-noalu"),
-        "nowidelut": ("", "-nowidelut"),
-        "flow2": (FLOW2, ""),
-        "flow2-nowidelut": (FLOW2, "-nowidelut"),
-        "flow2-noalu": (FLOW2, "-nowidelut -noalu"),
-    },
+    "ecp5": {"default": ("", ""), "flow2-soft": (FLOW2, "-nowidelut -cmp2softlogic")},
+    "ice40": {"default": ("", ""), "flow2": (FLOW2, "")},
+    "gowin": {"default": ("", ""), "flow2": (FLOW2, "")},
     "plain": {"default": ("", "")},  # not a family: readable Verilog (`plain`)
 }
 # These commands convert processes to readable expressions and registers; they map nothing.
@@ -56,7 +30,7 @@ RENAME = "rename -wire"
 # These commands rename cells, which only changes the order in which abc9 and nextpnr process them. The
 # differences show the random part of a clock rate. The first entry is the unchanged recipe.
 PERTURB = ((), ("rename -scramble-name -seed 1",), ("rename -enumerate",))
-# The recipe with the smallest netlist among those that do not reduce the clock rate.
+# The recipe with the smallest netlist of those that were tried and do not reduce the clock rate (D-11).
 BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
 
 

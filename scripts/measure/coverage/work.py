@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from cocotb_tests.harness.crosses import SUFFIX
-from cocotb_tests.harness.project import ROOT, ProjectError
+from cocotb_tests.harness.project import ProjectError, ran
 from cocotb_tests.harness.variants import COVERAGE, COVERAGE_COPIES
 from scripts.measure.campaign.jobs import Result
 from scripts.measure.coverage import points
@@ -23,26 +22,21 @@ WALL_S = {"OPENPPMC_WALL_S": "1200"}
 """Wall-clock limit of a test in s; it is high, because a counting simulation takes several times as long."""
 
 
+def pytest(variables: Mapping[str, str], *words: str) -> tuple[int, str]:
+    """Run pytest with these environment variables; return its exit code and its output."""
+    return ran([sys.executable, "-m", "pytest", "-q", *words], {**os.environ, **variables})
+
+
 def groups(words: Sequence[str] = ()) -> list[list[str]]:
     """Return the tests of `make test` that simulate and whose names contain a word, one list per process."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
         out = Path(folder) / "groups.json"
-        command = [
-            sys.executable,
-            "-m",
-            "pytest",
-            "-q",
-            "--collect-only",
-            "-p",
-            "scripts.measure.coverage.collecting",
-        ]
-        command += ["cocotb_tests", *(["-k", " or ".join(words)] if words else [])]
-        done = subprocess.run(
-            command, cwd=ROOT, env={**os.environ, OUT: str(out)}, capture_output=True, text=True, check=False
-        )
+        chosen = ["-k", " or ".join(words)] if words else []
+        collect = ("--collect-only", "-p", "scripts.measure.coverage.collecting", "cocotb_tests")
+        code, text = pytest({OUT: str(out)}, *collect, *chosen)
         if not out.is_file():
-            said = (done.stdout + done.stderr).strip().splitlines()
-            raise ProjectError(f"pytest collects nothing: {said[-1] if said else done.returncode}")
+            said = text.strip().splitlines()
+            raise ProjectError(f"pytest collects nothing: {said[-1] if said else code}")
         found: list[list[str]] = json.loads(out.read_text(encoding="utf-8"))
     if not found:
         raise ProjectError(f"no test matches T={','.join(words)}")
@@ -52,17 +46,8 @@ def groups(words: Sequence[str] = ()) -> list[list[str]]:
 def run_group(tests: Sequence[str]) -> Result:
     """Run these tests; return the packed covered points and the crosses."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
-        environment = {**os.environ, **WALL_S, COVERAGE: folder, COVERAGE_COPIES: str(copies())}
-        command = [
-            sys.executable,
-            "-m",
-            "pytest",
-            "-q",
-            "-p",
-            "no:cacheprovider",
-            *tests,
-        ]
-        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+        variables = {**WALL_S, COVERAGE: folder, COVERAGE_COPIES: str(copies())}
+        code, text = pytest(variables, "-p", "no:cacheprovider", *tests)
         reached = points.read(sorted(Path(folder).glob("*.dat")))
         crosses: Counter[str] = Counter()
         for file in Path(folder).glob(f"*{SUFFIX}"):
@@ -70,7 +55,7 @@ def run_group(tests: Sequence[str]) -> Result:
                 for *key, number in json.loads(line):
                     crosses["\t".join(key)] += number
     data = {"points": reached.pack(), "crosses": dict(crosses), "tests": len(tests)}
-    if done.returncode:
-        tail = "\n".join((done.stdout + done.stderr).strip().splitlines()[-15:])
+    if code:
+        tail = "\n".join(text.strip().splitlines()[-15:])
         return Result(False, {**data, "message": f"{tests[0]}, {len(tests)} tests:\n{tail}"})
     return Result(True, data)

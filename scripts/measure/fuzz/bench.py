@@ -14,7 +14,7 @@ from pathlib import Path
 
 from cocotb_tests.harness.build import locked
 from cocotb_tests.harness.paths import ROOT, SIM_BUILDS
-from cocotb_tests.harness.project import ProjectError, files, include_dirs
+from cocotb_tests.harness.project import ProjectError, files, include_dirs, ran
 from openppmc.sim.common.build import verilator_command, verilator_environment, verilator_version
 from scripts.measure.fuzz.lines import LINES, Line
 
@@ -47,28 +47,20 @@ def program(name: str) -> Path:
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True)
             words += ["--Mdir", str(folder), *(f"-I{path}" for path in include_dirs()), *map(str, sources)]
-            ran = subprocess.run(
-                verilator_command(words, folder),
-                cwd=folder,
-                env=verilator_environment(folder),
-                text=True,
-                check=False,
-                capture_output=True,
-                stdin=subprocess.DEVNULL,
-            )
-            if ran.returncode:
-                tail = "\n".join((ran.stdout + ran.stderr).splitlines()[-15:])
+            code, text = ran(verilator_command(words, folder), verilator_environment(folder), folder)
+            if code:
+                tail = "\n".join(text.splitlines()[-15:])
                 raise ProjectError(f"the bench of line {name} does not build:\n{tail}")
     return made
 
 
 def rtl_events(name: str, words: array[int]) -> Iterator[tuple[int, int]]:
     """Yield the events of the RTL for these words: (number of the word, event)."""
-    ran = subprocess.run([str(program(name))], input=words.tobytes(), capture_output=True, check=False)
-    if ran.returncode:
-        said = (ran.stdout[-400:] + ran.stderr[-400:]).decode(errors="replace")
-        raise AssertionError(f"{name}: the bench ended with {ran.returncode}: {said}")
-    yield from ROW.iter_unpack(ran.stdout)
+    done = subprocess.run([str(program(name))], input=words.tobytes(), capture_output=True, check=False)
+    if done.returncode:
+        said = (done.stdout[-400:] + done.stderr[-400:]).decode(errors="replace")
+        raise AssertionError(f"{name}: the bench ended with {done.returncode}: {said}")
+    yield from ROW.iter_unpack(done.stdout)
 
 
 def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | None:

@@ -1,16 +1,15 @@
 """The mutants in <part>.yml of this folder. A mutant is a small change of one RTL file.
 
-An entry has these keys:
-    file    the RTL file
+A file of the RTL has its mutants by name. An entry has these keys:
     old     the text to replace, which occurs exactly once in the file
     new     the text in its place
-    tests   words separated by commas; a test runs if its module or its name contains one of them
     caught  the test that must fail
-    by      what detects the mutant: *check* (an assertion of the test itself), *comparison* (only the edges
-            differ from the golden model's) or *assertion* (of the RTL)
+    by      what detects the mutant: *check* (an assertion of the test itself, the default), *comparison*
+            (only the edges differ from the golden model's) or *assertion* (of the RTL)
     suite   optional: the module of pytest items (test_part)
     build   optional: the name of a configuration
-If no directed test of this build finds the mutant, `caught` is missing and `why` states the consequence.
+If no directed test of this build finds the mutant, `caught` and `by` are missing, `why` states the
+consequence, and `tests` has words separated by commas: a test runs if its module or its name contains one.
 """
 
 from __future__ import annotations
@@ -40,9 +39,9 @@ class Mutant:
     file: str
     old: str
     new: str
-    tests: str
+    tests: str = ""
     caught: str = ""
-    by: str = ""
+    by: str = "check"
     suite: str = "test_part"
     build: str = ""
     why: str = ""
@@ -60,17 +59,17 @@ class Mutant:
         return text.replace(self.old, self.new)
 
     def items(self, wide: bool = False) -> list[Item]:
-        """Return the tests of the mutant's build that its words select, or with `wide` the whole suite."""
+        """Return the tests of the mutant's build: those next to `caught`, or that its words select, or all.
+
+        Args:
+            wide: True for all tests of the build.
+        """
         build = self.build or MAIN_BUILD.get(self.part, "f16")
-        words = [""] if wide else self.tests.split(",")
         every = [param.values[0] for param in self._module().ITEMS]
-        return [
-            item
-            for item in every
-            if item.config.name == build
-            and any(word in item.full_name for word in words)
-            and not item.skipped
-        ]
+        built = [item for item in every if item.config.name == build and not item.skipped]
+        files = [item.module for item in built if item.test == self.caught]
+        words = [""] if wide else files or self.tests.split(",")
+        return [item for item in built if any(word in item.full_name for word in words)]
 
     def unchanged_design(self, item: Item) -> Design:
         """Return the unchanged design that `item` simulates."""
@@ -96,5 +95,6 @@ class Mutant:
 def mutants() -> Iterator[Mutant]:
     """Yield all mutants."""
     for path in sorted(HERE.glob("*.yml")):
-        for name, entry in yaml.safe_load(path.read_text(encoding="utf-8")).items():
-            yield Mutant(path.stem, name, **entry)
+        for file, entries in yaml.safe_load(path.read_text(encoding="utf-8")).items():
+            for name, entry in entries.items():
+                yield Mutant(path.stem, name, file, **entry)

@@ -8,6 +8,7 @@ changed (FRESH=1: all) and fails if a count has grown by more than 5 %.
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -19,11 +20,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import console, fail
-from scripts.fpga.flow.synthesis import synthesize
+from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST
 from scripts.measure.sizes import designs, figures, peers
 from scripts.measure.sizes.designs import SEEDS, TURNS, Design
-from scripts.measure.sizes.report import breakdown_table
 
 T = TypeVar("T")
 Work = tuple[str, Callable[[], T]]
@@ -48,20 +48,17 @@ def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
 
 def sizes(selected: list[Design]) -> figures.Figures:
     """Synthesise and count cells; designs with the same netlist are synthesised once."""
-    first: dict[tuple[str, str, str], Design] = {}
+    same: dict[tuple[str, str, str], list[Design]] = {}
     for design in selected:
-        first.setdefault((design.job["top"], design.key if not design.board else "", design.digest()), design)
+        key = (design.job["top"], design.key if not design.board else "", design.digest())
+        same.setdefault(key, []).append(design)
+    groups = list(same.values())
     found: dict[str, dict[str, Any]] = {}
-    works: list[Work[dict[str, int]]] = [(design.key, design.size) for design in first.values()]
-    listed = list(first.items())
 
     def keep(at: int, counts: dict[str, int]) -> None:
-        same, _ = listed[at]
-        for design in selected:
-            if (design.job["top"], design.key if not design.board else "", design.digest()) == same:
-                found[design.key] = {**counts, "of": design.digest()}
+        found.update({design.key: {**counts, "of": design.digest()} for design in groups[at]})
 
-    run_all(works, keep)
+    run_all([(group[0].key, group[0].size) for group in groups], keep)
     return found
 
 
@@ -121,13 +118,14 @@ def check(selected: Iterable[Design], fresh: bool) -> int:
 
 
 def show_instances(part: str) -> None:
-    """Print the cells of each instance of a part."""
+    """Print yosys' statistics of each module of a part, for each family."""
     design = next(d for d in designs.of_parts() if d.part == part)
-    results = {}
     for family in project.part(part).families:
-        folder = designs.FOLDER / f"instances-{part}"
-        results[family] = synthesize(folder, dict(design.job), family, BEST[family])[0]
-    console.print(breakdown_table(results))
+        job = {**design.job, "family": family, "recipe": BEST[family], "keep": True}
+        log = run_yosys(designs.FOLDER / f"instances-{part}", job).with_suffix(".log")
+        text = log.read_text(encoding="utf-8").rpartition("Printing statistics.")[2]
+        text = re.split(r"\n\n[\d.]+ Executing", text)[0]
+        console.print(f"{family}:{text}", markup=False, highlight=False)
 
 
 def main() -> int:
@@ -144,9 +142,7 @@ def main() -> int:
     parser.add_argument(
         "--peers", type=Path, metavar="FOLDER", help="measure the designs of FOLDER/peers.json"
     )
-    parser.add_argument(
-        "--instances", action="store_true", help="print the cells of each instance of the part"
-    )
+    parser.add_argument("--instances", action="store_true", help="print the cells of each module of the part")
     args = parser.parse_args()
     if args.instances:
         show_instances(args.part or "ppmc104")

@@ -21,13 +21,12 @@ from typing import Any
 from cocotb_tests.harness import project
 from openppmc import parts
 from scripts.fpga.flow import boards, pnr
-from scripts.fpga.flow.netlist import flat_counts
+from scripts.fpga.flow.netlist import counts
 from scripts.fpga.flow.synthesis import FAMILIES, run_yosys
 from scripts.fpga.flow.yosys_job import BEST, recipe_text
 from scripts.measure.sizes import scan_wrapper
 from scripts.measure.sizes.peers import Peer
 
-ECP5 = pnr.DEVICES[0]
 RECIPES = ("plain", "tuned")
 """Recipes of the parts on an ECP5: `synth_ecp5` without options, and the recipe of the bitstreams."""
 TURNS, SEEDS = 3, 5
@@ -119,17 +118,16 @@ class Design:
     def size(self) -> dict[str, int]:
         """Return LUT, FF and block RAM after synthesis; on an ECP5 also COMB after packing by nextpnr."""
         netlist = self.netlist()
-        total = flat_counts(netlist, self.job["top"], set())[0]
-        found = {"lut": total.lut, "ff": total.ff, "ram": total.ram}
+        found = counts(netlist, self.job["top"])
         if self.family == "ecp5":
-            found["comb"] = pnr.packed(ECP5, netlist, netlist.parent)["TRELLIS_COMB"]
+            found["comb"] = pnr.packed(netlist, netlist.parent)["TRELLIS_COMB"]
         return found
 
     def rate(self, turn: int, seed: int) -> float:
         """Return Fmax of `clk` in MHz with a perturbation of the synthesis and a seed of place and route."""
         folder = self.folder / f"turn-{turn}" / f"seed-{seed}"
         folder.mkdir(parents=True, exist_ok=True)
-        return pnr.place_and_route(ECP5, self._kept(turn), folder, seed).fmax
+        return pnr.place_and_route(self._kept(turn), folder, seed)
 
     def _wrapped(self) -> dict[str, Any]:
         """Return the job of the design with all pins connected to shift registers."""

@@ -41,11 +41,8 @@ def modules(folder: str) -> list[str]:
 def rooms(folder: str) -> list[str]:
     """Return the names of the folders in a folder, except empty ones."""
     found = (path for path in sorted((ROOT / folder).glob("*")) if path.is_dir() and path.name not in IGNORED)
-    return [
-        path.name
-        for path in found
-        if any(file.is_file() and file.suffix != ".pyc" for file in path.rglob("*"))
-    ]
+    files = {path.name: path.rglob("*") for path in found}
+    return [name for name, every in files.items() if any(f.is_file() and f.suffix != ".pyc" for f in every)]
 
 
 def _lines(names: Sequence[str], width: int) -> str:
@@ -82,19 +79,10 @@ def folders() -> Figure:
         ):
             if text is None:
                 continue
-            axes.add_patch(
-                Rectangle(
-                    (left + 0.04, y + 0.04),
-                    width - 0.08,
-                    height - 0.08,
-                    facecolor=colour,
-                    edgecolor=EDGE,
-                    lw=0.6,
-                )
-            )
+            corner, style = (left + 0.04, y + 0.04), {"facecolor": colour, "edgecolor": EDGE, "lw": 0.6}
+            axes.add_patch(Rectangle(corner, width - 0.08, height - 0.08, **style))
             axes.text(left + width / 2, y + height / 2, text, ha="center", va="center", size=7.5, color=TEXT)
         y += height
-    axes.set_xlim(0, sum(widths))
-    axes.set_ylim(total, 0)
+    axes.set(xlim=(0, sum(widths)), ylim=(total, 0))
     axes.axis("off")
     return figure

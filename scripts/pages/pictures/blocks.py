@@ -59,25 +59,17 @@ def _border(box: Box, towards: tuple[float, float]) -> tuple[float, float]:
 def _box(axes: Axes, box: Box) -> None:
     corner = (box.x - box.width / 2, box.y - box.height / 2)
     line = {"linewidth": 0} if box.kind == "pin" else {"linewidth": 0.9, "edgecolor": EDGE}
-    axes.add_patch(
-        FancyBboxPatch(
-            corner,
-            box.width,
-            box.height,
-            boxstyle="round,pad=0,rounding_size=0.06",
-            facecolor=FILLS[box.kind],
-            **line,
-        )
-    )
+    style = "round,pad=0,rounding_size=0.06"
+    fill = FILLS[box.kind]
+    axes.add_patch(FancyBboxPatch(corner, box.width, box.height, boxstyle=style, facecolor=fill, **line))
     head, _, rest = box.text.partition("\n")
     pin = box.kind == "pin"
     rest_style = {"size": 8, "color": TEXT} if pin else {"size": 7, "color": FAINT}
     lines = 1 + rest.count("\n") + 1 if rest else 1
     step = 0.17
     top = box.y - step * (lines - 1) / 2
-    axes.text(
-        box.x, top, head, ha="center", va="center", size=8, weight="normal" if pin else "bold", color=TEXT
-    )
+    weight = "normal" if pin else "bold"
+    axes.text(box.x, top, head, ha="center", va="center", size=8, weight=weight, color=TEXT)
     for number, line_text in enumerate(rest.split("\n") if rest else (), 1):
         axes.text(box.x, top + step * number, line_text, ha="center", va="center", **rest_style)
 
@@ -91,13 +83,8 @@ def _arrow(axes: Axes, arrow: Arrow, boxes: Mapping[str, Box]) -> None:
         begin = _border(first, end)
     points = [begin, *corners, end]
     axes.plot(*zip(*points[:-1], strict=True), color=EDGE, linewidth=1, solid_joinstyle="round")
-    style = {
-        "arrowstyle": "<|-|>" if arrow.both else "-|>",
-        "color": EDGE,
-        "linewidth": 1,
-        "shrinkA": 0,
-        "shrinkB": 0,
-    }
+    heads = "<|-|>" if arrow.both else "-|>"
+    style = {"arrowstyle": heads, "color": EDGE, "linewidth": 1, "shrinkA": 0, "shrinkB": 0}
     axes.annotate("", xy=points[-1], xytext=points[-2], arrowprops=style)
     if arrow.text:
         (x0, y0), (x1, y1) = max(
@@ -116,40 +103,29 @@ def _arrow(axes: Axes, arrow: Arrow, boxes: Mapping[str, Box]) -> None:
         )
 
 
-def draw(boxes: Mapping[str, Box], arrows: Sequence[Arrow], inches: tuple[float, float]) -> plt.Figure:
-    """Return the drawing with this width and height, which the grid fills.
-
-    The call raises KeyError for an unknown box.
-    """
-    figure = plt.figure(figsize=inches)
-    axes = figure.add_axes((0.005, 0.01, 0.99, 0.98))
-    for arrow in arrows:
-        _arrow(axes, arrow, boxes)
-    for box in boxes.values():
-        _box(axes, box)
-    axes.set_xlim(
-        min(b.x - b.width / 2 for b in boxes.values()) - 0.05,
-        max(b.x + b.width / 2 for b in boxes.values()) + 0.05,
-    )
-    axes.set_ylim(
-        max(b.y + b.height / 2 for b in boxes.values()) + 0.08,
-        min(b.y - b.height / 2 for b in boxes.values()) - 0.08,
-    )
-    axes.axis("off")
-    return figure
-
-
 def drawing(
     size: tuple[float, float],
     boxes: Mapping[str, Sequence[Any]],
     arrows: Mapping[str, Mapping[str, Any] | None],
 ) -> plt.Figure:
-    """Return the drawing of an entry of figures.yml.
+    """Return the drawing of an entry of figures.yml; raise KeyError for an unknown box.
 
     Args:
+        size: width and height, which the grid fills.
         boxes: name -> values of Box in order.
         arrows: "start -> end", or <-> for heads at both ends -> further values of Arrow.
     """
-    ends = [(*words.split(), values) for words, values in arrows.items()]
-    found = [Arrow(start, end, both=head == "<->", **values or {}) for start, head, end, values in ends]
-    return draw({name: Box(*values) for name, values in boxes.items()}, found, size)
+    named = {name: Box(*values) for name, values in boxes.items()}
+    figure = plt.figure(figsize=size)
+    axes = figure.add_axes((0.005, 0.01, 0.99, 0.98))
+    for words, values in arrows.items():
+        start, head, end = words.split()
+        _arrow(axes, Arrow(start, end, both=head == "<->", **values or {}), named)
+    for box in named.values():
+        _box(axes, box)
+    every = list(named.values())
+    left, right = min(b.x - b.width / 2 for b in every), max(b.x + b.width / 2 for b in every)
+    top, bottom = min(b.y - b.height / 2 for b in every), max(b.y + b.height / 2 for b in every)
+    axes.set(xlim=(left - 0.05, right + 0.05), ylim=(bottom + 0.08, top - 0.08))
+    axes.axis("off")
+    return figure

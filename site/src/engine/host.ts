@@ -1,4 +1,4 @@
-// Statements of all hosts; cycle-accurate counterpart of scripts/site/script.py.
+// Statements of all hosts; cycle-accurate counterpart of tests/common/web/script.py.
 
 import { CHANGE, STEP } from "./core";
 import { MACHINE, type Doing, type Side } from "./side";

@@ -1,4 +1,4 @@
-// Accesses on a bus with strobes, and pauses between polls, equal to scripts/site/script.py and players.py.
+// Accesses on a bus with strobes, and pauses between polls, equal to tests/common/web/script.py and players.py.
 
 import { PATIENCE } from "./host";
 import type { Doing, Side } from "./side";

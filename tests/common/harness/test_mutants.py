@@ -19,7 +19,7 @@ def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
     assert items
     assert ROOT / mutant.file in mutant.unchanged_design(items[0]).sources
     assert not mutant.caught or mutant.caught in {item.test for item in mutant.items(wide=True)}
-    assert bool(mutant.caught) == bool(mutant.by) != bool(mutant.why)
+    assert bool(mutant.caught) == (not mutant.tests) == (not mutant.why)
 
 
 def test_there_are_enough() -> None:

@@ -16,11 +16,11 @@ from openppmc.check.comparison import compare_edges
 from openppmc.check.records import Edge, steps
 from scripts.fpga.flow.plain_sim import words
 from scripts.site.pages import playground
-from scripts.site.players import player
-from scripts.site.script import Player
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, Motor, WebPart
 from tests.common.web.counters import add, left_out
+from tests.common.web.players import player
+from tests.common.web.script import Player
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 LONG = 22_000_000

@@ -11,13 +11,14 @@ import pytest
 from cocotb_tests.harness.paths import ROOT
 from openppmc.check.comparison import compare_edges
 from openppmc.check.records import Recording
-from scripts.site import hosts, wasm
-from scripts.site.module import Module
-from scripts.site.players import player
-from scripts.site.script import ScriptError
+from scripts.site import wasm
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, WebPart
+from tests.common.web import hosts
 from tests.common.web.counters import add, left_out
+from tests.common.web.module import Module
+from tests.common.web.players import player
+from tests.common.web.script import ScriptError
 
 HOSTS = 50
 LONG = 10_000_000

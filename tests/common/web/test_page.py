@@ -17,10 +17,10 @@ from openppmc.check.comparison import compare_edges
 from openppmc.check.records import Edge
 from scripts.site import wasm
 from scripts.site.pages import SITE, packages, playground
-from scripts.site.players import player
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS
 from tests.common.web.counters import add
+from tests.common.web.players import player
 
 HERE = ROOT / "tests/common/web"
 SHOTS = ROOT / "build/site/shots"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import time
-from pathlib import Path
 
 from rich import box
 from rich.table import Table
@@ -20,9 +19,8 @@ from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
 from openppmc.check.comparison import Comparison
 from scripts.demo.ppmc312.line import waves
 from scripts.demo.ppmc312.line.picture import draw
-from scripts.demo.ppmc312.line.run import LineRun, load
-from scripts.demo.ppmc312.line.talk import Exchange
-from scripts.demo.steps import Steps
+from scripts.demo.ppmc312.line.talk import Exchange, LineRun, load
+from scripts.demo.steps import last_line, step
 
 NAME = "ppmc312-serial"
 FOLDER = BUILD / "demo"
@@ -30,18 +28,12 @@ RUN = FOLDER / "run"
 REPRO = f"make demo PART={NAME}"
 
 
-def last_line(path: Path) -> str:
-    """Return the last line of a file; empty if the file does not exist yet."""
-    lines = path.read_text(errors="replace").split("\n") if path.is_file() else []
-    return next((line for line in reversed(lines) if line), "")
-
-
-def simulate(steps: Steps) -> LineRun:
+def simulate() -> LineRun:
     """Build the line and run it."""
-    made = steps.run("build one station and the line with Verilator", lambda: design(F8L, FAST_ARGS))
-    steps.run("link sixteen stations", lambda: build(made))
+    made = step("build one station and the line with Verilator", lambda: design(F8L, FAST_ARGS))
+    step("link sixteen stations", lambda: build(made))
     item = Item("cocotb_tests.ppmc312.line.demo", "demo_line", F8L, LINE.name, ())
-    steps.run(
+    step(
         "drive them over the line",
         lambda: run_sim(made, item, seed=1, folder=RUN, repro=REPRO),
         lambda: last_line(RUN / "progress"),
@@ -101,19 +93,16 @@ def show_axes(run: LineRun, comparisons: list[Comparison]) -> None:
 
 def main() -> int:
     """Run the demo; return 0 if every edge of the RTL equals that of the golden models."""
-    steps = Steps()
     begin = time.monotonic()
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
-        run = simulate(steps)
-        comparisons = steps.run("run sixteen golden models", lambda: compare_line(run.recording))
+        run = simulate()
+        comparisons = step("run sixteen golden models", lambda: compare_line(run.recording))
         saved = waves.write(run, comparisons, FOLDER / NAME)
         picture = FOLDER / "profile.png"
-        steps.run("draw the picture", lambda: draw(run, comparisons, picture))
+        step("draw the picture", lambda: draw(run, comparisons, picture))
     except SimError as error:
         return fail(str(error))
-    if console.is_terminal:
-        console.print("\n".join(steps.done), style="green")
     show_talk(run)
     show_axes(run, comparisons)
     console.print(

@@ -12,8 +12,7 @@ from matplotlib.axes import Axes
 from openppmc.check.comparison import Comparison
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up
 from openppmc.plot.signals import Run, Section, Trace
-from scripts.demo.ppmc312.line.run import LineRun
-from scripts.demo.ppmc312.line.talk import Exchange
+from scripts.demo.ppmc312.line.talk import Exchange, LineRun
 from scripts.demo.ppmc312.line.waves import positions
 from scripts.demo.scenes import heading, pin
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
+from openppmc.check.records import Recording
 from openppmc.model.ppmc312.front.serial import END_CODES
 
 KINDS = {0x80: "busy", 0x90: "ready", 0xA0: "data", 0xB0: "specific"}
@@ -102,3 +106,24 @@ def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
             request = found[-1]
             found[-1] = Exchange(request.begin, request.sent_end, begin, end, request.question, data)
     return found
+
+
+@dataclass(frozen=True)
+class LineRun:
+    """Result of a run: the recording of the line, chapters, exchanges, and the positions that were read."""
+
+    recording: Recording
+    chapters: list[dict[str, Any]]
+    talk: list[Exchange]
+    positions: list[int]
+
+
+def load(folder: Path) -> LineRun:
+    """Read the result of a run from its folder."""
+    data = json.loads((folder / "talk.json").read_text())
+    return LineRun(
+        Recording.from_json((folder / "recording.json").read_text()),
+        json.loads((folder / "chapters.json").read_text()),
+        exchanges(data["talk"]),
+        data["positions"],
+    )

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
-
-from vcd import VCDWriter
 
 from cocotb_tests.ppmc312.line.models import straps
 from cocotb_tests.ppmc312.line.setting import LINE
@@ -13,7 +11,7 @@ from openppmc.capture.common.vcd_file import core_comment
 from openppmc.check.comparison import Comparison
 from scripts.demo import waves
 from scripts.demo.demos import View
-from scripts.demo.ppmc312.line.run import LineRun
+from scripts.demo.ppmc312.line.talk import LineRun
 from scripts.demo.scenes import pin
 
 PINS = ("txd", "snd", "pout", "dir", "cd_n")
@@ -48,51 +46,34 @@ def view(stations: int) -> View:
 def write(run: LineRun, comparisons: list[Comparison], stem: Path) -> list[Path]:
     """Write the VCD and the saved views for GTKWave and Surfer, with this file stem; return their paths."""
     vcd, gtkw, sucl = (stem.with_suffix(suffix) for suffix in (".vcd", ".gtkw", ".sucl"))
-    recording = run.recording
-    clk_hz = int(str(recording.params["CLK_HZ"]))
-    period = round(1e12 / clk_hz)
-    first = {**LINE.inputs, **{change.pin: change.value for change in recording.stimulus if change.t == 0}}
-    comment = core_comment("ppmc312-serial", comparisons[0].recording.params)
-    rows: list[tuple[int, Any, Any]] = []
-    with vcd.open("w") as file, VCDWriter(file, timescale="1 ps", date="", comment=comment) as writer:
-        for name, changes in (
-            ("master", pin(recording.stimulus, "master")),
-            ("line", [(edge.t, edge.value) for edge in recording.edges if edge.signal == "line"]),
-        ):
-            var = writer.register_var("line", name, "wire", size=1, init=1)
-            rows += [(t, var, level) for t, level in changes]
-        for name, said in (
-            ("question", [(one.begin, one.sent_end, one.meaning) for one in run.talk]),
-            ("answer", [(one.replied, one.end, one.reply) for one in run.talk if one.answer]),
-        ):
-            var = writer.register_var("line", name, "string", init="")
-            rows += [row for begin, end, text in said for row in ((begin, var, text), (end, var, ""))]
-        for number, comparison in enumerate(comparisons):
-            scope = f"station{number}"
-            for name in PINS:
-                var = writer.register_var(scope, name, "wire", size=1, init=comparison.initial[name])
-                rows += [(t, var, level) for t, level in comparison.actual[name]]
-            levels = straps(first, number)
-            heard = {change.pin for change in comparison.recording.stimulus} | {"rxd"}
-            for name in [*STRAPS, *sorted(heard)]:
-                size, level = STRAPS.get(name, 1), levels.get(name, 1)
-                var = writer.register_var(scope, name, "wire", size=size, init=level)
-                rows += [(t, var, now) for t, now in pin(comparison.recording.stimulus, name)]
-            var = writer.register_var(scope, "speed_pps", "real", init=0.0)
-            pulses = [t for t, level in comparison.actual["pout"] if level]
-            rows += [(t, var, value) for t, value in waves.speed_changes(pulses, clk_hz)]
-            var = writer.register_var(scope, "position", "integer", size=32, init=0)
-            rows += [(t, var, value) for t, value in positions(comparison)]
-        for t, var, value in sorted(rows, key=lambda row: row[0]):
-            writer.change(var, max(0, t) * period, value)
-        writer.close(max(0, recording.end) * period)
+    recording, part = run.recording, comparisons[0].recording
+    comment = core_comment("ppmc312-serial", part.params)
+    waves.write(vcd, _signals(run, comparisons), recording, comment)
+    period = round(1e12 / int(str(recording.params["CLK_HZ"])))
     marks = [chapter["begin"] * period for chapter in run.chapters]
     shown = view(len(comparisons))
-    waves.gtkwave(vcd, gtkw, recording_part(comparisons), shown, recording.end * period, marks)
+    waves.gtkwave(vcd, gtkw, part.part, shown, recording.end * period, marks)
     waves.surfer(sucl, shown)
     return [vcd, gtkw, sucl]
 
 
-def recording_part(comparisons: list[Comparison]) -> str:
-    """Return the name of the part in each station."""
-    return comparisons[0].recording.part
+def _signals(run: LineRun, comparisons: list[Comparison]) -> Iterator[waves.Signal]:
+    stimulus, edges = run.recording.stimulus, run.recording.edges
+    clk_hz = int(str(run.recording.params["CLK_HZ"]))
+    first = {**LINE.inputs, **{change.pin: change.value for change in stimulus if change.t == 0}}
+    yield "line", "master", 1, 1, pin(stimulus, "master")
+    yield "line", "line", 1, 1, [(edge.t, edge.value) for edge in edges if edge.signal == "line"]
+    asked = [((one.begin, one.meaning), (one.sent_end, "")) for one in run.talk]
+    answered = [((one.replied, one.reply), (one.end, "")) for one in run.talk if one.answer]
+    for name, said in (("question", asked), ("answer", answered)):
+        yield "line", name, "string", "", [change for changes in said for change in changes]
+    for number, comparison in enumerate(comparisons):
+        scope, own = f"station{number}", comparison.recording.stimulus
+        for name in PINS:
+            yield scope, name, 1, comparison.initial[name], comparison.actual[name]
+        levels = straps(first, number)
+        for name in [*STRAPS, *sorted({change.pin for change in own} | {"rxd"})]:
+            yield scope, name, STRAPS.get(name, 1), levels.get(name, 1), pin(own, name)
+        pulses = [t for t, level in comparison.actual["pout"] if level]
+        yield scope, "speed_pps", "real", 0.0, list(waves.speed_changes(pulses, clk_hz))
+        yield scope, "position", "integer", 0, positions(comparison)

@@ -6,10 +6,7 @@ The order is: the proofs of its block, its groups of tests, the proofs of the bl
 from __future__ import annotations
 
 import hashlib
-import os
 import re
-import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +16,7 @@ from cocotb_tests.harness.project import BUILD, ROOT
 from cocotb_tests.harness.simulate import TIMEOUT
 from cocotb_tests.harness.variants import MUTANT
 from scripts.measure.campaign.jobs import Result
+from scripts.measure.coverage.work import pytest as run_pytest
 from scripts.measure.mutants.made.faults import Fault, faults
 from scripts.measure.mutants.made.proved import failing, proofs_of
 from scripts.measure.mutants.made.schema import instrumented
@@ -68,22 +66,18 @@ def copy_of(file: str) -> Path:
 
 def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
     """Run the tests; return what became of the mutant, and the name of the first test that failed."""
-    environment = {
-        **os.environ,
-        MUTANT: f"{mutant.file} {mutant.fault.number} {copy_of(mutant.file)}",
-        "OPENPPMC_WALL_S": WALL_S,
-    }
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *tests]
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
-    if done.returncode == 0:
+    chosen = f"{mutant.file} {mutant.fault.number} {copy_of(mutant.file)}"
+    variables = {MUTANT: chosen, "OPENPPMC_WALL_S": WALL_S}
+    code, text = run_pytest(variables, "-x", "-p", "no:cacheprovider", *tests)
+    if code == 0:
         return ALIVE, ""
-    failed = re.search(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.MULTILINE)
+    failed = re.search(r"^(?:FAILED|ERROR) (\S+)", text, re.MULTILINE)
     name = failed[1] if failed else ""
-    if "build of " in done.stdout and " failed (exit code" in done.stdout:
-        return BROKEN, "\n".join(re.findall(r"^.*%(?:Error|Warning).*$", done.stdout, re.MULTILINE)[:3])
+    if "build of " in text and " failed (exit code" in text:
+        return BROKEN, "\n".join(re.findall(r"^.*%(?:Error|Warning).*$", text, re.MULTILINE)[:3])
     if not failed:
-        return BROKEN, (done.stdout + done.stderr)[-300:]
-    return (ENDLESS if TIMEOUT in done.stdout else KILLED), name
+        return BROKEN, text[-300:]
+    return (ENDLESS if TIMEOUT in text else KILLED), name
 
 
 def met(mutant: Mutant) -> tuple[str, str]:

@@ -9,8 +9,8 @@ from cocotb_tests.bank.env import WindowBus
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR, HostBus
 from cocotb_tests.harness.line import SerialLine
 from openppmc.model.pmc006.line import command
-from scripts.site.script import PATIENCE, BytePlayer, Pauses, Player, ScriptError
 from scripts.site.webparts import WebPart
+from tests.common.web.script import PATIENCE, BytePlayer, Pauses, Player, ScriptError
 
 
 class WindowPlayer(BytePlayer):
