@@ -362,7 +362,7 @@ class Controller:
             self._axes[number].motion = motion
 
     def _end_group(self, reason: str) -> None:
-        """Fail the members that still move; without `on`, the next cycle stops them."""
+        """Set a fault in each member that still moves. This clears `on`, so the next cycle stops it."""
         members, self._members, error = self._members, (), GroupEndedError(reason)
         for axis in members:
             if axis.motion and not axis.stopping:

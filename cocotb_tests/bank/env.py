@@ -80,7 +80,7 @@ class Axis(AxisDriver):
         return f"{name}[{self.n}]"
 
     def set(self, **levels: int) -> int:
-        """Drive input pins of this axis and return the stamp of the change."""
+        """Drive input pins of this axis; return the stamp of the change, the first edge that samples it."""
         return self.bench.set(**{self.pin(name): level for name, level in levels.items()})
 
     def at(self, edge: int, **levels: int) -> Any:

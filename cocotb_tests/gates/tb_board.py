@@ -23,7 +23,7 @@ CW, CCW = 0x43, 0x4B
 MOTOR = ("pout_n", "dir", "s", "hold", "int_n")
 EVENT, NAK, NAK_CRC = 0x80, 0x81, 2
 RESET_MS = 3
-"""Longest reset of a board; that of a carrier alone ends immediately."""
+"""Longest reset of a board. Without a board, the reset of a carrier ends immediately."""
 
 
 def present(dut: Any, part: Part) -> Part:

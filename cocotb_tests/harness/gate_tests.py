@@ -33,7 +33,7 @@ class PartTests:
         not_applicable: test functions that run no simulation -> their relation to a netlist.
         too_long: directed tests, or modules of them, that would take far too long on a netlist -> reason.
         quick: tests of the quick sample, which runs in the build `quick_build`.
-        four_state: tests that also run on a simulator with X, which is a hundred times slower.
+        four_state: tests that also run on a four-state simulator (with X), which is a hundred times slower.
         netlists: whether the device has netlists; if not, its tests run on plain Verilog only.
         pins: pins of the top, if the `bench.py` of the folder does not list them.
         params: parameters of the top in addition to those of a configuration.
@@ -79,7 +79,7 @@ class PartTests:
         return not self.quick.isdisjoint(names(item)) and item.config.name == self.quick_build
 
     def is_four_state(self, item: Item) -> bool:
-        """Return whether a directed test is in the sample that also runs on a simulator with X."""
+        """Return whether a directed test is in the sample that also runs on a four-state simulator."""
         return item.test in self.four_state and item.config.name == self.quick_build
 
     def is_too_long(self, item: Item) -> bool:

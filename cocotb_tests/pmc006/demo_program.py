@@ -98,7 +98,7 @@ async def move(host: MotorHost, fine: int, coefficient: int, forward: bool) -> N
 
 
 async def homing(host: MotorHost) -> None:
-    """Drive the switch, which is closed beyond its position, until the program has set GPO1."""
+    """Close the switch while the motor is beyond the switch position, until the program has set GPO1."""
     bench, steps = host.bench, host.steps()
     place = (len(MOVES) % 2) * WAY * FINE
     while not bench.level("gpo[0]"):

@@ -17,7 +17,7 @@ SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
 EASY = (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("o", 5))
 MOVE = (("v", 3000), ("L", 3000), ("S", 3000))
 RUN = (("v", 300), ("L", 300), ("S", 65))
-"""Settings with which the part accepts most motions (moves and speed runs), and with which they end soon."""
+"""Settings with which the part accepts most motions (moves and speed runs), and these motions end soon."""
 
 Course = tuple[tuple[str, int], ...]
 

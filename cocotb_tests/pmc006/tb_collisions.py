@@ -71,7 +71,7 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
             assert not await host.busy() and reply in (0, good) and await host.status() == DECAY | EXT1
             replies.append(bool(reply))
             assert await host.ask("b") == 0
-            # If one pin is active and another pin changes, this is not an edge.
+            # EXT1 stays active. A change of another pin does not count as another edge of EXT1.
             await host.pins(gpi=KEY1)
             await host.pins(gpi=HIGH)
             assert await host.status() == DECAY

@@ -191,8 +191,8 @@ async def p104_hsk_04_table_build_window(dut):
 
 @directed("P104-HSK-02", "P104-BAD-06", builds=(F16, F100))
 async def p104_hsk_02_replacement(dut):
-    """Of two writes 2 to 16 cycles apart near a C-event, the second byte is kept, and no byte is executed
-    twice (P104-HSK-02).
+    """If two bytes are written 2 to 16 cycles apart near a C-event, the second byte is kept, and no byte is
+    executed twice (P104-HSK-02).
     """
     env = await Env.start(dut, None)
     # Gap and strobe of the second write. Its edge 0 follows that of the first write by gap + strobe. If this

@@ -41,7 +41,7 @@ class Axis(AxisDriver):
         return f"{name}[{self.n}]"
 
     def set(self, **levels: int) -> int:
-        """Drive input pins of this axis and return the stamp of the change."""
+        """Drive input pins of this axis; return the stamp of the change, the first edge that samples it."""
         return self.bench.set(**{self.pin(name): level for name, level in levels.items()})
 
     def at(self, edge: int, **levels: int) -> Any:
@@ -49,7 +49,7 @@ class Axis(AxisDriver):
         return self.bench.at(edge, **{self.pin(name): level for name, level in levels.items()})
 
     async def blip(self, name: str, clocks: int, level: int = 0) -> int:
-        """Hold an input of this axis at `level` for some cycles; return the first stamp."""
+        """Hold an input of this axis at `level` for some cycles; return the first edge that samples it."""
         return await self.bench.pulse_pin(self.pin(name), level, clocks)
 
     def level(self, name: str) -> int:

@@ -181,7 +181,7 @@ class Env(AxisDriver):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """Drive input pins and return the stamp of the change."""
+        """Drive input pins; return the stamp of the change, the first edge that samples it."""
         return self.bench.set(**levels)
 
     async def pins(self, **levels: int) -> None:
@@ -191,7 +191,7 @@ class Env(AxisDriver):
         await self.bench.clocks(4)
 
     async def blip(self, pin: str, clocks: int = 4) -> int:
-        """Hold a switch at its other level for some cycles; return the first stamp."""
+        """Hold a switch at its other level for some cycles; return the first edge that samples it."""
         return await self.bench.pulse_pin(pin, 1 - self.bench.pin(pin), clocks)
 
     def quiet(self, rule: str, since: int) -> None:

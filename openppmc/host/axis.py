@@ -188,7 +188,7 @@ class Axis(Checked):
     def _rate(self, pps: speeds.Number | None) -> tuple[speeds.BaseClock, int]:
         """Return base clock and rate byte of a constant speed.
 
-        The base clock may be another internal clock than that of the ramp.
+        The base clock may be an internal clock other than that of the ramp.
         """
         if pps is None:
             pps = self._default_speed

@@ -25,7 +25,7 @@ class UnknownAttributeError(PpmcError, AttributeError):
 
 
 class NotCalledError(PpmcError, TypeError, AttributeError):
-    """A method was used as a number, or as its result, because the parentheses of the call are missing."""
+    """A method was used in place of its result, because the parentheses of the call are missing."""
 
 
 class Timeout(PpmcError, TimeoutError):

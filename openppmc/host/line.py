@@ -49,7 +49,7 @@ class LineEcho(LinkError):
 
 
 class LostReply(LinkError):
-    """It is unknown whether an instruction was executed that must not be executed twice."""
+    """It is unknown whether an instruction was executed. The instruction must not be executed twice."""
 
 
 def unanswered(

@@ -17,7 +17,7 @@ from .registers import FAMILY, ReadCodes, Switches
 from .script import Result, Script
 from .speeds import BaseClock, Number, pin_period
 
-# Errors of an STMC. Two numbers have another meaning than in the PPMC family.
+# Errors of an STMC. The meaning of two numbers differs from that in the PPMC family.
 
 _TEXTS = {
     Error.NOT_INITIALISED: "the part is not initialised (power-up or reset): initialise it first",

@@ -257,7 +257,7 @@ module ppmc_bridge_exec
   assign answer_o   = state_q == StAnswer;
   assign rec_next_o = Recorder && state_q == StPut && fetch_q;
 
-  logic set, set_q;  // set: a valid op changes a setting; set_q: set, one cycle later
+  logic set, set_q;  // set: a valid op changes a setting; set_q follows one cycle later
   logic [7:0] straps_q;
   assign set = state_q == StCheck && byte_valid && system_q && !bad_arg_q;
 

@@ -84,7 +84,7 @@ package ppmc_bridge_pkg;
   typedef enum logic [2:0] {
     NeedNothing,  // the op is complete
     NeedOperand,
-    NeedCheck,    // check of the number in the code of the op
+    NeedCheck,    // check of the number that the code of the op contains
     NeedByte,     // one byte to be stored in the answer
     NeedBlock     // bytes to be stored in the answer, or a pause
   } op_need_e;

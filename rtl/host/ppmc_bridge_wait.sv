@@ -26,7 +26,8 @@ module ppmc_bridge_wait
     if (start_i) limit_q <= DEFAULT_LIMIT_MS;
     else if (set_i) limit_q <= limit_i;
     limit_zero_q <= limit_q == '0;
-    // Without waiting_i, the time of the previous wait could match.
+    // In the first cycle in which waiting_i is low, wait_q still contains the time of the previous wait.
+    // Therefore waiting_i is part of the condition.
     at_limit_q   <= waiting_i && wait_q == limit_q;
     if (!waiting_i) begin
       expired_q <= 1'b0;

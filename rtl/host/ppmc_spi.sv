@@ -80,7 +80,7 @@ module ppmc_spi #(
   assign fall    = !cs_n && !sck && sck_q[0];
   assign byte_in = {bits_q, mosi};
   assign byte_end   = rise && count_q == 3'd7;
-  assign frame_end   = cs_n && active_o;  // strobe, because active_o falls one cycle later
+  assign frame_end   = cs_n && active_o;  // high for one cycle: active_o falls one cycle after cs_n rises
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -99,7 +99,7 @@ module ppmc_strobe_bus (
 
   // Read: the byte counts as read if it was valid when d_o was loaded last, and if no new byte arrives
   // during the read. A strobe of only one sample does not load the data again. Therefore, a byte that
-  // arrived at edge 0 of such a strobe was not output.
+  // arrives at edge 0 of such a strobe is not output, and does not count as read.
   logic reading_q, new_q, new_s2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

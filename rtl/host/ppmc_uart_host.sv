@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_uart_host: host interface of a board for a PC. Contains the UART bridge and the pulse counters, and
 //         returns the levels of the switches.
-// Rules:  docs/uart_bridge.md. PINS returns the levels of one axis: {alarm, origin, slow CCW, slow CW, CCW,
-//         CW limit, hold, int_n}. With two axes, strap output 7 selects the axis (1: axis 1).
+// Rules:  docs/uart_bridge.md. PINS returns the levels of one axis: {alarm, origin, slow CCW, slow CW, CCW
+//         limit, CW limit, hold, int_n}. With two axes, strap output 7 selects the axis (1: axis 1).
 // Timing: this block synchronises switches_ni and rxd_i. The outputs of the device are synchronous to
 //         clk_i.
 `default_nettype none

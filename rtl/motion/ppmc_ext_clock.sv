@@ -60,7 +60,7 @@ module ppmc_ext_clock #(
     end
   end
 
-  // No reset: long_period_o is 1 until the first edge, which sets age_q.
+  // No reset: age_q is unused until the first edge, because long_period_o is 1. The first edge sets age_q.
   always_ff @(posedge clk_i) begin
     if (rise_o) age_q <= Width'(1);
     else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));

@@ -90,7 +90,7 @@ module ppmc_ramp_seq #(
       dec_o  <= 1'b0;
     end else begin
       near_q <= !high && !ppmc_pkg::less(32'(ramp_level), 32'(left_o[StepBits-1:0]));
-      full_q <= reached;  // 1: ramp_level = PA; valid without a look-up and before the deceleration
+      full_q <= reached;  // 1: ramp_level = PA; valid before the deceleration, while no look-up runs
       zero_q <= !high && left_o[StepBits-1:0] == '0;
       low_q  <= ramp_level[StepBits-1:1] == '0;
       if (load_i) begin
@@ -137,10 +137,10 @@ module ppmc_ramp_seq #(
   // After a look-up, the threshold of lookup_rate_q is valid, so the next look-up begins with a test.
   // below: ramp_level < threshold; during deceleration, ramp_level <= threshold. In these cases, the sum
   // has a carry.
-  // If the ticks of the base clock are 4 cycles apart, a look-up always ends before the end of its interval,
-  // because the number n of skipped rates is at most the rate of the interval. If the ticks are 6 cycles
-  // apart, the look-up also ends before the middle of the interval, because on ramps of at least 4 steps, n
-  // is 1 or smaller than the rate.
+  // n is the number of rates that a look-up skips. It is at most the rate of the interval. Therefore, if the
+  // ticks of the base clock are 4 cycles apart, a look-up always ends before the end of its interval. On
+  // ramps of at least 4 steps, n is also 1 or smaller than the rate. Therefore, if the ticks are 6 cycles
+  // apart, a look-up on such a ramp also ends before the middle of its interval.
   assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), decel_q} + {1'b0, ramp_level_nq, decel_q};
   assign reached             = !below;
   assign more                = !end_q && reached != decel_q;

@@ -64,7 +64,7 @@ module ppmc_ramp_serial
   addr_t read_addr_q, use_addr;  // read_addr_q: word to be read; use_addr: word in use
   addr_t flip, flipped;
   logic down;
-  logic run_q, read_q, use_q, second_q;  // stages of a word: address, RAM, use, second division
+  logic run_q, read_q, use_q, second_q;  // pipeline stages: address, RAM, use, second division
 
   assign down     = pass_i inside {PassDivideSquare, PassDivide};
   assign use_o    = use_q;
@@ -163,7 +163,7 @@ module ppmc_ramp_serial
     wr   = rd;
     wr.v = sum;
     unique case (pass_i)
-      PassInit: wr.n = init_i;  // wr.v = sum = 0
+      PassInit: wr.n = init_i;  // sum is 0 here, so wr.v = 0
       PassMulEnd: begin
         wr.n = sum;
         wr.v = 1'b0;

@@ -141,7 +141,7 @@ package ppmc2104_pkg;
     logic read;        // axis read, or error code read
   } axis_action_t;
 
-  // Actions of a byte for the device. The auxiliary instructions belong to no axis.
+  // Actions of a byte: those of each axis, and the auxiliary instructions, which belong to no axis.
   typedef struct packed {
     axis_action_t [AXES:1] axis;
     logic                  aux_out;

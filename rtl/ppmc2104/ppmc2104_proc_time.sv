@@ -194,7 +194,8 @@ module ppmc2104_proc_time
     assign poll_o = poll_q == PollBits'(PollCycles - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) poll_q <= PollBits'(1);  // 1: rst_ni rises one cycle after the first edge without reset
+      // The count begins at the first rising edge without reset. rst_ni rises one cycle later, hence the 1.
+      if (!rst_ni) poll_q <= PollBits'(1);
       else if (begins || window_q || poll_o) poll_q <= '0;
       else poll_q <= poll_q + 1'b1;
     end

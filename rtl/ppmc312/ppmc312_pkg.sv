@@ -71,7 +71,7 @@ package ppmc312_pkg;
 
   typedef struct packed {
     logic       is_known;
-    logic       has_ov;         // bit 2 (OV) of the first parameter stores the instruction
+    logic       has_ov;         // if bit 2 (OV) of the first parameter is 1, the instruction is stored
     logic       starts_motion;  // the instruction starts pulses
     logic       has_rate;       // parameters 1 and 2 are a rate
     logic       zero_is_rh;     // a rate of 0 selects RH

@@ -62,7 +62,7 @@ module ppmc_proc_time
 
   localparam int unsigned CommandBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BusyRampXtal, ClkHz, XtalHz) - 1);
 
-  // State of the counter one tick before a time of xtal_cycles ends.
+  // State of the counter one tick before the end of a time of `xtal_cycles` crystal cycles.
   function automatic logic [CommandBits-1:0] last_state(int unsigned xtal_cycles);
     return CommandBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CommandBits));
   endfunction

@@ -196,7 +196,7 @@ def chosen(tests: Sequence[GateTest], word: str | None, four_state: bool = False
     """Return the tests whose name contains `word`, or one of several words separated by commas.
 
     Upper and lower case are equal. The word `quick` selects the quick subset; if `four_state` is True, it
-    selects the subset for a simulator with X.
+    selects the subset for a four-state simulator.
     """
     if word is None:
         return list(tests)

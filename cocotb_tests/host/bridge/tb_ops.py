@@ -183,8 +183,8 @@ async def ops_overflow(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_board(dut):
-    """PINS, STRAPS and ZERO have their effects, COUNT returns one snapshot, and RESET lasts 16 cycles with
-    its pause (UB-OPS-02).
+    """PINS, STRAPS and ZERO have their effects, and COUNT returns one snapshot. RESET lasts 16 cycles, and a
+    pause follows (UB-OPS-02).
     """
     bench = await Bench.start(dut)
     for level in (0x00, 0x81, 0x7E, 0x55):

@@ -76,7 +76,7 @@ class SequencerRun:
         return out
 
     async def sample(self, **inputs: int) -> tuple[int, ...]:
-        """Return the watched outputs with these inputs and the data that the table returns in this cycle."""
+        """Apply the inputs and the data that the table returns in this cycle; return the watched outputs."""
         side, i = self.reads[0]
         table, i = self.table, min(i, STAGES - 1)
         pulses = table.pd if side else table.pa
@@ -125,8 +125,8 @@ class SequencerRun:
         requests = self.plan_requests()
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
         if self.sequence.was_searched and self.rand.random() < 0.3:
-            # The boundary is in the last cycle that is too early for the result of the search, or one cycle
-            # later.
+            # The boundary is either in the last cycle in which it cannot use the result of the search, or one
+            # cycle later.
             cycles = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
             longest = max(longest, cycles - self.flat_for)
         self.flat_for += longest

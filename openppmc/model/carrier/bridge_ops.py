@@ -39,18 +39,19 @@ RECORD_END, RECORD_BEGIN, RECORD_REWIND = 0, 1, 2
 class Bus(Protocol):
     """Part accessed through the bridge. `read` and `write` are one bus access each.
 
-    A bus may also have these methods. The second column is the behaviour of the bridge without the method, or
-    a note:
+    A bus may also have these methods. The second column is what happens, or the value that the bridge uses,
+    if the bus does not have the method:
 
         reset()             nothing happens
         straps(byte)        nothing happens
         pins() -> int       FF
-        count() -> int      0; the count is signed
+        count() -> int      0
         zero()              nothing happens
-        count(2), zero(2)   called with two axes as well
-        now_ms() -> float   time of the read accesses of this script
-        skip(limit_ms)      called during a wait: let at most limit_ms pass until a register may read
-                            differently
+        now_ms() -> float   duration of all read accesses of this script so far
+        skip(limit_ms)      nothing happens
+
+    The result of `count` is signed. With two axes, `count(2)` and `zero(2)` are called for axis 2. `skip` is
+    called during a wait. It lets time pass until a register may read differently, but at most limit_ms.
 
     A bus with a recorder also has: `record(what)` (0 = end, 1 = begin, 2 = rewind); `recorded() -> bytes`
     (answer to RECORDED); `fetch() -> int` (next byte of the records).

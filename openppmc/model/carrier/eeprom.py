@@ -79,7 +79,7 @@ class Eeprom24C32:
         self._page: list[int] = []
 
     def occupy(self, until: int) -> None:
-        """Set the edge at which a write cycle ends that began before this model."""
+        """Set the edge that ends a write cycle; the cycle began before this model was created."""
         self._busy_until = until
 
     def busy(self, t: int) -> bool:

@@ -4,7 +4,7 @@
 //         from the 25 MHz oscillator.
 // Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/bank/pins.lpf. 25 of the 32 axes have pins for pulse
 //         and direction. No axis has pins for switches or phases. The SPI host is wired to the pins of J1, or it is
-//         the ESP32 of the board, which has these pins as GPIO26, 25, 33, 35, 34.
+//         the ESP32 of the board. The ESP32 calls these pins GPIO26, 25, 33, 35, 34.
 // Timing: see ppmc_bank_carrier.
 `default_nettype none
 
@@ -100,7 +100,7 @@ module board_ulx3s_bank #(
   assign dir        = part_dir[24:0];
   assign led        = leds;
 
-  // Low would put the ESP32 into its boot loader at its next reset.
+  // A low level would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;
 
   assign unused     = ^{part_pout_n[31:25], part_dir[31:25]};

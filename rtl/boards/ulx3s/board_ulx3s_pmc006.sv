@@ -119,7 +119,7 @@ module board_ulx3s_pmc006 #(
   assign sda        = sda_oe ? 1'b0 : 'z;
   assign led        = leds;
 
-  // Low would put the ESP32 into its boot loader at its next reset.
+  // A low level would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;
 
 endmodule

@@ -108,7 +108,7 @@ module board_ulx3s_stmc #(
   assign d          = d_oe ? part_d : 'z;
   assign led        = leds;
 
-  // Low would put the ESP32 into its boot loader at its next reset.
+  // A low level would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;
 
 endmodule

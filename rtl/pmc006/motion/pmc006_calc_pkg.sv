@@ -27,7 +27,7 @@ package pmc006_calc_pkg;
     OpJump
   } calc_op_e;
 
-  // aux of a load, addition, subtraction or division.
+  // Field aux of a load, addition, subtraction or division.
   typedef enum logic [3:0] {
     OperandPlain,
     OperandDec,    // RWay uses nd instead of na
@@ -35,7 +35,7 @@ package pmc006_calc_pkg;
     OperandLowDec
   } operand_mode_e;
 
-  // aux of a multiplication: number of steps.
+  // Field aux of a multiplication: number of steps.
   typedef enum logic [3:0] {
     Steps1,
     Steps2,
@@ -43,7 +43,7 @@ package pmc006_calc_pkg;
     Steps32
   } mul_steps_e;
 
-  // aux of an output.
+  // Field aux of an output.
   typedef enum logic [3:0] {
     OutNext,   // Vn = hi
     OutSpeed,  // V = Vn = hi
@@ -53,7 +53,7 @@ package pmc006_calc_pkg;
     OutDec     // nd = nd + 1
   } output_sel_e;
 
-  // Bits 6:5 select 00: a word of pmc006_calc_words, 01: a table of pmc006_calc_words, 10: a register.
+  // Bits 6:5 = 00: word of pmc006_calc_words; 01: table of pmc006_calc_words; 10: register.
   typedef enum logic [6:0] {
     // words that the program writes
     MLt     = 7'h00,  // last target speed
@@ -127,7 +127,7 @@ package pmc006_calc_pkg;
     PhStop   = 3'b110
   } phase_e;
 
-  // aux of OpSet: bit 3 ends the ramp (it clears bit 2 of the phase). Otherwise bits 2, 1, 0 enable the
+  // Field aux of OpSet: bit 3 ends the ramp (it clears bit 2 of the phase). Otherwise bits 2, 1, 0 enable the
   // setting of phase, up and smooth.
   typedef struct packed {
     calc_op_e   op;

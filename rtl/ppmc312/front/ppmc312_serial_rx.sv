@@ -12,7 +12,7 @@ module ppmc312_serial_rx
 #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter bit          CharsSum = 1'b0         // checksum over 1: characters, 0: their values
+    parameter bit          CharsSum = 1'b0         // 1: checksum over the characters, 0: over their values
 ) (
     input  wire logic               clk_i,           // clock
     input  wire logic               rst_ni,          // reset, asynchronous

@@ -119,7 +119,8 @@ module ppmc312_instr_queue
     end else begin
       head_valid_q <= armed_q != written_q && !fire && !drop;
       halt_o       <= fire && head_q.halt && !head_q.trig[0];
-      // armed_q is never behind done_q, because entries are taken only while triggered_q = 1.
+      // The entries from done_q up to armed_q are triggered. They are taken only while triggered_q = 1, so
+      // done_q never overtakes armed_q. Therefore this comparison for equality is sufficient.
       triggered_q  <= !drop && (fire || (take_fifo ? done_next != armed_q : done_q != armed_q));
       if (drop) begin
         armed_q <= written_q;

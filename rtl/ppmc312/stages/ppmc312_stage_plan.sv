@@ -6,10 +6,11 @@
 //         operation that is not endless adds at most 7 cycles, or 60 cycles for a triangular profile. If the
 //         deceleration does not begin with a complete stage, the search for its start adds 5 cycles + the
 //         number of stages of the deceleration side. Results are valid until the next start.
-// How:    one pass reads the table upward and adds the pulses of the sides. t(x) is the last stage that is
-//         not faster than rate_i; the outputs are t(x) and t(x) + 1. At t(x), the sums are stored: one for
-//         the stages that both sides have, one for the other stages. If no stage qualifies, t(x) is the
-//         stage before the first used stage. The rates need not decrease from stage to stage.
+// How:    one pass reads the table upward and finds t(x), the last stage that is not faster than rate_i. The
+//         outputs are t(x) and t(x) + 1. If no stage qualifies, t(x) is the stage before the first used
+//         stage. The rates need not decrease from stage to stage. The pass also adds up the pulses of the
+//         stages, in separate sums for stages that both sides (acceleration, deceleration) have, and for
+//         stages that only one side has. The sums up to t(x) are stored.
 `default_nettype none
 
 module ppmc312_stage_plan
@@ -172,7 +173,9 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_pulses_o: number of pulses of the complete deceleration, or number of pulses that remain for it
+  // dec_some: dec_pulses_o is loaded. If the search for the start of the deceleration has just begun
+  // (begins_q), it is the number of pulses that remain for the deceleration. Otherwise it is the number of
+  // pulses of the complete deceleration. dec_none: dec_pulses_o is cleared.
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 

@@ -20,8 +20,9 @@ from scripts.fpga.flow.plain_text import readable
 
 FAMILY = "plain"
 """Family name of plain Verilog in yosys jobs."""
-# Waived as in the sources: a reset that data logic also reads; packed structs that are one vector whose
-# fields depend on each other; signals that a build does not use; selections by one-hot words.
+# Waived as in the sources: a reset that data logic also reads; dependences between fields of one packed
+# struct, which plain Verilog has as one vector; signals that a build does not use; selections by one-hot
+# words.
 RULES = ("SYNCASYNCNET", "UNOPTFLAT", "UNUSEDSIGNAL", "UNDRIVEN", "PINCONNECTEMPTY", "CASEOVERLAP")
 WAIVED = tuple((rule, "*") for rule in RULES)
 

@@ -124,7 +124,10 @@ def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]
 
 
 def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
-    """Return the texts of edges and a line below them; long numbers have a letter that the line explains."""
+    """Return the texts of the edges, and a line below them.
+
+    In the texts, letters replace long numbers; the line explains the letters.
+    """
     words: list[str | None] = []
     told: dict[int, str] = {}
     for edge in edges:

@@ -188,7 +188,7 @@ module ppmc_axis_fv
   logic [3:0] since_q;  // cycles since the start or the last pulse, saturates at 15
   logic [1:0] from_q;  // rate before the last pulse
   logic still_q;  // 1: neither rate nor base clock changed in the previous cycle
-  logic between, inner;  // between: between two pulses; inner: between, and the base clock is internal
+  logic between, inner;  // between: between two pulses; inner: between = 1, and the base clock is internal
 
   assign between = motion_o.running;
   assign inner   = between && !base_q.external;

@@ -54,7 +54,7 @@ module ppmc_command_fv
   assign data_i = byte_i;
   always_ff @(posedge clk_i) busy_i <= rst_ni && (act_o.start || (busy_i && !ended_i));
 
-  // The decoder is a function of the byte.
+  // The outputs of the decoder depend only on the byte, so they are stable while the byte is stable.
   assign decoded_i = decoded_byte_i;
   `FV_ASSUME(decoder_stands, $past(byte_i) != byte_i || $past(command_i)
              != command_i || decoded_byte_i == $past(decoded_byte_i))

@@ -29,8 +29,7 @@ WRITERS: dict[str, Callable[[Seen, Path], Path]] = {
 }
 CORE = {"CLK_HZ": CLK_HZ}
 SHORT = ("mon_step",)
-"""Outputs with pulses shorter than a sample, which only our core has; the original chip does not have them.
-"""
+"""Outputs of our core whose pulses are shorter than a sample; the original chip does not have them."""
 
 
 @cache

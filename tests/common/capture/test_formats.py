@@ -376,7 +376,7 @@ def test_damaged_dumps(old: str, new: str, says: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("level", "begin"), [(0, 0.0), (1, 0.0), (1, 42e-6)])
 def test_a_constant_output(level: int, begin: float, run: Run, tmp_path: Path) -> None:
-    """If DIR is stuck, this is one difference at the wrong level, and no difference at the correct level."""
+    """If DIR is stuck at the wrong level, one difference is reported; at the correct level, none is."""
     without = ("rst_n",) if begin else ()
     one = probe(session("ppmc104"), rate=1e9, until=0.016, begin=begin, without=without)
     one.wires["dir"] = (level, [])

@@ -121,9 +121,9 @@ def test_stations_in_scopes(run: Run, tmp_path: Path) -> None:
 
 
 def test_what_a_switch_ended_tells_no_crystal() -> None:
-    """A move whose end a switch delayed by 50 µs does not influence the estimate of the crystal.
+    """The estimate of the crystal frequency ignores a move that a switch ended 50 µs late.
 
-    If all other moves are 60 ppm longer, the estimate is 60 ppm.
+    If all other moves are 60 ppm longer than expected, the estimated deviation is 60 ppm.
     """
     long, slack = 300_000 * US, US // 4
     assert clock_ratio([(long, long)] * 3 + [(long, long + 50 * US)], slack) == 1.0

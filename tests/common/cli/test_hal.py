@@ -465,7 +465,9 @@ def test_group_start_fails(hal: Run, devices: list[Any]) -> None:
 
 
 def test_group_of_64_axes(hal: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All axes of the largest bank start with one call of the library, so in the same cycle (BANK-GRP-02)."""
+    """One call of the library starts all axes of the largest bank, so that they start in the same cycle
+    (BANK-GRP-02).
+    """
     groups: list[dict[int, int]] = []
     start_moves = host.PpmcBank.start_moves.function
     monkeypatch.setattr(

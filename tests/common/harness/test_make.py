@@ -102,8 +102,8 @@ def test_command(line: str, command: str, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_every_target_and_variable_is_listed() -> None:
-    """The stored list contains all targets and variables; WRONG contains all variables with restricted
-    values.
+    """The stored list contains every target and every variable. WRONG has an entry for each variable whose
+    values are restricted.
     """
     given = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line, _ in LIST]
     goals = [run.Goal(line.split()[0], values).name for (line, _), values in zip(LIST, given, strict=True)]

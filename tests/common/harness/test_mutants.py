@@ -12,7 +12,7 @@ EVERY = list(mutants())
 
 @pytest.mark.parametrize("mutant", [pytest.param(one, id=one.id) for one in EVERY])
 def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
-    """The old text of a mutant is once in its file, the new text differs, and its tests simulate the file."""
+    """A mutant's old text occurs once in its file; the new text differs, and its tests simulate the file."""
     assert mutant.new != mutant.old
     mutant.source()
     items = mutant.items()

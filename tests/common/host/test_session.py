@@ -136,8 +136,8 @@ def spoil(line: bytes, fault: str, where: int) -> bytes:
 
 @given(st.lists(st.tuples(faults, faults, st.integers(0, 5000)), min_size=1, max_size=60))
 def test_every_request_is_carried_out_exactly_once(weather: list[tuple[str, str, int]]) -> None:
-    """If a line loses, flips, doubles and cuts frames in both directions, each command is executed exactly
-    once.
+    """If a line loses, doubles and cuts frames and flips bits, in both directions, each command is executed
+    exactly once.
 
     This holds as long as the host does not abandon a request.
     """

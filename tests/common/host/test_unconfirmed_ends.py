@@ -365,7 +365,7 @@ def controller() -> Iterator[Any]:
 
 
 def reset_other(axis: Any) -> None:
-    """Reset the device at the end of a bridge or of a line by its pin."""
+    """Reset the device, which is connected to a bridge or to a line, through its reset pin."""
     port = getattr(axis.link, "port", None) or axis.link._port
     board = port.board if hasattr(port, "board") else port.line.stations[-1]
     board.reset()

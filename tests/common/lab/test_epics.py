@@ -348,7 +348,7 @@ def epics_motor(words: str, **units: Any) -> Iterator[tuple[Records, EpicsMotor]
 def failed(status: Any) -> bool:
     """Wait for a Status; return whether it failed."""
     error = status.exception(PATIENCE)
-    time.sleep(0.2)  # ophyd forgets a move that starts before all callbacks of the Status have returned
+    time.sleep(0.2)  # ophyd loses a move that starts before all callbacks of the Status have returned
     return error is not None
 
 

@@ -30,7 +30,7 @@ NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "browser.mjs").read_text(e
 
 @cache
 def checked() -> dict[str, dict[str, str]]:
-    """Return the result of each check in the browser; skip the tests with one line if there is no browser."""
+    """Return the result of each check in the browser. Without a browser, skip the tests with a message."""
     if shutil.which("node") is None:
         pytest.skip("node is not installed: no browser")
     folder = playground()

@@ -16,7 +16,7 @@ from scripts.site.webparts import WEB_PARTS
 
 PAGES = [part for part in PARTS if (ROOT / "docs" / part / "examples.md").is_file()]
 WITHOUT = {("stmc", "9")}
-"""Chapters that require another build than that of the playground."""
+"""Chapters whose sessions require a build that differs from that of the playground."""
 
 
 def test_every_part_is_there():

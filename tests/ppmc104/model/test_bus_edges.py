@@ -175,7 +175,7 @@ def test_strobe_across_reset_release():
 
 
 def test_quantum_counter_starts_at_the_release():
-    """After a reset, the chopper has the same phase as after power-up, for any edge of the release."""
+    """After a reset, the chopper has the same phase as after power-up, whichever edge releases the reset."""
 
     def chopped(release: int) -> list[int]:
         model = Ppmc104()

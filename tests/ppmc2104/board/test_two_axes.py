@@ -258,7 +258,7 @@ def test_commands(board: SimBoard, openppmc: CommandLine, tmp_path: Path) -> Non
 
 
 def test_another_part_was_named(board: SimBoard, openppmc: CommandLine) -> None:
-    """If `--part` names another part than that of the board, the command fails with one line."""
+    """If `--part` does not name the part of the board, the command fails with one line."""
     code, _, err = openppmc.run(board.port, "--part", "ppmc104", "info")
     assert code == 1 and one_line(err) and "PPMC-2104, not a PPMC-104" in err
     code, out, err = openppmc.run(board.port, "--part", "ppmc2104", "info")

@@ -138,7 +138,7 @@ def test_replies_of_chapter_12(wire: str) -> None:
 
 
 def test_the_checksum_of_the_sheet_both_ways() -> None:
-    """The second example of the data sheet has checksum 09 by the text, but 4D as printed (P312-CHK-57)."""
+    """The data sheet prints checksum 4D in its second example; its text results in 09 (P312-CHK-57)."""
     data = bytes.fromhex("001011225566abcdef")
     assert checksum(0x91, data) == 0x09 and checksum(0x91, data, SumMode.CHARS) == 0x4D
     assert frame(POLL | 1, mode=SumMode.CHARS) == b"\x81\x7f"

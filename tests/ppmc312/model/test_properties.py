@@ -1,4 +1,4 @@
-"""Any move of the PPMC-312 at its pins has pulse times, widths and counts by the closed formulas."""
+"""For any move, pulse times, widths and counts at the pins of the PPMC-312 follow the closed formulas."""
 
 from __future__ import annotations
 

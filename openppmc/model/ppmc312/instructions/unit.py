@@ -352,7 +352,7 @@ class Unit:
     def _fetch(self, t: int) -> None:
         """Begin to assemble the next block of a table read.
 
-        A triggered instruction at the same edge is processed before, as a multiple occurrence.
+        A triggered instruction that waits at this edge is a multiple occurrence, which is processed first.
         """
         if waiting := self._first_waiting(t):
             self._multiple_occurrence(t, waiting)

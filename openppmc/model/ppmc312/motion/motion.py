@@ -47,8 +47,8 @@ class Motion:
         on_count: on_count(t, direction) is called when POS counts a pulse.
         on_compare: on_compare(t, direction) is called when POS is compared; it returns True for a stop at
             this position (P312-OVR-12).
-        overrides_done: overrides_done() returns True if all instructions are processed for which such a stop
-            waits.
+        overrides_done: overrides_done() returns True if all instructions that such a stop waits for have been
+            processed.
         on_end: on_end(t, cause) is called when the pulse output has ended, or with Cause.RETURN after phase 1
             of a zero return.
     """
