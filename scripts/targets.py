@@ -50,7 +50,7 @@ waves | | Open the demo's waveforms in GTKWave or Surfer.
     ./scripts/waves.sh
 test | sim | Run all tests.
     [SIM_MAIN={SIM_MAIN}] {pytest} -n {J:2} [-k {T/or}] [--seed {SEED}] [--clk-hz {CLK_HZ}]
-    [--waves {WAVES}] [--probe {PROBE}] [--model {MODEL}] {else}
+    [--waves {WAVES}] [--probe {PROBE}] [--model {MODEL}] [--jitter {JITTER}] {else}
 board | sim | Start a virtual board on a pseudo-terminal.
     {py} -m openppmc.sim [part={PART}] [{SIM}]
 bitstream | dev | Build the bitstream of a board with a part.
@@ -131,10 +131,11 @@ soak | campaign | Compare random hosts with the golden model; PART=all: each par
     --seed {SEED:1} --count {COUNT:1000} {on}
 fuzz | campaign | Send random characters to each deframer and its model.
     {py} -m scripts.measure.fuzz [--seed {SEED}] [--count {COUNT}] {on}
-nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates, test-bits and prove.
+nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates, test-bits, test JITTER=1, prove.
     code=0; for work in 'fuzz --count 100000000' 'soak all --seed {SEED:1000000} --count {COUNT:2000}'
     coverage mutants.made gates 'gates --bits'; do echo "== nightly: $work";
     {py} -m scripts.measure.$work {on} || code=1; done;
+    echo '== nightly: jitter'; {pytest} -n {J:2} --jitter || code=1;
     echo '== nightly: proofs'; {py} -m scripts.measure.prove --night -n {J:2} || code=1; exit $code
 replay | sim | Repeat a failed random test on the RTL and the golden model.
     {py} -m scripts.measure.replay {FILE}
@@ -169,6 +170,7 @@ WITH | campaign ophyd linuxcnc litex fusesoc versions | tests that need other pa
 WAVES | 0..1 | 1: keep the waveforms of passing tests
 PROBE | 0..1 | 1: make internal signals visible to tests, and record them in the waveforms
 MODEL | 0..1 | 1: run directed tests on the golden model
+JITTER | 0..1 | 1: sample each pin change one cycle late at random
 SIM_MAIN | own cocotb | main program of the simulations
 SCHEDULER | scheduler | use the workers of this scheduler, tcp://host:port
 FRESH | 0..1 | 1: ignore results of earlier runs

@@ -31,6 +31,7 @@ from cocotb_tools.runner import as_sv_literal, get_runner
 from openppmc.sim.common.build import copy_runtime, seen_from, verilator_command, verilator_environment
 
 from .config import Config
+from .jitter import with_jitter
 from .part import PARTS
 from .paths import ROOT, SIM_BUILDS
 from .project import ProjectError, include_dirs, sources
@@ -257,6 +258,7 @@ def build(design: Design, waves: bool = False) -> Path:
         design = replace(design, sources=copied, args=[*design.args, *MUTANT_WARNINGS])
     if counts_coverage():
         design = replace(design, sources=with_counters(design.sources))
+    design = replace(design, sources=with_jitter(design.sources))
     name = _digest(design, waves)
     folder = SIM_BUILDS / f"{design.top}-{name}"
     done, log = folder / "done", SIM_BUILDS / f"{design.top}-{name}.log"

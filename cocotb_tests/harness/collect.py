@@ -149,6 +149,7 @@ class Item:
         skipped: reason why the test does not run.
         uncompared: reason why a directed test is not compared with the golden model ("" if it is compared);
             None for other tests.
+        exact: reason why the test does not run with JITTER=1.
         shared: True if it may share a process with other tests of its module, although it is not a directed
             test.
     """
@@ -164,6 +165,7 @@ class Item:
     probes: tuple[str, ...] = ()
     skipped: str = ""
     uncompared: str | None = None
+    exact: str = ""
     shared: bool = False
 
     @property
@@ -211,6 +213,7 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
                         probes=probes_of(test),
                         skipped="skip=True of cocotb.test()" if case.skip else "",
                         uncompared=getattr(test.func, "_openppmc_uncompared", None),
+                        exact=getattr(test.func, "_openppmc_exact", ""),
                         shared=shared,
                     )
                     if item.id in seen:

@@ -20,6 +20,7 @@ from openppmc.check.replay import ModelRunner
 
 from .config import Config
 from .crosses import watch
+from .jitter import StageLog
 from .part import Part
 
 
@@ -80,8 +81,8 @@ class DutBench(ABC):
 
     Attributes: `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of
     each input and of rst_n), `stimulus` (list[Change]: driven changes), `accesses` (list[Access]: accesses of
-    a host), `initial` (level of each recorded output before its first edge), `follower` (the model of
-    `golden`, after its first use).
+    a host), `stage_log` (with JITTER=1: the changes that the synchronisers sampled), `initial` (level of each
+    recorded output before its first edge), `follower` (the model of `golden`, after its first use).
     """
 
     simulated: ClassVar[bool] = True
@@ -98,6 +99,7 @@ class DutBench(ABC):
         self.initial: dict[str, int] = {}
         self.follower: ModelRunner | None = None
         self._stimulus_log = StimulusLog()
+        self.stage_log: StageLog | None = None
         self._later: list[Handle] = []
 
     # ---------------------------------------------------------------- primitives
@@ -181,11 +183,17 @@ class DutBench(ABC):
         Edge t + 1 is the first to sample a change that the top makes at edge t.
         """
         part = self.part
+        if self.stage_log:
+            return self._sampled_changes(self.stage_log)
         if not part.fed:
             return self.stimulus
         seen = self._output_changes()
         driven = [change for change in self.stimulus if change.pin not in part.aside]
         return self._stimulus_log.add(driven, {name: seen[name] for name in part.fed})
+
+    def _sampled_changes(self, log: StageLog) -> list[Change]:
+        """Return the changes that the synchronisers have sampled."""
+        raise NotImplementedError
 
     def close(self) -> None:
         """Stop all scheduled pin changes."""

@@ -77,6 +77,10 @@ class Part:
         idle: one-bit parameters that select the level of an output in reset.
         shape: function that returns the pins for parameters that determine the widths of ports (see `built`).
 
+    For `make test JITTER=1`, `stages` lists the synchronisers of the pins: path -> pins from the most
+    significant bit on. `direct` lists pins of these that another register also samples. `exact` is the reason
+    why only random hosts run with JITTER=1.
+
     The top of a bench may contain more than the device. Then `fed` lists inputs of the device that the top
     drives (outputs of the bench), and `aside` lists inputs that only the top has.
     """
@@ -96,6 +100,9 @@ class Part:
     shape: Callable[[Mapping[str, object]], PinTable] | None = None
     fed: frozenset[str] = frozenset()
     aside: frozenset[str] = frozenset()
+    stages: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    direct: frozenset[str] = frozenset()
+    exact: str = ""
 
     @classmethod
     def of_model(

@@ -6,6 +6,7 @@ The conftest.py in the project root loads it, so it also handles the plain Pytho
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import pytest
 
 from .build import locked
 from .collect import PREFIXES, Item, part_of_rule, rules_of, unknown_rules
+from .jitter import JITTER, is_jittered
 from .model_tests import run_on_model
 from .paths import TRACE
 from .runner import SimOptions, Summary, notes
@@ -25,13 +27,14 @@ _GROUPS = pytest.StashKey[Groups]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the options of `make test`: SEED, CLK_HZ, WAVES, PROBE and MODEL."""
+    """Add the options of `make test`: SEED, CLK_HZ, WAVES, PROBE, MODEL and JITTER."""
     group = parser.getgroup("openppmc")
     group.addoption("--seed", type=int, default=None, help="seed of all simulations and random tests")
     group.addoption("--clk-hz", type=int, default=None, help="run only simulations with this CLK_HZ")
     group.addoption("--waves", action="store_true", help="keep the waveforms of each simulation")
     group.addoption("--probe", "--inside", action="store_true", help="show inner signals in every simulation")
     group.addoption("--model", action="store_true", help="run directed tests on the golden model alone")
+    group.addoption("--jitter", action="store_true", help="sample each pin change one cycle late at random")
 
 
 @pytest.fixture
@@ -51,13 +54,15 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Deselect tests that do not match --clk-hz or --model.
+    """Deselect tests that do not match --clk-hz, --model or --jitter.
 
     --clk-hz deselects plain Python tests and tests with other clocks; --model deselects all tests except
-    directed ones.
+    directed ones; --jitter deselects all tests except compared ones of the devices that support it.
     """
     clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
     keep = [test for test in items if _is_selected(item_of(test), clk_hz, model)]
+    if config.getoption("--jitter"):
+        keep = [test for test in keep if (item := item_of(test)) and is_jittered(item)]
     if len(keep) < len(items):
         config.hook.pytest_deselected(items=[test for test in items if test not in set(keep)])
         items[:] = keep
@@ -159,6 +164,8 @@ def pytest_configure(config: pytest.Config) -> None:
     A worker of xdist has the attribute `workerinput`; the controller does not.
     """
     collect_seldom()
+    if config.getoption("--jitter"):
+        os.environ[JITTER] = "1"
     options = SimOptions(
         seed=config.getoption("--seed"),
         waves=config.getoption("--waves"),
@@ -167,7 +174,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_GROUPS] = Groups(options)
     config.pluginmanager.register(config.stash[_GROUPS], "openppmc-groups")
     if not hasattr(config, "workerinput"):
-        if not config.getoption("--model") and not mutant_present():
+        if not config.getoption("--model") and not config.getoption("--jitter") and not mutant_present():
             config.pluginmanager.register(_Recorder(config), "openppmc-trace")
             config.pluginmanager.register(Summary(), "openppmc-summary")
         if config.pluginmanager.hasplugin("xdist"):

@@ -28,6 +28,7 @@ from .build import Design, SimError, part_design
 from .collect import Item, cocotb_items
 from .compare import COUNTS_FILE, total_counts
 from .config import SEEDS, Config
+from .jitter import jitters
 from .model_bench import OnModel, on_model
 from .part import PARTS
 from .paths import FAILURES, relative
@@ -77,6 +78,8 @@ def shrink_report(folder: Path, design: Design | None = None) -> str:
     `design` (default: the recorded device) is simulated. The results are in the subfolder `short`.
     """
     file, short = folder / "recording.json", folder / "short"
+    if jitters():
+        return "not shrunk: a recording with JITTER=1 has the sampled levels, not the pins"
     if not file.is_file():
         return "not shrunk: no difference from the golden model was recorded"
     item = replay_item(Recording.from_json(file.read_text(encoding="utf-8")), "shrink")

@@ -20,6 +20,7 @@ from openppmc.check.records import Change
 
 from .config import F16, Config
 from .dut_bench import TIMEOUT, DutBench, PinChange
+from .jitter import STAGE, StageLog, jitters
 from .part import Part
 from .sim_backend import collect_seldom, sim_backend
 
@@ -45,6 +46,8 @@ class RtlBench(DutBench):
         self.half = self.period // 2
         self._edges: dict[str, list[tuple[int, int]]] = {}
         self._watched: dict[int, list[tuple[int, int]]] = {}
+        self._stages: dict[str, list[tuple[int, int]]] = {}
+        self._first: dict[str, int] = {}
         part = self.part
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
         self._backend = sim_backend()
@@ -97,6 +100,8 @@ class RtlBench(DutBench):
         bench._backend.changes()  # discards changes recorded for an earlier bench
         for name in part.watched:
             bench.watch(name)
+        if jitters() and part.stages:
+            bench.watch_stages()
         if settle:
             await bench.until(settle)
         return bench
@@ -108,6 +113,21 @@ class RtlBench(DutBench):
         port = self._ports[output]
         self._watched[port] = self._edges[output]
         self._backend.watch(port)
+
+    def watch_stages(self) -> None:
+        """Record the levels that the first stages of the synchronisers sample, for the golden model."""
+        self.stage_log = StageLog(self.part)
+        for path in self.part.stages:
+            port = self._backend.port(f"{path}.{STAGE}")
+            self._stages[path], self._first[path] = [], self._backend.read(port)
+            self._watched[port] = self._stages[path]
+            self._backend.watch(port)
+
+    def _sampled_changes(self, log: StageLog) -> list[Change]:
+        """See `DutBench._sampled_changes`."""
+        self._output_changes()
+        log.add(self.stimulus, self._stages, self._first, self.now)
+        return log.changes
 
     # ---------------------------------------------------------------- time
 

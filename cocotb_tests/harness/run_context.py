@@ -131,13 +131,16 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Dut
     return bench
 
 
-def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
+def directed(
+    *rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "", exact: str = ""
+) -> Callable[[Any], Any]:
     """Make a cocotb test that verifies `rules` (empty: sessions of a manual) in these builds.
 
     Raises ValueError for an invalid rule ID.
 
     Args:
         uncompared: reason why the outputs are not compared with the golden model; the run lists such tests.
+        exact: reason why the test does not run with JITTER=1: its checks need the edge of a pin change.
     """
 
     def mark(test: Any) -> Any:
@@ -152,6 +155,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
         del run.__wrapped__  # type: ignore[attr-defined]
         run._openppmc_directed = True  # type: ignore[attr-defined]
         run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
+        run._openppmc_exact = exact  # type: ignore[attr-defined]
         configs(*builds)(verifies(*rules)(run) if rules else run)
         if function is test:
             return cocotb.test()(run)
@@ -194,6 +198,11 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
                 comparison = check_against_model(bench)
                 compared += comparison.edges_compared
                 add_counts(edges=comparison.edges_compared, pulses=comparison.pulses)
+                if log := bench.stage_log:
+                    add_counts(late=log.late, prompt=log.prompt)
+                    assert log.late and log.prompt, (
+                        f"seed {seed}: {log.late} late, {log.prompt} prompt changes"
+                    )
 
             with running_test(None if uncompared else compare, seed) as context:
                 await run_and_compare(context, test(dut, seed))

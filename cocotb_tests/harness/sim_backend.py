@@ -10,7 +10,7 @@ import ctypes
 import gc
 import struct
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, reduce
 from itertools import chain
 from typing import Any, Protocol
 
@@ -43,7 +43,7 @@ class CocotbBackend:
     def port(self, name: str) -> int:
         """See `SimBackend.port`."""
         if name not in self._numbers:
-            self._handles.append(getattr(cocotb.top, name))
+            self._handles.append(reduce(getattr, name.split("."), cocotb.top))
             self._numbers[name] = len(self._handles) - 1
         return self._numbers[name]
 
@@ -153,7 +153,8 @@ class CppBackend:
         """See `SimBackend.port`."""
         if name not in self._numbers:
             words = ctypes.c_int()
-            number = self._port(name.encode(), ctypes.byref(words))
+            path = f"{cocotb.top._name}.{name}" if "." in name else name
+            number = self._port(path.encode(), ctypes.byref(words))
             if number < 0:
                 number = _OTHER + self._others.port(name)
             self._numbers[name] = number
@@ -230,7 +231,10 @@ class SimBackend(Protocol):
     """
 
     def port(self, name: str) -> int:
-        """Return the number of a port; raise AttributeError if the top has no port of this name."""
+        """Return the number of a port, or of a visible inner signal such as "u_sync.stage_q".
+
+        Raises AttributeError if the top has no signal of this name.
+        """
 
     def now(self) -> int:
         """Return the present time."""

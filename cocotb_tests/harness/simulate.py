@@ -17,6 +17,7 @@ from cocotb_tests.harness import watchdog
 from .build import ICARUS, Design, build, from_root, sim_main, simulator
 from .collect import Item
 from .config import last_seed
+from .jitter import jitters
 from .paths import ROOT, RUNS
 from .variants import keep_counts, mutant_plusargs
 
@@ -186,6 +187,7 @@ def repro_line(items: Sequence[Item], seed: int) -> str:
     """Return the command that repeats these tests; several tests are repeated in one process."""
     names = ",".join(item.id for item in items)
     main = {"own": "", ICARUS: " SIM=icarus"}.get(sim_main(), f" SIM_MAIN={sim_main()}")
+    main += " JITTER=1" if jitters() else ""
     if items[0].target != "test":
         return f"make {items[0].target} T={names} SEED={seed}{main}"
     return f"make test T={names} SEED={seed} CLK_HZ={items[0].config.clk_hz}{main}"

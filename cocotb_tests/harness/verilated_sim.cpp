@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "verilated.h"
@@ -144,8 +145,10 @@ void close() {
 }
 
 int port_of(const char* name, int* words) {
-    const VerilatedScope* const scope = Verilated::threadContextp()->scopeFind("TOP");
-    const VerilatedVar* const var = scope ? scope->varFind(name) : nullptr;
+    const char* const dot = std::strrchr(name, '.');
+    const std::string path = dot ? "TOP." + std::string(name, dot) : "TOP";
+    const VerilatedScope* const scope = Verilated::threadContextp()->scopeFind(path.c_str());
+    const VerilatedVar* const var = scope ? scope->varFind(dot ? dot + 1 : name) : nullptr;
     if (!var || var->udims()) return -1;
     const int first = static_cast<int>(ports.size());
     char* const data = static_cast<char*>(var->datap());

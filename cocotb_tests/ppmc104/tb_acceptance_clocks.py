@@ -90,7 +90,9 @@ async def p104_ac_48_hold_after_one_step(dut):
     env.window("AC-48", "pulse to hold", rise - env.pulses[0], 544_000, 545_600)
 
 
-@directed("AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04")
+@directed(
+    "AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04", exact="it checks times that follow an edge of a pin"
+)
 async def p104_ac_49_external_clock(dut):
     """With external clocks and rate 9, intervals are 640, 760, 1600 or 1400 cycles, depending on clock period
     and vsel (AC-49).

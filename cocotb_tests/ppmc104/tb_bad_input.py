@@ -146,7 +146,7 @@ async def p104_bad_13_clock_stops_in_motion(dut):
     await env.result("P104-BAD-13", 1, 0x82, 0)
 
 
-@directed("P104-BAD-15", "P104-LIM-07", "P104-LIM-09")
+@directed("P104-BAD-15", "P104-LIM-07", "P104-LIM-09", exact="the switches must be sampled at the same edge")
 async def p104_bad_15_everything_active(dut):
     """If all inputs become active at the start of an operation or during it, no further pulse is output, and
     bits 5 and 4 are set (P104-BAD-15).

@@ -60,7 +60,7 @@ async def p104_bus_01_register_map(dut):
     env.check("P104-BUS-01", "aux_n", bench.edges("aux_n"), [])
 
 
-@directed("P104-BUS-02", "P104-BAD-08")
+@directed("P104-BUS-02", "P104-BAD-08", exact="both strobes end at the same edge")
 async def p104_bus_02_overlapping_strobes(dut):
     """If a read strobe interrupts a write, the byte that was sampled before is stored once (P104-BUS-02)."""
     env = await Env.start(dut, None)
@@ -89,7 +89,9 @@ async def p104_bus_02_overlapping_strobes(dut):
 
 
 @rtl_only("strobes at any phase to clk, and the model counts in cycles")
-@directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
+@directed(
+    "P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100), exact="a level of one cycle may not be sampled"
+)
 async def p104_bus_03_shortest_strobes(dut):
     """With the shortest legal strobes at any phase to `clk`, no byte is missed or corrupted (P104-BUS-03)."""
     env = await Env.start(dut, None)
@@ -155,7 +157,14 @@ async def p104_bus_05_snapshot(dut):
     await env.host.idle()
 
 
-@directed("P104-BUS-06", "P104-GEN-06", "P104-TIM-01", "P104-BAD-18", builds=(F16, F100))
+@directed(
+    "P104-BUS-06",
+    "P104-GEN-06",
+    "P104-TIM-01",
+    "P104-BAD-18",
+    builds=(F16, F100),
+    exact="the data change with the end of the strobe",
+)
 async def p104_bus_06_last_sample_counts(dut):
     """If d_i and a0 change in every cycle, the last sample in the write strobe is the byte, always with the
     same latency (P104-BUS-06).

@@ -13,7 +13,13 @@ from .expected_timing import INIT_A
 from .tb_baseclock import EXTERNAL, carried
 
 
-@directed("P104-BCK-05", "P104-TIM-05", "P104-BAD-14", builds=(F16, F8))
+@directed(
+    "P104-BCK-05",
+    "P104-TIM-05",
+    "P104-BAD-14",
+    builds=(F16, F8),
+    exact="it checks times that follow an edge of a pin",
+)
 async def p104_bck_05_first_deceleration_interval(dut):
     """With edges 8 cycles apart, the low time at the deceleration point is shortened, and the interval is
     exact (P104-BCK-05).
@@ -49,7 +55,7 @@ async def p104_bck_05_sweep(dut):
                 await moves.check(move)
 
 
-@directed("P104-TIM-05", builds=(F16, F8, F25))
+@directed("P104-TIM-05", builds=(F16, F8, F25), exact="it checks times that follow an edge of a pin")
 async def p104_tim_05_brisk_threshold(dut):
     """At rate 0, the high time of the clock limits the low time only for periods below CYC(128)
     (P104-TIM-05).
@@ -64,7 +70,7 @@ async def p104_tim_05_brisk_threshold(dut):
         await moves.check(Move(9, gaps, 9, rate=1))
 
 
-@directed("P104-INT-03", builds=(F16, F8, F25))
+@directed("P104-INT-03", builds=(F16, F8, F25), exact="it checks times that follow an edge of a pin")
 async def p104_int_03_long_threshold(dut):
     """With vsel = L, the extra time is omitted only if the clock period exceeds H (P104-INT-03).
 

@@ -286,7 +286,7 @@ async def p104_lim_09_two_requests_on_one_edge(dut):
     )
 
 
-@directed("P104-LIM-09", "P104-END-04")
+@directed("P104-LIM-09", "P104-END-04", exact="the switches must be sampled at the same edge")
 async def p104_lim_09_limit_and_alarm_on_one_edge(dut):
     """If L1 and ALM fall on the same edge, both bits are set in each operation, while accelerating, at
     constant speed and while decelerating (P104-LIM-09).
@@ -298,7 +298,13 @@ async def p104_lim_09_limit_and_alarm_on_one_edge(dut):
     await env.result("P104-LIM-09", 0, BOTH | 2, 0)
 
 
-@directed("P104-LIM-09", "P104-LIM-04", "P104-LIM-06", "P104-END-04")
+@directed(
+    "P104-LIM-09",
+    "P104-LIM-04",
+    "P104-LIM-06",
+    "P104-END-04",
+    exact="the switches must be sampled at the same edge",
+)
 async def p104_lim_09_causes_on_the_external_clock(dut):
     """With vsel = L and an external clock, L3, CNP, and L1 with ALM have the same effect as with an internal
     clock (P104-LIM-09).
@@ -316,7 +322,7 @@ async def p104_lim_09_causes_on_the_external_clock(dut):
         await env.result("P104-LIM-09", made, finish, ALL - made - 1)
 
 
-@directed("P104-LIM-09", "P104-END-04", "P104-STP-03")
+@directed("P104-LIM-09", "P104-END-04", "P104-STP-03", exact="it checks times that follow an edge of a pin")
 async def p104_lim_09_stop_command_and_hard_limit(dut):
     """If a stop command and L1 take effect on the same edge of a ramped move, command 0x40 sets its bit in
     addition to the bit of the limit; command 0x41 is too late to set its bit (P104-LIM-09).

@@ -44,7 +44,9 @@ async def p104_tim_02_start(dut):
         env.check("P104-TIM-04", "edges of s", moves, [] if code >= 0xC0 else [first])
 
 
-@directed("P104-TIM-05", "P104-TIM-04", builds=(F16, F25))
+@directed(
+    "P104-TIM-05", "P104-TIM-04", builds=(F16, F25), exact="it checks times that follow an edge of a pin"
+)
 async def p104_tim_05_external_low_times(dut):
     """With external clocks and vsel = H, low times at rates 0 to 9 are W or end at the clock edge in
     P104-TIM-05.
@@ -208,7 +210,7 @@ async def p104_end_02_reaction_time(dut):
             await env.result("P104-END-02", 2, bits, ALL - 3)
 
 
-@directed("P104-END-04", "P104-LIM-09", "P104-BAD-15")
+@directed("P104-END-04", "P104-LIM-09", "P104-BAD-15", exact="the switches must be sampled at the same edge")
 async def p104_end_04_cause_bits(dut):
     """If several causes apply at the end of a move or before, exactly their bits are set (P104-END-04)."""
     env = await Env.start(dut, INIT_B)

@@ -21,6 +21,7 @@ STROBES_DS_RW = BusStyle(
     read_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
     read_off={"cs_n": 1, "ds_wrs_n": 1},
 )
+_LEVELS = ("run", "csel", "org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
 PPMC2104 = Part.of_model(
     "ppmc2104",
     codes,
@@ -31,5 +32,12 @@ PPMC2104 = Part.of_model(
     # In ports with one bit per axis, bit 1 belongs to axis 1 and bit 2 to axis 2.
     lowest=dict.fromkeys((*codes.AXIS_INPUTS, *codes.AXIS_OUTPUTS, "s1_n", "s2_n"), 1),
     unwatched=frozenset({"clk_o"}),
+    stages={
+        "u_sync": (*(f"{pin}[{n}]" for n in (2, 1) for pin in _LEVELS), "busc", "errint_n", "auxi"),
+        "u_host.u_bus.u_sync": ("cs_n", "rw_rds_n", "ds_wrs_n"),
+        "g_axis[1].u_axis.u_axis.u_ext.u_sync": ("extck[1]",),
+        "g_axis[2].u_axis.u_axis.u_ext.u_sync": ("extck[2]",),
+    },
+    direct=frozenset({"cs_n", "rw_rds_n", "ds_wrs_n"}),
 )
 PARTS = (PPMC2104,)

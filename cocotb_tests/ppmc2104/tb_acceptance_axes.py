@@ -305,7 +305,7 @@ async def p2104_ac_59_external_clock(dut: Any) -> None:
     await axis.result("AC-59", 0, 0xC4, 9)
 
 
-@directed("AC-60", "P2104-EX-14", "P2104-TIM-05")
+@directed("AC-60", "P2104-EX-14", "P2104-TIM-05", exact="it checks times that follow an edge of a pin")
 async def p2104_ac_60_external_clock_of_1_mhz(dut: Any) -> None:
     """With 1 MHz on extck, rate 0 results in intervals of 16 cycles, and low times of 8 cycles (the last one:
     80) (AC-60).

@@ -348,7 +348,7 @@ async def p2104_ac_42_limit(dut: Any) -> None:
     env.check("AC-42", "83", await env.run("c 83 rrr"), [0xFA, 0xFF, 0xFF])
 
 
-@directed("AC-43", "P2104-END-04", "P2104-LIM-04")
+@directed("AC-43", "P2104-END-04", "P2104-LIM-04", exact="the switches must be sampled at the same edge")
 async def p2104_ac_43_several_causes(dut: Any) -> None:
     """If a limit and an alarm occur during a forced deceleration or on a plateau, all their bits are set
     (AC-43).

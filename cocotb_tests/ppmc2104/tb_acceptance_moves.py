@@ -48,7 +48,15 @@ async def p2104_ac_02_reads_after_reset(dut: Any) -> None:
 
 
 @rtl_only("nanoseconds of the bus, which the model counts in cycles")
-@directed("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
+@directed(
+    "AC-03",
+    "P2104-BUS-05",
+    "P2104-BUS-20",
+    "P2104-BUS-21",
+    "P2104-BUS-01",
+    "P2104-BUS-02",
+    exact="it checks times that follow an edge of a pin",
+)
 async def p2104_ac_03_write_times_of_the_data_sheet(dut: Any) -> None:
     """Writes with strobes of 120 ns and data valid for 80 ns are accepted at any phase, in both styles
     (AC-03).

@@ -69,7 +69,15 @@ async def p2104_bus_04_style_changes(dut: Any) -> None:
         env.check("P2104-BUS-04", "status", await env.host.read(STATUS, strobe=3), 0x00)
 
 
-@directed("P2104-BUS-05", "P2104-GEN-06", "P2104-HSK-03", "P2104-BAD-12", "P2104-BAD-13", builds=(F16, F100))
+@directed(
+    "P2104-BUS-05",
+    "P2104-GEN-06",
+    "P2104-HSK-03",
+    "P2104-BAD-12",
+    "P2104-BAD-13",
+    builds=(F16, F100),
+    exact="the data change with the end of the strobe",
+)
 async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
     """If d_i and a0 change in every cycle, the last sample of the write strobe is the byte, regardless of the
     pin that ends the strobe (P2104-BUS-05).
@@ -101,7 +109,13 @@ async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
     env.window("P2104-HSK-03", "edge 0 to pin", latencies.pop(), 2, PINS_LATEST)
 
 
-@directed("P2104-BUS-06", "P2104-BUS-22", "P2104-GEN-07", builds=(F16, F100))
+@directed(
+    "P2104-BUS-06",
+    "P2104-BUS-22",
+    "P2104-GEN-07",
+    builds=(F16, F100),
+    exact="a level of one cycle may not be sampled",
+)
 async def p2104_bus_06_read_edges(dut: Any) -> None:
     """In reads of 1 to 60 cycles, d_oe and d_o change only on the edges of the rule, even if the state
     changes (P2104-BUS-06).
@@ -130,7 +144,12 @@ async def p2104_bus_06_read_edges(dut: Any) -> None:
         await axis.idle()
 
 
-@directed("P2104-BUS-07", "P2104-HSK-03", "P2104-HSK-01")
+@directed(
+    "P2104-BUS-07",
+    "P2104-HSK-03",
+    "P2104-HSK-01",
+    exact="R/W* changes together with DS*, without the set-up time of 20 ns",
+)
 async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
     """A status read 1 to 14 cycles after a write returns IBF = 1 or the complete effect of the write
     (P2104-BUS-07).
@@ -159,7 +178,7 @@ async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
         env.check("P2104-BUS-07", f"IBF falls once after {code:#x}", seen, sorted(seen, reverse=True))
 
 
-@directed("P2104-BUS-08", "P2104-HSK-06")
+@directed("P2104-BUS-08", "P2104-HSK-06", exact="a level of one cycle may not be sampled")
 async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
     """After an answer was read, no status read from 1 cycle later on returns its OBF (P2104-BUS-08)."""
     env = await Env.start(dut)
@@ -192,7 +211,13 @@ async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
 
 
 @rtl_only("strobes at any phase to clk, and the model counts in cycles")
-@directed("P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-05", builds=(F8, F11, F16, F48, F100))
+@directed(
+    "P2104-BUS-20",
+    "P2104-BUS-21",
+    "P2104-BUS-05",
+    builds=(F8, F11, F16, F48, F100),
+    exact="a level of one cycle may not be sampled",
+)
 async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
     """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is missed (P2104-BUS-20)."""
     env = await Env.start(dut)
@@ -216,7 +241,13 @@ async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
             await bus.wait(max(0, short - period - 21))
 
 
-@directed("P2104-BUS-23", "P2104-BUS-03", "P2104-BUS-09", "P2104-BAD-09")
+@directed(
+    "P2104-BUS-23",
+    "P2104-BUS-03",
+    "P2104-BUS-09",
+    "P2104-BAD-09",
+    exact="R/W* changes together with DS*, without the set-up time of 20 ns",
+)
 async def p2104_bus_23_two_clk_cycles(dut: Any) -> None:
     """With strobes and gaps of 2 cycles, every byte is transferred in both directions (P2104-BUS-23)."""
     env = await Env.start(dut)
@@ -233,7 +264,7 @@ async def p2104_bus_23_two_clk_cycles(dut: Any) -> None:
 
 
 @rtl_only("strobes at any phase to clk, and the model counts in cycles")
-@directed("P2104-BUS-10", "P2104-BAD-14", builds=(F16, F48))
+@directed("P2104-BUS-10", "P2104-BAD-14", builds=(F16, F48), exact="a level of one cycle may not be sampled")
 async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
     """With strobes shorter than a cycle, at any phase, each byte is either stored completely or not at all
     (P2104-BUS-10).
@@ -266,7 +297,12 @@ async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
         await env.host.read(DATA)
 
 
-@directed("P2104-BAD-12", "P2104-BUS-05", "P2104-BUS-06")
+@directed(
+    "P2104-BAD-12",
+    "P2104-BUS-05",
+    "P2104-BUS-06",
+    exact="R/W* changes together with DS*, without the set-up time of 20 ns",
+)
 async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
     """If R/W* or a0 changes while DS* is low, a write that was in progress is stored, and a read returns the
     register of its first a0 (P2104-BAD-12).

@@ -93,7 +93,7 @@ async def p2104_lim_02_matrix_axis_2(dut: Any) -> None:
     await matrix_in_motion(env, 2)
 
 
-@directed("P2104-LIM-09", "P2104-END-04")
+@directed("P2104-LIM-09", "P2104-END-04", exact="the switches must be sampled at the same edge")
 async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
     """If FL and ALM fall on the same edge, both bits are set: while accelerating, at constant speed, while
     decelerating, and in RUN wait (P2104-LIM-09).
@@ -110,7 +110,13 @@ async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
         axis.set(run=1, fl_n=1, alm_n=1)
 
 
-@directed("P2104-LIM-06", "P2104-LIM-05", "P2104-OPR-06", "P2104-BAD-17")
+@directed(
+    "P2104-LIM-06",
+    "P2104-LIM-05",
+    "P2104-OPR-06",
+    "P2104-BAD-17",
+    exact="the switches must be sampled at the same edge",
+)
 async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
     """If an input is low at the start of an operation, the operation sets error 7, outputs one pulse, or
     outputs all pulses, as the rules state (P2104-LIM-06).

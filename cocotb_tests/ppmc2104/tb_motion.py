@@ -168,7 +168,13 @@ async def p2104_bck_02_csel_latched(dut: Any) -> None:
 
 
 @directed(
-    "P2104-BCK-04", "P2104-BCK-05", "P2104-TIM-03", "P2104-TIM-05", "P2104-GEN-07", builds=(F16, F11, F100)
+    "P2104-BCK-04",
+    "P2104-BCK-05",
+    "P2104-TIM-03",
+    "P2104-TIM-05",
+    "P2104-GEN-07",
+    builds=(F16, F11, F100),
+    exact="it checks times that follow an edge of a pin",
 )
 async def p2104_bck_04_external_by_hand(dut: Any) -> None:
     """With separate external clocks, each pulse of each axis follows an edge of the clock of this axis
@@ -197,7 +203,9 @@ async def p2104_bck_04_external_by_hand(dut: Any) -> None:
             await axis.result("P2104-BCK-04", n, 0x84 if rate is not None else 0x83, 0)
 
 
-@directed("P2104-TIM-05", "P2104-BCK-04", "P2104-BAD-19")
+@directed(
+    "P2104-TIM-05", "P2104-BCK-04", "P2104-BAD-19", exact="it checks times that follow an edge of a pin"
+)
 async def p2104_tim_05_external_low_times(dut: Any) -> None:
     """With fast external clocks and small rates, low times are shortened as the rule states
     (P2104-TIM-05).

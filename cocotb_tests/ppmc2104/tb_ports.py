@@ -55,7 +55,9 @@ async def p2104_port_02_registers_only(dut: Any) -> None:
     env.check("P2104-PORT-02", "output changes off the rising edge", wrong, [])
 
 
-@directed("P2104-PORT-02", "P2104-LIM-01", builds=(F16, F100))
+@directed(
+    "P2104-PORT-02", "P2104-LIM-01", builds=(F16, F100), exact="it checks times that follow an edge of a pin"
+)
 async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
     """Limit, alarm and run pins of both axes take effect with the same delay of two stages
     (P2104-PORT-02).

@@ -223,7 +223,9 @@ async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
     env.window("P2104-FDC-06", "interval of rate 41 in cycles", due, 900, 1_400)
 
 
-@directed("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
+@directed(
+    "P2104-LIM-09", "P2104-END-04", "P2104-FDC-01", exact="the switches must be sampled at the same edge"
+)
 async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
     """If code 41 and FHL occur some cycles apart, only the first sets its bit; on the same edge, both bits
     are set (P2104-LIM-09).
@@ -253,7 +255,14 @@ async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
     )
 
 
-@directed("P2104-INTV-01", "P2104-OPR-10", "P2104-BCK-05", "P2104-EX-14", builds=(F16, F11))
+@directed(
+    "P2104-INTV-01",
+    "P2104-OPR-10",
+    "P2104-BCK-05",
+    "P2104-EX-14",
+    builds=(F16, F11),
+    exact="it checks times that follow an edge of a pin",
+)
 async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
     """Pulses of both axes are exact at 250 kpps with the internal clock and at 500 kpps with EXTCK
     (P2104-INTV-01).

@@ -9,6 +9,19 @@ from cocotb_tests.harness import Part
 from cocotb_tests.harness.isa import STROBES_ISA
 from openppmc.model.stmc import pc104_board, pins
 
-STMC = Part.of_model("stmc", pins, clock="ext_clk", lowest={"s": 1}, idle={"PHASE_IDLE": "s"})
+STMC = Part.of_model(
+    "stmc",
+    pins,
+    clock="ext_clk",
+    lowest={"s": 1},
+    idle={"PHASE_IDLE": "s"},
+    stages={
+        "u_sync": ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"),
+        "u_single.u_host.u_bus.u_sync": ("cs_n", "rd_n", "wr_n"),
+        "u_single.u_axis.u_ext.u_sync": ("ext_clk",),
+    },
+    direct=frozenset({"cs_n", "rd_n", "wr_n"}),
+    exact="the directed tests check intervals between steps, which follow the edges of ext_clk",
+)
 J105_STMC = Part.of_model("j105_stmc", pc104_board, styles=(STROBES_ISA,), lowest={"s": 1, "drv": 1})
 PARTS = (STMC, J105_STMC)

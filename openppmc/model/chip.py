@@ -165,6 +165,7 @@ class Chip(ABC):
         self._queue = Scheduler()
         self.log = EdgeLog(self._reset_levels)
         self._pins = dict(self.INPUTS)
+        self._stage: dict[str, int] = {}
 
     # ------------------------------------------------------------------ implemented by the part
 
@@ -216,7 +217,9 @@ class Chip(ABC):
     def pins(self, t: int, **levels: int) -> None:
         """Set input levels.
 
-        Edge t is the first edge that samples them; later calls for the same t override them.
+        Edge t is the first edge that samples them; later calls for the same t override them. "stage.rd_n"
+        is the level of a strobe in its synchroniser, if that samples a change later than a register at the
+        pin. Without it, both sample the same level.
 
         rst_n = 0 is effective immediately; the output edges that it causes have the time t.
 
@@ -224,6 +227,7 @@ class Chip(ABC):
             ValueError: edge t was already simulated, a pin is unknown, or a level is out of range.
         """
         inputs, widths = self.INPUTS, self.WIDTHS
+        stage = {pin[6:]: levels.pop(pin) for pin in list(levels) if pin.startswith("stage.")}
         for pin, level in levels.items():
             if pin not in inputs:
                 raise ValueError(f"no input pin {pin!r}")
@@ -238,6 +242,9 @@ class Chip(ABC):
         released = levels.get("rst_n") == 1 and not pins["rst_n"]
         changed = {pin for pin, level in levels.items() if level != pins[pin]}
         pins.update(levels)
+        if stage:
+            self._stage.update(stage)
+            changed.update(stage)
         if released:
             self._released(t)
             self._sample(t, pins)

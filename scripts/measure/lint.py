@@ -28,7 +28,7 @@ from openppmc.sim.common.build import verilator_command, verilator_environment
 from openppmc.sources import needed, walls
 from scripts.fpga.flow.boards import HOSTS_OF, parameters
 from scripts.fpga.flow.boards import sources as board_sources
-from scripts.measure import prose
+from scripts.measure import cdc, prose
 from scripts.measure.module_rules import all_findings
 from scripts.measure.sizes import figures
 from scripts.measure.tables import differences
@@ -266,7 +266,7 @@ def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
 
 def checks() -> list[Check]:
     """Return all checks, the slow ones first, so that all workers end at about the same time."""
-    every = []
+    every = [Check("cdc", "lint/cdc.txt and docs/cdc.md", cdc.findings)]
     for part in tops():
         files = project.sources(part)
         for label, params in settings(part):

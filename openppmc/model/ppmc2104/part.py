@@ -82,7 +82,7 @@ class Ppmc2104(Chip):
         self._int_pin.latch(t, {"int_n": self._interrupt.level(t)})
 
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
-        self._port.sample(t, pins)
+        self._port.sample(t, pins, self._stage)
 
     def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         self._context.levels.update(levels)

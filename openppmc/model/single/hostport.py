@@ -7,6 +7,7 @@ bits, and the conditions for which a byte waits.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from typing import Protocol
 
@@ -97,7 +98,11 @@ class HostPort:
         self._strobes = strobes
         self._must_wait = must_wait
         self._pins: dict[str, int] = {}
-        self._writing = self._reading = False
+        self._writing = self._reading = self._in_stage = False
+        self._staged = False
+        self._write_began = 0
+        self._stage_began = (0, True)
+        self._stage_levels = deque([(-1, False)], maxlen=4)
         self._in_pipe = 0
         self._buffer = (0, False)
         self._stored_at = 0
@@ -111,34 +116,60 @@ class HostPort:
 
     # ------------------------------------------------------------------ strobes
 
-    def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Sample new levels of the bus pins at edge t (P104-BUS-05, -06)."""
-        writing, reading = self._strobes(pins)
+    def sample(self, t: int, pins: Mapping[str, int], stage: Mapping[str, int]) -> None:
+        """Sample new levels of the bus pins at edge t (P104-BUS-05, -06).
+
+        Args:
+            stage: levels of the strobes in the synchroniser, where they differ from the pins.
+        """
+        _, reading = self._strobes(pins)
+        writing, in_stage = self._strobes({**pins, **stage} if stage else pins)
         if self._writing and not writing:
             self._in_pipe += 1
             byte, command = self._pins["d_i"], bool(self._pins["a0"])
             self._context.queue.at(t + WRITE_SYNC, Phase.STORE, lambda at: self._store(at, byte, command))
+        elif writing and not self._writing:
+            self._write_began = t
         self._writing = writing
         self._pins = dict(pins)
+        self._staged = bool(stage)
         if reading != self._reading:
             self._reading = reading
             self._context.log.set(t, "d_oe", int(reading))
             if reading:
-                self._load(t)
-                self._context.queue.at(t + 1, Phase.BUS, self._second_load)
-            elif self._byte_was_read:
+                self._load_unless_settled(t)
+                self._context.queue.at(t + 1, Phase.BUS, self._load_again)
+        if in_stage != self._in_stage:
+            if in_stage:
+                self._stage_began = t, reading or bool(pins["a0"])
+            elif self._stage_began == (t - 1, False):
+                # The synchroniser has sampled a strobe of one cycle, at which no register loaded d_o.
+                self._byte_was_read = self._readable
+            self._in_stage = in_stage
+            self._stage_levels.append((t, in_stage))
+            if not in_stage and self._byte_was_read:
                 self._byte_was_read = False
                 self._clearing = self._context.queue.at(t + READ_SYNC, Phase.QUEUE, self._clear)
 
-    def _second_load(self, t: int) -> None:
+    def _load_unless_settled(self, t: int) -> None:
+        """Load d_o, unless the synchroniser sampled the read strobe at both edges before edge t."""
+        for edge in (t - 1, t - 2):
+            if not next((level for since, level in reversed(self._stage_levels) if since <= edge), False):
+                self._load(t)
+                return
+
+    def _load_again(self, t: int) -> None:
         if self._reading:
-            self._load(t)
+            self._load_unless_settled(t)
+            if self._staged and self._stage_levels[-1][0] >= t - 1:
+                self._context.queue.at(t + 1, Phase.BUS, self._load_again)
 
     def _load(self, t: int) -> None:
         """Load d_o with the value of the selected register just before edge t."""
         self._byte_was_read = False
         if self._pins["a0"]:
-            value = self.status
+            # While the synchroniser still samples a write strobe, its byte counts as waiting.
+            value = self.status | (IBF if self._writing and self._write_began < t else 0)
         else:
             value = self._output_byte
             self._byte_was_read = self._readable

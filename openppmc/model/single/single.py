@@ -91,7 +91,7 @@ class SingleAxis(Chip):
         self._motor_pins.latch(t, {"s": phases, **self._motor_levels()})
 
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
-        self._port.sample(t, pins)
+        self._port.sample(t, pins, self._stage)
 
     def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
         internal = self._context.levels

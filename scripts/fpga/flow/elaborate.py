@@ -1,7 +1,8 @@
 """Run read_slang and yosys' structural checks on one top; print the log, return yosys' exit code.
 
 `make lint` starts ``python -m scripts.fpga.flow.elaborate JOB`` with a JSON text of sources, includes, top
-and params. This is a separate process, because yosys calls exit() on an error.
+and params. `passes`, if present, replaces the checks. This is a separate process, because yosys calls exit()
+on an error.
 """
 
 from __future__ import annotations
@@ -20,12 +21,8 @@ def main() -> int:
         read += ["-G", f'{name}="{value}"' if isinstance(value, str) else f"{name}={value}"]
     read += [f"-I{path}" for path in job["includes"]] + job["sources"]
     design = ys.Design()
-    for command in (
-        " ".join(read),
-        f"hierarchy -check -top {job['top']}",
-        "proc -latches error",
-        "check -assert",
-    ):
+    checks = [f"hierarchy -check -top {job['top']}", "proc -latches error", "check -assert"]
+    for command in (" ".join(read), *job.get("passes", checks)):
         ys.run_pass(command, design)
     return 0
 

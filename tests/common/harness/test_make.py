@@ -50,6 +50,7 @@ WRONG = {
     "test WITH=lab": "WITH=lab: expected campaign or ophyd or linuxcnc or litex or fusesoc or versions",
     "test WAVES=yes": "WAVES=yes: expected a whole number from 0 to 1",
     "test PROBE=2": "PROBE=2: expected a whole number from 0 to 1",
+    "test JITTER=x": "JITTER=x: expected a whole number from 0 to 1",
     "test MODEL=": "MODEL=: expected a whole number from 0 to 1",
     "test SIM_MAIN=icarus": "SIM_MAIN=icarus: expected own or cocotb",
     "test-verilog SIM=verilator": "SIM=verilator: expected icarus or own or cocotb",

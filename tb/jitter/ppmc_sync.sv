@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_sync: simulation model of the synchroniser with metastability, for `make test JITTER=1`.
+// Timing: like rtl/common/ppmc_sync.sv, but the first stage samples each change of a bit one cycle late with a
+//         probability of one half. The first edge after a reset samples the pins without delay.
+// How:    the decision depends only on the seed of the simulation, the instance, the bit and the number of
+//         edges since the reset, so that a repeated stimulus has the same delays.
+`default_nettype none
+
+module ppmc_sync #(
+    parameter int unsigned             Width    = 1,
+    parameter logic        [Width-1:0] ResetVal = '1
+) (
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic [Width-1:0] d_i,
+    output logic      [Width-1:0] q1_o,
+    output logic      [Width-1:0] q2_o
+);
+
+  logic [Width-1:0] stage_q  /*verilator public_flat_rd*/;  // the bench feeds the golden model with these levels
+  logic [Width-1:0] last_q;  // pins at the last edge
+  logic [Width-1:0] changed, late;
+  logic is_running_q;
+  int unsigned key, edges_q;
+
+  initial key = $urandom;  // follows the seed of the simulation
+
+  function automatic int unsigned draw(int unsigned number);
+    int unsigned mixed;
+    mixed = (number ^ key) * 32'h9E37_79B1;
+    mixed = (mixed ^ (mixed >> 15)) * 32'h85EB_CA6B;
+    mixed = (mixed ^ (mixed >> 13)) * 32'hC2B2_AE35;
+    return mixed ^ (mixed >> 16);
+  endfunction
+
+  assign changed = is_running_q ? d_i ^ last_q : '0;
+
+  always_comb begin
+    late = '0;
+    if (changed != '0)
+      for (int unsigned i = 0; i < Width; i++)
+        if (changed[i]) late[i] = draw((edges_q << 8) ^ i) >> 31 != 0;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {q2_o, stage_q, last_q} <= {ResetVal, ResetVal, ResetVal};
+      {is_running_q, edges_q} <= '0;
+    end else begin
+      q2_o         <= stage_q;
+      stage_q      <= d_i ^ late;
+      last_q       <= d_i;
+      is_running_q <= 1'b1;
+      edges_q      <= edges_q + 1;
+    end
+  end
+
+  assign q1_o = stage_q;
+
+endmodule
+
+`default_nettype wire
