@@ -64,7 +64,7 @@ class BankHost(RandomHost):
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
-        """Host that makes the accesses of `RandomHost`, which is this object itself."""
+        """Host through which the methods of `RandomHost` make accesses: this object itself."""
         return self
 
     def _pause(self) -> int:

@@ -22,7 +22,7 @@ async def waits_for_an_edge(dut):
 
 @cocotb.test()
 async def polls(dut):
-    """A separate function polls an output that never rises after each cycle."""
+    """After each cycle, a separate function polls an output that never rises."""
     u = BlockDriver(dut, "sync", BLOCKS, "q2_o", 3_000)
 
     async def risen() -> None:

@@ -30,7 +30,7 @@ class PartTests:
         builds: names of the configurations that have netlists (empty: all); `why` is the reason why others
             have no netlist.
         simulating: test functions that run simulations.
-        not_applicable: test functions that run no simulation -> their relation to a netlist.
+        not_applicable: test functions that cannot run on a netlist -> reason.
         too_long: directed tests, or modules of them, that would take far too long on a netlist -> reason.
         quick: tests of the quick sample, which runs in the build `quick_build`.
         four_state: tests that also run on a four-state simulator (with X), which is a hundred times slower.

@@ -168,7 +168,7 @@ def in_turn(*builds: Config) -> Callable[[int], Config]:
 
 
 class HostProtocol(Protocol):
-    """Host of a device, which a random host uses."""
+    """Host of a device, through which a random host makes its accesses."""
 
     @property
     def bench(self) -> DutBench:

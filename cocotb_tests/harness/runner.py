@@ -58,9 +58,9 @@ def hint(text: str, design: Design) -> str:
 
 
 def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int]:
-    """Return (scope, name with range, width) of the top's signals, and the last time.
+    """Return (scope, name with range, width) of each signal of the top, and the last time stamp.
 
-    Only the ports are returned if they are known.
+    If the ports are known, only the ports are returned.
     """
     scopes: list[str] = []
     found: list[tuple[str, str, int]] = []

@@ -74,7 +74,7 @@ class SpiHost:
         await self.wait(8)
 
     async def until(self, time: float) -> None:
-        """Make all rising edges of `clk` before this time."""
+        """Generate all rising edges of `clk` that occur before this time."""
         self.now = time
         while self.edge < time:
             await self.unit.clk()

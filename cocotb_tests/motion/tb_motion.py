@@ -509,8 +509,8 @@ def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
 async def stop_guard_truth_table(dut, flagged, variant):
     """For every combination of levels, stop, forced and slow_seen equal those of a plain function.
 
-    In a cycle with stop, forced and slow_seen are not checked, because no pulse can use them. The test
-    stop_guard_causes checks the stored values.
+    In a cycle in which stop is 1, forced and slow_seen are not checked, because no pulse can use them. The
+    test stop_guard_causes checks the stored values.
     """
     u = BlockDriver(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
     await u.reset()

@@ -308,8 +308,8 @@ async def ramp_seq_longest(dut):
 
 @cocotb.test()
 async def ramp_seq_constant(dut):
-    """For constant speed and single steps, the rate is the loaded rate, and the count decreases to its
-    end.
+    """For constant speed and single steps, the rate is the loaded rate, and each pulse decreases the count of
+    remaining pulses by one.
     """
     rand = rng()
     u = BlockDriver(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")

@@ -45,8 +45,8 @@ async def serve(host: HostBus, pending: set[int]) -> None:
 
 @cocotb.test()
 async def demo_two_axes(dut: Any) -> None:
-    """A host that starts both axes with RUN and then moves them separately is recorded from reset to the
-    end.
+    """A host starts both axes with RUN and then moves them separately; the run is recorded from reset to
+    its end.
     """
     bench = await RtlBench.start(dut, PPMC2104, run=0b00)
     host = HostBus(bench)

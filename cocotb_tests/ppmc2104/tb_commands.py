@@ -182,8 +182,8 @@ async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
 
 @directed("P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-01", "P2104-ERR-03", "P2104-BAD-01")
 async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
-    """While axis 1 waits for its clock and axis 2 has a setting, all codes are decoded before any other check
-    (P2104-CMD-01).
+    """While axis 1 waits for its clock and axis 2 is initialised, all codes are decoded before any other
+    check (P2104-CMD-01).
     """
     env = await Env.start(dut)
     first, second = env.axes

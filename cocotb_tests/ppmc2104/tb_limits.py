@@ -123,7 +123,7 @@ async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
     """
     env = await Env.start(dut, errint_n=0)
     for axis in await env.both(INIT_A):
-        # A complete move precedes; its results must not change after each rejected start.
+        # First make a complete move. A rejected start must not change the results of the last operation.
         await axis.go(0x44, 10, 9)
         await axis.pulse(3, 100)
         await axis.halt()

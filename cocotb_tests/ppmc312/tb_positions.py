@@ -103,8 +103,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
 @directed("P312-RSP-22", "P312-MON-05", "P312-RSP-10")
 async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     host = await Host.start(dut, message(Code.ENCODE, "03 0002"), message(Code.IN_POSITION, "01 0002"))
-    # While an answer is unread, a move out of the window and back leaves no automatic report; a report that
-    # is sent only once stays.
+    # While an answer is unread, the encoder moves out of both windows and back. This discards the report of
+    # the monitor that reports automatically, but not that of the monitor that reports only once.
     await host.issue(message(Code.VERSION))
     await host.wait()
     await encoder(host, 3)

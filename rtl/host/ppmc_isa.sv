@@ -13,8 +13,8 @@ module ppmc_isa #(
     // Number of devices. Device p has its data register at Base + 2p, and its status and command register at
     // Base + 2p + 1.
     parameter int unsigned Parts  = 1,
-    // 1: the address after the devices is a source register, in which bit p is the interrupt of device p. If
-    // an interrupt is active, a write to this register causes a new edge of irq_o.
+    // 1: the first address after those of the devices is a source register. Its bit p is the interrupt of
+    // device p. If an interrupt is active, a write to this register causes another rising edge of irq_o.
     parameter bit          Source = 1'b0,
     parameter int unsigned Base   = 'h3B0  // base address, a multiple of the window's length
 ) (

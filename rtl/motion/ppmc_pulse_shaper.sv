@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_shaper: times the low time of a pulse, and the direction set-up before the first pulse, which
-//         has the same length.
+// ppmc_pulse_shaper: times the low time of each pulse and the direction set-up before the first pulse. The
+//         set-up is as long as a full pulse.
 // Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
 //         changed).
 // Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i on, unless it is cut.

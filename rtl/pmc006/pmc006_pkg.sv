@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_pkg: instruction codes, and registers with their factory values, of the PMC006B4.
+// pmc006_pkg: instruction codes of the PMC006B4, and its registers with their factory values.
 // Rules:  P006-CMD-01..57, P006-PRG-01/02/10..17/20/30..33; codes: docs/pmc006/README.md, 4, 13.
 `default_nettype none
 

@@ -93,7 +93,7 @@ def check_both(bench: RtlBench, at_least: int = 0) -> None:
 
 
 def arming_writes(bench: RtlBench) -> list[tuple[int, int]]:
-    """Return (edge, level) of the writes to the source register, of any byte (ISA-11).
+    """Return (edge, level) of all writes to the source register, regardless of the byte (ISA-11).
 
     The level is 1 from the first edge that samples a write to the first edge that does not.
     """

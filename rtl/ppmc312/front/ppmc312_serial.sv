@@ -4,7 +4,8 @@
 // Rules:  P312-SER-01..22, P312-PRT-01..03, P312-BAD-16/17.
 // Timing: a character is received in the middle of its stop bit. See also ppmc312_serial_reply and
 //         ppmc312_serial_tx.
-// Rate:   a phase accumulator with an exact modulus times the bits: XTAL * {3/2500, 6/2500, 1/192} baud.
+// Rate:   a phase accumulator with an exact modulus generates the bit times. Baud rates: XTAL * {3/2500,
+//         6/2500, 1/192}.
 `include "ppmc_assert.svh"
 `default_nettype none
 

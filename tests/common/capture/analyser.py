@@ -88,7 +88,10 @@ def probe(
 
 
 def _bus(ports: Mapping[str, tuple[int, list[tuple[int, int]]]]) -> tuple[int, list[tuple[int, int]]]:
-    """Return the level and changes of the data bus, which the chip drives while d_oe is 1, else the host."""
+    """Return the level and changes of the data bus.
+
+    The chip drives the bus while d_oe is 1; otherwise the host drives it.
+    """
     rows = sorted(
         (t, order, name, level)
         for order, name in enumerate(("d_i", "d_o", "d_oe"))

@@ -415,7 +415,7 @@ def test_group_waits(hal: Run) -> None:
 
 
 def test_pmc006(hal: Run, devices: list[Any]) -> None:
-    """EXT1 and EXT2 are the limits, `reset` clears their flags, and homing restores speeds if abandoned."""
+    """EXT1 and EXT2 are the limits, `reset` clears their flags, and an abandoned homing restores speeds."""
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
         axis = Axis(pins, 1)

@@ -114,7 +114,7 @@ def test_the_check_synthesizes_changed_designs(
 
 
 def test_a_design_of_other_rtl_is_stale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A change of the source makes the figures stale, a change of a comment does not; missing figures are
+    """A change of the source makes the figures stale; a change of a comment does not. Missing figures are
     reported.
     """
     source = tmp_path / "a.sv"

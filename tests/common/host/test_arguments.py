@@ -242,7 +242,7 @@ class Lamp(check.Checked):
 
     @classmethod
     def large(cls, watts: int) -> Lamp:
-        """A function of the class through which it was called."""
+        """A class method, which receives the class through which it was called."""
         return cls(watts)
 
 

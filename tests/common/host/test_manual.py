@@ -14,7 +14,7 @@ PAGE = Path(__file__).parents[3] / "docs" / "host.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 PORT = "model:speed=max"
 LINE_PORTS = {"ppmc312-serial": "model:speed=max,stations=3", "pmc006": "model:speed=max,address=1..2"}
-"""Device -> port of the sessions with lines."""
+"""Device on a serial line -> port of its sessions."""
 
 
 def blocks(kind: str) -> list[str]:

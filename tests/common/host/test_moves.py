@@ -324,7 +324,9 @@ def test_an_exception_during_a_frame_stops_the_motor(monkeypatch: pytest.MonkeyP
 
 
 def test_a_stop_after_an_interrupted_frame_is_no_unknown_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    """After an interrupted frame, a script may have read the finish status; its end is confirmed anyway."""
+    """After an interrupted frame, the end of the motion is confirmed, although the script may already have
+    read the finish status.
+    """
     with opened("ppmc104") as axis:
         port = port_of(axis)
 

@@ -1,7 +1,8 @@
-"""Random queues of moves between two limit switches end as the same moves with `move`.
+"""Random queues of moves between two limit switches have the same results as single calls of `move`.
 
 A PPMC-312 with DATASHEET timing filters its switches for 200 µs. A move of a queue may begin during this
-time, and then it ends at the switch, although the part would reject it later. Therefore it is not tried here.
+time, and then it ends at the switch, although the part would reject it later. Therefore no test here uses
+this timing with a PPMC-312.
 """
 
 from __future__ import annotations

@@ -232,9 +232,9 @@ def test_the_counter_is_not_cleared_during_a_motion(axis: Any) -> None:
 def test_a_floating_bus_is_no_motion_without_end(
     axis: Any, value: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A status in which bits that always read as 0 are 1 means that no device drives the bus.
+    """If status bits that a device always returns as 0 are read as 1, no device drives the bus.
 
-    The driver reports it as an error, not as the end of a motion (P104-STA-05, P2104-STA-07).
+    The driver reports this as an error, not as the end of a motion (P104-STA-05, P2104-STA-07).
     """
     motion = axis.start_move(1000)
     monkeypatch.setattr(port_of(axis).board, "read", lambda a: value)

@@ -14,7 +14,7 @@ import time
 import hal
 import linuxcnc
 
-component = hal.component("operator")  # reading a pin needs one
+component = hal.component("operator")  # only a component can read a pin
 component.ready()
 command, status, errors = linuxcnc.command(), linuxcnc.stat(), linuxcnc.error_channel()
 

@@ -162,7 +162,9 @@ def test_virtual_board(environment: dict[str, str], start_board: StartBoard, tmp
 
 
 def test_mdi(environment: dict[str, str], tmp_path: Path) -> None:
-    """In a machine, MDI homes and moves the indexer, and waits; the next line starts after the end."""
+    """In a machine, MDI homes and moves the indexer, and waits for the end of each motion before the next
+    line.
+    """
     machine = tmp_path / "machine"
     shutil.copytree(EXAMPLE, machine)
     (machine / "indexer.tbl").touch()

@@ -37,6 +37,6 @@ def test_damaged_replies(program, seed):
     P312-SER-12).
     """
     found = {int(line.split()[0]): int(line.split()[1]) for line in run(program, seed, 3000).splitlines()}
-    # The results include valid replies, time-outs, no device, damaged replies and rejections of all devices.
+    # The results include valid replies, time-outs, no device, damaged replies, and rejections by each device.
     assert {0, 16, 17, 18, 21, 37, 65, 96} <= found.keys()
     assert sum(found.values()) > 100_000

@@ -37,7 +37,7 @@ def rejected(text: str) -> list[str]:
     text = re.sub(r'//[^\n]*|/\*.*?\*/|\(\*.*?\*\)|"[^"\n]*"', " ", text, flags=re.S)
     found = REJECTED.findall(text)
     depth = re.sub(r"\bgenerate\b.*?\bendgenerate\b", "", text, flags=re.S)
-    # yosys indents a condition or loop that is an item of a module by two.
+    # yosys indents a condition or loop by two spaces if it is an item of a module.
     return found + re.findall(r"^  (?:if|for|case)\s*\(.*", depth, flags=re.M)
 
 

@@ -16,7 +16,7 @@ from scripts.site.webparts import WEB_PARTS
 
 @pytest.fixture
 def quick(monkeypatch, tmp_path):
-    """Replace all slow steps; PDFs count as possible."""
+    """Replace all slow steps, and report that a browser exists, so that the PDFs are not omitted."""
     monkeypatch.setattr(pages, "node", lambda *words, folder=None: None)
     monkeypatch.setattr(pages, "packages", lambda folder: None)
     monkeypatch.setattr(pages.shutil, "copy", lambda source, to: None)
