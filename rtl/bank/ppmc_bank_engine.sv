@@ -2,12 +2,10 @@
 // ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, makes
 //         decisions, and writes the state back.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; see also ppmc_bank_plan and ppmc_bank_update.
-// Timing: a visit takes seven cycles from the address of the axis to the first edge at which its pins can
-//         change. A new visit begins each cycle. Stages: 0 address, 1 RAM, 2 compare, 3 plan, 4 update, 5
-//         write and load of pin_cmd_o, 6 the command is valid in the pin block. The pins can change at the
-//         end of stage 6.
-//         The interval is read two cycles before state_s1_t, because the address of a threshold contains the
-//         rate of the interval.
+// Timing: a visit takes seven cycles. A new visit begins each cycle. Stages: 0 address, 1 RAM, 2 compare,
+//         3 plan, 4 update, 5 write and load of pin_cmd_o, 6 the command is valid in the pin block. The pins
+//         can change at the end of stage 6. The interval is read two cycles before state_s1_t, because the
+//         address of a threshold contains the rate of the interval.
 `default_nettype none
 
 module ppmc_bank_engine
