@@ -31,7 +31,7 @@ SHARED = {
     "tests": {"common"},
     "docs": {"img", "boards", "decisions"},
     "rtl": {"common", "motion", "single", "host", "boards"},
-    "tb": {"board", "cdriver", "formal", "fuzz", "line", "litex"},
+    "tb": {"arduino", "board", "cdriver", "formal", "fuzz", "jitter", "line", "litex"},
 }
 PLACES = [(row.name, column) for row in PARTS.values() for column in LAYER_OF if getattr(row, column)]
 own = pytest.mark.parametrize("row", folders(), ids=lambda row: row.name)
