@@ -88,7 +88,7 @@ SILENCE = 192
 
 
 def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
-    """Return (bit times after the frame's last stop-bit sample, pin, level) for all pin changes of a reply."""
+    """Return (bit times after the last stop-bit sample of the frame, pin, level) for a reply."""
     levels = [1]
     for byte in frame:
         levels += [0, *(byte >> place & 1 for place in range(8)), 1]
@@ -100,8 +100,8 @@ class Line:
     """Serial line. The receiver is closed until `listen` is called.
 
     Args:
-        take: take(t, command) is called when a frame with a valid checksum is complete. Edge t samples its last
-            stop bit. take returns True if the frame is for this controller (P006-FRM-02).
+        take: take(t, command) is called when a frame with a valid checksum is complete. Edge t samples its
+            last stop bit. take returns True if the frame is for this controller (P006-FRM-02).
         replies: list for (edge at which de rises, frame).
         sent: list for (edge in the middle of a stop bit, byte).
     """
