@@ -161,7 +161,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         return self._channels[name].value
 
     async def _set(self, **values: Any) -> None:
-        """Write fields that change, in this order."""
+        """Write the fields whose values differ from these, in the order of the arguments."""
         for name, value in values.items():
             channel = self._channels[name]
             if channel.value is not value and channel.value != value:

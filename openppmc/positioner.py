@@ -265,7 +265,10 @@ class Positioner:
         self.send_stop()
 
     def send_stop(self) -> None:
-        """Send one stop to the motion in progress if `stop_requested` is True. Homing has several motions."""
+        """Send a stop to the motion in progress if `stop_requested` is True, but only one to each motion.
+
+        Homing consists of several motions.
+        """
         with self.lock:
             motion = self.axis.motion
             if not self.stop_requested or motion is None or motion.over or motion is self._stopped:

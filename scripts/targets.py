@@ -5,7 +5,7 @@ text with the following marks, which scripts/run.py replaces:
 
     {NAME} {NAME:text}   the value of a variable, quoted; the default `text` if it is not given
     {NAME/or}            the same with " or " in place of commas
-    [… {NAME} …]         only if the variable is given; for a flag, only if it is 1, and without the mark
+    [… {NAME} …]         only if the variable is given; for a flag: only if it is 1, and {NAME} is removed
     {py} and others      abbreviations in SHORT
 
 A name with a variable (`prove NIGHT=1`) is the row of the target for this value; `NAME=`: for any value.

@@ -245,7 +245,7 @@ class Axis(Checked):
     def excitation_off(self) -> None:
         """Switch all coils off; the axis must be initialised again.
 
-        During a motion, no command is sent, because this code has another meaning then on a PPMC-104
+        No command is sent during a motion, because a PPMC-104 then executes this code as another command
         (P104-AUX-05).
 
         Raises:

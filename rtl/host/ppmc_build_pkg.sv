@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_build_pkg: identification of the sources of a bitstream, for operation VERSION. The tools of this
-//         project pass the value as macro PPMC_BUILD (scripts/flow/build_id.py). With other tools, the
+//         project pass the value as macro PPMC_BUILD (openppmc/sources.py). With other tools, the
 //         value is 0, which means "unknown".
 // Rules:  docs/uart_bridge.md, UB-VER.
 `default_nettype none

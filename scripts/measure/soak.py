@@ -31,7 +31,10 @@ LARGE = 10_000
 
 
 class Hosts(Protocol):
-    """Type of the column `soak` of a part: `RandomItems`, or a class that runs further checks with a seed."""
+    """Entry of a part in the column `soak` of the table of parts: constrained-random hosts.
+
+    It is a `RandomItems`, or an object of a class that runs further checks with a seed.
+    """
 
     def some(self, seeds: Sequence[int]) -> Played:
         """Run these seeds in this process."""
@@ -39,7 +42,7 @@ class Hosts(Protocol):
 
 
 def hosts(part: str) -> Hosts:
-    """Return the random hosts of a part; raise ProjectError if it has no random hosts."""
+    """Return the constrained-random hosts of a part; raise ProjectError if it has none."""
     known = names()
     if part not in known:
         raise ProjectError(
@@ -50,7 +53,7 @@ def hosts(part: str) -> Hosts:
 
 
 def names() -> list[str]:
-    """Return the parts with random hosts."""
+    """Return the parts that have constrained-random hosts (column `soak`)."""
     return [row.name for row in parts.having("soak")]
 
 

@@ -53,7 +53,9 @@ if (window.Worker !== Own) window.Worker = function (url, options) {
 };
 })();
 """
-"""The shim of the search worker. Pages opened from a file can only start a worker from a blob (playground).
+"""Shim of the search worker in pages opened from a file, which can start a worker only from a blob.
+
+The worker of the playground is a blob, so the shim does not replace it.
 """
 APP = """---
 hide: [navigation, toc, footer]

@@ -365,7 +365,7 @@ class Rows:
     def _rescale(self, whole: bool) -> None:
         """Record whether all times are whole numbers.
 
-        The first time that is not whole makes the unit of `times` smaller.
+        At the first time with decimals, the unit of `times` is made smaller.
         """
         self.whole &= whole
         layout = self.layout

@@ -111,9 +111,9 @@ class Axis2104(Axis):
             return self._refused_start_motion(request, refused)
 
     def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
-        """Return a motion that ended without a pulse.
+        """Return a motion that a switch ended before its first pulse.
 
-        If no switch is active any more, raise the rejection.
+        If no switch is active any more, raise the exception of the rejection instead.
         """
         inputs = self.inputs()
         cause = Cause.COMPLETE

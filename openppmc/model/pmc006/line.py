@@ -78,7 +78,9 @@ class Assembler:
 
 
 STOP = Fraction(163, 2)
-"""Bit times from edge e to the middle of the last stop bit of a reply; then a host may send."""
+"""Bit times from the last stop-bit sample of a frame to the middle of the last stop bit of its reply.
+
+From then on, a host may send."""
 SYNC = 2
 """Cycles from the sampling of a level to its effect."""
 SILENCE = 192
@@ -86,7 +88,7 @@ SILENCE = 192
 
 
 def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
-    """Return (bit times after edge e, pin, level) for all pin changes of a reply."""
+    """Return (bit times after the last stop-bit sample of the frame, pin, level) for a reply."""
     levels = [1]
     for byte in frame:
         levels += [0, *(byte >> place & 1 for place in range(8)), 1]
@@ -98,8 +100,8 @@ class Line:
     """Serial line. The receiver is closed until `listen` is called.
 
     Args:
-        take: take(t, command) is called when a frame with a valid checksum is complete at edge t, the e of
-            P006-FRM-02; it returns True if the frame is for this controller.
+        take: take(t, command) is called when a frame with a valid checksum is complete. Edge t samples its
+            last stop bit. take returns True if the frame is for this controller (P006-FRM-02).
         replies: list for (edge at which de rises, frame).
         sent: list for (edge in the middle of a stop bit, byte).
     """

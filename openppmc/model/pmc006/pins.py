@@ -16,26 +16,27 @@ class CoreTiming:
 
     Attributes:
         reset: from the first edge with rst_n = 1 to the first internal edge.
-        answer: line: from e to the origin of the bit times of the reply (<= 8).
-        frame: executor: from e to the first edge that may accept the frame.
+        answer: from e, the edge that samples the last stop bit of a frame, to the origin of the bit times of
+            the reply (<= 8).
+        frame: from e to the first edge at which the executor may accept the frame.
         effect: from that edge to the effect.
         after: from the effect to the first edge that may accept another instruction (frame + effect + after
             <= 64).
         fetch: from the start of a program instruction to its effect.
         slot: from the start of a program instruction to that of the next one (<= 64).
-        key_ticks: keys: µs ticks that a filter takes in addition to its time.
-        job: EEPROM: from the last tick to the end of a job.
-        fact: from the event to the first edge whose tick may begin a restore.
-        program_cleared, program_kept: boot: from one cycle after the last tick until the program is cleared,
-            or kept.
+        key_ticks: µs ticks that the filter of a key takes in addition to its time.
+        job: from the last tick to the end of a job of the EEPROM engine.
+        fact: from the FSET event to the first edge whose tick may begin a restore.
+        program_cleared, program_kept: in the boot, from one cycle after the last tick until the program is
+            cleared, or kept.
         fields: check of the parameter fields. Storing the parameters takes the same time again.
         trigm: from the start of storing to the store of TRIGM.
         gpo: from the register of the outputs to the pins.
-        plan: motion: from the rising edge of BUSY to the end of planning.
+        plan: from the rising edge of BUSY to the end of planning.
         step: from a us tick to mon_step.
         move_end: from mon_step of the last step to the falling edge of BUSY (<= 2).
         run_end: from a us tick to the falling edge of BUSY at the end of the speed mode.
-        grid: drive: cycles between two evaluations of the references.
+        grid: between two evaluations of the current references.
         grid_from: from the first internal edge to the first evaluation.
         refs: from an evaluation to the four reference outputs (grid + refs <= 64).
         enable: from the end of BOOT, or a change of FREE, to the bridges.

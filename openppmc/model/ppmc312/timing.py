@@ -21,9 +21,8 @@ class CoreTiming:
     The methods return the times of plans and tables, which depend on the table.
 
     Attributes:
-        arbitration: instructions: from the write event of the header, the trigger, or the end of the last
-            instruction to the start of processing. In this time, the block is fetched at one byte per cycle
-            and checked.
+        arbitration: from the write event of the header, the trigger, or the end of the last instruction to
+            the start of processing. In this time, the block is fetched at one byte per cycle and checked.
         check: from the start of processing to the checks.
         effect: from the start of processing to the effect of a short instruction.
         copy: additional time of an instruction that is registered.
@@ -36,12 +35,12 @@ class CoreTiming:
         reopen: from this reset to MWEF = 0.
         alarm: from a multiple occurrence to its alarm.
         halt: from the effect of instruction 80 to the stop of the pulses.
-        next_response: responses: from the read of a response to the store of the response that waited for it
+        next_response: from the read of a response to the store of the response that waited for it
             (P312-RSP-20, <= 4).
         load: from the store of a response to its load.
         show: from the load to MREF = 0.
         reload: from MREF = 1 to the next load (P312-PAR-08).
-        rest: motion: from the end of the pulses, or the falling edge of pout, to standstill.
+        rest: from the end of the pulses, or the falling edge of pout, to standstill.
         report: from standstill to report E0 (<= 64).
         turn_back: from the end of phase 1 of a zero return to t0 of phase 2 (<= 64).
         run_to_t0: from RUN to t0 of an operation that waits for RUN.
@@ -60,10 +59,11 @@ class CoreTiming:
         limit_from: from t0 to the first check of the high-speed limit.
         least: shortest interval (P312-MOT-04).
         armed: from a new head of the command FIFO to the first trigger that releases it (P312-OVR-02, <= 4).
-        compare_lag: monitors: from a change of POS or ENC to the result of the comparison. The status bit
+        compare_lag: from a change of POS or ENC to the result of a monitor's comparison. The status bit
             follows one cycle later, the report two cycles later.
         standstill: from standstill to the first evaluation of the in-position monitor.
-        character: serial mode: from the middle of the stop bit to the character.
+        character: in serial mode, as for the next five entries: from the middle of the stop bit to the
+            character.
         frame: from the last character to the event that corresponds to the header write of the parallel mode.
         sampling: from the last character to the sampling of reports, state and counters.
         reply: from that sampling, or from the stored response, to the rising edge of snd.

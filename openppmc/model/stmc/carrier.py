@@ -69,7 +69,7 @@ class Carrier(carrier.Carrier[Stmc]):
         elif edge.value not in (
             0,
             ALL_PHASES,
-        ):  # these two: chopper or not initialised
+        ):  # the chopper, or no initialisation yet
             step = self._directions_of.get((self._phases, edge.value))
             self._phases = edge.value
             if step is not None:

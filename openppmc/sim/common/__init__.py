@@ -1,1 +1,1 @@
-"""The virtual board, its build, its text, its machine model, and lines of stations."""
+"""Virtual boards of all parts: board, build, parser of the text after `sim:`, machine model, lines."""

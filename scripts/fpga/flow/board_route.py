@@ -97,7 +97,7 @@ def route(on: Board, netlist: Path, folder: Path, constraints: list[Path], seed:
     ram = cells.get(RAM_BELS[on.family], {"used": 0, "available": 0})
     clocks = {name: round(entry["achieved"], 2) for name, entry in data["fmax"].items()}
     return Routed(
-        # nextpnr names a single clock domain after any of its nets.
+        # If there is only one clock domain, nextpnr may report it under the name of any of its nets.
         clocks=clocks if len(clocks) > 1 else dict(zip(["clk"], clocks.values(), strict=False)),
         lut=(sum(entry["used"] for entry in lut), lut[0]["available"]),
         ram=(ram["used"], ram["available"]),

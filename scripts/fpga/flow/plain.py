@@ -89,8 +89,8 @@ def vendor_attributes(modules: Mapping[str, Any]) -> dict[str, dict[str, str]]:
     found: dict[str, dict[str, str]] = {}
     cells = [cell for module in modules.values() for cell in module["cells"].values()]
     for cell in cells:
-        # Attributes of vendors have names in capitals, those of yosys do not. yosys adds a space to a text
-        # that could be read as bits.
+        # Only the attributes of vendors have names in capitals. yosys adds a space to a text that could be
+        # read as bits; this space is removed.
         own = {
             name: re.sub(r"^([01xz]*) ", r"\1", value)
             for name, value in cell["attributes"].items()

@@ -1,4 +1,4 @@
-"""Run times of a demo on three sides: RTL under cocotb, RTL alone in Verilator, golden model.
+"""Run times of a demo on three sides (programs): RTL under cocotb, RTL alone in Verilator, golden model.
 
 In each turn, every side runs once, so that a ratio of one turn is meaningful on a machine with other load.
 """

@@ -74,7 +74,7 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
 
 
 def shrink_report(name: str, line: Line, words: array[int]) -> str:
-    """Return a difference as text, with the shortest sequence of last words that still causes it."""
+    """Return a difference as text, with the words up to it; first words that it does not need are omitted."""
     found = difference(name, line, words)
     assert found is not None
     words = words[: found[0] + 1]

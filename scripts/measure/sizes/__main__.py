@@ -1,7 +1,7 @@
 """Measure sizes and clock rates and write docs/sizes.json; `--check` only compares the sizes.
 
 `make report` measures every design whose RTL has changed, first its size, then its clock rate. It saves each
-result, so that an interrupted run continues where it ended. `make size` synthesizes the designs that have
+result, so that an interrupted run continues where it ended. `make size` synthesises the designs that have
 changed (FRESH=1: all) and fails if a count has grown by more than 5 %.
 """
 

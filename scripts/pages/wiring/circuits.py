@@ -90,7 +90,7 @@ class Use:
         return STRONG if self.strong else WEAK
 
     def number(self, of: int | str) -> int:
-        """Return a quantity of circuits.yml: a number, or the count of pins, chips, or pins of a port."""
+        """Return a quantity of circuits.yml as a number; a word means the pins, the chips or a port."""
         pins = sum(pad.port != "d_oe" for pad in self.pads)
         counts = {"pin": pins, "chip": -(-pins // self.circuit.channels)}
         return of if isinstance(of, int) else counts.get(of, sum(pad.port == of for pad in self.pads))

@@ -1,4 +1,4 @@
-"""Script files on a line of PPMC-312. They have the words of a board, and each line names its station."""
+"""Script files on a line of PPMC-312: the commands are those of a board, and each names its station."""
 
 from __future__ import annotations
 

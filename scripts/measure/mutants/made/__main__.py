@@ -24,7 +24,7 @@ from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, dig
 
 NAME = "mutate"
 GOAL, LEAST = 95.0, 70.0
-"""Required score of a folder in %; for a small sample, whose score is less meaningful."""
+"""Required score of a folder in %: usually, and for a sample of at most SMALL mutants."""
 SMALL = 50
 NOT_GUIDED = "run `make coverage` first to make this much faster"
 

@@ -97,7 +97,7 @@ class Finder:
                 self._module(child)
 
     def _walk(self, node: Any) -> None:
-        """Add the faults of a node in such code."""
+        """Add the faults of a node in code that becomes hardware."""
         name = kind(node)
         if name in SKIPPED or "Event" in name:
             return
