@@ -17,7 +17,7 @@ from typing import Any
 from .errors import PpmcError, needs
 from .host.errors import AxisBusy, LinkError, OutOfRange
 from .host.motion_result import EndUnknown, LimitReached, StoppedByCommand
-from .positioner import Positioner, Speeds, Switches, finite
+from .positioner import Positioner, Switches, finite
 
 needs("epics", "the IOC", "caproto")
 
@@ -318,12 +318,14 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._homed = True
 
     def _read_speeds(self) -> None:
-        self._speeds = self._positioner.speeds()
+        self._speeds = self._shown = self._positioner.speeds()
 
-    def _set_speeds(self, speeds: Speeds) -> None:
+    def _set_speeds(self, **changes: float) -> None:
         """Set speeds. VBAS and VELO keep the requested values, for which clients wait."""
-        self._positioner.set_speeds(speeds)
-        self._speeds = speeds._replace(seconds=self._positioner.speeds().seconds)
+        speeds = self._speeds._replace(**changes)
+        self._positioner.set_speeds(speeds, "seconds" in changes)
+        self._speeds = speeds
+        self._shown = speeds._replace(seconds=self._positioner.speeds().seconds)
 
     # ------------------------------------------------------------------ puts of clients
 
@@ -427,11 +429,11 @@ class Motor(PVGroup):  # type: ignore[misc]
 
     async def _put_speeds(self, **changes: float) -> None:
         self._check_idle()
-        await self._checked(partial(self._set_speeds, self._speeds._replace(**changes)))
+        await self._checked(partial(self._set_speeds, **changes))
         await self._show_speeds()
 
     async def _show_speeds(self) -> None:
-        base, top, seconds = self._speeds
+        base, top, seconds = self._shown
         step = abs(self._units.mres)
         await self._set(VBAS=base * step, VELO=top * step, ACCL=seconds)
 

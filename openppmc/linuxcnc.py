@@ -10,9 +10,9 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
-from .host.axis import OnProgress
+from .drives import Drive
 from .host.errors import CommandRefused, LinkError, NothingToStop, OutOfRange, PpmcError
 from .host.motion import AnyMotion
 from .host.motion_result import AlarmStop, Cause, EndUnknown, LimitReached, OriginNotFound, StoppedByCommand
@@ -53,23 +53,6 @@ class Reading(NamedTuple):
     busy: bool | None = None
 
 
-class Drive(Protocol):
-    """Axis of any part with the functions that differ between parts."""
-
-    axis: Any
-
-    def prepare(self, start: float, velocity: float, acceleration: float) -> None:
-        """Initialise the axis if these values are new (pulses, s; 0: value of the set-up)."""
-
-    def home(self, sign: int, pps: float, progress: OnProgress) -> object:
-        """Find the origin in this direction and set the position to 0 there (0 pps: default speed)."""
-
-    def clear(self) -> None:
-        """Clear fault flags of the part; the next `prepare` initialises the axis."""
-
-    def read(self) -> Reading: ...
-
-
 @dataclass(frozen=True)
 class Machine:
     """Open device with its axes by number.
@@ -85,7 +68,8 @@ class Machine:
     def read(self) -> Mapping[int, Reading]:
         """Read all axes; a bank needs only a few frames for them."""
         if not hasattr(self.device, "snapshot"):
-            return {number: drive.read() for number, drive in self.drives.items()}
+            drives = self.drives.items()
+            return {number: Reading(one.axis.position, *one.switches()[:2]) for number, one in drives}
         return {
             number: Reading(seen.position, seen.inputs.limit_cw, seen.inputs.limit_ccw, seen.status.busy)
             for number, seen in self.device.snapshot(self.drives).items()

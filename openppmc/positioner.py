@@ -9,18 +9,16 @@ import math
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from numbers import Real
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
-from .host.axis import CCW, CW
+from .drives import Speeds, drive_of
 from .host.capabilities import SetupRequest
 from .host.errors import NothingToStop, OutOfRange
 from .host.motion import AnyMotion, Progress
 from .host.motion_result import Cause, MotionResult
 from .host.part import Device
-from .host.pmc006.settings import mean_acceleration
 
 POLL = 0.03
 """Time between two polls of a motion, in seconds of the board; moving axes of a device share it."""
@@ -55,19 +53,6 @@ class Switches(NamedTuple):
     origin: bool
 
 
-class Speeds(NamedTuple):
-    """Speeds of moves.
-
-    Attributes:
-        base, top: speeds at the start and between the ramps in pps.
-        seconds: duration of the acceleration in s.
-    """
-
-    base: float
-    top: float
-    seconds: float
-
-
 class Positioner:
     """One axis of a part or of a bank, or a station of a line.
 
@@ -94,7 +79,8 @@ class Positioner:
         if not pulses_per_unit:
             raise OutOfRange("pulses_per_unit 0: not supported; use the number of pulses in a unit")
         self.offset = 0.0
-        self.device, self.axis, self.request = device, _axis(device, axis), request
+        self.device, self.axis = device, _axis(device, axis)
+        self._drive = drive_of(self.axis, request)
         self.stop_requested = False
         self._access = _accesses.setdefault(device, _Access())
         self._stopped: AnyMotion | None = None
@@ -121,35 +107,26 @@ class Positioner:
     def switches(self) -> Switches:
         """Read the switches. EXT1 of a PMC006B4 is the limit backward, EXT2 forward."""
         with self.lock:
-            if _is_pmc006(self.axis):
-                ports, rising = self.axis.ports(), self.axis.trigger
-                ccw, cw = ports.ext1 is bool(rising & 1), ports.ext2 is bool(rising & 2)
-                origin = False
-            else:
-                pins = self.axis.inputs()
-                ccw, cw, origin = pins.limit_ccw, pins.limit_cw, pins.origin
+            cw, ccw, origin = self._drive.switches()
         return Switches(ccw, cw, origin) if self.pulses_per_unit > 0 else Switches(cw, ccw, origin)
 
     # ------------------------------------------------------------------ set-up
 
     def initialise(self) -> None:
         """Initialise the axis with its set-up; the axis must be stopped."""
-        if self.request is not None:
-            with self.lock:
-                self._apply(self.request)
+        with self.lock:
+            self._drive.initialise()
 
     def speeds(self) -> Speeds:
         """Return the speeds that are reached."""
         with self.lock:
-            if _is_pmc006(self.axis):
-                base, top = self.axis.start_speed, self.axis.max_speed
-                return Speeds(base, top, (top - base) / mean_acceleration(self.axis.acceleration))
-            setup = self.axis.setup
-        base, top = float(setup.start.reached), float(setup.high.reached)
-        return Speeds(base, top, 2 * setup.ramp_pulses / (base + top))
+            return self._drive.speeds
 
-    def set_speeds(self, speeds: Speeds) -> None:
+    def set_speeds(self, speeds: Speeds, new_time: bool = True) -> None:
         """Initialise the axis with other speeds; the axis must be stopped.
+
+        Args:
+            new_time: False to keep the acceleration of a PMC006B4, whose ramps then have another duration.
 
         Raises:
             OutOfRange: the part does not support them; the former speeds are kept.
@@ -158,21 +135,11 @@ class Positioner:
         if not 0 < base <= top or seconds < 0:
             text = f"speeds {base:g} to {top:g} pps in {seconds:g} s: use 0 < base <= top and 0 s or more"
             raise OutOfRange(text)
+        acceleration = (top - base) / seconds if seconds else math.inf
+        if self._drive.has_acceleration and not new_time:
+            acceleration = 0
         with self.lock:
-            if _is_pmc006(self.axis):
-                self.axis.max_speed = round(top)
-                self.axis.start_speed = self.axis.stop_speed = round(base)
-                if seconds:
-                    rise = (top - base) / seconds
-                    nearest = min(range(6), key=lambda n: abs(mean_acceleration(n) - rise))
-                    self.axis.acceleration = self.axis.deceleration = nearest
-            elif self.request is not None:
-                ramp = round(seconds * (base + top) / 2)
-                self._apply(replace(self.request, start_pps=base, high_pps=top, ramp_pulses=ramp))
-
-    def _apply(self, request: SetupRequest) -> None:
-        self.axis.apply(self.axis.kind.plan(self.axis.link.identity.xtal_hz, request))
-        self.request = request
+            self._drive.set_speeds(base, top, acceleration)
 
     # ------------------------------------------------------------------ motions
 
@@ -197,12 +164,8 @@ class Positioner:
 
         The limits of the other parts do not prevent such a move.
         """
-        if _is_pmc006(self.axis):
-            with self.lock:
-                forward = position > self.position
-                leaves = 1 if forward is (self.pulses_per_unit > 0) else 2
-                if leaves in self.axis.flags().stops:
-                    self.axis.clear_stops((leaves,))
+        with self.lock:
+            self._drive.leave_limit(self.to_pulses(position))
 
     def follow(self, motion: AnyMotion, report: Callable[[float], None]) -> None:
         """Report the position until the motion has ended, and at its end.
@@ -254,10 +217,7 @@ class Positioner:
 
         with self.lock:
             self._check_stop(self.axis.position, 0)
-            if _is_pmc006(self.axis):
-                self.axis.home(2 if cw else 1, 1 if cw else -1, progress=progress)
-            else:
-                self.axis.home(CW if cw else CCW, progress=progress)
+            self._drive.home(1 if cw else -1, 0, progress)
 
     def stop(self) -> None:
         """Decelerate the motion in progress, if any, and prevent the start of another one."""
@@ -290,10 +250,6 @@ def finite(value: Any, what: str) -> float:
     if not isinstance(value, Real) or isinstance(value, bool) or not math.isfinite(value):
         raise OutOfRange(f"{what} {value!r} is not a finite number")
     return float(value)
-
-
-def _is_pmc006(axis: Any) -> bool:
-    return hasattr(axis, "on_switch")
 
 
 def _axis(device: Device, number: int) -> Any:

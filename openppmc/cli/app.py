@@ -105,7 +105,7 @@ class Commands(PartGroup):
         ),
         Command("stop", "pmc006.moves:stop", parts=(PMC,)),
         Command("home", "pmc006.moves:home", parts=(PMC,)),
-        Command("hal", "pmc006.hal:hal", parts=(PMC,)),
+        Command("hal", "pmc006.moves:hal", parts=(PMC,)),
         Command("scan", "pmc006.moves:scan", parts=(PMC,)),
         Command("info", "pmc006.moves:info", parts=(PMC,)),
         Command("status", "pmc006.moves:status", parts=(PMC,)),

@@ -26,6 +26,7 @@ AUX = "output AUX"
 PHASES = "phase outputs"
 OWN_STOP = "a separate deceleration"
 CURVES = "ramps of other shapes"
+OWN_SETTINGS = "settings instead of a set-up"
 """Names of capabilities that not all parts have."""
 
 

@@ -120,7 +120,7 @@ def private_names(path: Path) -> list[str]:
 def test_users_of_the_host_package_need_no_private_name() -> None:
     """The command line, the adapters and the examples use only public names of the drivers."""
     files = [
-        *(ROOT / f"openppmc/{name}.py" for name in ("epics", "linuxcnc", "ophyd", "positioner")),
+        *(ROOT / f"openppmc/{name}.py" for name in ("drives", "epics", "linuxcnc", "ophyd", "positioner")),
         *(ROOT / "openppmc/cli").rglob("*.py"),
     ]
     files += (ROOT / "examples").rglob("*.py")

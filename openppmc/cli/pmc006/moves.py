@@ -13,6 +13,7 @@ from ...host.axis import OnProgress
 from ...host.pmc006.motion import Motion
 from ...host.pmc006.settings import setting
 from ..common import output
+from ..common.hal import Axes, Name, serve_line
 from ..common.ioc import Prefix, check_prefix, serve, with_units
 from ..common.line_session import ending_after
 from ..common.options import Json, check_seconds
@@ -24,7 +25,9 @@ from .session import (
     found_table,
     found_values,
     io_values,
+    open_bus,
     opened,
+    parse_addresses,
     prefix,
     settings_rows,
     settings_values,
@@ -163,6 +166,11 @@ def ioc(units: dict[str, str], prefix: Prefix, address: Address = None) -> None:
     with opened() as session:
         parts = session.selected_axes(address)
         serve(session.bus, session.guard, prefix, units, {part.address: None for part in parts})
+
+
+def hal(axes: Axes = None, name: Name = "openppmc") -> None:
+    """Serve axes as a component of LinuxCNC's HAL, loaded by loadusr -W."""
+    serve_line(name, None if axes is None else parse_addresses(axes), open_bus, lambda number: None)
 
 
 # ---------------------------------------------------------------------- scan and status

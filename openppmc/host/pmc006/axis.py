@@ -262,7 +262,7 @@ def _ext(number: int) -> int:
 
 LONGEST_WAY_OFF = 200_000
 SLOWEST, FASTEST = 65, 3000
-_KEPT = ("stops", "direction", "start_speed", "stop_speed", "max_speed")
+HOMING_SETTINGS = ("stops", "direction", "start_speed", "stop_speed", "max_speed")
 
 
 class Homing:
@@ -293,7 +293,7 @@ class Homing:
         slowly, and leaves it again. Afterwards, speeds, direction and enabled stops are restored.
         """
         axis = self._axis
-        before = {name: getattr(axis, name) for name in _KEPT}
+        before = {name: getattr(axis, name) for name in HOMING_SETTINGS}
         try:
             axis.clear_stops()
             axis.stops = 3  # also the other switch, because the direction may be wrong

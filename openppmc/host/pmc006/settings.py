@@ -31,6 +31,14 @@ def mean_acceleration(coefficient: int) -> int:
     return LEAST_ACCELERATION << coefficient
 
 
+def coefficient(acceleration: float) -> int:
+    """Return the highest coefficient that is not above this acceleration in steps/s². Raises OutOfRange."""
+    for found in reversed(range(6)):
+        if mean_acceleration(found) <= acceleration * (1 + 1e-9):
+            return found
+    raise OutOfRange(f"acceleration {acceleration:g} steps/s² is below {LEAST_ACCELERATION}")
+
+
 def drive_current(milliamperes: int) -> int:
     """Return the motor current for a setting in mA: the nearest of the levels 400, 550, …, 4000.
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ...lazy import renamed
 from ...parts import part
-from ..capabilities import Capabilities
+from ..capabilities import OWN_SETTINGS, Capabilities
 from ..check import whole
 from ..errors import CommandRefused, OutOfRange
 from ..line_port import Fault
@@ -341,7 +341,7 @@ def _begins(data: bytes) -> bool:
 
 # Capabilities of a PMC006B4.
 
-CAPABILITIES = Capabilities(part("pmc006"), outputs=31)
+CAPABILITIES = Capabilities(part("pmc006"), has=frozenset((OWN_SETTINGS,)), outputs=31)
 
 
 if not TYPE_CHECKING:

@@ -11,18 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, TypeVar
 
+from ..motion.codes import ERR, IBF, OBF
+
 T = TypeVar("T")
 
-# Registers, written by `make packages` from packages/registers/mailbox.rdl.
-DATA = 0x0  # read: byte of a response; write: data byte
-STATUS = 0x1  # result of the last byte, state of part and buffers
-COMMAND = 0x1  # command byte
-ERR = 0x80  # the most recent byte, command or data, was faulty
-NUM = 0x70  # ERR = 0: number of parameter bytes still expected, 0 to 4; ERR = 1: error number
-BUSY = 0x04  # an operation is running (not during initialisation)
-IBF = 0x02  # the input buffer is full: do not write
-OBF = 0x01  # the data register holds an unread byte
-# End of the registers.
 RATES = (115_200, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000)
 PROTOCOL_VERSION = 1
 MAX_DATA = 256

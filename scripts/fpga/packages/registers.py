@@ -23,7 +23,6 @@ C_FILES = {
 """File of drivers/c -> SystemRDL file, address map, prefix, registers that another header defines."""
 PYTHON_FILES = {
     "model/motion/codes.py": ("mailbox", "ppmc104"),
-    "model/carrier/bridge_ops.py": ("mailbox", "ppmc104"),
     "model/ppmc2104/codes.py": ("ppmc2104", "ppmc2104"),
     "model/ppmc312/front/mailbox.py": ("ppmc312", "ppmc312"),
     "model/bank/window.py": ("ppmc_bank", "ppmc_bank"),

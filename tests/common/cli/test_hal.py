@@ -258,7 +258,7 @@ def test_parameters(hal: Run, devices: list[Any]) -> None:
         axis.scale, axis.velocity, axis.acceleration, axis.enable = -10.0, 800.0, 20_000.0, True
         yield cycles(1)
         setup = devices[0].setup
-        assert (setup.high.requested, setup.start.requested, setup.ramp_pulses) == (8000, 1500, 154)
+        assert (setup.high.requested, setup.start.requested, setup.ramp_pulses) == (8000, 1500, 155)
         axis.velocity, axis.start_velocity, axis.acceleration = 100.0, 70.0, 0.0
         axis.position_cmd = 3.0
         yield lambda: axis.in_position

@@ -233,6 +233,22 @@ def test_limit_switch_of_a_pmc006():
         assert ioc.put("HOMF", 1) and ioc.get("RBV") == 0 and ioc.alarm() == "NO_ALARM NO_ALARM"
 
 
+def test_speeds_of_a_pmc006():
+    """ACCL selects the next lower acceleration of a PMC006B4; a put to VELO or VBAS keeps it."""
+    with records(part="pmc006") as ioc:
+        axis, lock = ioc.device.axis(1), ioc.motors[f"{ioc.prefix}m1"][0].lock
+        for field, value in (("VBAS", 100.9), ("VELO", 3500.0), ("ACCL", 3400 / 13_599), ("VELO", 900.0)):
+            assert ioc.put(field, value)
+        with lock:
+            assert (axis.start_speed, axis.stop_speed, axis.max_speed) == (100, 100, 900)
+            assert (axis.acceleration, axis.deceleration) == (2, 2)
+        assert ioc.get("VELO") == 900 and ioc.get("ACCL") == pytest.approx(800 / 6800)
+        ioc.rejected("ACCL", 1.0, "acceleration 799.1 steps/s² is below 1700")
+        assert ioc.put("ACCL", 0.0)
+        with lock:
+            assert axis.acceleration == axis.deceleration == 5
+
+
 def test_stop():
     """After STOP, VAL equals RBV, the severity is MINOR, and the put that started the motion fails. SPMG
     pauses and resumes a motion.

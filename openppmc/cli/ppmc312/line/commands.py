@@ -7,11 +7,9 @@ from typing import Annotated, Any
 import typer
 
 from ....host import PpmcError, Station312
-from ....linuxcnc import Machine
 from ...common import output, show
 from ...common.board import BOARD
-from ...common.hal import Axes, Name, RampDrive, closed_on_error
-from ...common.hal import serve as serve_hal
+from ...common.hal import Axes, Name, serve_line
 from ...common.ioc import Prefix, check_prefix, with_units
 from ...common.ioc import serve as serve_ioc
 from ...common.line_session import ending_after
@@ -212,23 +210,7 @@ def home(
 def hal(typed: dict[str, Any], axes: Axes = None, name: Name = "openppmc") -> None:
     """Serve axes as a component of LinuxCNC's HAL, loaded by loadusr -W."""
     numbers = None if axes is None else parse_stations(axes)
-
-    def connect() -> Machine:
-        nonlocal numbers
-        with closed_on_error(open_bus()) as bus:
-            numbers = numbers or [one.station for one in bus.scan()]
-            bus.check(numbers)
-            xtal_hz = bus.line.identity.xtal_hz
-            stations = {number: bus.axis(number) for number in numbers}
-            return Machine(
-                bus,
-                {
-                    number: RampDrive(axis, setup_values(typed, number), xtal_hz)
-                    for number, axis in stations.items()
-                },
-            )
-
-    serve_hal(name, connect)
+    serve_line(name, numbers, open_bus, lambda number: setup_values(typed, number).request(number))
 
 
 def stop(
