@@ -92,10 +92,10 @@ def _cpu(*words: str) -> float:
 
 
 def test_help_costs_little_more_than_typer() -> None:
-    """`openppmc --help` takes at most 2.5 times the CPU time of `import typer` (minima of five runs)."""
+    """`openppmc --help` takes at most 3 times the CPU time of `import typer` (minima of five runs)."""
     pairs = [(_cpu("-m", "openppmc.cli", "--help"), _cpu("-c", "import typer")) for _ in range(5)]
     help_seconds, typer_seconds = map(min, zip(*pairs, strict=True))
-    assert help_seconds <= 2.5 * typer_seconds, f"{help_seconds:.3f} s, {typer_seconds:.3f} s"
+    assert help_seconds <= 3 * typer_seconds, f"{help_seconds:.3f} s, {typer_seconds:.3f} s"
 
 
 def test_a_part_has_few_bases_and_names() -> None:
