@@ -21,6 +21,7 @@ from typing import Any
 from cocotb_tests.harness.collect import manual_rules, part_of_rule
 from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, part, run
 from openppmc.parts import PARTS
+from scripts.markdown import table
 from scripts.measure.prove.results import by_rule, failed
 from scripts.measure.prove.table import Proof
 
@@ -132,13 +133,13 @@ def at_home(statement: str) -> str:
     return re.sub(r"\]\(#", "](README.md#", statement)
 
 
-def _table(trace: Trace, rules: Sequence[str], part_name: str) -> list[str]:
-    rows = ["| Rule | Statement | Tests | Result | Proved |", "|---|---|---|---|---|"]
+def _table(trace: Trace, rules: Sequence[str]) -> str:
+    rows = []
     for rule in rules:
         tests = "<br>".join(str(group) for group in trace.groups.get(rule, [])) or "none"
         statement = at_home(trace.rules[rule])
-        rows.append(f"| {rule} | {statement} | {tests} | {trace.result(rule)} | {trace.proved(rule)} |")
-    return rows
+        rows.append((rule, statement, tests, trace.result(rule), trace.proved(rule)))
+    return table(("Rule", "Statement", "Tests", "Result", "Proved"), rows)
 
 
 def page(trace: Trace, part_name: str) -> str:
@@ -161,10 +162,10 @@ def page(trace: Trace, part_name: str) -> str:
         "",
         "## Rules",
         "",
-        *_table(trace, rules, part_name),
+        _table(trace, rules),
     ]
     if checks:
-        lines += ["", "## Acceptance checks", "", *_table(trace, checks, part_name)]
+        lines += ["", "## Acceptance checks", "", _table(trace, checks)]
     return "\n".join(lines) + "\n"
 
 

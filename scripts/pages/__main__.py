@@ -6,11 +6,11 @@ and exits with 1 if there are any. Each run generates identical files.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
-from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between, run
+from cocotb_tests.harness.project import DOCS, ProjectError, replace_between, run
+from scripts import generated
 from scripts.measure.prove import page as proofs
 from scripts.measure.sizes import figures, size_page
 from scripts.pages.figures import pages
@@ -39,39 +39,17 @@ def wanted() -> dict[Path, bytes]:
     return files
 
 
-def stale(files: dict[Path, bytes]) -> list[Path]:
-    """Return the generated files that are missing or differ, and pictures without a source."""
-    changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
-    kept = sorted(DOCS.glob("**/img/*.svg"))
-    kept += sorted(wiring.FOLDER.glob("*.md"))
-    return changed + [path for path in kept if path not in files]
+def unused(files: dict[Path, bytes]) -> list[Path]:
+    """Return the pictures and pages of boards that are no longer generated."""
+    kept = [*sorted(DOCS.glob("**/img/*.svg")), *sorted(wiring.FOLDER.glob("*.md"))]
+    return [path for path in kept if path not in files]
 
 
-def main(arguments: list[str] | None = None) -> int:
+def main() -> int:
     """Run the command line; return the exit code."""
-    parser = argparse.ArgumentParser(prog="docs", description="Generate the pictures and tables of docs/.")
-    parser.add_argument("--check", action="store_true", help="write nothing, fail if a file is outdated")
-    check = parser.parse_args(arguments).check
-    try:
-        files = wanted()
-    except ProjectError as error:
-        return fail(str(error))
-    found = stale(files)
-    for path in found:
-        console.print(
-            f"{'outdated' if check else 'written' if path in files else 'removed'}: {relative(path)}"
-        )
-    if check:
-        console.print(f"{len(files)} generated files, {len(found)} outdated")
-        return 1 if found else 0
-    for path in found:
-        if path in files:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(files[path])
-        else:
-            path.unlink()
-    console.print(f"{len(files)} generated files, {len(found)} changed")
-    return 0
+    check = generated.parser("docs", "Generate the pictures and tables of docs/.").parse_args().check
+    files = wanted()
+    return generated.update("docs", files, check, unused(files))
 
 
 if __name__ == "__main__":

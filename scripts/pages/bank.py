@@ -27,10 +27,10 @@ from openppmc.model.bank.window import (
     STOP,
 )
 from scripts.demo.bank.session import READ_FINISH, Access, Session
+from scripts.markdown import table
 from scripts.measure.sizes import designs, figures, size_page
 from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED
 from scripts.pages.pictures.recorded import Levels, Row, Samples, labels, thinned, wave
-from scripts.pages.pictures.tables import table
 
 SESSION_AXES = 32
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # 5 to 25 kpps within 100 pulses

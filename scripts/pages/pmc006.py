@@ -23,9 +23,10 @@ from openppmc.model.pmc006.bench.currents import (
     spectrum,
     wave_metrics,
 )
+from scripts.markdown import table
 from scripts.pages.pictures.moves import Train, speeds
 from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED
-from scripts.pages.pictures.tables import spaced, table
+from scripts.pages.pictures.tables import spaced
 
 CLK_HZ = F8B.clk_hz
 LONGEST = 60_000  # ms

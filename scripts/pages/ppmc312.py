@@ -16,10 +16,10 @@ from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.ppmc312 import blocks
 from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.stages import LAST, Table, build, constant, curve, ramped
+from scripts.markdown import table
 from scripts.pages.pictures.moves import Train, speeds
 from scripts.pages.pictures.plots import BLUE, COLOURS, GREEN, GREY, RED
 from scripts.pages.pictures.recorded import Levels, Row, Schedule, Start, columns_of, record, wave
-from scripts.pages.pictures.tables import table
 
 F_HZ = 1_000_000
 CLK = 16  # cycles of a tick

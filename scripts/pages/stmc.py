@@ -13,9 +13,10 @@ from openppmc.model.stmc import pc104_board
 from openppmc.model.stmc.commands import profile
 from openppmc.model.stmc.part import Stmc
 from openppmc.model.stmc.pc104_board import J105Stmc
+from scripts.markdown import table
 from scripts.pages.pictures.moves import Train
 from scripts.pages.pictures.recorded import Start
-from scripts.pages.pictures.tables import spaced, table
+from scripts.pages.pictures.tables import spaced
 
 CLK_HZ = 16_000_000
 INTERNAL_HZ = 12_500

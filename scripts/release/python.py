@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
-from cocotb_tests.harness.project import ROOT, ProjectError
+from cocotb_tests.harness.project import ROOT, ProjectError, ran
 from openppmc import __version__
 from scripts.release.archive import again
 from scripts.release.state import Release, tracked
@@ -15,12 +14,9 @@ SOURCES = ("openppmc", "pyproject.toml", "LICENSE")
 
 
 def _run(*words: str, folder: Path) -> None:
-    command = [sys.executable, "-m", *words]
-    done = subprocess.run(
-        command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
-    )
-    if done.returncode:
-        lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+    code, text = ran([sys.executable, "-m", *words], cwd=folder)
+    if code:
+        lines = [line for line in text.splitlines() if line.strip()]
         raise ProjectError("\n".join([f"{words[0]} failed:", *lines[-5:]]))
 
 

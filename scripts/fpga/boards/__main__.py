@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 from cocotb_tests.harness import project
-from cocotb_tests.harness.project import ProjectError, console, relative
+from cocotb_tests.harness.project import relative
+from scripts import generated
 from scripts.fpga.boards import carrier, constraints, tables, top
 from scripts.fpga.boards.description import FOLDER, Description, load_all
 from scripts.fpga.boards.pads import Fitted, fit
@@ -48,29 +48,13 @@ def left_over(expected: dict[Path, str]) -> list[Path]:
 
 
 def main() -> int:
-    """Write all files; return 1 if --check finds an outdated file."""
-    parser = argparse.ArgumentParser(prog="boards", description=__doc__)
-    parser.add_argument(
-        "--check", action="store_true", help="write nothing, list the files that are outdated"
-    )
-    options = parser.parse_args()
+    """Write all files; return 1 if --check finds an outdated file, or if a file belongs to no description."""
+    check = generated.parser("boards", __doc__).parse_args().check
     expected = all_files()
-    stale = [path for path, text in expected.items() if not path.is_file() or path.read_text() != text]
-    over = left_over(expected)
-    if options.check:
-        for path in stale:
-            console.print(f"{relative(path)}: outdated; run `make boards`")
-        for path in over:
-            console.print(f"{relative(path)}: belongs to no part of a board.yml")
-        return int(bool(stale or over))
-    for path in stale:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(expected[path])
-        console.print(f"wrote {relative(path)}")
-    if over:
-        raise ProjectError(f"{relative(over[0])} belongs to no part of a board.yml: remove it")
-    console.print(f"boards: {len(expected)} files, {len(stale)} of them new or changed")
-    return 0
+    code = generated.update("boards", expected, check)
+    for path in left_over(expected):
+        code = project.fail(f"{relative(path)}: belongs to no part of a board.yml; remove it")
+    return code
 
 
 if __name__ == "__main__":

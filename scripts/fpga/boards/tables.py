@@ -11,47 +11,47 @@ from openppmc import parts
 from openppmc.host.selftest.plan import Plan
 from scripts.fpga.boards.description import Description
 from scripts.fpga.boards.pads import Fitted
+from scripts.markdown import table
 
 WAYS = {"in": "in", "out": "out", "inout": "in, out"}
 
 
 def pin_table(fitted: Fitted) -> str:
     """Return the table of signals with direction, package pin and place."""
-    rows = [f"| `{pad.bit}` | {WAYS[pad.way]} | {pad.pin} | {pad.where} |" for pad in fitted.pads]
-    return "\n".join(["| signal | | FPGA pin | where |", "|---|---|---|---|", *rows])
+    rows = [(f"`{pad.bit}`", WAYS[pad.way], pad.pin, pad.where) for pad in fitted.pads]
+    return table(("signal", "", "FPGA pin", "where"), rows)
 
 
 def board_table(boards: tuple[Description, ...]) -> str:
     """Return the table of boards with their FPGA, clocks and parts."""
-    rows = ["| `BOARD` | board | FPGA | oscillator | `clk` | `PART` | built here |"]
-    rows.append("|---|---|---|---|---|---|---|")
+    rows = []
     for board in boards:
         names = ", ".join(f"`{device.name}`" for device in board.devices) or "–"
         rates = dict.fromkeys(f"{on.mhz:g}" for on in board.parts)
         parts = ", ".join(dict.fromkeys(f"`{on.part}`" for on in board.parts))
         tool = board.vendor.get("tool", "").capitalize()
         built = "yes" if board.devices else f"**not run here**: for {tool}"
-        clocks = f"{board.clock['mhz']:g} MHz | {' or '.join(rates)} MHz"
-        rows.append(f"| {names} | {board.title} | {board.chip} | {clocks} | {parts} | {built} |")
-    return "\n".join(rows)
+        clocks = f"{board.clock['mhz']:g} MHz", f"{' or '.join(rates)} MHz"
+        rows.append((names, board.title, board.chip, *clocks, parts, built))
+    return table(("`BOARD`", "board", "FPGA", "oscillator", "`clk`", "`PART`", "built here"), rows)
 
 
 def flash_table(boards: tuple[Description, ...]) -> str:
     """Return the table of the boards that `make flash` can load, each with its first part."""
-    rows = ["| board | FPGA | bitstream and load | port |", "| --- | --- | --- | --- |"]
+    rows = []
     for board in boards:
         first = board.parts[0]
         part = "" if first.part == "ppmc104" else f" PART={first.part}"
         loads = [f"`make flash BOARD={device.name}{part}`" for device in board.devices]
         if loads:
             clk = f"{board.chip}, `clk` {first.mhz:g} MHz"
-            rows.append(f"| {board.title} | {clk} | {' or '.join(loads)} | {board.port} |")
-    return "\n".join(rows)
+            rows.append((board.title, clk, " or ".join(loads), board.port))
+    return table(("board", "FPGA", "bitstream and load", "port"), rows, left=4)
 
 
 def jumper_table(fitted: list[Fitted]) -> str:
     """Return the table of self-test wires for boards with the UART host; signals without a pin are marked."""
-    rows = ["| board | part | from | to | for |", "|---|---|---|---|---|"]
+    rows = []
     for one in fitted:
         if "uart" not in one.on.hosts or not one.on.row.selftest or not one.board.devices:
             continue
@@ -62,8 +62,8 @@ def jumper_table(fitted: list[Fitted]) -> str:
                 f"{places[bit].split(',')[0]} (`{bit}`)" if bit in places else f"`{bit}` has no pin"
                 for bit in (wire.output, wire.input)
             ]
-            rows.append(f"| {one.board.title} | `{one.on.part}` | {ends[0]} | {ends[1]} | {wire.what} |")
-    return "\n".join(rows)
+            rows.append((one.board.title, f"`{one.on.part}`", *ends, wire.what))
+    return table(("board", "part", "from", "to", "for"), rows)
 
 
 def recorder_table() -> str:
@@ -71,14 +71,14 @@ def recorder_table() -> str:
 
     A bank has 8 axes here.
     """
-    rows = ["| part | levels | pins, from the lowest bit on |", "| --- | --- | --- |"]
+    rows = []
     for row in parts.having("selftest"):
         plan: Plan = row.load("selftest")
         width = record_width(row)
         pins = ", ".join(f"`{name}`" + (f" {bits}" if bits > 1 else "") for name, bits in plan.layout(width))
         axes = " (8 axes)" if row.name == "bank" else ""
-        rows.append(f"| {row.title}{axes} | {width} | {pins} |")
-    return "\n".join(rows)
+        rows.append((f"{row.title}{axes}", width, pins))
+    return table(("part", "levels", "pins, from the lowest bit on"), rows, left=3)
 
 
 def record_width(row: parts.Row) -> int:

@@ -11,7 +11,6 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -140,21 +139,13 @@ def build(name: str, library: Path, work: Path = WORK) -> Built:
     launcher = [os.path.relpath(path, folder) for path in (sys.executable, LAUNCHER)]
     words = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
     words += ["--cores-root", relative(library), "run", "--setup", "--build", f"--target={name}"]
-    done = subprocess.run(
-        [*words, f"--work-root={relative(folder)}", CORE],
-        cwd=ROOT,
-        env=os.environ | {"EDALIZE_LAUNCHER": " ".join(launcher), "MAKEFLAGS": ""},
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
+    env = os.environ | {"EDALIZE_LAUNCHER": " ".join(launcher), "MAKEFLAGS": ""}
+    code, text = project.ran([*words, f"--work-root={relative(folder)}", CORE], env)
     log = folder / "fusesoc.log"
-    log.write_text(done.stdout, encoding="utf-8")
-    if done.returncode:
-        lines = [line for line in done.stdout.splitlines() if "error" in line.lower()]
-        messages = lines[:4] or done.stdout.splitlines()[-4:]
+    log.write_text(text, encoding="utf-8")
+    if code:
+        lines = [line for line in text.splitlines() if "error" in line.lower()]
+        messages = lines[:4] or text.splitlines()[-4:]
         raise ProjectError("\n".join([f"fusesoc --target={name} failed ({relative(log)})", *messages]))
     return built_result(name, folder)
 

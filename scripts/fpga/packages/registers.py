@@ -10,6 +10,7 @@ from systemrdl import RDLCompileError, RDLCompiler
 from systemrdl.node import AddrmapNode, FieldNode, RegNode
 
 from cocotb_tests.harness.project import DOCS, ROOT, ProjectError, relative, replace_between
+from scripts import markdown
 
 FOLDER = ROOT / "packages" / "registers"
 FROM = "Registers, written by `make packages` from packages/registers/{}.rdl."
@@ -117,16 +118,15 @@ def place(high: int, low: int) -> str:
 
 def bits_table(reg: RegNode) -> str:
     """Return the table of a register's bits for a manual."""
-    rows, last = ["| Bit | Name | 1 means |", "|---|---|---|"], 8
+    rows, last = [], 8
     for field in [*flags(reg), None]:
         high = field.high if field else -1
         if high + 1 < last:
-            rows.append(f"| {place(last - 1, high + 1)} | | always 0 |")
+            rows.append((place(last - 1, high + 1), "", "always 0"))
         if field:
-            name = field.get_property("name").upper()
-            rows.append(f"| {place(field.high, field.low)} | {name} | {text(field)} |")
+            rows.append((place(field.high, field.low), field.get_property("name").upper(), text(field)))
             last = field.low
-    return "\n".join(rows)
+    return markdown.table(("Bit", "Name", "1 means"), rows).replace("|  |", "| |")
 
 
 def meaning(reg: RegNode) -> str:
@@ -138,7 +138,7 @@ def meaning(reg: RegNode) -> str:
 
 def register_table(found: Sequence[RegNode]) -> str:
     """Return the table of registers for a manual."""
-    rows = ["| Register | Name | Access | Meaning |", "|---|---|---|---|"]
+    rows = []
     for reg in found:
         first = reg.raw_address_offset
         last = first + (reg.n_elements - 1) * reg.size if reg.is_array else first
@@ -146,8 +146,8 @@ def register_table(found: Sequence[RegNode]) -> str:
         access = ", ".join(
             way for way, there in (("read", reg.has_sw_readable), ("write", reg.has_sw_writable)) if there
         )
-        rows.append(f"| {where} | {reg.inst_name.upper()} | {access} | {meaning(reg)} |")
-    return "\n".join(rows)
+        rows.append((where, reg.inst_name.upper(), access, meaning(reg)))
+    return markdown.table(("Register", "Name", "Access", "Meaning"), rows)
 
 
 def manual(name: str, file: str, top: str) -> tuple[Path, str]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 from pathlib import Path
 
 from cocotb_tests.harness import project
-from cocotb_tests.harness.project import ProjectError, console, relative
+from cocotb_tests.harness.project import ProjectError, relative
+from scripts import generated
 from scripts.fpga.rom.calc_asm import WORDS, AsmError, Program, assemble, names_of
 
 FOLDER = project.RTL / "pmc006" / "motion"
@@ -93,22 +93,8 @@ def expected_files() -> dict[Path, str]:
 
 def main() -> int:
     """Write both files; return 1 if --check finds an outdated file."""
-    parser = argparse.ArgumentParser(prog="calc_rom", description=__doc__)
-    parser.add_argument(
-        "--check", action="store_true", help="write nothing, list the files that are outdated"
-    )
-    check = parser.parse_args().check
-    texts = expected_files()
-    stale = [path for path, text in texts.items() if not path.is_file() or path.read_text("utf-8") != text]
-    if check:
-        for path in stale:
-            console.print(f"{relative(path)}: outdated; run `make rom`")
-        return int(bool(stale))
-    for path in stale:
-        path.write_text(texts[path], encoding="utf-8")
-        console.print(f"wrote {relative(path)}")
-    console.print(f"rom: {len(texts)} files, {len(stale)} of them new or changed")
-    return 0
+    check = generated.parser("rom", __doc__).parse_args().check
+    return generated.update("rom", expected_files(), check)
 
 
 if __name__ == "__main__":

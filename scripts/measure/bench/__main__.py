@@ -9,9 +9,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
-
-from rich.table import Table
+from collections.abc import Callable
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.build import SimError
@@ -20,23 +18,11 @@ from openppmc.host import PpmcError
 from openppmc.sim import SimError as BoardError
 from scripts.demo.demos import Demo
 from scripts.fpga.flow.machine import machine
-from scripts.measure.bench import board, captures, costs, moves
+from scripts.measure.bench import board, captures, costs, moves, section
 from scripts.measure.bench.run_times import LABELS, PLAIN, Times, turns
-from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
 HEADS = ["simulation", "cycles", "output edges", "seconds", "cycles / s", "time, Verilator alone = 1"]
-
-
-def write_section(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
-    """Print a table; write it, with `text` above it, into docs/benchmarks.md."""
-    table = Table(title=title, title_justify="left")
-    for index, head in enumerate(heads):
-        table.add_column(head, justify="right" if index else "left")
-    for row in rows:
-        table.add_row(*row)
-    console.print(table)
-    project.update_benchmarks(f"bench:{marker}", f"{text}\n\n{markdown_table(heads, list(rows))}")
 
 
 def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
@@ -87,27 +73,27 @@ def bench(name: str, demo: Demo) -> None:
             " The virtual board runs at full speed with a turning motor; its cycles / s are of "
             "processor time."
         )
-        write_section(
+        section.write(
             "board",
-            "virtual board",
             f"The virtual board at {board.CLK_HZ / 1e6:g} MHz and {board.BAUD:,} baud, through pyserial. "
             f"{machine()}.",
             board.HEADS,
             figures.rows(),
+            "virtual board",
         )
-        write_section(
+        section.write(
             "costs",
-            "cycles of commands",
             "Waits of a host, counted at the pins of the PPMC-104 (FAST) with the shortest bus accesses: "
             "from the end of the last data byte until the next command is executed, and from the start of "
             "a command until its last answer is read.",
             costs.HEADS,
             costs.rows(costs.measure()),
+            "cycles of commands",
         )
         moves.bench()
         captures.bench()
-    write_section(name, f"run of `make demo PART={name}`, median of {RUNS} rounds", text, HEADS, rows)
-    console.print("written: docs/benchmarks.md")
+    title = f"run of `make demo PART={name}`, median of {RUNS} rounds"
+    section.write(name, text, HEADS, rows, title)
 
 
 def main() -> int:

@@ -12,7 +12,7 @@ from openppmc.model.bank import PpmcBank
 from scripts.demo.bank.demo import NAME, build, play, simulate
 from scripts.demo.bank.moves import AXES, CLK_HZ
 from scripts.fpga.flow.machine import machine
-from scripts.measure.sizes.report import markdown_table
+from scripts.measure.bench import section
 
 RUNS = 3
 SIDES = ("RTL in Verilator alone", "golden model, same pin changes")
@@ -58,6 +58,5 @@ def main() -> int:
         f"{RUNS} runs, files of pin changes and edges included. Both simulations produce the "
         f"same output edges. {machine()}."
     )
-    project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(HEADS, rows))
-    console.print("written: docs/benchmarks.md")
+    section.write(NAME, text, HEADS, rows)
     return 0

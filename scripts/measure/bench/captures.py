@@ -15,10 +15,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from cocotb_tests.harness import project
-from cocotb_tests.harness.project import console
 from openppmc.model.ppmc104 import Ppmc104
 from scripts.fpga.flow.machine import machine
-from scripts.measure.sizes.report import markdown_table
+from scripts.measure.bench import section
 
 EDGES = 4_000_000
 PART = "ppmc104"
@@ -264,13 +263,13 @@ def bench() -> None:
         found = measure(project.BUILD / "bench", name, runs=1 if name == COMPARED else 3)
         figures = (f"{found.rate / 1e6:.2f}", f"{found.plain:.1f}", f"{found.size:.1f}")
         rows.append([text, f"{found.edges:,}", *figures])
-        console.print(", ".join(f"{head}: {value}" for head, value in zip(HEADS, rows[-1], strict=True)))
+        section.show(HEADS, rows[-1])
     text = (
         f"`openppmc decode` of large captures of a {PART}, from the file to bytes, texts and moves, the best "
         "of 3 runs; with `--compare`, one run that includes the golden model. The plain pass finds the "
         f"bounds of all words of the file with numpy. {machine()}."
     )
-    project.update_benchmarks("bench:captures", f"{text}\n\n{markdown_table(HEADS, rows)}")
+    section.write("captures", text, HEADS, rows)
 
 
 def main() -> int:

@@ -13,11 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness import project
-from cocotb_tests.harness.project import console
 from openppmc.host import CW, FORWARD, Pmc006Bus, Ppmc312Bus, PpmcError
 from openppmc.sim import SimError, SimLine, start_line
 from scripts.fpga.flow.machine import machine
-from scripts.measure.sizes.report import markdown_table
+from scripts.measure.bench import section
 
 SECONDS = 3.0
 CLK_HZ = 8_000_000
@@ -121,15 +120,14 @@ def main() -> int:
             rows.append(measure(case))
         except (SimError, PpmcError) as error:
             return project.fail(str(error))
-        console.print(", ".join(f"{head}: {value}" for head, value in zip(HEADS, rows[-1], strict=True)))
+        section.show(HEADS, rows[-1])
     text = (
         "Virtual lines (`sim:`, `make board`), the RTL of each station at 8 MHz, at full speed. A station at "
         "standstill needs no time until it is addressed; moving stations share the processors, which may "
         "have other work. "
         f"{machine()}."
     )
-    project.update_benchmarks("bench:lines", f"{text}\n\n{markdown_table(HEADS, rows)}")
-    console.print("written: docs/benchmarks.md")
+    section.write("lines", text, HEADS, rows)
     return 0
 
 

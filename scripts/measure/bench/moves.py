@@ -13,11 +13,10 @@ from statistics import median
 from typing import Any
 
 from cocotb_tests.harness import project
-from cocotb_tests.harness.project import console
 from openppmc.host import Pmc006, Ppmc312Bus, PpmcError, open_part
 from openppmc.sim import SimError
 from scripts.fpga.flow.machine import machine
-from scripts.measure.sizes.report import markdown_table
+from scripts.measure.bench import section
 
 TURNS = 5
 MOVES = 240
@@ -133,7 +132,7 @@ def bench() -> None:
     for part in SETUPS:
         rows += measure(part)
         for row in rows[-2:]:
-            console.print(", ".join(f"{head}: {value}" for head, value in zip(HEADS, row, strict=True)))
+            section.show(HEADS, row)
     of_312, of_006 = line_times()
     text = (
         f"Moves of 1 to 3 pulses. Virtual board at {CLK_HZ / 1e6:g} MHz (bank: {BANK_CLK_HZ / 1e6:g} MHz) "
@@ -144,7 +143,7 @@ def bench() -> None:
         f"{of_312:.0f} ms with a PPMC-312 at 83 333 bit/s and {of_006:.0f} ms with a PMC006B4 at "
         f"115 200 bit/s (golden models). {machine()}."
     )
-    project.update_benchmarks("bench:moves", f"{text}\n\n{markdown_table(HEADS, rows)}")
+    section.write("moves", text, HEADS, rows)
 
 
 def main() -> int:
@@ -153,7 +152,6 @@ def main() -> int:
         bench()
     except (SimError, PpmcError) as error:
         return project.fail(str(error))
-    console.print("written: docs/benchmarks.md")
     return 0
 
 

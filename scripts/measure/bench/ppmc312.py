@@ -12,8 +12,6 @@ import time
 from collections.abc import Callable
 from statistics import median
 
-from rich.table import Table
-
 from cocotb_tests.harness import project
 from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import Item
@@ -27,8 +25,7 @@ from cocotb_tests.ppmc312.line.models import ModelLine
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
 from openppmc.check.records import Recording
 from scripts.fpga.flow.machine import machine
-from scripts.measure.bench import lines
-from scripts.measure.sizes.report import markdown_table
+from scripts.measure.bench import lines, section
 
 NAME = "ppmc312-serial"
 RUNS = 3
@@ -101,18 +98,12 @@ def main() -> int:
         return project.fail(str(error))
     rows = rows_of(measured, F8L.clk_hz)
     heads = ["simulation", "cycles", "seconds", "processor s", "cycles / s", "of real time", f"goal 1/{GOAL}"]
-    table = Table(title=f"{STATIONS} stations on a line, median of {RUNS} runs", title_justify="left")
-    for index, head in enumerate(heads):
-        table.add_column(head, justify="right" if index else "left")
-    for row in rows:
-        table.add_row(*row)
-    console.print(table)
     text = (
         f"{STATIONS} stations of the PPMC-312 on one line: the run of `make demo PART={NAME}` at "
         f"{F8L.clk_hz / 1e6:g} MHz and 83 333 bps, {measured[0][1] / F8L.clk_hz * 1e3:.0f} ms of the line, "
         f"median of {RUNS} runs, start of the simulator included. The cycles/s and the share of real time "
         f"refer to processor time. {machine()}."
     )
-    project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(heads, rows))
-    console.print("written: docs/benchmarks.md")
+    title = f"{STATIONS} stations on a line, median of {RUNS} runs"
+    section.write(NAME, text, heads, rows, title)
     return lines.main()

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from cocotb_tests.harness.crosses import Cross, Crosses
 from openppmc import parts
+from scripts.markdown import table
 from scripts.measure.coverage.elaborated import left_out
 from scripts.measure.coverage.points import BRANCH, LINE, TOGGLE
 from scripts.measure.coverage.sums import LEFT_OUT, Sums, folder_of
@@ -47,67 +48,62 @@ def cell(sums: Sums, place: str, kind: str) -> str:
     return text
 
 
+def row(sums: Sums, place: str) -> list[str]:
+    """Return the row of a folder or file."""
+    return [place, *(cell(sums, place, kind) for kind in KINDS)]
+
+
 def folders(sums: Sums) -> Iterator[str]:
     """Yield the table of folders."""
-    yield "| folder of rtl/ | " + " | ".join(KINDS) + " |"
-    yield "|---" * (1 + len(KINDS)) + "|"
-    for folder in sums.folders():
-        yield f"| {folder} | " + " | ".join(cell(sums, folder, kind) for kind in KINDS) + " |"
+    yield table(("folder of rtl/", *KINDS), (row(sums, folder) for folder in sums.folders()))
     for folder, why in LEFT_OUT.items():
         yield f"\n`{folder}`: {why}."
 
 
-def files(sums: Sums) -> Iterator[str]:
-    """Yield the table of files that are not fully covered."""
-    yield "| file | " + " | ".join(KINDS) + " |"
-    yield "|---" * (1 + len(KINDS)) + "|"
-    for folder in sums.folders():
-        for file in sums.files(folder):
-            if any(sums.figure(file, kind).percent < 100 for kind in KINDS):
-                yield f"| {file} | " + " | ".join(cell(sums, file, kind) for kind in KINDS) + " |"
+def files(sums: Sums) -> str:
+    """Return the table of files that are not fully covered."""
+    every = (file for folder in sums.folders() for file in sums.files(folder))
+    open_files = (f for f in every if any(sums.figure(f, kind).percent < 100 for kind in KINDS))
+    return table(("file", *KINDS), (row(sums, file) for file in open_files))
 
 
-def holes(sums: Sums) -> Iterator[str]:
-    """Yield each hole of lines and branches, with its reason."""
+def holes(sums: Sums) -> str:
+    """Return the table of holes of lines and branches, with their reasons."""
     every = [hole for kind in (LINE, BRANCH) for hole in sums.holes(kind)]
     if not every:
-        yield "None."
-        return
-    yield "| place | what | source | why |"
-    yield "|---|---|---|---|"
+        return "None."
+    rows = []
     for hole in sorted(every, key=lambda hole: (hole.file, hole.line, hole.kind)):
         text = hole.text.replace("|", "\\|")
         what = f"{hole.kind} {hole.what}".strip()
-        yield f"| {hole.file} | {what} | `{text}` | {hole.why or '**open**'} |"
+        rows.append((hole.file, what, f"`{text}`", hole.why or "**open**"))
+    return table(("place", "what", "source", "why"), rows)
 
 
-def elaborated() -> Iterator[str]:
-    """Yield the table of functions that have no points, because only elaboration calls them."""
-    yield "| file | functions |"
-    yield "|---|---|"
+def elaborated() -> str:
+    """Return the table of functions that have no points, because only elaboration calls them."""
     names: dict[str, list[str]] = {}
     for function in left_out():
         if folder_of(function.file) not in LEFT_OUT:
             names.setdefault(function.file, []).append(function.name)
-    for file, found in names.items():
-        yield f"| {file} | " + ", ".join(found) + " |"
+    return table(("file", "functions"), ((file, ", ".join(found)) for file, found in names.items()))
 
 
-def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
+def cross(of: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
     """Yield the table of a cross; **0** means not seen, – impossible."""
-    yield f"| {table.name} | " + " | ".join(table.columns) + " |"
-    yield "|---" * (1 + len(table.columns)) + "|"
     reasons: dict[str, None] = {}
-    for row in table.rows:
-        shown = []
-        for column in table.columns:
-            number, why = counts[row, column], table.why_never(row, column)
+    rows = []
+    for name in of.rows:
+        shown = [name]
+        for column in of.columns:
+            number, why = counts[name, column], of.why_never(name, column)
             if number or not why:
                 shown.append(f"{number:,}" if number else "**0**")
             else:
                 shown.append("–")
                 reasons[why] = None
-        yield f"| {row} | " + " | ".join(shown) + " |"
+        rows.append(shown)
+    yield table((of.name, *of.columns), rows)
     if reasons:
         yield "\nReasons for –: " + "; ".join(reasons) + "."
 
@@ -119,13 +115,13 @@ def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
     if not any(key.startswith(f"{part.name}\t") for key in counts):
         yield "Nothing counted.\n"
         return
-    for table in found.tables:
+    for of in found.tables:
         own: Counter[tuple[str, str]] = Counter()
         for key, number in counts.items():
-            name, title, row, column = key.split("\t")
-            if (name, title) == (part.name, table.name):
-                own[row, column] += number
-        yield from cross(table, own)
+            name, title, at, column = key.split("\t")
+            if (name, title) == (part.name, of.name):
+                own[at, column] += number
+        yield from cross(of, own)
         yield ""
 
 
@@ -138,13 +134,13 @@ def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool
     much = f"{tests} tests." if tests == all_tests else f"**A sample: {tests} of {all_tests} tests.**"
     much += " They ran at different times, some possibly with earlier sources." if old else ""
     lines = [HEAD, f"{much}\n", "## The RTL\n", *folders(sums)]
-    lines += ["\n### Files with holes\n", *files(sums), "\n### Holes of lines and branches\n", *holes(sums)]
+    lines += ["\n### Files with holes\n", files(sums), "\n### Holes of lines and branches\n", holes(sums)]
     lines += ["\n### Left out: functions that only elaboration calls\n"]
     lines += [
         "Each call has only constants, or is in a parameter, a dimension, the head of a generate block or "
         "such a function.",
         "No simulation executes these functions.\n",
-        *elaborated(),
+        elaborated(),
     ]
     lines += ["\n## Crosses of the data sheets\n"]
     lines += ["A cross is a table of combinations, such as an operation and the cause of its end."]

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
 import sys
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, include_dirs, relative
+from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, include_dirs, ran, relative
 from scripts.measure.prove import engine
 from scripts.measure.prove.table import FORMAL, Change, Proof
 
@@ -45,22 +44,14 @@ class Outcome:
 
 def yosys(folder: Path, *command: str) -> str:
     """Run yosys in a separate process with its log in the folder; return the reason if it fails."""
-    done = subprocess.run(
-        [sys.executable, *command],
-        cwd=ROOT,
-        text=True,
-        check=False,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-    )
-    (folder / "yosys.log").write_text(done.stdout, encoding="utf-8")
-    if not done.returncode:
+    code, text = ran([sys.executable, *command])
+    (folder / "yosys.log").write_text(text, encoding="utf-8")
+    if not code:
         return ""
-    lines = [line.strip() for line in done.stdout.splitlines() if "error:" in line.lower()]
-    if "No module named 'pyosys'" in done.stdout:
+    lines = [line.strip() for line in text.splitlines() if "error:" in line.lower()]
+    if "No module named 'pyosys'" in text:
         raise ProjectError("pyosys is not installed: run `make setup`")
-    return lines[0] if lines else f"yosys ended with exit code {done.returncode}"
+    return lines[0] if lines else f"yosys ended with exit code {code}"
 
 
 def model(proof: Proof, folder: Path, changed: Mapping[Path, Path]) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from cocotb_tests.harness.project import DOCS, RTL, ProjectError, relative
+from scripts import markdown
 from scripts.measure.prove.table import Proof, proofs
 
 PAGE = DOCS / "proofs.md"
@@ -15,6 +16,7 @@ MARK = "<!-- proofs -->"
 
 ROOMS = ("common", "host", "motion", "single", "bank")
 """Folders of rtl/ in which each block should have a proof."""
+HEADS = ("Proof", "Properties", "Holds for", "Cover in", "Assumes: guarded by", "Rules")
 SHOWN = 6
 """Maximum number of proofs listed for a package; further ones are only counted."""
 
@@ -28,15 +30,15 @@ def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
     return {path.stem: [name for name, source in own.items() if f"{path.stem}::" in source] for path in paths}
 
 
-def without(every: Sequence[Proof]) -> list[str]:
+def without(every: Sequence[Proof]) -> str:
     """Return the table of files of the shared folders without a separate proof, and the reasons."""
-    lines = ["### Without a separate proof", "", "| File | Why | It is part of |", "|---|---|---|"]
+    rows = []
     for name, by in unproved(every).items():
         package = "package: constants, types and functions, no state"
         why = package if name.endswith("_pkg") else "**open**"
         more = f" and {len(by) - SHOWN} more" if len(by) > SHOWN else ""
-        lines.append(f"| {name} | {why} | {', '.join(by[:SHOWN])}{more} |")
-    return [*lines, ""]
+        rows.append((name, why, f"{', '.join(by[:SHOWN])}{more}"))
+    return markdown.table(("File", "Why", "It is part of"), rows)
 
 
 def method(proof: Proof) -> str:
@@ -46,7 +48,7 @@ def method(proof: Proof) -> str:
     return f"the first {proof.bound} cycles" if proof.bound else "unbounded"
 
 
-def row(proof: Proof) -> str:
+def row(proof: Proof) -> tuple[str, ...]:
     """Return one row of the table."""
     says = " <br>".join(f"{text}." for text in proof.says)
     if proof.why:
@@ -54,7 +56,7 @@ def row(proof: Proof) -> str:
     taken = "<br>".join(f"`{label}`: {where}" for label, where in proof.assumes.items()) or "no assumption"
     rules = ", ".join(proof.rules) or "its header"
     source = f"[{proof.name}](../{relative(proof.file)})"
-    return f"| {source} | {says} | {method(proof)} | {proof.cover} cycles | {taken} | {rules} |"
+    return source, says, method(proof), f"{proof.cover} cycles", taken, rules
 
 
 def table(every: Sequence[Proof]) -> str:
@@ -67,14 +69,8 @@ def table(every: Sequence[Proof]) -> str:
         "",
     ]
     for folder, group in groupby(every, key=lambda one: one.folder):
-        lines += [
-            f"### {folder}",
-            "",
-            "| Proof | Properties | Holds for | Cover in | Assumes: guarded by | Rules |",
-        ]
-        lines += ["|---|---|---|---|---|---|", *map(row, group), ""]
-    lines += without(every)
-    return "\n".join(lines)
+        lines += [f"### {folder}", "", markdown.table(HEADS, map(row, group)), ""]
+    return "\n".join([*lines, "### Without a separate proof", "", without(every), ""])
 
 
 def text() -> str:

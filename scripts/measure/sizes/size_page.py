@@ -6,11 +6,11 @@ from collections.abc import Callable
 from typing import Any
 
 from scripts.fpga.flow.yosys_job import BEST, recipe_text
+from scripts.markdown import table
 from scripts.measure.sizes import designs, figures
 from scripts.measure.sizes.designs import Design
 from scripts.measure.sizes.figures import PEER, Figures, rate_text
 from scripts.measure.sizes.peers import OLDER, WHERE
-from scripts.measure.sizes.report import markdown_table
 
 FAMILY = {"ecp5": "ECP5", "ice40": "iCE40", "gowin": "Gowin"}
 RATE = (
@@ -44,13 +44,13 @@ def _axes_heads(first: list[str]) -> list[str]:
 def parts(found: Figures) -> str:
     """Return the table of parts on an ECP5 with both recipes."""
     rows = {d.name: d.axes for d in designs.of_parts() if d.rated and not d.name.startswith("bank ")}
-    table = [[name, str(axes), *_cells(found, name, axes)] for name, axes in rows.items()]
+    cells = [[name, str(axes), *_cells(found, name, axes)] for name, axes in rows.items()]
     text = (
         f"Parts on an ECP5-25F of speed grade 6 with default parameters. {RECIPE} COMB is the number of "
         "logic cells that nextpnr packs; FF and block RAM are the same with both recipes. The pins are "
         f"connected to shift registers that are not counted. {RATE}"
     )
-    return f"{text}\n\n{markdown_table(_axes_heads(['part', 'axes']), table)}"
+    return f"{text}\n\n{table(_axes_heads(['part', 'axes']), cells, left=1)}"
 
 
 def synthesized(found: Figures) -> str:
@@ -74,7 +74,7 @@ def synthesized(found: Figures) -> str:
         "Gowin an adder bit counts as one LUT. `make size` fails if a count grows by more than "
         f"{figures.LIMIT} %."
     )
-    return f"{text}\n\n{markdown_table(heads, rows, left=2)}"
+    return f"{text}\n\n{table(heads, rows, left=2)}"
 
 
 def bitstreams(found: Figures) -> str:
@@ -91,7 +91,7 @@ def bitstreams(found: Figures) -> str:
         "Bitstreams with the constraints of their boards, UART host; cells after synthesis. "
         "`make bitstream` fails if a bitstream is too slow for the clock of its board."
     )
-    return f"{text}\n\n{markdown_table(heads, rows, left=2)}"
+    return f"{text}\n\n{table(heads, rows, left=2)}"
 
 
 def peers(found: Figures) -> str:
@@ -113,7 +113,7 @@ def peers(found: Figures) -> str:
         f"(`make report PEERS=folder`). {RATE}\n\n"
         "¹ size measured earlier; its clock rate was not measured with the present recipe."
     )
-    return f"{text}\n\n{markdown_table(['design', 'FF', 'RAM', *HEADS], rows)}"
+    return f"{text}\n\n{table(['design', 'FF', 'RAM', *HEADS], rows, left=1)}"
 
 
 def bank(found: Figures) -> str:
@@ -125,7 +125,7 @@ def bank(found: Figures) -> str:
         "RAM (DP16KD) are counted after synthesis. The pins are connected to shift registers that are not "
         f"counted. {RATE}"
     )
-    return f"{text}\n\n{markdown_table(_axes_heads(['axes']), rows)}"
+    return f"{text}\n\n{table(_axes_heads(['axes']), rows, left=1)}"
 
 
 def axis_costs(found: Figures) -> tuple[dict[str, tuple[int, float]], dict[str, int]]:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from scripts.markdown import table
+
 Entry = Mapping[str, Any]
-
-
-def table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """Return a table in Markdown."""
-    head, *lines = [f"| {' | '.join(map(str, line))} |" for line in (heads, *rows)]
-    return "\n".join([head.replace("|  |", "| |"), "|---" * len(heads) + "|", *lines])
 
 
 def spaced(value: float, digits: int = 0) -> str:

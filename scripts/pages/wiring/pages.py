@@ -8,6 +8,7 @@ from cocotb_tests.harness.project import DOCS
 from scripts.fpga.boards.__main__ import fitted_parts
 from scripts.fpga.boards.description import load_all
 from scripts.fpga.boards.pads import Fitted
+from scripts.markdown import table
 from scripts.pages.wiring.circuits import Use, order, uses
 from scripts.pages.wiring.draw import draw
 
@@ -71,22 +72,14 @@ def _section(one: Fitted) -> str:
     found = uses(one)
     rows = [f'<a id="{one.on.name}"></a>', "", f"## {_title(one)}", ""]
     rows += [f"![Wiring](img/{one.board.name}-{one.on.name}.svg)", ""]
-    rows += ["| circuit | header pins | far side of the circuit |", "|---|---|---|"]
-    rows += [_levels(use) for use in found]
-    rows += [
-        "",
-        "Order list for all circuits:",
-        "",
-        "| quantity | component | order number |",
-        "|---:|---|---|",
-    ]
-    rows += [f"| {number} | {what} | {which} |" for number, what, which in order(found)]
-    return "\n".join([*rows, ""])
+    rows += [table(("circuit", "header pins", "far side of the circuit"), map(_levels, found))]
+    parts = table(("quantity", "component", "order number"), order(found)).replace("|---", "|---:", 1)
+    return "\n".join([*rows, "", "Order list for all circuits:", "", parts, ""])
 
 
-def _levels(use: Use) -> str:
+def _levels(use: Use) -> tuple[str, ...]:
     pins = ", ".join(f"`{pad.where.split(',')[0]}`" for pad in use.pads)
     far = use.circuit.level
     never = "" if far.startswith(("3.3 V", "GND")) else f" **{far}**: never to the header"
     here = "no voltage (see the drawing)" if use.circuit.key == "straps" else "3.3 V"
-    return f"| {use.circuit.title} | {pins}: {here} | {never.strip() or far} |"
+    return use.circuit.title, f"{pins}: {here}", never.strip() or far

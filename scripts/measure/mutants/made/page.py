@@ -10,6 +10,7 @@ from pathlib import Path
 import yaml
 
 from cocotb_tests.harness.project import ROOT, ProjectError
+from scripts.markdown import table
 from scripts.measure.mutants.made.chosen import folder_of, of_file
 from scripts.measure.mutants.made.faults import Fault
 from scripts.measure.mutants.made.work import ALIVE, BROKEN, ENDLESS, KILLED, PROOF
@@ -27,6 +28,7 @@ It is killed if a proof or a test fails; the proofs of its block run first.
 The score is killed / (killed + survived).
 """
 QUICK = "**Only the first tests of each mutant were run here: some survivors would be killed.**\n"
+SCORES = ("made", "tried", "killed", "by a proof", "no end", "equivalent", "survived", "score")
 SO_FAR = "The mutants ran at different times; for some survivors only the first tests were run.\n"
 
 
@@ -103,23 +105,15 @@ def score(tried: Sequence[Tried], made: int) -> Score:
     return Score(made, count[KILLED], proved, count[ENDLESS], equivalent, left, count[BROKEN])
 
 
-def row(name: str, tried: Sequence[Tried], made: int) -> str:
+def row(name: str, tried: Sequence[Tried], made: int) -> tuple[object, ...]:
     """Return a row of the tables."""
     found = score(tried, made)
     percent = "–" if found.percent is None else f"{found.percent:.1f} %"
     killed = (found.killed, found.proved, found.endless)
-    figures = (made, len(tried), *killed, found.equivalent, found.alive, percent)
-    return f"| {name} | " + " | ".join(map(str, figures)) + " |"
+    return name, made, len(tried), *killed, found.equivalent, found.alive, percent
 
 
-def table(title: str, rows: Sequence[str]) -> Iterator[str]:
-    """Yield a table with its heads."""
-    yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | survived | score |"
-    yield "|---|---|---|---|---|---|---|---|---|"
-    yield from rows
-
-
-def folder_rows(tried: Sequence[Tried], files: Sequence[str]) -> Iterator[str]:
+def folder_rows(tried: Sequence[Tried], files: Sequence[str]) -> Iterator[tuple[object, ...]]:
     """Yield one row for each folder, and the total."""
     for folder in sorted({folder_of(file) for file in files}):
         made = sum(len(of_file(file)) for file in files if folder_of(file) == folder)
@@ -127,10 +121,8 @@ def folder_rows(tried: Sequence[Tried], files: Sequence[str]) -> Iterator[str]:
     yield row("**all**", tried, sum(len(of_file(file)) for file in files))
 
 
-def survivors(tried: Sequence[Tried]) -> Iterator[str]:
-    """Yield the table of mutants that survived or are endless."""
-    yield "| place | source | mutant | |"
-    yield "|---|---|---|---|"
+def survivors(tried: Sequence[Tried]) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of mutants that survived or are endless."""
     for one in tried:
         if one.verdict in (ALIVE, ENDLESS):
             text = one.source.replace("|", "\\|")
@@ -142,7 +134,7 @@ def survivors(tried: Sequence[Tried]) -> Iterator[str]:
                 if one.verdict == ENDLESS
                 else "**survived**"
             )
-            yield f"| {one.file} | `{text}` | {what} | {said} |"
+            yield one.file, f"`{text}`", what, said
 
 
 def page(tried: Sequence[Tried], files: Sequence[str], note: str = "") -> str:
@@ -159,8 +151,10 @@ def page(tried: Sequence[Tried], files: Sequence[str], note: str = "") -> str:
     parts = [
         HEAD,
         *([note] if note else []),
-        *table("folder of rtl/", list(folder_rows(tried, files))),
+        table(("folder of rtl/", *SCORES), folder_rows(tried, files)),
         "\n## Modules\n",
+        table(("file", *SCORES), modules),
+        "\n## Survivors\n",
+        table(("place", "source", "mutant", ""), survivors(tried)),
     ]
-    parts += [*table("file", modules), "\n## Survivors\n", *survivors(tried)]
     return "\n".join(parts) + "\n"
