@@ -117,7 +117,7 @@ const checks = {
       await turns(page, 0);
       const [boxes, wide, small, links] = await page.evaluate((selector) => {
         const all = [...document.querySelectorAll(selector)];
-        const texts = [...document.querySelectorAll(".landing :is(h1, h2, p, li, a, span, button, b)")];
+        const texts = [...document.querySelectorAll(".landing :is(h1, h2, p, li, a, span, button, b, code)")];
         return [
           all.map((one) => ({
             name: one.getAttribute("class") ?? one.tagName,
