@@ -1,5 +1,5 @@
-// Build the script and the style of the page: node build.mjs [FOLDER].
-// The script contains the worker as text, so that the page also works if it is opened from a file.
+// Build scripts and styles of the playground and of the landing page: node build.mjs [FOLDER].
+// Each script contains the worker as text, so that the pages also work if they are opened from a file.
 import { build } from "esbuild";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
@@ -17,7 +17,7 @@ const common = {
 const worker = await build({ ...common, entryPoints: ["src/worker.ts"], format: "iife", write: false });
 await build({
   ...common,
-  entryPoints: { playground: "src/main.tsx" },
+  entryPoints: { playground: "src/main.tsx", landing: "src/landing.tsx" },
   outdir: out,
   format: "iife",
   jsx: "automatic",

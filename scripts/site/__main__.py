@@ -13,7 +13,7 @@ from pathlib import Path
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative, run
 from scripts.site import wasm
-from scripts.site.hooks import PARTS, PDF, data_sheet
+from scripts.site.hooks import PARTS, PDF, START, data_sheet
 from scripts.site.pages import SITE, node, packages, playground
 from scripts.site.progress import say
 
@@ -74,6 +74,10 @@ title: Playground
 """
 
 
+TRIED = re.compile(r"^\*\*No board .*?(?=\n## )", re.M | re.S)
+"""Part of README.md that states what was tried on hardware; the landing page contains it."""
+
+
 def linked(page: Path) -> Iterator[Path]:
     """Yield the files of the checkout to which a page links."""
     for target in LINK.findall(page.read_text(encoding="utf-8")):
@@ -94,6 +98,11 @@ def stage() -> None:
     (PAGES / "playground.md").write_text(
         APP + "## Statements" + manual.split("## Statements")[1], encoding="utf-8"
     )
+    tried = TRIED.search((ROOT / START).read_text(encoding="utf-8"))
+    if not tried:
+        raise ProjectError(f"{START}: no paragraph '**No board …'; change TRIED in scripts/site/__main__.py")
+    landing = (SITE / "landing.md").read_text(encoding="utf-8")
+    (PAGES / "landing.md").write_text(landing.replace("<!-- tried -->", tried[0]), encoding="utf-8")
     shutil.copytree(playground(), PAGES / "playground", ignore=shutil.ignore_patterns("index.html"))
     shutil.copy(SITE / "site.css", PAGES)
     # The search in local files needs this script, which MkDocs Material would load from another host.

@@ -22,6 +22,8 @@ CONFIG = (
 )
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
+ADDRESSES = {"landing.md": "index.html", START: "overview.html"}
+"""Addresses of pages that differ from their names; MkDocs would use README.md as the first page."""
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
 
 
@@ -40,7 +42,7 @@ def button(source: str, part: str, run: str, words: str) -> str:
 def run_links(source: str, markdown: str) -> str:
     """Return a page in which links replace the comments of sessions.
 
-    Manuals and the first page get a link after the title.
+    Manuals and the overview get a link after the title.
     """
     if source == START:
         title, _, rest = markdown.partition("\n")
@@ -82,6 +84,14 @@ def on_post_template(output_content: str, template_name: str, **_: Any) -> str:
         '<script src="assets/javascripts/bundle', CONFIG + '<script src="assets/javascripts/bundle', 1
     )
     return local.replace("<head>", f"<head>{BASE}", 1)
+
+
+def on_files(files: Any, **_: Any) -> Any:
+    """Move the landing page to the root of the site; called by MkDocs. Links to README.md do not change."""
+    for source, to in ADDRESSES.items():
+        file = files.get_file_from_path(source)
+        file.name, file.dest_uri, file.url = to.removesuffix(".html"), to, to
+    return files
 
 
 def on_page_context(context: Any, page: Any, nav: Any, **_: Any) -> Any:

@@ -96,7 +96,7 @@ function grid(
   }
 }
 
-function trace(
+export function trace(
   paper: CanvasRenderingContext2D,
   row: Row,
   top: number,

@@ -1,11 +1,11 @@
 // Motor and machine: phases, shaft, carriage and switches.
 
 import { useState } from "preact/hooks";
+import { Motor } from "./motor";
 import { ask, frames, machineOn, outputs, part, places, positions, remember, store } from "./state";
 import { level } from "./store";
 
 const NAMES = ["start", "CCW limit", "slow CCW", "origin", "slow CW", "CW limit"];
-const TURN = 200; // full steps per turn
 
 /** Relative current of a winding, 0 to 1: from a phase, or from the reference of a chopper. */
 function lit(pin: string, on: number): number {
@@ -15,39 +15,15 @@ function lit(pin: string, on: number): number {
   return row.width > 1 ? Math.min(1, (2 * found) / row.mask) : Number(found === on);
 }
 
-function Motor({ axis }: { axis: number }) {
+function AxisMotor({ axis }: { axis: number }) {
   const data = part.value!;
-  const motor = data.motors[axis]!;
-  const position = positions.value[axis] ?? 0;
-  const angle = (position * 360) / TURN;
   const on = (data.style.phaseOn as number | undefined) ?? 1;
-  return (
-    <svg
-      viewBox="0 0 120 120"
-      class="pg-motor"
-      role="img"
-      aria-label={`motor ${axis + Number(data.style.first)} at ${position}`}
-    >
-      <circle cx="60" cy="60" r="55" class="pg-case" />
-      {motor.phases.map((pin, n) => {
-        const turn = (n / motor.phases.length) * 2 * Math.PI - Math.PI / 2;
-        const [x, y] = [60 + 42 * Math.cos(turn), 60 + 42 * Math.sin(turn)];
-        return (
-          <g class={lit(pin, on) > 0.5 ? "pg-phase pg-lit" : "pg-phase"}>
-            <circle cx={x} cy={y} r="10" />
-            <circle cx={x} cy={y} r="10" class="pg-glow" opacity={lit(pin, on)} />
-            <text x={x} y={y + 3.5}>
-              {/_ref$/.test(pin) ? "AB"[n] : `S${n + 1}`}
-            </text>
-          </g>
-        );
-      })}
-      <g transform={`rotate(${angle} 60 60)`} class="pg-shaft">
-        <circle cx="60" cy="60" r="24" />
-        <line x1="60" y1="60" x2="60" y2="38" />
-      </g>
-    </svg>
-  );
+  const phases = data.motors[axis]!.phases.map((pin, n) => ({
+    name: /_ref$/.test(pin) ? "AB"[n]! : `S${n + 1}`,
+    lit: lit(pin, on),
+  }));
+  const name = `motor ${axis + Number(data.style.first)}`;
+  return <Motor name={name} phases={phases} position={positions.value[axis] ?? 0} />;
 }
 
 function Rail({ axis }: { axis: number }) {
@@ -116,7 +92,7 @@ export function Machine() {
       <div class={data.motors.length > 2 ? "pg-axes pg-many" : "pg-axes"}>
         {data.motors.map((_, axis) => (
           <div class="pg-axis">
-            <Motor axis={axis} />
+            <AxisMotor axis={axis} />
             <Rail axis={axis} />
           </div>
         ))}

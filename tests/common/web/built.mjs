@@ -50,10 +50,105 @@ const position = (page) => page.textContent(".pg-position").then(Number);
 const part = (page) => page.inputValue(".pg-part");
 const link = (page, words) => page.evaluate((hash) => (location.hash = hash), new URLSearchParams(words).toString());
 const CONTRAST = ["index.html", "playground.html", "404.html", "docs/ppmc104/index.html", "docs/ppmc104/examples.html"];
-CONTRAST.push("docs/host.html", "docs/benchmarks.html", "api/1.html", "CHANGELOG.html");
+CONTRAST.push("overview.html", "docs/host.html", "docs/benchmarks.html", "api/1.html", "CHANGELOG.html");
+const FIRST_MOVE = 2000; // maximum time from opening the landing page to its first move in ms
+const LANDING_BUTTON = "#openppmc-landing button"; // Pause or Play
+const LANDING_BOXES = [
+  ".landing h1, .landing-hero > div:first-child > p, .landing .md-button, .pg-motor, .landing-bytes, .landing-plot span",
+  ".landing-plot canvas, .landing-caption > *, .landing-doors > div, .landing > h2",
+].join();
+const turned = (page) => page.getAttribute(".pg-shaft", "transform").then((text) => parseFloat(text.slice(7)));
+const turns = (page, from) =>
+  page
+    .waitForFunction((old) => {
+      const text = document.querySelector(".pg-shaft")?.getAttribute("transform");
+      return text && parseFloat(text.slice(7)) !== old && performance.now();
+    }, from)
+    .then((found) => found.jsonValue());
 const RUN = { v: "1", go: "1", speed: "0" };
 
 const checks = {
+  async "the landing page moves and leads to the playground"() {
+    let page;
+    const times = [];
+    for (const from of [base, fromFile]) {
+      page = await open(`${from}index.html`);
+      times.push(await turns(page, 0));
+      equal(await page.title(), "OpenPPMC", "title");
+      await page.click("text=Run it");
+      await rest(page);
+      equal(await position(page), 1000, from);
+      equal(page.wrong.join(), "", from);
+    }
+    // The better of two times, because other processes may delay one of them.
+    if (Math.min(...times) > FIRST_MOVE) throw new Error(`the motor moves after ${times} ms`);
+    return [page, `landing page: the motor moves after ${times.map(Math.round).join(" and ")} ms (http, file)`];
+  },
+  async "the picture of the landing page pauses"() {
+    const page = await open(`${base}index.html`, { reducedMotion: "reduce", viewport: { width: 390, height: 844 } });
+    const still = async (what) => {
+      await page.waitForTimeout(300); // the last frames arrive
+      const before = await turned(page);
+      await page.waitForTimeout(700);
+      equal(await turned(page), before, what);
+      return before;
+    };
+    equal(await still("reduced motion"), 0, "reduced motion");
+    await page.click(LANDING_BUTTON);
+    await turns(page, 0);
+    await page.click(LANDING_BUTTON);
+    const paused = await still("after Pause");
+    await page.click(LANDING_BUTTON);
+    await turns(page, paused);
+    await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
+    const away = await still("out of view");
+    await page.evaluate(() => scrollTo(0, 0));
+    await turns(page, away);
+    return [page];
+  },
+  async "the doors and the layout of the landing page"() {
+    let page;
+    for (const [width, height] of [
+      [1440, 900],
+      [768, 1024],
+      [390, 844],
+    ]) {
+      page = await open(`${base}index.html`, { viewport: { width, height } });
+      await turns(page, 0);
+      const [boxes, wide, small, links] = await page.evaluate((selector) => {
+        const all = [...document.querySelectorAll(selector)];
+        const texts = [...document.querySelectorAll(".landing :is(h1, h2, p, li, a, span, button, b, code)")];
+        return [
+          all.map((one) => ({
+            name: one.getAttribute("class") ?? one.tagName,
+            box: one.getBoundingClientRect().toJSON(),
+            around: all.flatMap((other, n) => (one.contains(other) ? [n] : [])),
+          })),
+          document.documentElement.scrollWidth,
+          texts.filter((one) => parseFloat(getComputedStyle(one).fontSize) < 16).map((one) => one.textContent),
+          [...document.querySelectorAll(".landing-doors a")].map((one) => one.href),
+        ];
+      }, LANDING_BOXES);
+      equal(wide, width, "width of the page");
+      equal(small.join(), "", `texts below 16 pixels, ${width} pixels`);
+      boxes.forEach(({ name, box: a, around }, n) =>
+        boxes.forEach(({ name: other, box: b, around: more }, m) => {
+          const over = Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1;
+          const under = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+          if (over && under && !around.includes(m) && !more.includes(n))
+            throw new Error(`${width} pixels: ${name} overlaps ${other}`);
+        }),
+      );
+      if (boxes.length < 18) throw new Error(`only ${boxes.length} boxes`);
+      for (const end of ["docs/ppmc104/replace.html", "docs/integration.html", "docs/host.html"])
+        equal(links.includes(base + end), true, end);
+      for (const href of links) equal((await page.request.get(href)).status(), 200, href);
+      if (!boxes.some(({ name, box }) => name === "pg-motor" && box.bottom <= height))
+        throw new Error(`${width} pixels: the motor is below the window`);
+      await page.screenshot({ path: path.join(shots, `landing-${width}.png`) });
+    }
+    return [page];
+  },
   async "the playground runs over http and from a file"() {
     let page;
     for (const from of [base, fromFile]) {

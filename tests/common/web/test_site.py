@@ -39,14 +39,14 @@ def test_every_example_can_be_run(part):
 
 
 def test_other_pages_stay_as_they_are():
-    """A page without sessions is not changed; a manual gets one link; the first page gets one link to a
+    """A page without sessions is not changed; a manual gets one link; the overview gets one link to a
     session.
     """
     assert run_links("docs/host.md", "# A\n\ntext") == "# A\n\ntext"
     manual = run_links("docs/bank/README.md", "# A\n\ntext")
     assert manual.startswith("# A\n") and manual.count("playground.html#v=1&part=bank") == 1
-    first = run_links("README.md", "# A\n\ntext")
-    assert first.count('href="playground.html#v=1&part=ppmc104&run=2&go=1"') == 1
+    overview = run_links("README.md", "# A\n\ntext")
+    assert overview.count('href="playground.html#v=1&part=ppmc104&run=2&go=1"') == 1
 
 
 def test_words():
