@@ -91,7 +91,7 @@ def test_flash_names_board_and_file(built: Path, tmp_path: Path) -> None:
     words = (tmp_path / "arguments").read_text().split()
     assert words[:3] == ["--board", "tangnano9k", "--write-flash"]
     assert words[3:] == ["build/boards/tangnano9k/tangnano9k.fs"]
-    assert "; for the board of Sipeed's examples" in " ".join(done.stdout.split())
+    assert "; for the board in Sipeed's examples" in " ".join(done.stdout.split())
 
 
 @pytest.mark.parametrize("module", ["scripts.fpga.bitstream", "scripts.fpga.flash"])

@@ -296,7 +296,7 @@ def test_a_class_method_gets_the_class_that_it_was_called_by() -> None:
     assert type(Lantern.large(60.0)) is Lantern and Lamp(1).large(60).watts == 60  # type: ignore[arg-type]
     with pytest.raises(OutOfRange, match="^watts 'much' is not a whole number$"):
         Lantern.large("much")  # type: ignore[arg-type]
-    assert "A function of the class through which it was" in pydoc.plain(pydoc.render_doc(Lantern.large))
+    assert "A class method, which receives the class" in pydoc.plain(pydoc.render_doc(Lantern.large))
     assert "open(spec: 'str | Port', baud: 'int'" in pydoc.plain(pydoc.render_doc(Ppmc104.open))
 
 

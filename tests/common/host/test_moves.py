@@ -367,7 +367,7 @@ def test_axes_of_a_bank_one_after_the_other() -> None:
 def test_a_queue_in_an_open_group() -> None:
     """A group holds the first move of a queue, so the queue cannot be executed there."""
     with opened("bank") as third, third._bank.group((3,)):
-        with pytest.raises(NotCalledError, match="its group holds it"):
+        with pytest.raises(NotCalledError, match="its group holds this motion"):
             list(third.moves([1, 2]))
         assert third.position == 0
 
