@@ -53,7 +53,7 @@ package ppmc_bank_pkg;
     logic       busy;
   } axis_status_t;
 
-  // State of the command unit, in addition to last_cmd_t.
+  // State of the command unit, except the last command and its parameters (last_cmd_t).
   typedef struct packed {
     logic [1:0] ack_seq;  // seq of the last accepted byte
     logic       error;
@@ -74,7 +74,7 @@ package ppmc_bank_pkg;
     logic [ppmc104_pkg::STEP_BITS-1:0] steps;  // acceleration pulses PA
   } ramp_t;
 
-  // Units of the chopper phases. They are written when the host sets them.
+  // Lengths of the chopper phases in units. They are written when the host sets them.
   typedef struct packed {
     logic [7:0] off;
     logic [7:0] on;
@@ -98,7 +98,7 @@ package ppmc_bank_pkg;
     logic        more_pulses;    // 1: at least one more pulse must be ordered
     logic        last_ordered;   // 1: the last pulse has been ordered
     logic        held;           // 1: the axis waits for GO
-    logic        pulse_low;      // 1: a pulse was ordered, but not its end
+    logic        pulse_low;      // 1: the start of a pulse was ordered, but its end was not
     logic        decel_forced;   // 1: deceleration was requested
     logic        decel_natural;  // 1: deceleration has begun because of the pulse count
     logic        flag_stop;      // 1: a command requested the deceleration

@@ -4,7 +4,7 @@
 // Timing: all outputs except the data multiplexer are registered. The block stores at most one write and
 //         one read, and executes one access at a time. If both wait, writes and reads alternate. The B
 //         response is valid 8 cycles after both AW and W were accepted, the R response 10 cycles after AR
-//         was accepted. For the bridge register, this time is 2 cycles. A response is later if another
+//         was accepted. For the bridge register, both times are 2 cycles. A response is later if another
 //         access is in progress.
 `default_nettype none
 `include "ppmc_assert.svh"

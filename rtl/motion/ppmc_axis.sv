@@ -22,7 +22,7 @@ module ppmc_axis
     parameter int unsigned CountBits = 24,
     parameter int unsigned RateBits = 8,
     parameter int unsigned StepBits = 14,
-    parameter int unsigned LevelBits = StepBits,  // bits of ramp_level; must hold PA + 1
+    parameter int unsigned LevelBits = StepBits,  // bits of ramp_level; must store acceleration pulses PA + 1
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up time in crystal cycles
     parameter int unsigned FastQuanta = 8,  // period of the fast internal base clock in quanta
     parameter int unsigned SlowQuanta = 32,  // period of the slow internal base clock in quanta
@@ -46,7 +46,7 @@ module ppmc_axis
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
     output logic [RateBits-1:0] lut_addr_o,  // rate r, which is the address of lut_data_i
-    input wire logic [StepBits-1:0] lut_data_i,  // threshold of r, two cycles later; PA at rate_fast_i
+    input wire logic [StepBits-1:0] lut_data_i,  // threshold of rate r, two cycles later; at rate_fast_i: PA
     // stops
     input wire logic halt_i,  // strobe: immediate stop command
     input wire logic decel_i,  // strobe: deceleration stop command

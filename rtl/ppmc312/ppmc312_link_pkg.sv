@@ -14,7 +14,7 @@ package ppmc312_link_pkg;
   import ppmc312_pkg::*;
   import ppmc312_stage_pkg::*;
 
-  // ---- front end to instructions: block from the host, in logical order ---------------------------
+  // ---- front end -> instructions: block from the host, in logical order ---------------------------
 
   typedef struct packed {
     logic                valid;  // level: a block is pending; 0 after it is processed
@@ -72,7 +72,7 @@ package ppmc312_link_pkg;
     logic [5:0] auxo_n;   // generalized output
   } outputs_t;
 
-  // ---- instructions to motion ---------------------------------------------------------------------
+  // ---- instructions -> motion ---------------------------------------------------------------------
 
   typedef struct packed {
     logic ccw;     // 1: CCW
@@ -139,7 +139,7 @@ package ppmc312_link_pkg;
     logic [1:0] read;  // strobe: the report has been read; may coincide with load
   } monitor_ack_t;
 
-  // ---- instructions to reports: class 2 -----------------------------------------------------------
+  // ---- instructions -> reports: class 2 -----------------------------------------------------------
 
   typedef struct packed {
     logic                  we;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_serial: serial interface to the host. Receives frames, and sends one reply to each valid frame.
 // Rules:  P006-UART-01..05, P006-FRM-03/04/07/10, P006-BAD-05/06.
-// Timing: e is the edge at which the last stop bit of a frame is sampled. frame_o.go is high in the cycle
-//         after e. de_o rises ceil(1 bit) after e. Bit edge n occurs ceil((2 + n) bits) after e. de_o falls
-//         ceil(82 bits) after e. The receiver is off from e + 1 until ceil(81.5 bits) after e. This is the
-//         middle of the last stop bit, when a host has received the complete reply.
+// Timing: e is the edge at which the last stop bit of a frame is sampled; ceil(n bits) is n bit times in
+//         cycles, rounded up. frame_o.go is high in the cycle after e. de_o rises ceil(1 bit) after e. Bit
+//         edge n of the reply occurs ceil((2 + n) bits) after e. de_o falls ceil(82 bits) after e. The
+//         receiver is off from e + 1 until ceil(81.5 bits) after e. This is the middle of the last stop bit
+//         of the reply, when a host has received the complete reply.
 // How:    a bit is one full turn of an accumulator with an exact modulus, so the bit edges do not drift.
 `include "ppmc_assert.svh"
 `default_nettype none

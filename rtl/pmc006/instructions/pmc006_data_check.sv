@@ -3,7 +3,7 @@
 //         motor. Also selects the register of the instruction.
 // Rules:  P006-CMD-51/57, P006-BAD-08/09/14/17; accepted data: docs/pmc006/README.md, 4 and 13.
 // Timing: access_o is read from a block RAM and valid one cycle after read_i. ok_o is registered: it
-//         belongs to cmd_i and the limits of the previous cycle.
+//         results from cmd_i and from the limits in the previous cycle.
 `default_nettype none
 
 module pmc006_data_check

@@ -107,7 +107,7 @@ package pmc006_calc_pkg;
     CondSpeed,     // speed run
     CondStop,      // speed run, and the stop request is active
     CondAnalog,
-    CondPlan,      // run that was started by plan_i, before t = 0
+    CondPlan,      // a motion is being planned (run started by plan_i)
     CondEnding,    // phase STOP or END
     CondRamp,      // phase RAMP, DEC or STOP
     CondLive,      // phase CRUISE or RAMP
@@ -117,7 +117,7 @@ package pmc006_calc_pkg;
     CondDec5       // nd = 5
   } cond_e;
 
-  // Bit 2 = 1: a ramp. Bit 2 = 0: the phase that follows the ramp with the same bits 1:0.
+  // Bit 2 = 1: a ramp. Bit 2 = 0: the phase that follows the ramp whose bits 1:0 are the same.
   typedef enum logic [2:0] {
     PhCruise = 3'b000,
     PhCreep  = 3'b001,
