@@ -8,7 +8,7 @@ package pmc006_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instruction codes; bit 7 = 0: code of a frame, bit 7 = 1: code only of the user program ----
+  // ---- instruction codes (comment: ASCII); bit 7 = 0: of a frame, bit 7 = 1: only of the user program -----
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -29,7 +29,7 @@ package pmc006_pkg;
   localparam logic [7:0] I_VSTOP = 8'h53;  // S
   localparam logic [7:0] I_STLEN = 8'h54;  // T
   localparam logic [7:0] I_ATT_READ = 8'h55;  // U
-  localparam logic [7:0] I_STORED = 8'h56;  // V, which the original does not have
+  localparam logic [7:0] I_STORED = 8'h56;  // V, which the old chip does not have
   localparam logic [7:0] I_PUT = 8'h57;  // W
   localparam logic [7:0] I_STPOS = 8'h58;  // X
   localparam logic [7:0] I_STCFG = 8'h59;  // Y

@@ -85,7 +85,7 @@ package ppmc312_link_pkg;
     logic start;  // strobe, only at standstill: start op along profile
     operation_t op;  // valid with start
     logic change;  // strobe: change the rate to profile.target
-    profile_t profile;  // stable from start to t0; target is stable until 2 cycles after change
+    profile_t profile;  // stable from start to t0 (start of the motion); target: until 2 cycles after change
     logic single_pulse;  // 1: one pulse at the start-up rate; stable like profile
     logic pos_halt;  // strobe: the position of an immediate stop is reached
     logic triggers_done;  // 1: all triggered instructions have been processed
@@ -116,7 +116,7 @@ package ppmc312_link_pkg;
   // ---- reports of the motor side ------------------------------------------------------------------
 
   typedef struct packed {
-    logic       valid;  // strobe
+    logic       valid;  // strobe: an alarm
     logic [1:0] code;   // 0: pin; 1 to 3: multiple occurrence (1: class 2, 2: class 3 or 4, 3: class 5)
   } alarm_event_t;
 
@@ -165,7 +165,7 @@ package ppmc312_link_pkg;
   // State of the two-entry queue of class 2.
   typedef struct packed {
     logic full;       // a response can be read
-    logic full_host;  // this response is for the host
+    logic full_host;  // the response that can be read is for the host
     logic pending;    // another, newer response waits
   } response_queue_t;
 

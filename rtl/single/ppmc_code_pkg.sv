@@ -42,9 +42,9 @@ package ppmc_code_pkg;
   localparam logic [2:0] SEL_REMAINING = 3'b011;
   localparam logic [2:0] SEL_AUX_IN = 3'b101;
 
-  // Bits of the initialisation code.
+  // Bits of the initialisation code; the letters are the names in the manual.
   typedef struct packed {
-    logic [1:0] prefix;    // 00
+    logic [1:0] prefix;    // always 00
     logic       chop;      // S, 1: chop at standstill
     logic       external;  // C, 1: base clock from the pin
     logic       positive;  // L, 1: high = energised
@@ -52,7 +52,7 @@ package ppmc_code_pkg;
     logic [1:0] motor;     // MM, type of motor
   } init_code_t;
 
-  // Bits of an operation code.
+  // Bits of an operation code; the letters are the names in the manual.
   typedef struct packed {
     logic       pout_only;  // P; the J105 STMC does not have it
     logic       prefix;

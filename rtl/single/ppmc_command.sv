@@ -3,9 +3,10 @@
 //         and outputs the actions.
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
-// Timing: take_o marks the C-event. act_o and the state of this block take effect at the edge that ends the
-//         cycle of take_o. decoded_i and param_error_i are combinational functions of the byte. They are
-//         registered here and used one cycle later. data_i and is_checked_i are used in the same cycle.
+// Timing: take_o marks the C-event, which is the acceptance of a byte. act_o and the state of this block take
+//         effect at the edge that ends the cycle of take_o. decoded_i and param_error_i are combinational
+//         functions of the byte. This block registers them and uses them one cycle later. data_i and
+//         is_checked_i are used in the same cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 

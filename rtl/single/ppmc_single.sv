@@ -63,7 +63,7 @@ module ppmc_single
   logic [7:0] code_late;
   logic [3:0] status;
   logic [23:0] answer, remaining;
-  action_t act_req;  // act_req: actions requested at the C-event; act_o: actions that take effect
+  action_t act_req;  // act_req: actions requested by the accepted byte; act_o: actions that take effect
 
   assign rx_byte_o.params_left = status[2:0];
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A station of the virtual line: the Verilated node, its time, and the decision whether it must be simulated.
-// The node.h of the part defines the plant at the pins of the node. This is a class Node with Node(arguments,
-// clk_hz), set_up(top), look(top) (pins to be observed), follow(top) (called after a change), named(byte),
-// inputs(top, levels), booted(top), words(top) and linger(clk_hz). linger() returns the time for which the
-// node may still act after a character.
+// A station of the virtual line: the Verilated node (RTL of the board), its time, and the decision whether
+// the node must be simulated. The node.h of the device defines the plant at the pins of the node as class
+// Node, which has Node(arguments, clk_hz), set_up(top), look(top) (pins to be observed), follow(top) (called
+// after a change), named(byte), inputs(top, levels), booted(top), words(top) and linger(clk_hz). linger()
+// returns the time for which the node may still act after a character.
 #pragma once
 
 #include <cstdint>

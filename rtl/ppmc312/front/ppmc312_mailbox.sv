@@ -15,7 +15,7 @@ module ppmc312_mailbox
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 #(
-    parameter int unsigned WaitCycles = 6  // T_WRQ in cycles
+    parameter int unsigned WaitCycles = 6  // T_WRQ (minimum time between data accesses) in cycles
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous

@@ -12,7 +12,7 @@ package ppmc312_serial_pkg;
 
   typedef struct packed {
     logic       is_known;
-    logic       local_read;   // codes 40, 4E, 4F: the station itself sends the reply
+    logic       local_read;   // codes 40h, 4Eh, 4Fh: the station itself sends the reply
     logic       has_inner;    // event registration: the block contains an embedded block
     logic [7:0] code;         // code of the same instruction on the parallel bus
     logic [3:0] size;         // bytes of the parallel block, from header to last parameter

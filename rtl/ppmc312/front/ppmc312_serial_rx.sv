@@ -15,28 +15,28 @@ module ppmc312_serial_rx
     // 1: checksum of the data characters, 0: of control code and data bytes
     parameter bit          CharsSum = 1'b0
 ) (
-    input wire logic clk_i,  // 1: checksum of the data characters, 0: of control code and data bytes
-    input wire logic rst_ni,  // reset, asynchronous
-    input wire logic [3:0] adr_i,  // station number
+    input  wire logic               clk_i,           // clock
+    input  wire logic               rst_ni,          // reset, asynchronous
+    input  wire logic         [3:0] adr_i,           // station number
     // characters
-    input wire logic [7:0] byte_i,  // received character; valid with valid_i
-    input wire logic valid_i,  // strobe: character received
-    input wire logic error_i,  // strobe: character without a stop bit
-    input wire logic busy_i,  // a reply is pending or being sent
+    input  wire logic         [7:0] byte_i,          // received character; valid with valid_i
+    input  wire logic               valid_i,         // strobe: character received
+    input  wire logic               error_i,         // strobe: character without a stop bit
+    input  wire logic               busy_i,          // a reply is pending or being sent
     // code table
-    output logic [7:0] code_o,  // received code
-    input wire serial_code_t info_i,  // meaning of code_o, two cycles later
+    output logic              [7:0] code_o,          // received code
+    input  wire serial_code_t       info_i,          // meaning of code_o, two cycles later
     // equivalent block of the parallel bus: first the data bytes, then header, length, code and flags
-    output logic we_o,  // strobe: a byte of the block
-    output logic generated_o,  // 1: header, length, code or flags, 0: a received byte
-    output logic [3:0] addr_o,  // position of the byte, 0 = header
-    output logic [7:0] data_o,  // received byte; valid with we_o and generated_o = 0
+    output logic                    we_o,            // strobe: a byte of the block
+    output logic                    generated_o,     // 1: header, length, code or flags, 0: a received byte
+    output logic              [3:0] addr_o,          // position of the byte, 0 = header
+    output logic              [7:0] data_o,          // received byte; valid with we_o and generated_o = 0
     // result
-    output logic poll_o,  // strobe: a poll
-    output logic run_o,  // strobe: an instruction with a correct checksum
-    output logic fault_o,  // strobe: wrong checksum or invalid character
-    output logic unknown_code_o,  // strobe: unknown code
-    output logic overrun_o  // strobe: a frame was received while busy_i = 1
+    output logic                    poll_o,          // strobe: a poll
+    output logic                    run_o,           // strobe: an instruction with a correct checksum
+    output logic                    fault_o,         // strobe: wrong checksum or invalid character
+    output logic                    unknown_code_o,  // strobe: unknown code
+    output logic                    overrun_o        // strobe: a frame was received while busy_i = 1
 );
 
   localparam int unsigned SilenceXtal = 320_000;  // 20 ms

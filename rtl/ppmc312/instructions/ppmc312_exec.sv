@@ -59,7 +59,7 @@ module ppmc312_exec
     StFirst,    // checks for a reset and for unread responses
     StSettle,
     StAct,
-    StWait,     // waits for the processing time of instructions 26 and 80; the check is held
+    StWait,     // waits for the processing time of instructions 26 and 80; keeps the result of the check
     StSetup,
     StProcTime,     // waits for the remaining processing time
     StCopy,

@@ -4,7 +4,8 @@
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (check 8), P312-STA-04.
 // Timing: result_o.done follows begin_i by 4 cycles for a single step, which needs no look-up. Otherwise
 //         the time of the planner is added. start_o or change_o is asserted together with result_o.done.
-//         Rate and number of pulses are held until t0, even if other instructions are executed before t0.
+//         Rate and number of pulses are held until t0, when the motion starts, even if other instructions are
+//         executed before t0.
 `default_nettype none
 
 module ppmc312_move

@@ -102,7 +102,7 @@ module ppmc312_stage_builder
   assign first = {first_dec_i, first_acc_i};
   assign begins_o = {side_q, !side_q} & {2{state_q == StBegin && hit}};
 
-  // ---- operation of a state: read h, read the operand, start --------------------------------------
+  // ---- operation of a state: read the summand, read the operand, start ----------------------------
 
   assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum,
                                   StProportion, StPulses};

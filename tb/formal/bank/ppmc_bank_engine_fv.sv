@@ -174,7 +174,7 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_gen_05_reset,
              !(resets && cycles_q > 5'd8) || (status_o == '0 && pin_cmd_o == '0 && position_o == '0))
 
-  // Words in the memories.
+  // Words of the watched axis in the memories.
   logic [$bits(state1_q)-1:0] state1_word;
   logic [$bits(state2_q)-1:0] state2_word;
   interval_t interval_word;
