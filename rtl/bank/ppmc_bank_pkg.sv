@@ -150,10 +150,10 @@ package ppmc_bank_pkg;
     logic       halt;       // 1: output no more pulses
     logic       pulse;      // 1: begin a pulse
     logic       pulse_end;  // 1: end the pulse
-    logic       set_pins;   // 1: set the other pins
+    logic       set_pins;   // 1: set dir, hold and s
     logic       arm;        // with set_pins: pulses may follow; with pulse: another pulse may follow
     logic       search;     // 1: the origin ends the motion
-    logic       ccw;        // level of dir; also selects the limit
+    logic       ccw;        // level of dir; selects the limit that ends the motion
     logic       hold;       // level of hold
     logic [5:1] s;          // levels of s
   } pin_cmd_t;

@@ -43,7 +43,7 @@ module ppmc_bank_plan
     input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the time since GO, in cycles
     input wire logic [TimeBits-1:0] after_low_i,  // end of low time to next pulse in cycles, minus Round
     output decision_t decision_o,  // decisions of the visit
-    output logic restart_time_o,  // 1: clear cycles_left before the addition
+    output logic restart_time_o,  // 1: clear cycles_left before add_cycles_o is added
     output logic [TimeBits-1:0] add_cycles_o  // cycles that are added to cycles_left
 );
 

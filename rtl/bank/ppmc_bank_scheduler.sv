@@ -41,7 +41,7 @@ module ppmc_bank_scheduler #(
   // Number of further cycles for which go_o remains high.
   logic [RoundBits-1:0] go_left_q;
   // Number of further cycles for which stop_o remains high. In total, stop_o is high for one round + 1 cycle,
-  // because the operation that started last is armed only at the end of this time.
+  // because an operation that starts just before STOP is armed only at the end of this time.
   logic [RoundBits:0] stop_left_q;
   logic go_pending_q;  // GO was written again while go_o = 1
 

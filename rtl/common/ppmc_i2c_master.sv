@@ -22,7 +22,7 @@ module ppmc_i2c_master
     output logic                tick_o,    // strobe: a tick, four per bit
     input  wire i2c_cmd_e       cmd_i,     // command
     input  wire logic     [7:0] byte_i,    // byte to send; 8'hff to receive
-    input  wire logic           ack_i,     // ninth bit; 1: the other device may drive it
+    input  wire logic           ack_i,     // ninth bit; 0: drive SDA low, 1: release SDA
     output logic                first_o,   // strobe: byte_i and ack_i are loaded at the next edge
     output logic                done_o,    // strobe: the command is complete
     output logic                fail_o,    // strobe: SCL or SDA is stuck; both are released

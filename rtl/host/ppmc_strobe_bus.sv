@@ -34,7 +34,7 @@ module ppmc_strobe_bus (
     input  wire logic [7:0] data_i,        // data byte for the host
     input  wire logic       data_valid_i,  // 1: data_i has not been read yet
     input  wire logic       data_new_i,    // 1: data_i changes at the next edge
-    output logic            rd_busy_o,     // 1: data_i is being read; the status must omit this byte
+    output logic            rd_busy_o,     // 1: data_i is being read; the status must not report data_i
     output logic            rd_done_o      // strobe: data_i has been read
 );
 

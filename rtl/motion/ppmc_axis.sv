@@ -219,8 +219,8 @@ module ppmc_axis
   //   pulse is output after this time. If low_o = 1 at an edge, the pulse is output at the next edge
   //   instead. This can occur only after a pulse of rate 0 whose period is not short.
   // - Edge number floor((rate + 1) / 2) marks the middle of the interval (u_rate: half_o). It cuts low_o,
-  //   unless the pulse is a full pulse. At rate 0, the falling edge cuts low_o if the period before the
-  //   pulse was short (u_shaper, P104-TIM-05).
+  //   unless the pulse is a full pulse, which is never cut. At rate 0, the falling edge cuts low_o if the
+  //   period before the pulse was short (u_shaper, P104-TIM-05).
   // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. This rate may
   // still rise for some cycles (rising = 1), but only from the second deceleration step on. During these
   // cycles, neither event occurs. The middle is marked afterwards, and the next pulse is not yet possible

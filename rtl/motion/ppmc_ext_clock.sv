@@ -30,7 +30,7 @@ module ppmc_ext_clock #(
 
   ppmc_sync #(
       .Width   (1),
-      .ResetVal(1'b1)  // a pin that idles high then produces no edge
+      .ResetVal(1'b1)  // so a pin that idles high produces no edge after reset
   ) u_sync (
       .clk_i,
       .rst_ni,

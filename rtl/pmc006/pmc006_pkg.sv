@@ -135,7 +135,7 @@ package pmc006_pkg;
 
   // Register access of an instruction.
   typedef struct packed {
-    logic      write;   // 1: write the register, 0: read it for the reply
+    logic      write;   // 1: write the register, 0: read the register for the reply
     register_e reg_id;
   } reg_access_t;
 

@@ -24,7 +24,7 @@ module ppmc2104_command
     // state of the axes
     input wire axis_summary_t [AXES:1] state_i,  // states of both axes
     input wire pin_levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
-    input wire logic [AXES:1] building_i,  // 1: the ramp table is being built; codes that need it wait
+    input wire logic [AXES:1] building_i,  // 1: the ramp table is being built; codes that need the table wait
     // rate limits (ppmc2104_speed)
     input wire cmd_error_e speed_i,  // rate-limit error of code_o with params_o
     // result
@@ -49,7 +49,7 @@ module ppmc2104_command
   assign code_o = command_i ? byte_i : code_q;
   assign collecting_o = {collecting && code_q[5], collecting && !code_q[5]};
 
-  // ---- values of a last data byte -----------------------------------------------------------------
+  // ---- check of the values when the last data byte arrives ----------------------------------------
 
   cmd_error_e value;
   logic external, operation;

@@ -195,7 +195,8 @@ module ppmc2104_proc_time
     assign poll_o = poll_q == PollBits'(PollCycles - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      // The count begins at the first rising edge without reset. rst_ni rises one cycle later, hence the 1.
+      // The count begins at the first rising edge without reset. rst_ni rises one cycle
+      // later, so the count has already reached 1.
       if (!rst_ni) poll_q <= PollBits'(1);
       else if (begins || window_q || poll_o) poll_q <= '0;
       else poll_q <= poll_q + 1'b1;

@@ -11,7 +11,7 @@ package ppmc_code_pkg;
 
   // Error numbers in status bits 6:4 (P104-ERR-00).
   typedef enum logic [2:0] {
-    ErrUndefined  = 3'd0,  // also for a stop command without a motion
+    ErrUndefined  = 3'd0,  // undefined code, or stop command without a motion
     ErrBusy       = 3'd1,
     ErrNotReady   = 3'd2,  // operation before an initialisation
     ErrData       = 3'd3,  // data byte that was not requested

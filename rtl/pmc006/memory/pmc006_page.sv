@@ -29,7 +29,7 @@ module pmc006_page
 );
 
   typedef struct packed {
-    logic [15:0] pair;    // pair at this offset
+    logic [15:0] pair;    // pair of bytes (one register) at this offset
     logic [7:0]  single;  // byte at this offset, if not part of a pair
   } page_field_t;
 

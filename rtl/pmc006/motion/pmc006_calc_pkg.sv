@@ -31,7 +31,7 @@ package pmc006_calc_pkg;
   typedef enum logic [3:0] {
     OperandPlain,
     OperandDec,    // RWay uses nd instead of na
-    OperandLow,    // result in lo; then hi = 0
+    OperandLow,    // the result is stored in lo, and hi = 0
     OperandLowDec
   } operand_mode_e;
 

@@ -19,7 +19,7 @@ module ppmc312_exec
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: serial mode, in which no response waits to be read
-    input wire logic boot_i,  // 1: a reset instruction caused this reset, which must be reported
+    input wire logic boot_i,  // 1: a reset instruction caused the last reset; report this
     output logic reset_o,  // strobe: reset the device
     // sources of instructions
     input wire host_block_t host_block_i,  // block from the host

@@ -127,7 +127,7 @@ package ppmc312_instr_pkg;
     logic                  failed;    // with done: the set-up has failed
     logic [7:0]            error;     // with failed: error number of response F0
     curve_progress_t       progress;  // with done
-    logic [BLOCK_BITS-1:0] addr;      // byte of the block, two cycles before it is used
+    logic [BLOCK_BITS-1:0] addr;      // number of the block byte that is used two cycles later
   } setup_status_t;
 
   // ---- moves and rate changes ---------------------------------------------------------------------

@@ -27,7 +27,7 @@ module ppmc312_stage_plan
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
     output logic busy_o,  // from the cycle after start_i until the results are valid
     // table
-    output logic both_o,  // 1: the other read port of the table is also needed
+    output logic both_o,  // 1: the read port of the motion is needed, too
     output logic [6:0] addr_o,  // stage to be read
     input wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
     input wire logic [23:0] table_acc_i,  // acceleration pulses of this stage, two cycles later
