@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_interval_rom: returns the time from the end of the low time of a pulse until the next pulse. The
-//         ROM has one word for each combination of base clock, extra time and rate. It replaces a multiplier.
+//         ROM has one word for each combination of base clock, extra time and rate, so that no multiplier is
+//         needed.
 // Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (internal base clock), BANK-GEN-02.
 // Timing: after_low_o is valid two cycles after interval_i.
 `default_nettype none

@@ -25,14 +25,14 @@ package ppmc_bank_pkg;
   localparam logic [7:0] INFO_MARK = 8'h42;
   localparam logic [7:0] INFO_VERSION = 8'h01;
 
-  // Byte in the input buffer. It is new while its seq differs from the seq of the last accepted byte.
+  // Byte in the input buffer. It is new while its number seq differs from the seq of the last accepted byte.
   typedef struct packed {
     logic [1:0] seq;
     logic       is_command;  // 1: command, 0: parameter
     logic [7:0] data;
   } in_buf_t;
 
-  // Progress of the host in reading a response. seq is the seq of this response.
+  // Progress of the host in reading a response. seq identifies the response.
   typedef struct packed {
     logic [1:0] seq;
     logic [1:0] bytes_read;

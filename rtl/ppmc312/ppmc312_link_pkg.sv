@@ -147,7 +147,7 @@ package ppmc312_link_pkg;
     logic [7:0]            data;  // byte at addr
   } response_write_t;
 
-  // Result of a triggered instruction. Each comment is the code in the reply to a poll.
+  // Result of a triggered instruction. Each comment is the hexadecimal code in the reply to a poll.
   typedef enum logic [1:0] {
     DoneOverride = 2'b00,  // 28
     DoneEvent    = 2'b01,  // 29

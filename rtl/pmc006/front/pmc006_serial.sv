@@ -37,12 +37,12 @@ module pmc006_serial
   localparam logic [Width-1:0] Step = Width'(BitUnits);
   localparam logic [Width-1:0] Wrap = Width'(BitUnits + WrapOffset);
   localparam logic [Width-1:0] WrapHalf = Width'(BitUnits + WrapOffset + Modulus / 64'd2);
-  // Initial phases for the cycle of valid, which is two cycles after the sample. With PhaseZero, a bit ends
-  // one bit time after the sample. With PhaseHalf, it ends half a bit time after the sample.
+  // Initial phases. They are loaded in the cycle of valid, two cycles after the stop bit was sampled. With
+  // PhaseZero, a bit ends one bit time after this sample. With PhaseHalf, it ends half a bit time after it.
   localparam logic [Width-1:0] PhaseZero = Width'(WrapOffset + 64'd2 * BitUnits);
   localparam logic [Width-1:0] PhaseHalf = Width'(WrapOffset + 64'd2 * BitUnits + Modulus / 64'd2);
-  // 192 bits until the start bit of the next byte, and 9.5 bits from there to the middle of the stop bit of
-  // that byte; rounded up.
+  // Silence after which the next byte begins a new frame: 192 bits until the start bit of this byte, plus 9.5
+  // bits from there to the middle of its stop bit; rounded up.
   localparam int unsigned SilenceBits = 202;
 
   logic [7:0] char, next_byte, sum_q, bits_q;

@@ -141,7 +141,7 @@ module pmc006_data_check
     always_ok = 1'b0;
     unique case (cmd_i.op)
       I_STEP: other_ok = !data[31] && data[30:0] != '0;
-      // At most one bit of the byte is set, and bit 0 is not set.
+      // Accepted: at most one bit of the byte is set, and bit 0 is not set.
       I_MSTEP: if (data[0] || (data[7:0] & (data[7:0] - 1'b1)) != '0) other_ok = 1'b0;
       I_ADDR: always_ok = cmd_i.source == FromBoot && data[15:0] == 16'h00ff;
       I_VMAX, P_RESET_EN, P_PAUSE_EN: if (cmd_i.option > 4'd1) other_ok = 1'b0;

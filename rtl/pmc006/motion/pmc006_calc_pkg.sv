@@ -53,7 +53,7 @@ package pmc006_calc_pkg;
     OutDec     // nd = nd + 1
   } output_sel_e;
 
-  // Bits 6:5 = 00: word of pmc006_calc_words; 01: table of pmc006_calc_words; 10: register.
+  // Operands. Bits 6:5 = 00: word of pmc006_calc_words; 01: table of pmc006_calc_words; 10: register.
   typedef enum logic [6:0] {
     // words that the program writes
     MLt     = 7'h00,  // last target speed

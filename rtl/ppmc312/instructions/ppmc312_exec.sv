@@ -3,9 +3,9 @@
 //         check, execution, response.
 // Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06;
 //         docs/ppmc312/README.md, Instruction blocks.
-// Timing: execute_o follows host_block_i.valid by 24 cycles. The response is complete 5 + bytes cycles
-//         after execute_o. Set-ups, starts and rate changes extend this time. blk_done_o is asserted when
-//         the response is stored.
+// Timing: execute_o follows host_block_i.valid by 24 cycles. The response is complete 5 cycles plus
+//         one cycle per byte after execute_o. Set-ups, starts and rate changes extend this time. blk_done_o
+//         is asserted when the response is stored.
 // Note:   execute_o commands the other blocks to execute block_o.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -166,7 +166,7 @@ module ppmc312_exec
   assign evt_n = inner ? flags[0] : flags[1];
   assign evt_count = queue_status_i.event_count[evt_n];
   assign empty = evt_count == '0;
-  // The event pin is already used by the other kind of trigger (command FIFO or event buffer).
+  // used = 1: the other kind of trigger (command FIFO or event buffer) already uses the event pin.
   assign used = inner ? queue_status_i.fifo_uses_event[evt_n] : flags[0] && !empty;
   assign full = inner ? evt_count == 3'd4 : queue_status_i.fifo_count == 4'd8;
   assign registers = act && check == CheckOk && (inner ? !flags[1] : ov) && !used && !full;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fetch: reads an instruction into block_o, or copies it into the instruction queue.
 // Rules:  P312-GEN-04, P312-CMD-00 and P312-CMD-82 (short forms), P312-OVR-01, P312-CMD-49.
-// Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length.
+// Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length of the instruction.
 // Assumes: data_i is valid two cycles after addr_o.
 `default_nettype none
 
