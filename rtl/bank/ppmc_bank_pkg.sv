@@ -82,7 +82,7 @@ package ppmc_bank_pkg;
 
   // Timing of the running interval.
   typedef struct packed {
-    logic       slow_base;   // base clock; 1: 125 kHz
+    logic       slow_base;   // base clock, 1: 125 kHz, 0: 500 kHz
     logic       extra_time;  // 1: extra time of 7.5 us
     logic       decel;       // 1: the deceleration has begun
     // Rate of the running interval. During acceleration, after the end of the low time, this field is the
@@ -123,10 +123,10 @@ package ppmc_bank_pkg;
     logic        chop;             // 1: chop at standstill
     logic        phases_on;        // chopper, 1: the phases are on
     logic        chop_programmed;  // 1: the host has set the times of the chopper
-    logic [1:0]  motor;            // motor_e
+    logic [1:0]  motor;            // type of motor (motor_e)
     logic        half;             // 1: half step
     logic        positive;         // 0: s is inverted
-    logic        two_phases;       // see ppmc_motion_pkg
+    logic        two_phases;       // 1: two adjacent phases are on (ppmc_motion_pkg)
     logic [5:1]  pattern;          // phases, 1: on
     logic        finish_unread;    // 1: the host has not read the finish status
     stop_cause_t cause;            // cause of the end of the last motion

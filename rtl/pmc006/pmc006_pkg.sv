@@ -167,8 +167,8 @@ package pmc006_pkg;
   // Values from the motion for the drive.
   typedef struct packed {
     logic [7:0]  increment;     // angle of a step, 512 per electrical turn
-    logic [10:0] current_comp;  // B of P006-EXC-22
-    logic [6:0]  lead_angle;    // W of P006-EXC-23
+    logic [10:0] current_comp;  // current compensation B (P006-EXC-22)
+    logic [6:0]  lead_angle;    // lead angle W (P006-EXC-23)
   } drive_cmd_t;
 
   // Sample of an A/D converter.
@@ -185,7 +185,7 @@ package pmc006_pkg;
   // Settings used by motion and drive.
   typedef struct packed {
     logic [7:0]  mstep;     // 0 (full step), 2, 4, 8, .. 128
-    logic [11:0] cur;       // mA, 400 .. 4000
+    logic [11:0] cur;       // current in mA, 400 .. 4000
     logic [2:0]  acc;       // acceleration coefficient, 0 .. 5
     logic [2:0]  dec;       // deceleration coefficient, 0 .. 5
     logic        autodec;   // 1: reduce the current at standstill

@@ -84,11 +84,11 @@ package ppmc2104_pkg;
 
   // Bits of an operation code; the letters are the names in the manual.
   typedef struct packed {
-    logic       pout_only;  // P
+    logic       pout_only;  // P, 1: POUT mode
     logic       prefix;     // always 1
-    logic       second;     // A
+    logic       second;     // A, 1: axis 2
     logic       silent;     // I, 1: no interrupt at the end
-    logic       ccw;        // D
+    logic       ccw;        // D, 1: CCW
     logic [2:0] op;
   } op_code_t;
 

@@ -83,7 +83,7 @@ package ppmc312_link_pkg;
 
   typedef struct packed {
     logic start;  // strobe, only at standstill: start op along profile
-    operation_t op;  // valid with start
+    operation_t op;  // operation; valid with start
     logic change;  // strobe: change the rate to profile.target
     profile_t profile;  // stable from start to t0 (start of the motion); target: until 2 cycles after change
     logic single_pulse;  // 1: one pulse at the start-up rate; stable like profile
@@ -121,7 +121,7 @@ package ppmc312_link_pkg;
   } alarm_event_t;
 
   typedef struct packed {
-    alarm_event_t alarm;  // class 1
+    alarm_event_t alarm;  // class 1: alarm
     logic unlock;  // class 3, strobe: interlock control ends
     logic hold_end;  // class 4, strobe: RUN releases a start that it held
     logic stop;  // class 5, strobe: a motion has ended
@@ -159,7 +159,7 @@ package ppmc312_link_pkg;
     logic                valid;           // strobe: a response is complete
     logic                host;            // the response is for the host
     trigger_result_e     trigger_result;  // valid if host = 0: result of the triggered instruction
-    logic [BLOCK_BITS:0] size;            // bytes, 3 .. 32
+    logic [BLOCK_BITS:0] size;            // bytes of the response, 3 .. 32
   } response_done_t;
 
   // State of the two-entry queue of class 2.

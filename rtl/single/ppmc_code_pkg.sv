@@ -54,11 +54,11 @@ package ppmc_code_pkg;
 
   // Bits of an operation code; the letters are the names in the manual.
   typedef struct packed {
-    logic       pout_only;  // P; the J105 STMC does not have it
+    logic       pout_only;  // P, 1: POUT mode; not in the J105 STMC
     logic       prefix;
     logic       ignored;
     logic       silent;     // I, 1: no interrupt at the end
-    logic       ccw;        // D
+    logic       ccw;        // D, 1: CCW
     logic [2:0] op;
   } op_code_t;
 

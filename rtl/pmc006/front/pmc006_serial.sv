@@ -20,7 +20,7 @@ module pmc006_serial
     input  wire logic        rst_ni,
     input  wire logic        ready_i,  // 0: switch the receiver off
     input  wire logic [ 7:0] addr_i,   // address of the device
-    input  wire logic        rxd_i,    // raw pin
+    input  wire logic        rxd_i,    // from the host, raw pin
     output logic             txd_o,    // to the host, idle high
     output logic             de_o,     // 1: the line driver is on
     output frame_t           frame_o,  // valid frame for this device

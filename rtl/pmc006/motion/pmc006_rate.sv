@@ -15,7 +15,7 @@ module pmc006_rate (
     input  wire logic [30:0] count_i,         // number of steps, sampled in the cycle before busy_i rises
     input  wire logic [11:0] vstart_i,        // VSTART, first value of V; sampled with count_i
     input  wire logic        endless_i,       // 1: speed run, which left_o does not end
-    input  wire logic        busy_i,          // the motion is in progress
+    input  wire logic        busy_i,          // 1: the motion is in progress
     input  wire logic        halt_i,          // 1: stop the motion immediately
     input  wire logic        end_run_i,       // 1: end the motion at the next update tick
     input  wire logic        load_v_i,        // strobe: load Vn into V

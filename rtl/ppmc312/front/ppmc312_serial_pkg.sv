@@ -29,7 +29,7 @@ package ppmc312_serial_pkg;
 
   typedef struct packed {
     logic [3:0]                        report_class;    // class of the first pending report; 0: no report
-    ppmc312_link_pkg::trigger_result_e trigger_result;  // class 2
+    ppmc312_link_pkg::trigger_result_e trigger_result;  // class 2: result of an instruction
     ppmc312_pkg::end_cause_t           cause;           // class 5: cause of the end; determines the END code
     logic                              discarded;       // class 6: a change was discarded
     logic [7:0]                        data;            // class 6: changed bits of the input

@@ -44,8 +44,8 @@ module ppmc312_exec
     output logic move_o,  // strobe: begin a start or a rate change
     input wire move_status_t move_status_i,  // result of move_o
     // responses
-    output response_t response_o,  // stable until response_done_o
-    output response_cmd_t response_cmd_o,  // write commands
+    output response_t response_o,  // response; stable until response_done_o
+    output response_cmd_t response_cmd_o,  // commands to the response writers
     input wire response_status_t response_status_i,  // status of the response writer
     output logic hold_o,  // 1: a response follows soon
     output logic response_done_o,  // strobe: the response is complete

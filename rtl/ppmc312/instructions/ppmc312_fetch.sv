@@ -23,7 +23,7 @@ module ppmc312_fetch
     output logic         [BLOCK_BITS-1:0] addr_o,       // byte number, 0 = header
     input  wire logic    [           7:0] data_i,       // byte at addr_o, two cycles later
     // destination of the copy
-    output logic                          copy_we_o,    // strobe
+    output logic                          copy_we_o,    // strobe: write a byte of the copy
     output logic         [           3:0] copy_addr_o,  // byte number, 0 = header; valid with copy_we_o
     output logic         [           7:0] copy_data_o   // byte; valid with copy_we_o
 );

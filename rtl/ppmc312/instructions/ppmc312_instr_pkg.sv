@@ -126,14 +126,14 @@ package ppmc312_instr_pkg;
     logic                  done;      // strobe: build or data has ended
     logic                  failed;    // with done: the set-up has failed
     logic [7:0]            error;     // with failed: error number of response F0
-    curve_progress_t       progress;  // with done
+    curve_progress_t       progress;  // with done: progress of the free curve
     logic [BLOCK_BITS-1:0] addr;      // number of the block byte that is used two cycles later
   } setup_status_t;
 
   // ---- moves and rate changes ---------------------------------------------------------------------
 
   typedef struct packed {
-    logic       done;         // strobe: finished
+    logic       done;         // strobe: the start or rate change is finished
     logic       at_limit;     // with done: a limit prevents the start
     logic       rejected;     // with done: the current status does not allow the start
     logic [7:0] status_byte;  // with done: status byte of the response

@@ -24,12 +24,12 @@ module ppmc312_move
     input wire logic [15:0] limit_rate_i,  // rate limit HSL in base clocks
     input wire logic gate_i,  // 0: the start gate holds a start
     input wire logic elapsed_i,  // the processing time has passed
-    output move_status_t result_o,  // result
+    output move_status_t result_o,  // result of the move
     // motion
     output logic start_o,  // strobe: start op_o along profile_o
     output logic change_o,  // strobe: change the rate to profile_o.target
-    output operation_t op_o,  // valid with start_o
-    output profile_t profile_o,  // stable until t0
+    output operation_t op_o,  // operation; valid with start_o
+    output profile_t profile_o,  // plan of the operation; stable until t0
     output logic single_pulse_o,  // with start_o; 1: use the start-up rate instead of profile_o.target
     // planner
     output profile_req_t profile_req_o,  // command to the planner

@@ -35,7 +35,7 @@ module ppmc312_position
     output logic counted_o,  // strobe: a pulse has been counted in pos_o
     // interlock
     output logic lock_o,  // 1: interlock control is active
-    output logic unlock_o,  // strobe: report E1
+    output logic unlock_o,  // strobe: report E1, interlock control ends
     // monitors, [0]: in-position, [1]: encode
     output logic [1:0] window_on_o,  // monitor is enabled
     output logic [1:0] outside_o,  // monitor is enabled, and the position is outside

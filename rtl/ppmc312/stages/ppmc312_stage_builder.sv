@@ -20,7 +20,7 @@ module ppmc312_stage_builder
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic start_i,  // strobe
+    input wire logic start_i,  // strobe: start to build the table
     input wire curve_t curve_i,  // ramp; stable while busy_o = 1
     output logic busy_o,  // from the cycle after start_i until the table is written
     output logic too_few_pulses_o,  // a stage has at most 1 pulse; valid until the next start

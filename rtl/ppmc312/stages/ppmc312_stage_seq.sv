@@ -7,9 +7,9 @@
 //         acts at a boundary if change_i occurs at least 5 cycles (constant rate) or 9 cycles (change along
 //         the table) before the boundary.
 //         If the rate of a stage becomes a constant rate at a boundary, a search for t(rate) begins. t(rate)
-//         is the last stage that is not faster than this rate. The search takes 129 cycles. A ramp then begins
-//         at the earliest 136 cycles after this boundary, a deceleration to the end at the earliest 132 cycles
-//         after this boundary. Such a deceleration is possible only where the rates of the table do not fall.
+//         is the last stage that is not faster than this rate. The search takes 129 cycles. A ramp begins at
+//         the earliest 136 cycles after this boundary, a deceleration to the end 132 cycles after it. Such a
+//         deceleration is possible only where the rates of the table do not fall.
 // How:    the running interval is a stage (up or down) or a constant rate. Counts and stages are compared
 //         in the first cycle of an interval. The decision follows; it is delayed by two cycles, in which
 //         the table reads the stage that the decision needs.
