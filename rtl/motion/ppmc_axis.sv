@@ -51,7 +51,7 @@ module ppmc_axis
     input wire logic halt_i,  // strobe: immediate stop command
     input wire logic decel_i,  // strobe: deceleration stop command
     input wire switches_t switches_i,  // switches, synchronised
-    input wire logic slow_i,  // 1: act on a slow-down limit; slow_seen_o, possibly delayed
+    input wire logic slow_i,  // slow_seen_o or a delayed copy; 1: act on a slow-down limit
     output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 must wait

@@ -30,7 +30,7 @@ module ppmc_command
     // state of the core
     input wire logic busy_i,  // 1: a motion is in progress
     input wire logic ramp_i,  // 1: the running operation has a ramp
-    input wire logic decelerating_i,  // 1: DEC, or no pulse is left to output
+    input wire logic decelerating_i,  // 1: state DEC, or no pulse is left to output
     input wire logic initialised_i,  // 1: operations may start
     // result
     output logic [3:0] status_o,  // status bits ERR and NUM

@@ -10,7 +10,7 @@
 module ppmc_finish_status
   import ppmc_code_pkg::*;
 #(
-    parameter bit UnreadFlag = 1'b1  // 1: bit 7 of the status is 1 until it is read; 0: bit 7 is always 1
+    parameter bit UnreadFlag = 1'b1  // 1: bit 7 of the status is 1 until the status is read; 0: always 1
 ) (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,

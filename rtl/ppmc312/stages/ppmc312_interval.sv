@@ -24,7 +24,7 @@ module ppmc312_interval #(
     input  wire logic                arm_i,    // strobe: start of a motion
     input  wire logic                first_i,  // 1: the next pulse is pulse 1
     input  wire logic                fire_i,   // strobe: begin a pulse; only while ready_o = 1
-    input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next pulse, at least 2
+    input  wire logic [RateBits-1:0] rate_i,   // with fire_i: base clocks until the next pulse, at least 2
     output logic                     ready_o,  // 1: a pulse may begin
     output logic                     high_o    // 1: a pulse is active
 );

@@ -38,7 +38,7 @@ module ppmc312_stage_seq
     input wire logic slow_i,  // 1: decelerate to the end
     // decision
     output logic next_end_o,  // no further pulse: the motion ends
-    output logic next_low_o,  // with next_end_o; cause: there is nothing to decelerate
+    output logic next_low_o,  // with next_end_o; cause: no deceleration is necessary
     output logic next_count_o,  // with next_end_o; cause: the last pulse has been output
     output logic next_slow_o,  // slow_i has been evaluated
     output logic next_final_decel_o,  // the deceleration to the end begins
