@@ -2,9 +2,9 @@
 // ppmc_bank_axis_port: connects the four address lines of the UART bridge to the 16 registers of one axis
 //         of a bank. Register 0x3 selects the axis.
 // Rules:  register map: docs/bank/carrier.md; strobes are forwarded as BANK-WIN-04 requires.
-// Timing: combinational, except the selected axis. axis_o changes only during a write strobe at register 0x3.
-//         It is stable again at least G - 1 cycles before the next strobe, where G is the gap of
-//         ppmc_strobe_master. The bank receives no strobe for register 0x3 or for axes 64 .. 255.
+// Timing: all outputs except axis_o are combinational. axis_o changes only during a write strobe at register
+//         0x3. It is stable again at least G - 1 cycles before the next strobe, where G is GapCycles of
+//         ppmc_strobe_master. The bank receives no strobe for register 0x3 and for axes 64 .. 255.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_carrier: all logic of a board with a bank except clock generator and pads. Contains the bank
-//         and its host interface. This is either the UART bridge, which accesses the registers of one
-//         selected axis, or an SPI slave, which accesses the complete window.
+//         and its host interface. The host interface is either the UART bridge, which accesses the registers
+//         of one selected axis, or an SPI slave, which accesses the complete window.
 // Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
-//         (from 0) uses bit a of each port. In s, it uses bits 5 * a (S1) to 5 * a + 4 (S5).
-// Timing: as ppmc_bank. The inputs need no external synchroniser.
+//         (0 .. AXES - 1) uses bit a of each port of switches and motors. In s, it uses bits
+//         5 * a (S1) to 5 * a + 4 (S5).
+// Timing: same as ppmc_bank. The inputs need no external synchroniser.
 `default_nettype none
 
 module ppmc_bank_carrier #(
@@ -125,7 +126,7 @@ module ppmc_bank_carrier #(
     assign unused   = uart_rxd ^ part_oe;
   end else begin : g_uart
     localparam int unsigned AxisBits = $clog2(AXES);
-    localparam int unsigned Watch = 32 + 14 * AXES;  // recorded levels; the first pin is bit 0
+    localparam int unsigned Watch = 32 + 14 * AXES;  // number of recorded levels; the first pin is bit 0
 
     logic host_cs_n;
     logic [3:0] host_a;

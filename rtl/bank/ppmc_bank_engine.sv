@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, makes
-//         decisions, and writes the state back.
+// ppmc_bank_engine: pipeline that begins a visit of another axis in each cycle. A visit reads the state of
+//         one axis, makes decisions, and writes the state back. In a round, each axis is visited once.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; see also ppmc_bank_plan and ppmc_bank_update.
-// Timing: a visit takes seven cycles. A new visit begins each cycle. Stages: 0 address, 1 RAM, 2 compare,
-//         3 plan, 4 update, 5 write and load of pin_cmd_o, 6 the command is valid in the pin block. The pins
-//         can change at the end of stage 6. The interval is read two cycles before state_s1_t, because the
-//         address of a threshold contains the rate of the interval.
+// Timing: a visit takes seven cycles, one per stage: 0 address, 1 RAM, 2 compare, 3 plan, 4 update, 5 write
+//         and load of pin_cmd_o into the pin block, 6 command valid in the pin block. The pins can change at
+//         the end of stage 6. The interval is read two cycles before state_s1_t, because the address of a
+//         threshold (ppmc_bank_tables) contains the rate of the interval.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -14,7 +14,7 @@ module ppmc_bank_engine
   import ppmc_code_pkg::decoded_t;
   import ppmc_code_pkg::init_code_t;
 #(
-    parameter int unsigned Quantum   = 25,    // quantum in cycles
+    parameter int unsigned Quantum   = 25,    // quantum (4 crystal cycles) in clock cycles
     parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
     parameter bit          PhaseIdle = 1'b1,  // level of s before the first initialisation
     parameter int unsigned RoundBits = 5      // a round is 2^RoundBits cycles
@@ -28,7 +28,7 @@ module ppmc_bank_engine
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the cycles since GO
+    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the time since GO, in cycles
     // from pin blocks and switches
     input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
@@ -47,7 +47,7 @@ module ppmc_bank_engine
   localparam int unsigned HoldBits = $clog2(HoldRounds);
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
-  // Small FPGAs have few block RAMs. Therefore, with few axes, the smallest memory is built from logic.
+  // Small FPGAs have few block RAMs. Therefore, if there are few axes, logic replaces the smallest one.
   // verilator lint_off UNUSEDPARAM
   localparam string IntervalStyle = (Round > 8) ? "block" : "logic";
   // verilator lint_on UNUSEDPARAM
@@ -55,7 +55,7 @@ module ppmc_bank_engine
   typedef logic [RoundBits-1:0] axis_t;
 
   // ---- memories ------------------------------------------------------------------------------------
-  // The comparisons need state_s1_t, so it is read in stage 1. state_s2_t is read in stage 2.
+  // The comparisons of stage 2 use state_s1_t, so it is read in stage 1. state_s2_t is read in stage 2.
   typedef struct packed {
     logic [TimeBits-1:0] cycles_left;  // cycles until the awaited edge
     motion_state_t       motion;
@@ -72,7 +72,7 @@ module ppmc_bank_engine
   (* ram_style = "block", no_rw_check *) state_s1_t state1_mem[Round];
   (* ram_style = "block", no_rw_check *) state_s2_t state2_mem[Round];
   (* ram_style = IntervalStyle, no_rw_check *) interval_t interval_mem[Round];
-  // A visit writes these words only when a byte changes them, so they are not part of all pipeline stages.
+  // A visit writes these words only when it accepts a byte, so only some stages have registers for them.
   (* ram_style = "block", no_rw_check *) last_cmd_t last_cmd_mem[Round];
   (* ram_style = "block", no_rw_check *) ramp_t ramp_mem[Round];
   (* ram_style = "block", no_rw_check *) chop_units_t chop_units_mem[Round];
@@ -108,7 +108,7 @@ module ppmc_bank_engine
     last_cmd_s1_q <= last_cmd_mem[axis_i[0]];
     ramp_s1_q <= ramp_mem[axis_i[0]];
     chop_units_s3_q <= chop_units_mem[axis_i[2]];
-    // If interval_s0_q.decel = 1, the threshold of the next slower rate is compared.
+    // During deceleration (interval_s0_q.decel = 1), the threshold of the next slower rate is compared.
     interval_s0_q <= interval_pre_q;
     lookup_rate_s0_q <= interval_pre_q.rate + 8'(interval_pre_q.decel);
     interval_s1_q <= interval_s0_q;
@@ -330,7 +330,7 @@ module ppmc_bank_engine
     read_data_o <= clear_i[4] ? '0 : read_data;
     read_data_we_o <= clear_i[4] || decision_s4_q.read;
     pin_cmd_o <= clear_i[4] ? '0 : pin_cmd;
-    // A pin command is executed either in the first possible cycle, or cycles_left cycles after it.
+    // A pin command is executed in the first possible cycle, or cycles_left cycles after this first cycle.
     at_cycle_o     <= axis_i[0] + axis_t'(2)
         + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
     irq_set_o <= irq_set && !clear_i[4];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_interval_rom: returns the time from the end of the low time of a pulse until the next pulse. The
-//         ROM has one word for each base clock, extra time and rate, so no multiplier is needed.
+//         ROM has one word for each combination of base clock, extra time and rate, so that no multiplier is
+//         needed.
 // Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (internal base clock), BANK-GEN-02.
 // Timing: after_low_o is valid two cycles after interval_i.
 `default_nettype none
@@ -8,13 +9,13 @@
 module ppmc_bank_interval_rom
   import ppmc_bank_pkg::*;
 #(
-    parameter int unsigned Quantum  = 25,  // quantum in cycles
-    parameter int unsigned Round    = 32,  // round in cycles
+    parameter int unsigned Quantum  = 25,  // quantum (4 crystal cycles) in clock cycles
+    parameter int unsigned Round    = 32,  // time between two visits of an axis (a round) in cycles
     parameter int unsigned TimeBits = 20
 ) (
     input wire logic clk_i,
     input wire interval_t interval_i,  // interval; the field decel is not used
-    output logic [TimeBits-1:0] after_low_o  // time in cycles, minus Round
+    output logic [TimeBits-1:0] after_low_o  // end of low time to next pulse in cycles, minus Round
 );
 
   // Word at address i = {slow_base, extra_time, rate}: cycles from the end of the low time to the next

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins: pins of one axis of a bank. Executes each command of a visit in the requested cycle.
-//         Outputs no pulse after a switch or STOP has ended the motion.
+// ppmc_bank_pins: pins of one axis of a bank. Executes, in the requested cycle, the command that the engine
+//         loads in a visit. Outputs no pulse after a switch, STOP or a halt has ended the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
-//         cycle in which cycle_i = at_cycle_q, except halt, which is executed at the end of the first
-//         cycle. A switch acts in the cycle in which it is active on switches_i.
+//         cycle in which cycle_i = at_cycle_q. Only the field halt takes effect at the end of the first cycle
+//         in which it is valid. A switch acts in the cycle in which it is active on switches_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -22,14 +22,14 @@ module ppmc_bank_pins
     input wire logic load_i,  // strobe: pin_cmd_i is for this axis
     input wire pin_cmd_t pin_cmd_i,  // immediate halt, and pin changes of the next round
     input wire logic [RoundBits-1:0] at_cycle_i,  // cycle of the pin changes
-    input wire logic stop_i,  // 1: end a running motion
+    input wire logic stop_i,  // 1: STOP, end a running motion
     input wire switches_t switches_i,  // switches, synchronised
     // status for the visits
     output logic armed_o,  // 1: pulses may be output
     output logic emitted_o,  // 1: the last ordered pulse has been output
     output logic stopped_o,  // armed_o = 0 because of STOP or a stop command
     output logic alarm_o,  // armed_o = 0 because of an alarm
-    output logic limit_o,  // armed_o = 0 because of the limit of the direction
+    output logic limit_o,  // armed_o = 0 because of the limit in the direction of motion
     // pins
     output logic [5:1] s_o,  // phases
     output logic hold_o,  // high: standstill for the hold time
@@ -54,8 +54,8 @@ module ppmc_bank_pins
   assign pulse_end = cycle_hit && pin_cmd_q.pulse_end;
   assign set_pins = cycle_hit && pin_cmd_q.set_pins;
 
-  // When the next command is loaded, the action of the current command (pulse, pulse_end or set_pins) may
-  // still be pending. In this case it is executed in exactly this cycle.
+  // When the engine loads the next command, the action of the current command (pulse, pulse_end or set_pins)
+  // may still be pending. In this case, the action is executed in exactly the cycle of load_i.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       pin_cmd_q                     <= '0;

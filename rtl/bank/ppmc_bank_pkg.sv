@@ -25,14 +25,14 @@ package ppmc_bank_pkg;
   localparam logic [7:0] INFO_MARK = 8'h42;
   localparam logic [7:0] INFO_VERSION = 8'h01;
 
-  // Byte in the input buffer. It is new while its seq differs from the seq of the last accepted byte.
+  // Byte in the input buffer. It is new while its number seq differs from the seq of the last accepted byte.
   typedef struct packed {
     logic [1:0] seq;
     logic       is_command;  // 1: command, 0: parameter
     logic [7:0] data;
   } in_buf_t;
 
-  // Progress of the host in reading a response. seq is the seq of this response.
+  // Progress of the host in reading a response. seq identifies the response.
   typedef struct packed {
     logic [1:0] seq;
     logic [1:0] bytes_read;
@@ -53,7 +53,7 @@ package ppmc_bank_pkg;
     logic       busy;
   } axis_status_t;
 
-  // State of the command unit, in addition to last_cmd_t.
+  // State of the command unit, except the last command and its parameters (last_cmd_t).
   typedef struct packed {
     logic [1:0] ack_seq;  // seq of the last accepted byte
     logic       error;
@@ -74,7 +74,7 @@ package ppmc_bank_pkg;
     logic [ppmc104_pkg::STEP_BITS-1:0] steps;  // acceleration pulses PA
   } ramp_t;
 
-  // Units of the chopper phases. They are written when the host sets them.
+  // Lengths of the chopper phases in units. They are written when the host sets them.
   typedef struct packed {
     logic [7:0] off;
     logic [7:0] on;
@@ -82,7 +82,7 @@ package ppmc_bank_pkg;
 
   // Timing of the running interval.
   typedef struct packed {
-    logic       slow_base;   // base clock; 1: 125 kHz
+    logic       slow_base;   // base clock, 1: 125 kHz, 0: 500 kHz
     logic       extra_time;  // 1: extra time of 7.5 us
     logic       decel;       // 1: the deceleration has begun
     // Rate of the running interval. During acceleration, after the end of the low time, this field is the
@@ -98,7 +98,7 @@ package ppmc_bank_pkg;
     logic        more_pulses;    // 1: at least one more pulse must be ordered
     logic        last_ordered;   // 1: the last pulse has been ordered
     logic        held;           // 1: the axis waits for GO
-    logic        pulse_low;      // 1: a pulse was ordered, but not its end
+    logic        pulse_low;      // 1: the start of a pulse was ordered, but its end was not
     logic        decel_forced;   // 1: deceleration was requested
     logic        decel_natural;  // 1: deceleration has begun because of the pulse count
     logic        flag_stop;      // 1: a command requested the deceleration
@@ -123,10 +123,10 @@ package ppmc_bank_pkg;
     logic        chop;             // 1: chop at standstill
     logic        phases_on;        // chopper, 1: the phases are on
     logic        chop_programmed;  // 1: the host has set the times of the chopper
-    logic [1:0]  motor;            // motor_e
+    logic [1:0]  motor;            // type of motor (motor_e)
     logic        half;             // 1: half step
     logic        positive;         // 0: s is inverted
-    logic        two_phases;       // see ppmc_motion_pkg
+    logic        two_phases;       // 1: two adjacent phases are on (ppmc_motion_pkg)
     logic [5:1]  pattern;          // phases, 1: on
     logic        finish_unread;    // 1: the host has not read the finish status
     stop_cause_t cause;            // cause of the end of the last motion
@@ -150,10 +150,10 @@ package ppmc_bank_pkg;
     logic       halt;       // 1: output no more pulses
     logic       pulse;      // 1: begin a pulse
     logic       pulse_end;  // 1: end the pulse
-    logic       set_pins;   // 1: set the other pins
+    logic       set_pins;   // 1: set dir, hold and s
     logic       arm;        // with set_pins: pulses may follow; with pulse: another pulse may follow
     logic       search;     // 1: the origin ends the motion
-    logic       ccw;        // level of dir; also selects the limit
+    logic       ccw;        // level of dir; selects the limit that ends the motion
     logic       hold;       // level of hold
     logic [5:1] s;          // levels of s
   } pin_cmd_t;

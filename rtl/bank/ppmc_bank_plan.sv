@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_plan: decides in each visit whether the byte is accepted, how byte and switches affect the
-//         motion, which edge the pin block must output, and how many cycles remain until the next edge.
+// ppmc_bank_plan: decides, in each visit of an axis, whether the byte of the host is accepted, how this byte
+//         and the switches affect the motion, which edge the pin block must output, and when the next edge
+//         follows.
 // Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
 //         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
 // Timing: combinational.
@@ -14,8 +15,8 @@ module ppmc_bank_plan
   import ppmc_motion_pkg::*;
   import ppmc_op_pkg::*;
 #(
-    parameter int unsigned Quantum  = 25,  // quantum in cycles
-    parameter int unsigned Round    = 32,  // round in cycles
+    parameter int unsigned Quantum  = 25,  // quantum (4 crystal cycles) in clock cycles
+    parameter int unsigned Round    = 32,  // time between two visits of an axis (a round) in cycles
     parameter int unsigned TimeBits = 20   // bits of an interval in cycles
 ) (
     // axis
@@ -33,21 +34,21 @@ module ppmc_bank_plan
     input wire logic in_buf_new_i,  // 1: in_buf_i has not been accepted yet
     input wire decoded_t decoded_i,  // in_buf_i.data decoded as a code
     input wire cmd_error_e param_error_i,  // error of an initialisation whose last byte is in_buf_i
-    input wire parser_state_t parser_i,  // state before the byte
-    output parser_state_t parser_o,  // state after the byte
+    input wire parser_state_t parser_i,  // state of the parser before the byte
+    output parser_state_t parser_o,  // state of the parser after the byte
     output logic take_o,  // 1: the byte is accepted
     output logic [7:0] code_o,  // code of the command in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
-    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the cycles since GO
-    input wire logic [TimeBits-1:0] after_low_i,  // cycles from the low time to the next pulse, minus Round
+    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the time since GO, in cycles
+    input wire logic [TimeBits-1:0] after_low_i,  // end of low time to next pulse in cycles, minus Round
     output decision_t decision_o,  // decisions of the visit
-    output logic restart_time_o,  // 1: clear cycles_left before the addition
+    output logic restart_time_o,  // 1: clear cycles_left before add_cycles_o is added
     output logic [TimeBits-1:0] add_cycles_o  // cycles that are added to cycles_left
 );
 
   localparam int unsigned WidthCycles = 20 * Quantum;  // pulse width in cycles
-  localparam int unsigned HalfBaseCycles = 4 * Quantum;  // half a fast base clock in cycles
+  localparam int unsigned HalfBaseCycles = 4 * Quantum;  // half a period of the fast base clock in cycles
 
   typedef logic [TimeBits-1:0] cycles_t;
 
@@ -140,8 +141,8 @@ module ppmc_bank_plan
     pulse = motion_i.more_pulses && !motion_i.held && !motion_i.pulse_low && !abort_motion
         && compare_i.edge_in_round && !compare_i.rate_mismatch;
     decision_o.pulse = pulse && !halt;
-    // A low time whose rate is still changing may become longer. It does not end before its length is
-    // known.
+    // While the rate of the interval still changes, the low time may become longer. Therefore the low time
+    // does not end before its length is known.
     low_may_grow =
         compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered && interval_i.rate < 8'd3;
     decision_o.pulse_end = motion_i.pulse_low && compare_i.edge_in_round && !low_may_grow && !cancel_pulse;
@@ -170,8 +171,8 @@ module ppmc_bank_plan
 
   // ---- cycles to the next edge ---------------------------------------------------------------------
 
-  // Low time at a rate, minus Round. If halves = 1 and the rate is 0 to 2, the low time is half of the
-  // interval. Otherwise the low time is the full pulse width.
+  // Low time of a pulse at a rate, minus Round. If halves = 1 (low times of half an interval are allowed),
+  // the low time at the rates 0 to 2 is half of the interval. Otherwise it is the full pulse width.
   function automatic cycles_t low_time(logic [7:0] rate, logic halves);
     unique case ({
       halves && rate[7:2] == '0, rate[1:0]
@@ -190,8 +191,8 @@ module ppmc_bank_plan
         : cycles_t'(HalfBaseCycles - Round);
   endfunction
 
-  // Fixed time of a chopper phase, minus Round. on = 1: ON phase; programmed = 1: the host has set the
-  // units; extra = 1: vsel is low.
+  // Duration of a chopper phase without its units, minus Round. on = 1: ON phase, 0: OFF phase; programmed =
+  // 1: the host has set the units; extra = 1: vsel is low.
   function automatic cycles_t chop_time(logic on, logic programmed, logic extra);
     unique case ({
       on, programmed, extra
@@ -205,8 +206,8 @@ module ppmc_bank_plan
     endcase
   endfunction
 
-  // The decisions of the byte are timing-critical, so they are applied last. After a halt, no edge is
-  // scheduled.
+  // The decisions that depend on the byte are timing-critical, so they are applied last. After a halt, no
+  // edge is scheduled.
   always_comb begin
     restart_time_o = decision_o.start || go_accept || finish || init_done;
     add_cycles_o   = -cycles_t'(Round);

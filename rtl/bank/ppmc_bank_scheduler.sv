@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_scheduler: selects the axis of each visit. Extends reset, GO and STOP to one round, so that
-//         they act on all axes.
+// ppmc_bank_scheduler: selects the axis of each visit. In a round, each axis is visited once. The block
+//         extends reset, GO and STOP to at least one round, so that they act on all axes.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
 // Timing: axis 0 is in stage 0 in the first cycle after reset. clear_o is high for one visit of every axis.
 //         go_o is high for one round from the cycle after go_i on. stop_o is high for one round plus one
@@ -22,7 +22,7 @@ module ppmc_bank_scheduler #(
     output logic [Round-1:0] last_stage_o,  // [i]: axis i is in the last stage
     output logic [Stages:0] clear_o,  // [i]: reset the axis in stage i
     output logic go_o,  // 1: GO is active for the visits in this cycle
-    output logic [TimeBits-1:0] go_delay_o,  // pulse width minus the cycles since GO
+    output logic [TimeBits-1:0] go_delay_o,  // pulse width minus the time since GO, in cycles
     output logic stop_o  // 1: end every running motion
 );
 
@@ -41,7 +41,7 @@ module ppmc_bank_scheduler #(
   // Number of further cycles for which go_o remains high.
   logic [RoundBits-1:0] go_left_q;
   // Number of further cycles for which stop_o remains high. In total, stop_o is high for one round + 1 cycle,
-  // because the operation that started last is armed only at the end of this time.
+  // because an operation that starts just before STOP is armed only at the end of this time.
   logic [RoundBits:0] stop_left_q;
   logic go_pending_q;  // GO was written again while go_o = 1
 

@@ -26,7 +26,7 @@ module ppmc_bank_update
     input wire interval_t interval_i,  // interval of the motion
     input wire init_state_t init_state_i,  // progress of the initialisation
     input wire chop_units_t chop_units_i,  // units of the chopper phases
-    input wire logic chop_i,  // 1: chop at standstill; from the initialisation
+    input wire logic chop_i,  // 1: chop at standstill, as set by the initialisation
     input wire logic [7:0] slow_i,  // start-up rate
     input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
     input wire logic [HoldBits-1:0] hold_left_i,  // remaining rounds of the hold time, minus 1
@@ -211,8 +211,8 @@ module ppmc_bank_update
         s: (outputs_o.pattern & {5{outputs_o.phases_on}}) ^ {5{!outputs_o.positive}}
     };
 
-    // The new seq differs from the seq of the previous response and from the seq of the response that was
-    // read last.
+    // The new seq differs from the seq of the previous response, and from the seq of the response that the
+    // host has read last.
     read_data_o.seq = outputs_i.read_data_seq + 2'd1;
     if (read_data_o.seq == read_seq_i) read_data_o.seq = outputs_i.read_data_seq + 2'd2;
     read_data_o.bytes = (decision_i.read_select == SEL_REMAINING) ? 2'd3 : 2'd1;

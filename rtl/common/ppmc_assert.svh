@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assertion macro for Boolean properties whose only temporal operator is $past. The same line works with
-// the simulator Verilator and in proofs with read_slang. label_ is the rule, or the contract of the block,
+// Assertion macro for Boolean properties whose only temporal operator is $past. The same source line works in
+// the simulator Verilator and in proofs with read_slang. label_ names the rule, or the contract of the block,
 // that the assertion checks. The macro uses clk_i and rst_ni of the module in which it is used. It disables
 // the warning SYNCASYNCNET, because Verilator counts `disable iff` as a synchronous use of the asynchronous
 // reset.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_delay: reports that a constant number of ticks has passed since the last restart.
 // Rules:  P104-GEN-02/03; P312-GEN-02, times of P312-OUT-01/02, P312-INP-33, P312-SER-10..17.
-// Timing: as ppmc_timer. For a time of n crystal cycles, set tick_i = 1 and Ticks = ppmc_pkg::cyc(n, ClkHz,
-//         XtalHz). Then, after a restart at edge e, past_o is high from edge e + ceil(n * ClkHz / XtalHz)
-//         on.
+// Timing: same as ppmc_timer. For a time of n crystal cycles, set tick_i = 1 and
+//         Ticks = ppmc_pkg::cyc(n, ClkHz, XtalHz). Then, after a restart at edge e, past_o is high from edge
+//         e + ceil(n * ClkHz / XtalHz) on.
 `default_nettype none
 
 module ppmc_delay #(

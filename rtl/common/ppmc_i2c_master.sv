@@ -3,10 +3,10 @@
 //         bytes, and frees a bus whose data line is stuck.
 // Rules:  docs/pmc006/README.md, 14 (EEPROM); P006-BAD-13 (clock held low).
 // Timing: the lines change at tick_o. A bit takes four ticks: SDA changes, SCL rises, SDA is sampled, SCL
-//         falls. START and STOP take six ticks. done_o or fail_o is high one cycle after the last tick. If
-//         the next command is valid before the next tick, it follows without a gap. While a device holds
-//         SCL low, the sample is repeated at each tick for up to 1 ms. SCL rises SclRiseCycles cycles after
-//         its tick, so that it is low for 55 % of the period, rounded up to a whole cycle.
+//         falls. START and STOP take six ticks. done_o or fail_o is high one cycle after the last tick of the
+//         command. If the next command is valid before the next tick, it follows without a gap. While a
+//         device holds SCL low, the sample is repeated at each tick for up to 1 ms. SCL rises SclRiseCycles
+//         cycles after its tick, so that SCL is low for 55 % of its period, rounded up to a whole cycle.
 // Assumes: cmd_i is stable until done_o or fail_o.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -22,7 +22,7 @@ module ppmc_i2c_master
     output logic                tick_o,    // strobe: a tick, four per bit
     input  wire i2c_cmd_e       cmd_i,     // command
     input  wire logic     [7:0] byte_i,    // byte to send; 8'hff to receive
-    input  wire logic           ack_i,     // ninth bit; 1: the other device may drive it
+    input  wire logic           ack_i,     // ninth bit; 0: drive SDA low, 1: release SDA
     output logic                first_o,   // strobe: byte_i and ack_i are loaded at the next edge
     output logic                done_o,    // strobe: the command is complete
     output logic                fail_o,    // strobe: SCL or SDA is stuck; both are released

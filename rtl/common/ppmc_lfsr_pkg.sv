@@ -57,9 +57,9 @@ package ppmc_lfsr_pkg;
     return ({state[29:0], 1'b0} & mask) ^ (state[bits-1] ? 31'(TAPS[bits]) : '0);
   endfunction
 
-  // State after n steps, with n below 2**bits. Call this function only during elaboration. The loop uses the
-  // bits of n from the highest down. For each bit, it squares the power and, if the bit is 1, adds a step.
-  // The function has few statements, because tools evaluate functions slowly.
+  // State after n steps, which is x**n, with n below 2**bits. Call this function only during elaboration. The
+  // loop uses the bits of n from the highest down. For each bit, it squares `power` and, if the bit is 1,
+  // multiplies it by x. The function has few statements, because tools evaluate functions slowly.
   function automatic logic [30:0] after(int unsigned n, int unsigned bits);
     // whole: polynomial; power: x**m, where m consists of the bits of n used so far; square: square of
     // power

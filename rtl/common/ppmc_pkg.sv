@@ -31,8 +31,8 @@ package ppmc_pkg;
     return (top < 2) ? 1 : 32'($clog2(64'(top) + 64'd1));
   endfunction
 
-  // x + 1, x - 1 and x < y of short numbers, built from gates. On an ECP5, the two ends of a carry chain
-  // cost as much as five of its bits.
+  // x + 1, x - 1 and x < y of short numbers, built from gates instead of a carry chain. On an ECP5, the two
+  // ends of a carry chain cost as much as five of its bits.
   function automatic logic [31:0] inc(logic [31:0] x);
     logic carry;
     carry = 1'b1;

@@ -14,7 +14,7 @@ module ppmc_timer #(
     input  wire logic             clk_i,
     input  wire logic             restart_i,  // strobe: restart the count from 0
     input  wire logic             tick_i,     // strobe: count one tick; constant 1 for times in cycles
-    input  wire logic [Width-1:0] last_i,     // after(number - 1, Width); stable after restart_i
+    input  wire logic [Width-1:0] last_i,     // LFSR state after(number - 1, Width); stable after restart_i
     output logic                  past_o      // 1: the number of ticks has passed
 );
 

@@ -40,8 +40,8 @@ module ppmc_uart_tx #(
     end
   end
 
-  // The phase starts at 0, so bit edge n occurs ceil(n * bit time) cycles after the start. Compared with an
-  // ideal grid that begins half a cycle later, each edge occurs in the nearest cycle.
+  // The phase starts at 0, so bit edge n occurs ceil(n * bit time) cycles after the start. Relative to an
+  // ideal bit grid that begins half a cycle after the start, each edge is at most half a cycle early or late.
   always_ff @(posedge clk_i) begin
     phase_q <= ready_o ? '0 : phase_d;
     if (ready_o) begin

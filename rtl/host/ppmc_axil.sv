@@ -4,7 +4,7 @@
 // Timing: all outputs except the data multiplexer are registered. The block stores at most one write and
 //         one read, and executes one access at a time. If both wait, writes and reads alternate. The B
 //         response is valid 8 cycles after both AW and W were accepted, the R response 10 cycles after AR
-//         was accepted. For the bridge register, this time is 2 cycles. A response is later if another
+//         was accepted. For the bridge register, both times are 2 cycles. A response is later if another
 //         access is in progress.
 `default_nettype none
 `include "ppmc_assert.svh"
@@ -20,8 +20,8 @@ module ppmc_axil #(
     input  wire logic [AddrBits+2:0] awaddr_i,   // byte address
     input  wire logic                wvalid_i,   // write data are valid
     output logic                     wready_o,   // write data are accepted
-    input  wire logic [        31:0] wdata_i,    // bits 7:0 are used
-    input  wire logic [         3:0] wstrb_i,    // bit 0: bits 7:0 are written
+    input  wire logic [        31:0] wdata_i,    // write data; bits 7:0 are used
+    input  wire logic [         3:0] wstrb_i,    // byte enables; bit 0: write bits 7:0
     output logic                     bvalid_o,   // write response is valid
     input  wire logic                bready_i,   // write response is accepted
     output logic      [         1:0] bresp_o,    // result of the write
@@ -30,7 +30,7 @@ module ppmc_axil #(
     input  wire logic [AddrBits+2:0] araddr_i,   // byte address
     output logic                     rvalid_o,   // read data are valid
     input  wire logic                rready_i,   // read data are accepted
-    output logic      [        31:0] rdata_o,    // bits 7:0 are used
+    output logic      [        31:0] rdata_o,    // read data; bits 7:0 are used
     output logic      [         1:0] rresp_o,    // result of the read
     output logic                     irq_o,      // interrupt of the device, active high
     // pins of the device

@@ -2,8 +2,9 @@
 // ppmc_bridge_answer: stores the data of an answer in the answer buffer. The data are single bytes, and
 //         blocks for IDENT, VERSION, RECORDED and COUNT.
 // Rules:  UB operations IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
-// Timing: put_i stores a byte at the next edge. A block takes one cycle per byte. COUNT is restarted if the
-//         counter has changed during this time. The full flags are valid two cycles after the last byte.
+// Timing: put_i stores a byte at the next edge. A block takes one cycle per byte. The block of COUNT is
+//         restarted if its counter has changed while the block was stored. The full flags are valid two
+//         cycles after the last byte.
 // Assumes: each counter changes by one at a time, and at most once in 4 cycles. The block of COUNT is certain
 //         to end only if the counter changes at most once in 8 cycles.
 `default_nettype none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_exec: executes a script (a list of ops) on the bus of the device; stores data in the answer.
+// ppmc_bridge_exec: executes a script (list of operations, ops) on the bus of the device; stores the data.
 // Rules:  table of the ops in docs/uart_bridge.md; UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
 // Timing: start_i begins a script of length_i bytes; resend_i sends the last answer again. Both occur only in
 //         StIdle. answer_o is high until answered_i. A request byte is read two cycles after its address.

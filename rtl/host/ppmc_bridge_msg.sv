@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_msg: selects the next message (answer, event or NAK), and supplies its bytes.
 // Rules:  UB-ANS-01, UB-MSG-01/02, UB-FRM-07 (order).
-// Timing: as ppmc_bridge_tx. answered_o is high for one cycle after the last stop bit of an answer.
+// Timing: same as ppmc_bridge_tx. answered_o is high for one cycle after the last stop bit of an answer.
 `default_nettype none
 
 module ppmc_bridge_msg

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rate: selects the line rate. Changes the rate after an answer, and returns to the initial
-//         rate.
+// ppmc_bridge_rate: selects the line rate. Changes the rate after the answer to op RATE. Returns to the
+//         initial rate after a break, or if no valid frame follows at the new rate.
 // Rules:  UB-LIN-02, UB-LIN-03, UB-LIN-06, UB-LIN-07.
 // Timing: step_o follows the code by one cycle. If no valid frame is received at a new rate, the initial
 //         rate is selected again 1000 .. 1001 ms after the answer.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_mailbox: one input byte and a short output queue between a host port and a command unit.
 // Rules:  P104-HSK-01/02 (input), P104-HSK-05/06/08 (output).
-// Timing: a byte that is written with wr_i is valid on byte_o after that edge. ready_o follows one cycle
-//         later, so that the decoding may be registered. take_i may occur in the cycle of another wr_i:
-//         then the old byte is accepted, and the new byte is stored. After rd_done_i, obf_o is low for one
-//         cycle; then the next byte of the queue is valid.
+// Timing: a byte that is written with wr_i is valid on byte_o from the next cycle on. ready_o follows one
+//         cycle later, so that the decoding of the byte may be registered. take_i may coincide with the wr_i
+//         of another byte: then the old byte is accepted, and the new byte is stored. After rd_done_i, obf_o
+//         is low for one cycle; then the next byte of the queue is valid.
 `default_nettype none
 
 module ppmc_mailbox #(

@@ -140,7 +140,7 @@ module ppmc_spi #(
   // ---- data to the host ------------------------------------------------------------------------------
 
   flags_t sent_flags_q, flags_q, now;
-  logic read_req_q;  // 1: the current byte requests a read
+  logic read_req_q;  // 1: the current byte from the host requests a read
   logic [7:0] out_q, status, rdata;
 
   always_comb begin

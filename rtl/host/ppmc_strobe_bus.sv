@@ -2,10 +2,11 @@
 // ppmc_strobe_bus: 8-bit host port with chip select, address line and two strobes, which it synchronises to
 //         the clock of the core.
 // Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02; P2104-BUS-01..10.
-// Timing: write: when the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge
-//         2.
-//         Read: d_oe_o and d_o respond at edge 0; only these registers sample asynchronous pins. The data
-//         are loaded again at edge 1, and are then stable until the next read.
+// Timing: write: when the end of a write strobe is first sampled at edge 0, wr_o is high in the cycle before
+//         edge 2.
+//         Read: when the start of a read strobe is sampled at edge 0, d_oe_o and d_o respond at edge 0; only
+//         these registers sample asynchronous pins. d_o is loaded again at edge 1, and is then stable until
+//         the next read.
 // Note:   bus style 0: read strobe rd_ni and write strobe wr_ni. Style 1: data strobe wr_ni, direction
 //         rd_ni (1: read).
 `include "ppmc_assert.svh"
@@ -33,7 +34,7 @@ module ppmc_strobe_bus (
     input  wire logic [7:0] data_i,        // data byte for the host
     input  wire logic       data_valid_i,  // 1: data_i has not been read yet
     input  wire logic       data_new_i,    // 1: data_i changes at the next edge
-    output logic            rd_busy_o,     // 1: data_i is being read; the status must omit this byte
+    output logic            rd_busy_o,     // 1: data_i is being read; the status must not report data_i
     output logic            rd_done_o      // strobe: data_i has been read
 );
 

@@ -22,7 +22,7 @@ module ppmc_axis
     parameter int unsigned CountBits = 24,
     parameter int unsigned RateBits = 8,
     parameter int unsigned StepBits = 14,
-    parameter int unsigned LevelBits = StepBits,  // bits of ramp_level; must hold PA + 1
+    parameter int unsigned LevelBits = StepBits,  // bits of ramp_level; must store acceleration pulses PA + 1
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up time in crystal cycles
     parameter int unsigned FastQuanta = 8,  // period of the fast internal base clock in quanta
     parameter int unsigned SlowQuanta = 32,  // period of the slow internal base clock in quanta
@@ -46,12 +46,12 @@ module ppmc_axis
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
     output logic [RateBits-1:0] lut_addr_o,  // rate r, which is the address of lut_data_i
-    input wire logic [StepBits-1:0] lut_data_i,  // threshold of r, two cycles later; PA at rate_fast_i
+    input wire logic [StepBits-1:0] lut_data_i,  // threshold of rate r, two cycles later; at rate_fast_i: PA
     // stops
     input wire logic halt_i,  // strobe: immediate stop command
     input wire logic decel_i,  // strobe: deceleration stop command
     input wire switches_t switches_i,  // switches, synchronised
-    input wire logic slow_i,  // 1: act on a slow-down limit; slow_seen_o, possibly delayed
+    input wire logic slow_i,  // slow_seen_o or a delayed copy; 1: act on a slow-down limit
     output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 must wait
@@ -219,8 +219,8 @@ module ppmc_axis
   //   pulse is output after this time. If low_o = 1 at an edge, the pulse is output at the next edge
   //   instead. This can occur only after a pulse of rate 0 whose period is not short.
   // - Edge number floor((rate + 1) / 2) marks the middle of the interval (u_rate: half_o). It cuts low_o,
-  //   unless the pulse is a full pulse. At rate 0, the falling edge cuts low_o if the period before the
-  //   pulse was short (u_shaper, P104-TIM-05).
+  //   unless the pulse is a full pulse, which is never cut. At rate 0, the falling edge cuts low_o if the
+  //   period before the pulse was short (u_shaper, P104-TIM-05).
   // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. This rate may
   // still rise for some cycles (rising = 1), but only from the second deceleration step on. During these
   // cycles, neither event occurs. The middle is marked afterwards, and the next pulse is not yet possible

@@ -9,7 +9,7 @@
 
 module ppmc_ext_clock #(
     parameter int unsigned LongPeriodCycles  = 136,  // a period above this number of cycles is long
-    parameter int unsigned ShortPeriodCycles = 128   // a period below it is short; at most LongPeriodCycles
+    parameter int unsigned ShortPeriodCycles = 128   // a period below this number is short
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
@@ -30,7 +30,7 @@ module ppmc_ext_clock #(
 
   ppmc_sync #(
       .Width   (1),
-      .ResetVal(1'b1)  // a pin that idles high then produces no edge
+      .ResetVal(1'b1)  // so a pin that idles high produces no edge after reset
   ) u_sync (
       .clk_i,
       .rst_ni,

@@ -3,9 +3,10 @@
 // Rules:  P104-INT-03, P104-INT-04.
 // Timing: fire_o is combinational: it is high in the cycle of hit_i, or in the cycle in which the second
 //         part of the extra time has passed.
-// How:    the first part of the extra time runs from a pulse to the first base edge at or after the pulse.
-//         The second part runs after the edge that ends the count. Therefore an interval lasts (rate + 1)
-//         periods plus the extra time, without a measurement of the frequency.
+// How:    the first part of the extra time runs from a pulse to the first base edge (edge of the base clock)
+//         at or after the pulse. The second part begins after the base edge that ends the count of the
+//         interval (hit_i). Therefore an interval lasts (rate + 1) periods of the base clock plus the extra
+//         time, although the frequency is not measured.
 `default_nettype none
 
 module ppmc_ext_extra_time #(
@@ -15,9 +16,9 @@ module ppmc_ext_extra_time #(
     input  wire logic rst_ni,
     input  wire logic en_i,           // 0: no extra time, fire_o = hit_i
     input  wire logic restart_i,      // strobe: a pulse
-    input  wire logic edge_i,         // strobe: a base edge
-    input  wire logic long_period_i,  // with edge_i: the period is too long for the extra time
-    input  wire logic hit_i,          // strobe: this base edge ends the count
+    input  wire logic edge_i,         // strobe: an edge of the base clock
+    input  wire logic long_period_i,  // with edge_i: long base period, the interval gets no extra time
+    input  wire logic hit_i,          // strobe: this base edge ends the count of the interval
     output logic      count_o,        // 1: base edges are counted
     output logic      fire_o          // strobe: the interval ends
 );

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_motion_pkg: types that the motion blocks share. They do not depend on the host.
+// ppmc_motion_pkg: types that the motion blocks share. The types do not depend on the host.
 `default_nettype none
 
 package ppmc_motion_pkg;
@@ -79,10 +79,10 @@ package ppmc_motion_pkg;
     logic [7:0]  off_units;  // units of the OFF phase, set by the host
   } chop_time_t;
 
-  // Phases of a motor, 1: energised. No table is needed. A full step rotates the pattern by one phase. Half
-  // steps alternately use the AND and the OR of the pattern and the rotated pattern; a 5-phase motor starts
-  // with OR, other motors with AND. two_phases = 1: two adjacent phases are on, which is an even index of
-  // the half-step table.
+  // Phases of a motor, 1: energised. The pattern is computed, not read from a table. A full step rotates the
+  // pattern by one phase. Half steps alternately use the AND and the OR of the pattern and the rotated
+  // pattern; a 5-phase motor starts with OR, other motors with AND. two_phases = 1: two adjacent phases are
+  // on, which is an even index of the half-step table in the manual.
   function automatic logic [5:1] rotate_phases(logic [5:1] pattern, motor_e motor, logic ccw);
     logic [5:1] t;
     if (ccw) begin

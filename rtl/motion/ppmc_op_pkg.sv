@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_op_pkg: operation numbers of the PPMC family (bits 2:0 of a code), and their conversion for the
-//         axis.
+// ppmc_op_pkg: operation numbers of the PPMC family (bits 2:0 of a code), and their conversion for
+//         ppmc_axis.
 // Rules:  P104-OPR-01, P104-CMD-01; P2104-CMD-01.
 `default_nettype none
 

@@ -12,12 +12,12 @@ module ppmc_pulse_shaper #(
     parameter int unsigned XtalHz    = 16_000_000,
     parameter int unsigned RateBits  = 8,
     parameter int unsigned WidthXtal = 80,          // low time in crystal cycles
-    parameter int unsigned HalfXtal  = 16,          // half a fast base clock in crystal cycles
+    parameter int unsigned HalfXtal  = 16,          // half a fast base clock period in crystal cycles
     parameter int unsigned HalfRates = 3            // number of rates with a low time of half an interval
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                arm_i,    // strobe: start the time without a pulse
+    input  wire logic                arm_i,    // strobe: start the set-up time, without a pulse
     input  wire logic                pulse_i,  // strobe: a pulse
     input  wire logic                full_i,   // with pulse_i; 1: full pulse, which is never cut
     input  wire logic                halve_i,  // 1: low times of half an interval apply

@@ -14,7 +14,7 @@ module ppmc_ramp_table #(
     input  wire logic [RateBits-1:0] slow_i,   // start-up rate; stable while busy_o = 1
     input  wire logic [RateBits-1:0] fast_i,   // high-speed rate; stable while busy_o = 1
     input  wire logic [StepBits-1:0] steps_i,  // acceleration pulses PA; stable while busy_o = 1
-    output logic                     busy_o,   // 1: build in progress, outputs below not valid
+    output logic                     busy_o,   // 1: build in progress, the table is not valid
     output logic      [RateBits-1:0] slow_o,   // start-up rate of the table
     output logic      [RateBits-1:0] fast_o,   // high-speed rate of the table
     output logic      [StepBits-1:0] steps_o,  // acceleration pulses of the table

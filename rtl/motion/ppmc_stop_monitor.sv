@@ -27,7 +27,7 @@ module ppmc_stop_monitor
     input  wire logic      dec_i,            // 1: the natural deceleration has begun
     input  wire logic      halt_i,           // strobe: immediate stop command
     input  wire logic      decel_i,          // strobe: deceleration stop command
-    input  wire logic      slow_i,           // 1: act on a slow-down limit; slow_seen_o, possibly delayed
+    input  wire logic      slow_i,           // slow_seen_o or a delayed copy; 1: act on a slow-down limit
     output logic           slow_seen_o,      // 1: a slow-down limit is effective; not valid with stop_o
     output logic           stop_o,           // 1: end the motion now, without a further pulse
     output logic           forced_o,         // 1: forced deceleration is requested; not valid with stop_o

@@ -8,7 +8,7 @@ package pmc006_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instruction codes; bit 7 = 0: code of a frame, bit 7 = 1: code only of the user program ----
+  // ---- instruction codes (comment: ASCII); bit 7 = 0: of a frame, bit 7 = 1: only of the user program -----
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -29,7 +29,7 @@ package pmc006_pkg;
   localparam logic [7:0] I_VSTOP = 8'h53;  // S
   localparam logic [7:0] I_STLEN = 8'h54;  // T
   localparam logic [7:0] I_ATT_READ = 8'h55;  // U
-  localparam logic [7:0] I_STORED = 8'h56;  // V, which the original does not have
+  localparam logic [7:0] I_STORED = 8'h56;  // V, which the old chip does not have
   localparam logic [7:0] I_PUT = 8'h57;  // W
   localparam logic [7:0] I_STPOS = 8'h58;  // X
   localparam logic [7:0] I_STCFG = 8'h59;  // Y
@@ -135,7 +135,7 @@ package pmc006_pkg;
 
   // Register access of an instruction.
   typedef struct packed {
-    logic      write;   // 1: write the register, 0: read it for the reply
+    logic      write;   // 1: write the register, 0: read the register for the reply
     register_e reg_id;
   } reg_access_t;
 
@@ -167,8 +167,8 @@ package pmc006_pkg;
   // Values from the motion for the drive.
   typedef struct packed {
     logic [7:0]  increment;     // angle of a step, 512 per electrical turn
-    logic [10:0] current_comp;  // B of P006-EXC-22
-    logic [6:0]  lead_angle;    // W of P006-EXC-23
+    logic [10:0] current_comp;  // current compensation B (P006-EXC-22)
+    logic [6:0]  lead_angle;    // lead angle W (P006-EXC-23)
   } drive_cmd_t;
 
   // Sample of an A/D converter.
@@ -185,7 +185,7 @@ package pmc006_pkg;
   // Settings used by motion and drive.
   typedef struct packed {
     logic [7:0]  mstep;     // 0 (full step), 2, 4, 8, .. 128
-    logic [11:0] cur;       // mA, 400 .. 4000
+    logic [11:0] cur;       // current in mA, 400 .. 4000
     logic [2:0]  acc;       // acceleration coefficient, 0 .. 5
     logic [2:0]  dec;       // deceleration coefficient, 0 .. 5
     logic        autodec;   // 1: reduce the current at standstill

@@ -2,7 +2,7 @@
 // ppmc104_carrier: PPMC-104 board without clock generator and pads. Contains ppmc104 and one host
 //         interface: the UART bridge or the bus pins of the old chip.
 // Rules:  HOST = "UART": docs/uart_bridge.md; HOST = "BUS": P104-PORT-01. Wiring: docs/boards.md.
-// Timing: as ppmc104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
+// Timing: same as ppmc104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
 //         external synchroniser.
 `default_nettype none
 

@@ -3,7 +3,8 @@
 //         delays slow-down limits, and allows only stop commands during a fast motion. ppmc_proc_time
 //         implements the other processing times.
 // Rules:  P104-DS-10/12, P104-LIM-01 (the limits are monitored without gaps).
-// Timing: slow_o is asserted one cycle after the nominal time. With Datasheet = 0, slow_o = slow_seen_i.
+// Timing: slow_o is asserted one cycle after the nominal delay of slow_seen_i. With Datasheet = 0, slow_o =
+//         slow_seen_i.
 `default_nettype none
 
 module ppmc104_proc_time

@@ -119,7 +119,7 @@ module ppmc2104
   logic [AXES:1] collecting, building, window, cmnd, busy;
   logic [23:0] answer;
   logic [AXES:1][23:0] answers;
-  action_t act_req, act;  // act_req: requested at the C-event; act: takes effect in this cycle
+  action_t act_req, act;  // act_req: requested by the accepted byte; act: takes effect in this cycle
   error_report_t error_report;
   cmd_error_e speed;
   cmd_error_e [AXES:1] errors;

@@ -25,9 +25,9 @@ module ppmc2104_axis
     input  wire logic         [         31:0] params_i,       // parameters of code_i
     input  wire logic         [          7:0] code_late_i,    // code of all other actions
     input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
-    input  wire logic                         ready_i,        // 1: no table build, no open window
-    output axis_summary_t                     state_o,        // state for the other blocks
-    output logic                              end_o,          // strobe: an operation with I = 0 ends
+    input  wire logic                         ready_i,        // 0: table build or processing time in progress
+    output axis_summary_t                     state_o,        // state of this axis, for the command unit
+    output logic                              end_o,          // strobe: operation with interrupt (I = 0) ends
     input  wire cmd_error_e                   error_i,        // error register
     output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table

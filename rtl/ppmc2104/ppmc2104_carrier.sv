@@ -3,7 +3,7 @@
 //         interface: the UART bridge or the bus pins of the old chip.
 // Rules:  HOST = "UART": docs/uart_bridge.md, with the strap outputs {axis 1 selected for PINS, -, -,
 //         errint_n, run, csel}; HOST = "BUS": P2104-PORT-01. Wiring: docs/boards.md.
-// Timing: as ppmc2104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
+// Timing: same as ppmc2104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
 //         external synchroniser.
 `default_nettype none
 

@@ -2,9 +2,10 @@
 // ppmc2104_command: accepts bytes from the host, checks them, collects data bytes, and issues the actions.
 // Rules:  P2104-HSK-03/04/08, P2104-CMD-01..04, P2104-INI-02/03, P2104-STP-02..07, P2104-AUX-04,
 //         P2104-ERR-01..05, P2104-LIM-06, P2104-FSM-01..05.
-// Timing: take_o marks the C-event. act_o, error_report_o and the state of this block take effect at the
-//         edge that ends the cycle of take_o. The byte is decoded, and its values are checked, one cycle
-//         earlier. The states and pins of the axes are sampled in the cycle of take_o.
+// Timing: take_o marks the C-event, which is the acceptance of a byte. act_o, error_report_o and the state of
+//         this block take effect at the edge that ends the cycle of take_o. The byte is decoded, and its
+//         values are checked, one cycle earlier. The states and pins of the axes are sampled in the cycle of
+//         take_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -23,7 +24,7 @@ module ppmc2104_command
     // state of the axes
     input wire axis_summary_t [AXES:1] state_i,  // states of both axes
     input wire pin_levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
-    input wire logic [AXES:1] building_i,  // 1: the ramp table is being built; codes that need it wait
+    input wire logic [AXES:1] building_i,  // 1: the ramp table is being built; codes that need the table wait
     // rate limits (ppmc2104_speed)
     input wire cmd_error_e speed_i,  // rate-limit error of code_o with params_o
     // result
@@ -48,7 +49,7 @@ module ppmc2104_command
   assign code_o = command_i ? byte_i : code_q;
   assign collecting_o = {collecting && code_q[5], collecting && !code_q[5]};
 
-  // ---- values of a last data byte -----------------------------------------------------------------
+  // ---- check of the values when the last data byte arrives ----------------------------------------
 
   cmd_error_e value;
   logic external, operation;

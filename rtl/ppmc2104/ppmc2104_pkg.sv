@@ -41,7 +41,7 @@ package ppmc2104_pkg;
     ErrStopped   = 4'd6,   // stop of an axis that does not move
     ErrRefused   = 4'd7,   // a limit, the alarm or the origin prevents the start
     ErrDecel     = 4'd8,   // a deceleration stop is not possible
-    ErrRates     = 4'd9,   // RL < RH + 2, PA too small, rate 0 with the internal clock
+    ErrRates     = 4'd9,   // RL < RH + 2, PA too small, or rate 0 with the internal clock
     ErrSteps     = 4'd10,  // PA too large
     ErrSwitching = 4'd11,
     ErrRateOne   = 4'd12,  // too fast for one operating axis
@@ -72,9 +72,9 @@ package ppmc2104_pkg;
   localparam logic [2:0] SEL_HOLD_DELAY = 3'b101;
   localparam logic [2:0] SEL_ERROR = 3'b110;
 
-  // Bits of the initial setting code.
+  // Bits of the initial setting code; the letters are the names in the manual.
   typedef struct packed {
-    logic [1:0] prefix;    // 00
+    logic [1:0] prefix;    // always 00
     logic       second;    // A, 1: axis 2
     logic       chop;      // S, 1: chop at standstill
     logic       external;  // C, 1: base clock from the EXTCK pin
@@ -82,13 +82,13 @@ package ppmc2104_pkg;
     logic [1:0] motor;     // MM, type of motor
   } init_code_t;
 
-  // Bits of an operation code.
+  // Bits of an operation code; the letters are the names in the manual.
   typedef struct packed {
-    logic       pout_only;  // P
-    logic       prefix;     // 1
-    logic       second;     // A
+    logic       pout_only;  // P, 1: POUT mode
+    logic       prefix;     // always 1
+    logic       second;     // A, 1: axis 2
     logic       silent;     // I, 1: no interrupt at the end
-    logic       ccw;        // D
+    logic       ccw;        // D, 1: CCW
     logic [2:0] op;
   } op_code_t;
 

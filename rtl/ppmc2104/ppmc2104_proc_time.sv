@@ -3,10 +3,11 @@
 //         chip, and samples limits only at the poll ticks of the old chip. With Datasheet = 0, actions are
 //         immediate and limits are always sampled.
 // Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (DATASHEET).
-// Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for the end
-//         of the window take effect at the edge that closes it. The next byte may be accepted one cycle
-//         later. Poll ticks occur every ceil(35 us) cycles, counted from the end of the last window, or from
-//         the first rising edge without reset.
+// Timing: a window is the processing time of an instruction. It opens at the C-event (acceptance of a byte)
+//         and closes ceil(time) + 1 cycles later. Actions that wait for the end of the window take effect at
+//         the edge that closes it. The next byte may be accepted one cycle later. Poll ticks occur every
+//         ceil(35 us) cycles, counted from the end of the last window, or from the first rising edge without
+//         reset.
 `default_nettype none
 
 module ppmc2104_proc_time
@@ -194,7 +195,8 @@ module ppmc2104_proc_time
     assign poll_o = poll_q == PollBits'(PollCycles - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      // The count begins at the first rising edge without reset. rst_ni rises one cycle later, hence the 1.
+      // The count begins at the first rising edge without reset. rst_ni rises one cycle
+      // later, so the count has already reached 1.
       if (!rst_ni) poll_q <= PollBits'(1);
       else if (begins || window_q || poll_o) poll_q <= '0;
       else poll_q <= poll_q + 1'b1;

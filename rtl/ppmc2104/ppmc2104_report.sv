@@ -16,7 +16,7 @@ module ppmc2104_report
     input  wire logic                   rst_ni,
     input  wire error_report_t          error_report_i,  // errors to be stored
     input  wire logic                   errint_ni,       // ERRINT, synchronised
-    input  wire logic          [AXES:1] end_i,           // strobe: an operation with I = 0 ends
+    input  wire logic          [AXES:1] end_i,           // strobe: operation with interrupt (I = 0) ends
     input  wire logic          [AXES:1] read_end_i,      // strobe: End status read is executed
     input  wire logic          [AXES:1] read_error_i,    // strobe: Error code read is executed
     output cmd_error_e         [AXES:1] error_o,         // error registers

@@ -15,13 +15,13 @@ module ppmc2104_setup
     input  wire init_code_t          code_i,         // setting code of act_i.init
     input  wire logic         [31:0] params_i,       // data bytes of act_i.init
     input  wire logic         [31:0] params_late_i,  // data bytes of act_i.switching and act_i.hold_delay
-    input  wire logic                ready_i,        // 1: no table build, no open window of this axis
+    input  wire logic                ready_i,        // 0: table build or processing time in progress
     output setup_t                   setup_o,        // current settings
     output logic                     phase_init_o,   // strobe: set the phases to index 0
     output logic                     chop_o          // 1: chop at standstill
 );
 
-  logic first_q;  // 1: the setting that was made in INITIAL is not complete
+  logic first_q;  // 1: the first initial setting (made in state INITIAL) is in progress
   logic unused_bits;
 
   assign unused_bits = &{1'b0, act_i, code_i, params_i, params_late_i};

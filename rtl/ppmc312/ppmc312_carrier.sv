@@ -6,7 +6,7 @@
 //         HOST = "BUS": the pins of the parallel bus.
 //         HOST = "SERIAL": the serial station. It receives frames from both lines (only one may have a
 //         master) and sends replies to both. Wiring: docs/boards.md.
-// Timing: as ppmc312. With RECORD != 0, inputs other than those of the host act 2 cycles later. No input
+// Timing: same as ppmc312. With RECORD != 0, inputs other than those of the host act 2 cycles later. No input
 //         needs an external synchroniser.
 `default_nettype none
 

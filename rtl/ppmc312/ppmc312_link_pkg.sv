@@ -14,7 +14,7 @@ package ppmc312_link_pkg;
   import ppmc312_pkg::*;
   import ppmc312_stage_pkg::*;
 
-  // ---- front end to instructions: block from the host, in logical order ---------------------------
+  // ---- front end -> instructions: block from the host, in logical order ---------------------------
 
   typedef struct packed {
     logic                valid;  // level: a block is pending; 0 after it is processed
@@ -72,7 +72,7 @@ package ppmc312_link_pkg;
     logic [5:0] auxo_n;   // generalized output
   } outputs_t;
 
-  // ---- instructions to motion ---------------------------------------------------------------------
+  // ---- instructions -> motion ---------------------------------------------------------------------
 
   typedef struct packed {
     logic ccw;     // 1: CCW
@@ -83,9 +83,9 @@ package ppmc312_link_pkg;
 
   typedef struct packed {
     logic start;  // strobe, only at standstill: start op along profile
-    operation_t op;  // valid with start
+    operation_t op;  // operation; valid with start
     logic change;  // strobe: change the rate to profile.target
-    profile_t profile;  // stable from start to t0; target is stable until 2 cycles after change
+    profile_t profile;  // stable from start to t0 (start of the motion); target: until 2 cycles after change
     logic single_pulse;  // 1: one pulse at the start-up rate; stable like profile
     logic pos_halt;  // strobe: the position of an immediate stop is reached
     logic triggers_done;  // 1: all triggered instructions have been processed
@@ -116,12 +116,12 @@ package ppmc312_link_pkg;
   // ---- reports of the motor side ------------------------------------------------------------------
 
   typedef struct packed {
-    logic       valid;  // strobe
+    logic       valid;  // strobe: an alarm
     logic [1:0] code;   // 0: pin; 1 to 3: multiple occurrence (1: class 2, 2: class 3 or 4, 3: class 5)
   } alarm_event_t;
 
   typedef struct packed {
-    alarm_event_t alarm;  // class 1
+    alarm_event_t alarm;  // class 1: alarm
     logic unlock;  // class 3, strobe: interlock control ends
     logic hold_end;  // class 4, strobe: RUN releases a start that it held
     logic stop;  // class 5, strobe: a motion has ended
@@ -139,7 +139,7 @@ package ppmc312_link_pkg;
     logic [1:0] read;  // strobe: the report has been read; may coincide with load
   } monitor_ack_t;
 
-  // ---- instructions to reports: class 2 -----------------------------------------------------------
+  // ---- instructions -> reports: class 2 -----------------------------------------------------------
 
   typedef struct packed {
     logic                  we;
@@ -147,7 +147,7 @@ package ppmc312_link_pkg;
     logic [7:0]            data;  // byte at addr
   } response_write_t;
 
-  // Result of a triggered instruction. Each comment is the code in the reply to a poll.
+  // Result of a triggered instruction. Each comment is the hexadecimal code in the reply to a poll.
   typedef enum logic [1:0] {
     DoneOverride = 2'b00,  // 28
     DoneEvent    = 2'b01,  // 29
@@ -159,13 +159,13 @@ package ppmc312_link_pkg;
     logic                valid;           // strobe: a response is complete
     logic                host;            // the response is for the host
     trigger_result_e     trigger_result;  // valid if host = 0: result of the triggered instruction
-    logic [BLOCK_BITS:0] size;            // bytes, 3 .. 32
+    logic [BLOCK_BITS:0] size;            // bytes of the response, 3 .. 32
   } response_done_t;
 
   // State of the two-entry queue of class 2.
   typedef struct packed {
     logic full;       // a response can be read
-    logic full_host;  // this response is for the host
+    logic full_host;  // the response that can be read is for the host
     logic pending;    // another, newer response waits
   } response_queue_t;
 

@@ -2,9 +2,10 @@
 // ppmc312_proc_time: with Datasheet = 1, delays the effect of an instruction by the processing time of the
 //         old chip.
 // Rules:  P312-TIM-02..13, P312-TIM-20.
-// Timing: elapsed_o is high when the time of block_i has passed, counted from the last cycle of idle_i.
-//         With Datasheet = 0, elapsed_o is always high.
-// Note:   the processing time of a start ends at pulse 1, which occurs TW after t0.
+// Timing: elapsed_o is high when the time of block_i has passed, counted from the last cycle in which idle_i
+//         is high. With Datasheet = 0, elapsed_o is always high.
+// Note:   the processing time of a start ends at pulse 1. Pulse 1 occurs one pulse width (TW) after t0, the
+//         start of the motion.
 `default_nettype none
 
 module ppmc312_proc_time

@@ -11,7 +11,7 @@ package ppmc_code_pkg;
 
   // Error numbers in status bits 6:4 (P104-ERR-00).
   typedef enum logic [2:0] {
-    ErrUndefined  = 3'd0,  // also for a stop command without a motion
+    ErrUndefined  = 3'd0,  // undefined code, or stop command without a motion
     ErrBusy       = 3'd1,
     ErrNotReady   = 3'd2,  // operation before an initialisation
     ErrData       = 3'd3,  // data byte that was not requested
@@ -42,9 +42,9 @@ package ppmc_code_pkg;
   localparam logic [2:0] SEL_REMAINING = 3'b011;
   localparam logic [2:0] SEL_AUX_IN = 3'b101;
 
-  // Bits of the initialisation code.
+  // Bits of the initialisation code; the letters are the names in the manual.
   typedef struct packed {
-    logic [1:0] prefix;    // 00
+    logic [1:0] prefix;    // always 00
     logic       chop;      // S, 1: chop at standstill
     logic       external;  // C, 1: base clock from the pin
     logic       positive;  // L, 1: high = energised
@@ -52,13 +52,13 @@ package ppmc_code_pkg;
     logic [1:0] motor;     // MM, type of motor
   } init_code_t;
 
-  // Bits of an operation code.
+  // Bits of an operation code; the letters are the names in the manual.
   typedef struct packed {
-    logic       pout_only;  // P; the J105 STMC does not have it
+    logic       pout_only;  // P, 1: POUT mode; not in the J105 STMC
     logic       prefix;
     logic       ignored;
     logic       silent;     // I, 1: no interrupt at the end
-    logic       ccw;        // D
+    logic       ccw;        // D, 1: CCW
     logic [2:0] op;
   } op_code_t;
 

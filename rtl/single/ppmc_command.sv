@@ -3,9 +3,10 @@
 //         and outputs the actions.
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
-// Timing: take_o marks the C-event. act_o and the state of this block take effect at the edge that ends the
-//         cycle of take_o. decoded_i and param_error_i are combinational functions of the byte. They are
-//         registered here and used one cycle later. data_i and is_checked_i are used in the same cycle.
+// Timing: take_o marks the C-event, which is the acceptance of a byte. act_o and the state of this block take
+//         effect at the edge that ends the cycle of take_o. decoded_i and param_error_i are combinational
+//         functions of the byte. This block registers them and uses them one cycle later. data_i and
+//         is_checked_i are used in the same cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -29,7 +30,7 @@ module ppmc_command
     // state of the core
     input wire logic busy_i,  // 1: a motion is in progress
     input wire logic ramp_i,  // 1: the running operation has a ramp
-    input wire logic decelerating_i,  // 1: DEC, or no pulse is left to output
+    input wire logic decelerating_i,  // 1: state DEC, or no pulse is left to output
     input wire logic initialised_i,  // 1: operations may start
     // result
     output logic [3:0] status_o,  // status bits ERR and NUM

@@ -20,7 +20,7 @@ module ppmc_command_check
     input wire logic is_checked_i,  // 1: param_error_i applies to the current code
     input wire logic busy_i,  // 1: a motion is in progress
     input wire logic ramp_i,  // 1: the running operation has a ramp
-    input wire logic decelerating_i,  // 1: DEC, or no pulse is left to output
+    input wire logic decelerating_i,  // 1: state DEC, or no pulse is left to output
     input wire logic initialised_i,  // 1: operations may start
     input wire parser_state_t parser_i,  // state before this byte
     output parser_state_t parser_o,  // state after this byte

@@ -10,14 +10,14 @@
 module ppmc_finish_status
   import ppmc_code_pkg::*;
 #(
-    parameter bit UnreadFlag = 1'b1  // 1: bit 7 of the status is 1 until it is read; 0: bit 7 is always 1
+    parameter bit UnreadFlag = 1'b1  // 1: bit 7 of the status is 1 until the status is read; 0: always 1
 ) (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
     input  wire logic            start_i,      // strobe: an operation starts
     input  wire op_code_t        op_code_i,    // code of the operation; valid with start_i
     input  wire logic            done_i,       // strobe: the operation ends
-    input  wire logic     [ 3:0] cause_i,      // stop, alarm, limit, slow-down limit; stable at standstill
+    input  wire logic     [ 3:0] cause_i,      // causes {stop, alarm, limit, slow}; stable at standstill
     input  wire logic            read_i,       // strobe: a read command is executed
     input  wire logic     [ 2:0] select_i,     // data that the read command selects
     input  wire logic     [23:0] remaining_i,  // remaining pulses, in the format of SEL_REMAINING

@@ -2,8 +2,9 @@
 // ppmc_proc_time: delays the effect of an accepted byte in a single-axis device. With FAST, there is no
 //         delay. With DATASHEET, the delays are the processing times of the old chip.
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
-// Timing: a DATASHEET time starts at the C-event (2 cycles after the write event), or at the pulse or
-//         decision to which it belongs. The event that it delays occurs one cycle after the nominal time.
+// Timing: a DATASHEET time starts at the C-event (acceptance of a byte, 2 cycles after the write event), or
+//         at the pulse or decision to which the time belongs. The event that the time delays occurs one cycle
+//         after the nominal time.
 // How:    two timers: one for the current command (during which the mailbox is closed), and one for the
 //         motion (pulse 1, end).
 `default_nettype none
@@ -39,7 +40,7 @@ module ppmc_proc_time
     input  wire logic                   initialised_i,  // 1: an initialisation has been completed
     input  wire logic                   building_i,     // 1: the ramp table is being built
     input  wire logic    [StepBits-1:0] steps_i,        // current PA
-    output logic                        phase_init_o,   // strobe: set the phases to index 0; first time only
+    output logic                        phase_init_o,   // strobe: first initialisation, set phases to index 0
     output logic                        ready_o,        // strobe: the initialisation is complete
     // motion
     input  wire logic                   ramp_i,         // 1: the running operation has a ramp

@@ -45,7 +45,7 @@ module ppmc_single
     // motion
     input wire logic clock_pin_i,  // external base clock, asynchronous
     input wire switches_t switches_i,  // switches, synchronised
-    input wire logic slow_i,  // 1: act on a slow-down limit; slow_seen_o, possibly delayed
+    input wire logic slow_i,  // slow_seen_o or a delayed copy; 1: act on a slow-down limit
     output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     output motion_t motion_o,  // state of the motion
     output logic [7:0] rate_o,  // rate of the running interval
@@ -63,7 +63,7 @@ module ppmc_single
   logic [7:0] code_late;
   logic [3:0] status;
   logic [23:0] answer, remaining;
-  action_t act_req;  // act_req: actions requested at the C-event; act_o: actions that take effect
+  action_t act_req;  // act_req: actions requested by the accepted byte; act_o: actions that take effect
 
   assign rx_byte_o.params_left = status[2:0];
 

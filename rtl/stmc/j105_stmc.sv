@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// j105_stmc: PC/104 board J105 STMC: one stmc on an 8-bit ISA bus, the step clock of the board (the
-//         external step clock of stmc), and the outputs to the driver on the board.
+// j105_stmc: PC/104 board J105 STMC. Contains one stmc on an 8-bit ISA bus, the step clock of the board,
+//         which is the external step clock of stmc, and the outputs to the driver on the board.
 // Rules:  J105-01..08; all STMC rules apply to the controller. Manual: docs/stmc/README.md.
-// Timing: as stmc. irq follows int_n by one cycle. drv has no delay from s.
+// Timing: same as stmc. irq follows int_n by one cycle. drv has no delay from s.
 `default_nettype none
 
 module j105_stmc #(

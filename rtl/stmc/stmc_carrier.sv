@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc_carrier: board with the controller of the J105 STMC, without clock generator and pads. Contains
 //         stmc, its external step clock, and one host interface: the UART bridge or the bus pins of stmc.
-// Rules:  HOST = "UART": docs/uart_bridge.md, alarm = MON. Only strap output 0 is used, and only with a
-//         recorder. HOST = "BUS": STMC-BUS-01..22. Step clock: J105-06. Wiring: docs/boards.md.
-// Timing: as stmc. With RECORD != 0, switches act 2 cycles later. No input needs an external synchroniser.
+// Rules:  HOST = "UART": docs/uart_bridge.md; the alarm bit of operation PINS is MON. Only strap output 0 is
+//         used, and only with a recorder. HOST = "BUS": STMC-BUS-01..22. Step clock: J105-06. Wiring:
+//         docs/boards.md.
+// Timing: same as stmc. With RECORD != 0, switches act 2 cycles later. No input needs an external
+//         synchroniser.
 `default_nettype none
 
 module stmc_carrier #(

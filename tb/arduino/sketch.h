@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a sketch: time, Serial, and the end of a sketch that has stopped. The file that includes this header
-// connects the pins of the board.
+// Runs a sketch: supplies time and Serial, and ends the program when the sketch has stopped. The file that
+// includes this header connects the pins of the board.
 #ifndef SKETCH_H
 #define SKETCH_H
 
@@ -26,7 +26,7 @@ void delay(unsigned long ms) {
     delayMicroseconds(1000);
 }
 
-// A rule of the bus or of the API is violated.
+// Report that a rule of the bus or of the API is violated, and end the program.
 [[noreturn]] inline void violated(const char *what) {
     std::printf("FAIL %s\n", what);
     std::exit(1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Definitions for the pins.h of several parts. The pins.h of a part (tb/<part>/) connects the virtual board
-// to the ports of its carrier, axis by axis. Ports of two axes are one number, in which bit 0 is axis 1. Each
-// pins.h defines kAxes and kAllAxes, motion_pins, Motors, idle_inputs, set_switches, phases, encoder_low,
-// encoder_pulse and interrupt.
+// Definitions that the pins.h of several devices share. The pins.h of a device (tb/<device>/) connects the
+// virtual board to the ports of its carrier, axis by axis. Ports of two axes are one number, in which bit 0
+// is axis 1. Each pins.h defines kAxes and kAllAxes, motion_pins, Motors, idle_inputs, set_switches, phases,
+// encoder_low, encoder_pulse and interrupt.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class PulseMotors {
     }
 };
 
-// The five switches of a part with one axis on a byte bus. The pins.h of the part sets the alarm.
+// The five switches of a device with one axis on a byte bus. The pins.h of the device sets the alarm.
 template <class Top>
 void set_limits(Top& top, const Plant& plant) {
     top.l1_n = !plant.l1;

@@ -8,7 +8,7 @@
 
 namespace {
 constexpr size_t kQueue = 256;      // bytes accepted from the host before they are sent, as in a USB adapter
-constexpr uint64_t kSlices = 8000;  // slices per second
+constexpr uint64_t kSlices = 8000;  // slices (steps of the simulation) per second of board time
 constexpr uint64_t kRestSeconds = 2;  // longer than any timer that runs while part and bridge are idle
 }  // namespace
 

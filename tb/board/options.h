@@ -12,8 +12,8 @@ struct Options {
     PlantText plants[kAxes];
     double speed = 1.0;     // board time / real time; 0: as fast as possible
     std::string vcd;        // file name; empty: no waveforms
-    double vcd_from = 0;    // begin in ms of board time
-    double vcd_for = 20;    // duration in ms
+    double vcd_from = 0;    // begin of the waveforms in ms of board time
+    double vcd_for = 20;    // duration of the waveforms in ms
     std::string log;        // file for the pulses; empty: no log
 };
 

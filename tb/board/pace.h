@@ -53,8 +53,8 @@ class Pace {
     double factor() const { return factor_; }
 
    private:
-    static constexpr int64_t kGrain = 100'000;      // shorter sleeps are not worth a system call
-    static constexpr int64_t kLag = 2'000'000;      // more lost time than this is not caught up
+    static constexpr int64_t kGrain = 100'000;      // ns; a shorter sleep is not worth a system call
+    static constexpr int64_t kLag = 2'000'000;      // ns; more lost time than this is not caught up
     static constexpr int64_t kWindow = 500'000'000;
 
     void mark(uint64_t now, int64_t wall_now) {

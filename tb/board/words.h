@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protocol between a virtual board or line and its parent process: lines of words on standard output, and
-// lines on standard input, which are answered in order.
+// Protocol between a virtual board or line and its parent process: the program writes lines of text to
+// standard output, and answers each line of standard input in order.
 #pragma once
 
 #include <cstdio>

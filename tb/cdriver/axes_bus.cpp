@@ -11,7 +11,7 @@
 
 namespace {
 
-constexpr unsigned kStrobe = 4, kPause = 3;  // in cycles
+constexpr unsigned kStrobe = 4, kPause = 3;  // strobe, and pause between two strobes, in cycles
 
 class Bus : public Clocked<Bus, Vppmc2104> {
   public:

@@ -19,7 +19,7 @@ void axes_run_pins(void *ctx, unsigned axes);
 
 void axes_reset(bool held);
 void axes_run(unsigned cycles);
-void axes_run_pulses(unsigned axis, unsigned count); /* after 1 s, the program ends */
+void axes_run_pulses(unsigned axis, unsigned count); /* until `count` pulses; after 1 s, the program ends */
 void axes_input(axes_input_t which, unsigned axis, bool active);
 bool axes_irq(void);
 unsigned axes_pulses(unsigned axis);

@@ -12,7 +12,7 @@
 namespace {
 
 constexpr unsigned kHz = 8'000'000, kBaud = 83'333, kStation = 5;
-constexpr unsigned kWrite = 3, kRead = 5, kPause = 3;  // in cycles
+constexpr unsigned kWrite = 3, kRead = 5, kPause = 3;  // strobes, and pause between two strobes, in cycles
 
 class Bus : public Clocked<Bus, Vppmc312> {
   public:

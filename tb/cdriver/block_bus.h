@@ -19,7 +19,7 @@ bool block_receive(void *ctx, uint8_t *byte, unsigned milliseconds);
 
 void block_reset(bool held, bool line);          /* line = true: serial mode, line = false: parallel bus */
 void block_run(unsigned cycles);
-void block_run_pulses(unsigned count);           /* after 1 s, the program ends */
+void block_run_pulses(unsigned count);           /* until `count` pulses; after 1 s, the program ends */
 void block_pin(block_pin_t which, bool high);
 void block_damage(unsigned at, uint8_t flip);    /* invert bits of received byte number `at` of the line */
 unsigned block_outputs(void);                    /* levels of the pins auxo_n */

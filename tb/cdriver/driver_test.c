@@ -93,7 +93,7 @@ static void ends(ppmc104_t *dev)
 
 static void errors(ppmc104_t *dev)
 {
-    static const uint8_t long_ramp[4] = {19, 9, 0xD5, 0x2B}; /* 11 221 */
+    static const uint8_t long_ramp[4] = {19, 9, 0xD5, 0x2B}; /* PA = 11 221, too large */
     static const uint8_t bad_ramp[4] = {9, 19, 6, 0};
     ppmc104_config_t bad = CONFIG;
     uint8_t byte = 0;

@@ -14,7 +14,7 @@ void frame_send(void *ctx, const uint8_t *bytes, unsigned count);
 bool frame_receive(void *ctx, uint8_t *byte, unsigned milliseconds);
 
 void frame_reset(void);
-void frame_run_steps(unsigned count);          /* after 2 s, the program ends */
+void frame_run_steps(unsigned count);          /* until `count` steps; after 2 s, the program ends */
 void frame_ext(unsigned number, bool high);
 void frame_switch(unsigned after, bool high);  /* set EXT1 at step number `after`, counted from now */
 void frame_eeprom(bool on);

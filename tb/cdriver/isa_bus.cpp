@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr unsigned kStrobe = 9;          // in cycles: 560 ns at 16 MHz, the length of an 8-bit access
+constexpr unsigned kStrobe = 9;          // strobe in cycles: 560 ns at 16 MHz, the length of an 8-bit access
 constexpr unsigned kPause = 4;
 
 class Bus : public Clocked<Bus, Vj105_stmc> {

@@ -54,7 +54,7 @@ static void moves(stmc_t *dev)
     show("init", stmc_init(dev, &CONFIG));
 }
 
-/* What an interrupt routine does: read the finish status, which clears the interrupt. */
+/* Act like an interrupt routine: read the finish status, which clears the interrupt. */
 static void interrupt(stmc_t *dev)
 {
     ppmc104_finish_t f = {false, false, false, false, false, 0, 0};

@@ -13,7 +13,7 @@
 namespace {
 
 constexpr unsigned kAxes = 8;
-constexpr unsigned kWrite = 2, kRead = 6, kPause = 3;  // in cycles
+constexpr unsigned kWrite = 2, kRead = 6, kPause = 3;  // strobes, and pause between two strobes, in cycles
 
 class Bus : public Clocked<Bus, Vppmc_bank> {
   public:

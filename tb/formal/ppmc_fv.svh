@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Macros for proofs (docs/proofs.md) of Boolean properties whose only temporal operator is $past.
-// A wrapper has the clock clk_i. FV_RESET defines rst_ni, which is low only in the first cycle.
+// A wrapper (the module of a proof) has the clock clk_i. FV_RESET defines rst_ni, which is low only in
+// the first cycle.
 // A cover property requires a witness trace that begins with a reset. If FV_COVERS is defined, FV_COVER is
 // an assertion that must fail, and FV_ASSERT is empty.
 `ifndef PPMC_FV_SVH

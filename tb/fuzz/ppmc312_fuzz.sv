@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fuzz: the deframer of the PPMC-312 in serial mode, with the table of its codes and address 5, for
 // tb/fuzz/main.cpp.
-// For a poll, what_o is 1. For an instruction, it is 2, followed by code, number and digest of the data.
-// For a wrong checksum, it is 3. For an unknown code, it is 4, followed by the code.
+// For a poll, what_o is 1. For an instruction, it is 2, followed by the code, the number of data bytes and
+// the digest of the data. For a wrong checksum, it is 3. For an unknown code, it is 4, followed by the code.
 `default_nettype none
 
 module ppmc312_fuzz

@@ -10,7 +10,7 @@
 
 namespace {
 constexpr size_t kQueue = 256;      // bytes accepted from the host before the line sends them
-constexpr uint64_t kSlices = 8000;  // slices per second
+constexpr uint64_t kSlices = 8000;  // slices (steps of the simulation) per second of line time
 }  // namespace
 
 Line::Line(const Arguments& arguments, uint64_t clk_hz)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A station of the virtual line: the Verilated node, its time, and the decision whether it must be simulated.
-// The node.h of the part defines the plant at the pins of the node. This is a class Node with Node(arguments,
-// clk_hz), set_up(top), look(top) (pins to be observed), follow(top) (called after a change), named(byte),
-// inputs(top, levels), booted(top), words(top) and linger(clk_hz). linger() returns the time for which the
-// node may still act after a character.
+// A station of the virtual line: the Verilated node (RTL of the board), its time, and the decision whether
+// the node must be simulated. The node.h of the device defines the plant at the pins of the node as class
+// Node, which has Node(arguments, clk_hz), set_up(top), look(top) (pins to be observed), follow(top) (called
+// after a change), named(byte), inputs(top, levels), booted(top), words(top) and linger(clk_hz). linger()
+// returns the time for which the node may still act after a character.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ class Station {
           linger_(node_.linger(clk_hz)),
           after_reply_(clk_hz / 1000) {
         seen_ = node_.look(dut_.top);
-        // A blank EEPROM takes 60 ms, and a reset 2 ms. The limit also ends the wait for a node that never
-        // boots.
+        // A boot with a blank EEPROM takes 60 ms, a reset 2 ms. The limit of 1 s also ends the wait for a
+        // node that never boots.
         for (uint64_t clk = 0; clk < clk_hz && !node_.booted(dut_.top); clk += kSlice) {
             std::vector<Change> nothing;
             run(0, kSlice, {}, nothing);
@@ -71,7 +71,7 @@ class Station {
             if (top.line != line_) {
                 line_ = top.line;
                 driven.push_back({now + 1, line_});
-                // A reply is being sent. There is no activity after it.
+                // A reply is being sent. After the reply, the node is idle.
                 until_ = now + after_reply_;
             }
             if (const auto pins = node_.look(top); pins != seen_) {
@@ -84,7 +84,7 @@ class Station {
 
     void inputs(unsigned levels, uint64_t now) {
         node_.inputs(dut_.top, levels);
-        // This time is long enough for the key filters of a PMC006B4.
+        // The station stays awake for longer than the key filters of a PMC006B4.
         until_ = now + 100 * linger_;
     }
 

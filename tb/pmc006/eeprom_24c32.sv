@@ -3,8 +3,8 @@
 //         acknowledge polling.
 // Rules:  the same device as openppmc/model/carrier/eeprom.py; a test compares both.
 // Timing: both lines are sampled at every rising edge of clk_i. The outputs change at the same edge.
-// Usage:  a test accesses `memory` by its name, sets the options that are declared below it, and reads the
-//         log of page writes. Without power (on_i = 0), the device drives no line. When the power is
+// Usage:  a test accesses `memory` by its name, sets the options that are declared below `memory`, and reads
+//         the log of page writes. Without power (on_i = 0), the device drives no line. When the power is
 //         removed, the memory becomes blank.
 `default_nettype none
 

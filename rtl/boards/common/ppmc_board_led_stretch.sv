@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_board_led_stretch: stretches a short event, so that it is visible on an LED.
 // Rules:  docs/boards.md, LEDs.
-// Timing: led_o rises one cycle after on_i. It falls 2**n cycles (1/32 .. 1/16 s) after the last cycle in
-//         which on_i = 1.
+// Timing: led_o rises one cycle after on_i. It falls a fixed time after the last cycle in which on_i = 1.
+//         This time is a power of two in cycles, between 1/32 s and 1/16 s.
 `default_nettype none
 
 module ppmc_board_led_stretch #(

@@ -7,8 +7,8 @@
 
 module pmc006_base_rom (
     input  wire logic        clk_i,
-    input  wire logic [11:0] current_i,  // mA, 400 .. 4000
-    output logic      [ 7:0] base_o      // 26 .. 255
+    input  wire logic [11:0] current_i,  // current in mA, 400 .. 4000
+    output logic      [ 7:0] base_o      // base code RB, 26 .. 255
 );
 
   localparam int unsigned MinMa = 325;

@@ -20,8 +20,8 @@ module pmc006_drive
     input  wire motor_settings_t        settings_i,      // parameter registers
     input  wire logic            [ 7:0] base_i,          // base code RB; valid one cycle after settings_i
     // motion
-    input  wire logic                   busy_i,          // a motion is in progress
-    input  wire logic                   step_i,          // a step is made at the next rising edge
+    input  wire logic                   busy_i,          // 1: a motion is in progress
+    input  wire logic                   step_i,          // 1: a step is made at the next rising edge
     input  wire logic                   forward_i,       // 1: the step is forward
     input  wire logic            [ 7:0] increment_i,     // angle of a step, 512 per electrical turn
     input  wire logic            [10:0] current_comp_i,  // current compensation B
@@ -37,10 +37,10 @@ module pmc006_drive
     output logic                        pwm_b_ref_o,     // bit stream of phase_b_ref_o
     output logic                        bridge_a_en_o,   // 1: the bridge of phase A is enabled
     output logic                        bridge_b_en_o,   // 1: the bridge of phase B is enabled
-    output logic                        m10_o,           // phase A, first half bridge; 1: high side
-    output logic                        m11_o,           // phase A, second half bridge; 1: high side
-    output logic                        m20_o,           // phase B, first half bridge; 1: high side
-    output logic                        m21_o            // phase B, second half bridge; 1: high side
+    output logic                        m10_o,           // phase A, first half bridge; 1: high side on
+    output logic                        m11_o,           // phase A, second half bridge; 1: high side on
+    output logic                        m20_o,           // phase B, first half bridge; 1: high side on
+    output logic                        m21_o            // phase B, second half bridge; 1: high side on
 );
 
   localparam int unsigned IdleUs = 100_000;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_hbridge: controls the H-bridge of one motor phase. Contains the bit stream of the current
-//         reference, and a chopper with fixed off time and slow or fast decay.
+// pmc006_hbridge: controls the H-bridge of one motor phase. Generates the bit stream that represents the
+//         current reference. Contains a chopper with fixed off time and slow or fast decay.
 // Rules:  P006-EXC-40, P006-CHP-01..06.
 // Timing: en_o follows on_i by one cycle. If on_i is 0 or sign_i changes, both high sides are switched off
 //         at the next rising edge, and the off time restarts. A comparator level that is sampled at edge t
@@ -22,8 +22,8 @@ module pmc006_hbridge #(
     input  wire logic       cmp_i,    // comparator, raw pin
     output logic            pwm_o,    // bit stream of the reference
     output logic            en_o,     // 1: the bridge is enabled
-    output logic            high0_o,  // high side of m10, m20
-    output logic            high1_o   // high side of m11, m21
+    output logic            high0_o,  // 1: high side of the first half bridge (m10 or m20) on
+    output logic            high1_o   // 1: high side of the second half bridge (m11 or m21) on
 );
 
   localparam int unsigned MaxCycles = (OffCycles > FastCycles) ? OffCycles : FastCycles;

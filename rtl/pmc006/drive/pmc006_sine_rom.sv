@@ -6,8 +6,8 @@
 
 module pmc006_sine_rom (
     input  wire logic       clk_i,
-    input  wire logic [7:0] index_i,  // 0 .. 128
-    output logic      [8:0] sine_o    // 0 .. 256
+    input  wire logic [7:0] index_i,  // index i, 0 .. 128
+    output logic      [8:0] sine_o    // 256 times the sine, 0 .. 256
 );
 
   localparam logic [128:0][8:0] QuarterWave = {  // index 128 first

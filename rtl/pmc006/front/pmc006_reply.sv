@@ -17,7 +17,7 @@ module pmc006_reply
     input wire logic [13:0] value_i,  // register of cmd_i, or 0; valid after sample_i
     input wire motor_settings_t settings_i,  // parameter registers
     input wire control_settings_t control_i,  // settings used only by the control
-    input wire logic speed_mode_i,  // SPEED_MODE
+    input wire logic speed_mode_i,  // register SPEED_MODE
     input wire logic busy_i,  // 1: a motion is in progress
     input wire logic stall_i,  // register STALL
     input wire logic [1:0] flags_i,  // EXT flags, [0]: EXT1

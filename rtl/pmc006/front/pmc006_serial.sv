@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_serial: serial interface to the host. Receives frames, and sends one reply to each valid frame.
 // Rules:  P006-UART-01..05, P006-FRM-03/04/07/10, P006-BAD-05/06.
-// Timing: e is the edge at which the last stop bit of a frame is sampled. frame_o.go is high in the cycle
-//         after e. de_o rises ceil(1 bit) after e. Bit edge n occurs ceil((2 + n) bits) after e. de_o falls
-//         ceil(82 bits) after e. The receiver is off from e + 1 until ceil(81.5 bits) after e. This is the
-//         middle of the last stop bit, when a host has received the complete reply.
+// Timing: e is the edge at which the last stop bit of a frame is sampled; ceil(n bits) is n bit times in
+//         cycles, rounded up. frame_o.go is high in the cycle after e. de_o rises ceil(1 bit) after e. Bit
+//         edge n of the reply occurs ceil((2 + n) bits) after e. de_o falls ceil(82 bits) after e. The
+//         receiver is off from e + 1 until ceil(81.5 bits) after e. This is the middle of the last stop bit
+//         of the reply, when a host has received the complete reply.
 // How:    a bit is one full turn of an accumulator with an exact modulus, so the bit edges do not drift.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -19,7 +20,7 @@ module pmc006_serial
     input  wire logic        rst_ni,
     input  wire logic        ready_i,  // 0: switch the receiver off
     input  wire logic [ 7:0] addr_i,   // address of the device
-    input  wire logic        rxd_i,    // raw pin
+    input  wire logic        rxd_i,    // from the host, raw pin
     output logic             txd_o,    // to the host, idle high
     output logic             de_o,     // 1: the line driver is on
     output frame_t           frame_o,  // valid frame for this device
@@ -36,12 +37,12 @@ module pmc006_serial
   localparam logic [Width-1:0] Step = Width'(BitUnits);
   localparam logic [Width-1:0] Wrap = Width'(BitUnits + WrapOffset);
   localparam logic [Width-1:0] WrapHalf = Width'(BitUnits + WrapOffset + Modulus / 64'd2);
-  // Initial phases for the cycle of valid, which is two cycles after the sample. With PhaseZero, a bit ends
-  // one bit time after the sample. With PhaseHalf, it ends half a bit time after the sample.
+  // Initial phases. They are loaded in the cycle of valid, two cycles after the stop bit was sampled. With
+  // PhaseZero, a bit ends one bit time after this sample. With PhaseHalf, it ends half a bit time after it.
   localparam logic [Width-1:0] PhaseZero = Width'(WrapOffset + 64'd2 * BitUnits);
   localparam logic [Width-1:0] PhaseHalf = Width'(WrapOffset + 64'd2 * BitUnits + Modulus / 64'd2);
-  // 192 bits until the start bit of the next byte, and 9.5 bits from there to the middle of the stop bit of
-  // that byte; rounded up.
+  // Silence after which the next byte begins a new frame: 192 bits until the start bit of this byte, plus 9.5
+  // bits from there to the middle of its stop bit; rounded up.
   localparam int unsigned SilenceBits = 202;
 
   logic [7:0] char, next_byte, sum_q, bits_q;

@@ -3,7 +3,7 @@
 //         motor. Also selects the register of the instruction.
 // Rules:  P006-CMD-51/57, P006-BAD-08/09/14/17; accepted data: docs/pmc006/README.md, 4 and 13.
 // Timing: access_o is read from a block RAM and valid one cycle after read_i. ok_o is registered: it
-//         belongs to cmd_i and the limits of the previous cycle.
+//         results from cmd_i and from the limits in the previous cycle.
 `default_nettype none
 
 module pmc006_data_check
@@ -141,7 +141,7 @@ module pmc006_data_check
     always_ok = 1'b0;
     unique case (cmd_i.op)
       I_STEP: other_ok = !data[31] && data[30:0] != '0;
-      // At most one bit of the byte is set, and bit 0 is not set.
+      // Accepted: at most one bit of the byte is set, and bit 0 is not set.
       I_MSTEP: if (data[0] || (data[7:0] & (data[7:0] - 1'b1)) != '0) other_ok = 1'b0;
       I_ADDR: always_ok = cmd_i.source == FromBoot && data[15:0] == 16'h00ff;
       I_VMAX, P_RESET_EN, P_PAUSE_EN: if (cmd_i.option > 4'd1) other_ok = 1'b0;

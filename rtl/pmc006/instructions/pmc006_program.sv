@@ -3,7 +3,7 @@
 //         WAIT, and the RESET and PAUSE keys.
 // Rules:  P006-PRG-02/10..17/20/30..33, P006-CMD-01..05/18/47, P006-BAD-11/16..19/23.
 // Timing: instructions start at least 48 cycles apart. WAIT ends at the edge that ends the cycle in which
-//         the source has the requested level.
+//         the signal that WAIT selects (its source) has the requested level.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -28,7 +28,7 @@ module pmc006_program
     output logic                 accepted_o,    // strobe: instruction W, G, z or E is accepted
     input  wire logic            burning_i,     // 1: program being written, words must not change
     output logic           [7:0] pp_o,          // pointer PP, word address 0 .. 200
-    // sources
+    // sources of WAIT
     input  wire logic            us_i,          // strobe every microsecond
     input  wire logic      [4:0] gpi_i,         // general inputs, synchronised
     input  wire logic      [1:0] flags_i,       // EXT flags, [0]: EXT1

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_eeprom: transfers of boot, save, burn and factory restore over the EEPROM bus; loads the registers.
+// pmc006_eeprom: executes boot, save, burn and factory restore over the EEPROM bus; loads the registers.
 // Rules:  P006-EEP-01/10/11/20..23, P006-CMD-02/41, P006-BAD-12..15/22/24.
 // Timing: the bus uses ticks with the frequency 4 * I2C_HZ, see ppmc_i2c_master. A byte to be written is
 //         sampled at the tick at which its first bit begins. During the boot, the parameter page is first
-//         checked and then executed; each pass takes eight cycles per byte. If the page is invalid, its
-//         copy is read and used instead.
+//         checked, then loaded into the registers; each pass takes eight cycles per byte. If the page is
+//         invalid, its copy is read and used instead.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_page: memory map of the EEPROM. For an address, it returns the byte to be sent or expected, and
-//         the instruction that loads the parameter. Also computes the check sum.
+//         the instruction that loads the parameter at this address. Also computes the check sum.
 // Rules:  P006-EEP-10/11/22, P006-BAD-14/15; memory map, factory page: docs/pmc006/README.md, 14.
 // Timing: byte_o and mismatch_o are combinational. When the low byte of a pair is sent, the high byte is
 //         stored, so that both bytes are from the same value of the register.
@@ -29,7 +29,7 @@ module pmc006_page
 );
 
   typedef struct packed {
-    logic [15:0] pair;    // pair at this offset
+    logic [15:0] pair;    // pair of bytes (one register) at this offset
     logic [7:0]  single;  // byte at this offset, if not part of a pair
   } page_field_t;
 

@@ -26,7 +26,7 @@ module pmc006_settings
 
   always_comb begin
     data = cmd_i.data[13:0];
-    // The value 6 has the effect of 5. Only the user program can set it.
+    // The acceleration coefficient 6 has the effect of 5. Only the user program can set 6.
     if (cmd_i.op == I_ACC && data[2:1] == 2'b11) data[1:0] = 2'b01;
     // If the instruction is not from a frame, bit 0 of EXTEN enables or disables both inputs.
     if (cmd_i.op == I_EXTEN && cmd_i.source != FromFrame) data[1] = data[0];

@@ -10,12 +10,12 @@
 ;   load X           hi = X
 ;   add X            hi = hi + X; Carry: overflow
 ;   sub X            hi = hi - X; Carry: X <= hi before
-;   load.lo, add.lo, sub.lo    the same with the result in lo, and hi = 0
+;   load.lo, add.lo, sub.lo    as load, add and sub, but the result is in lo, and hi = 0
 ;   mul.N X          {hi, lo} = (hi + X * (lowest N bits of lo)) << (32 - N), plus lo >> N; N = 1, 2, 16, 32.
 ;                    After mul.16, RMid = hi before + X * (lowest 16 bits of lo)
 ;   shift.N          {hi, lo} = {hi, lo} >> N; the same as mul.N K0
 ;   div X            lo = {hi, lo} / X, hi = remainder
-;   add.dec, sub.dec, div.dec  the same with RWay of the deceleration coefficient nd
+;   add.dec, sub.dec, div.dec  as add, sub and div, but RWay uses the deceleration coefficient nd
 ;   root             Vn = square root of lo; hi and Vn must be 0 before
 ;   store M          word M = hi
 ;   out O            output O = hi; out Acc, out Dec: increment the coefficient na, nd
@@ -55,7 +55,7 @@ TargetDone:
         add MLt
         store MLt               ; the new target
         sub RV
-        jump Reached if Zero    ; it equals the current speed
+        jump Reached if Zero    ; the target equals the current speed
         set phase=Ramp up=1 smooth=1
         jump Straight if Analog
 Retarget:                       ; hi = LT - V, with its carry
@@ -126,7 +126,7 @@ PlanNeed: ; if both distances do not fit, use steeper ramps, up to 5
         load MWay1
         add MWay2
         add MSlack
-        sub RLeft               ; Carry: more than available
+        sub RLeft               ; Carry: the ramps need more steps than are left
         jump PlanFree if NotCarry
         jump PlanDec if Acc5
         out Acc                 ; na + 1 halves the distance

@@ -26,15 +26,15 @@ module pmc006_calc
     input  wire logic [ 2:0] acc_i,           // acceleration coefficient, sampled with plan_i
     input  wire logic [ 2:0] dec_i,           // deceleration coefficient, sampled with plan_i
     input  wire logic [13:0] v_i,             // current speed V
-    input  wire logic [11:0] ve_i,            // VSTOP
+    input  wire logic [11:0] ve_i,            // register VSTOP
     input  wire logic [30:0] left_i,          // remaining steps R; stable until 6 cycles after the strobe
     input  wire logic [ 7:0] mstep_i,         // microsteps per full step: 1, 2, 4, .. 128
     // sampled settings; stable while busy_o is high
-    input  wire logic [13:0] vmax_i,          // VMAX
+    input  wire logic [13:0] vmax_i,          // register VMAX
     input  wire logic [ 9:0] adc_i,           // sample h of the analog speed input
     input  wire logic [ 7:0] base_i,          // base code RB of the current
-    input  wire logic [10:0] ccomp_i,         // CCOMP
-    input  wire logic [10:0] scomp_i,         // SCOMP
+    input  wire logic [10:0] ccomp_i,         // register CCOMP
+    input  wire logic [10:0] scomp_i,         // register SCOMP
     // results
     output phase_e           phase_o,         // phase of the motion
     output logic      [13:0] next_v_o,        // Vn, next value of V

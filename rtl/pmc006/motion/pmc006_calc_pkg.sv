@@ -31,7 +31,7 @@ package pmc006_calc_pkg;
   typedef enum logic [3:0] {
     OperandPlain,
     OperandDec,    // RWay uses nd instead of na
-    OperandLow,    // result in lo; then hi = 0
+    OperandLow,    // the result is stored in lo, and hi = 0
     OperandLowDec
   } operand_mode_e;
 
@@ -53,7 +53,7 @@ package pmc006_calc_pkg;
     OutDec     // nd = nd + 1
   } output_sel_e;
 
-  // Bits 6:5 = 00: word of pmc006_calc_words; 01: table of pmc006_calc_words; 10: register.
+  // Operands. Bits 6:5 = 00: word of pmc006_calc_words; 01: table of pmc006_calc_words; 10: register.
   typedef enum logic [6:0] {
     // words that the program writes
     MLt     = 7'h00,  // last target speed
@@ -107,7 +107,7 @@ package pmc006_calc_pkg;
     CondSpeed,     // speed run
     CondStop,      // speed run, and the stop request is active
     CondAnalog,
-    CondPlan,      // run that was started by plan_i, before t = 0
+    CondPlan,      // a motion is being planned (run started by plan_i)
     CondEnding,    // phase STOP or END
     CondRamp,      // phase RAMP, DEC or STOP
     CondLive,      // phase CRUISE or RAMP
@@ -117,7 +117,7 @@ package pmc006_calc_pkg;
     CondDec5       // nd = 5
   } cond_e;
 
-  // Bit 2 = 1: a ramp. Bit 2 = 0: the phase that follows the ramp with the same bits 1:0.
+  // Bit 2 = 1: a ramp. Bit 2 = 0: the phase that follows the ramp whose bits 1:0 are the same.
   typedef enum logic [2:0] {
     PhCruise = 3'b000,
     PhCreep  = 3'b001,

@@ -21,7 +21,7 @@ module pmc006_motion
     input  wire logic            [7:0] base_i,          // base code RB; valid one cycle after settings_i
     // accepted instructions
     input  wire motion_start_t         motion_start_i,  // start of a motion
-    input  wire logic                  halt_i,          // 1: stop immediately; then step_o is low
+    input  wire logic                  halt_i,          // 1: stop immediately; step_o is low while halt_i = 1
     input  wire sample_t               adc_i,           // sample h of the analog speed input
     output motion_status_t             motion_o,        // state of the motion
     output logic                       step_o,          // 1: a step is made at the next rising edge

@@ -15,7 +15,7 @@ module pmc006_rate (
     input  wire logic [30:0] count_i,         // number of steps, sampled in the cycle before busy_i rises
     input  wire logic [11:0] vstart_i,        // VSTART, first value of V; sampled with count_i
     input  wire logic        endless_i,       // 1: speed run, which left_o does not end
-    input  wire logic        busy_i,          // the motion is in progress
+    input  wire logic        busy_i,          // 1: the motion is in progress
     input  wire logic        halt_i,          // 1: stop the motion immediately
     input  wire logic        end_run_i,       // 1: end the motion at the next update tick
     input  wire logic        load_v_i,        // strobe: load Vn into V
@@ -24,7 +24,7 @@ module pmc006_rate (
     input  wire logic [ 6:0] lead_angle_i,    // Wn, next value of W
     output logic             t0_o,            // strobe: t = 0
     output logic             update_o,        // strobe: update tick, every 100 µs
-    output logic             sample_o,        // strobe: in every 100th update tick
+    output logic             sample_o,        // strobe in every 100th update tick: sample the speed input
     output logic             advance_o,       // strobe: begin the computation for the next update tick
     output logic             step_o,          // combinational; 1: a step is made at the next edge
     output logic             motion_end_o,    // combinational; 1: the motion ends (halted or complete)
@@ -39,8 +39,8 @@ module pmc006_rate (
   localparam logic [6:0] UpdateTicks = 7'd100;  // µs ticks between two update ticks
   localparam logic [6:0] SampleUpdates = 7'd100;  // update ticks between two samples
 
-  // The register stores the accumulator of the rules plus 2^20 - 10^6, so that a carry of the sum schedules
-  // a step.
+  // accu_q stores the accumulator of the rules (P006-MOT-01..05) plus 2^20 - 10^6, so that a carry of the sum
+  // schedules a step.
   localparam logic [19:0] AccuStart = 20'd48_576;
 
   logic [6:0] ticks_q, updates_q;

@@ -25,7 +25,7 @@ module isa_4axis #(
     output logic            sd_oe,
     output logic            irq,        // high: device A or B requests an interrupt
     // both devices
-    input  wire logic       errint_n,   // low: an instruction error also requests an interrupt
+    input  wire logic       errint_n,   // low: an error requests an interrupt, like the end of a motion
     input  wire logic [3:0] auxi,       // [1:0]: device A, [3:2]: device B
     output logic      [3:0] auxo,
     output logic            clk_o,      // 4 MHz output of device A

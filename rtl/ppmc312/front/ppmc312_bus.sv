@@ -3,14 +3,14 @@
 //         wait request.
 // Rules:  P312-PAR-09..12, P312-GEN-01.
 // Timing: when the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge 2. When
-//         a read is first sampled at edge 0, the bus is driven from edge 3 until 2 edges after the end of
-//         the read. rd_done_o is high in the cycle before edge 2 after that end. d_o does not change during
-//         a strobe.
+//         the start of a read is first sampled at edge 0, the bus is driven from edge 3 until 2 edges after
+//         the first sample of the end of the read. rd_done_o is high in the cycle before edge 2 after this
+//         sample. d_o does not change during a strobe.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc312_bus #(
-    parameter int unsigned WaitCycles = 6  // T_WRQ in cycles
+    parameter int unsigned WaitCycles = 6  // T_WRQ (minimum time between data accesses) in cycles
 ) (
     input  wire logic       clk_i,        // clock
     input  wire logic       rst_ni,       // reset, asynchronous

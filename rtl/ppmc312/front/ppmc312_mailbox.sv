@@ -15,7 +15,7 @@ module ppmc312_mailbox
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 #(
-    parameter int unsigned WaitCycles = 6  // T_WRQ in cycles
+    parameter int unsigned WaitCycles = 6  // T_WRQ (minimum time between data accesses) in cycles
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
@@ -132,7 +132,7 @@ module ppmc312_mailbox
   logic [3:0] pause_q;  // cycles until the next action of the read window
   logic loaded_q, shown_q, last;
 
-  // A read that began before the report was available has not returned any of its bytes.
+  // A read that began before the report was available (shown_q = 0) has returned no byte of the report.
   assign last = rd_done && shown_q && rd_rs == RegDrr && left_q == (BLOCK_BITS + 1)'(1);
   assign rd_load_o = rd_any_i && mref && !loaded_q && pause_q == '0;
   assign rd_done_o = last;

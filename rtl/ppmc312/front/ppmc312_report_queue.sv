@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_report_queue: stores reports until the host has read them. Each of the eight classes has a
-//         separate queue.
+// ppmc312_report_queue: stores reports until the host has read them. Each of the eight classes of reports has
+//         a separate queue.
 // Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30.
 // Timing: an event is stored one cycle later. rd_size_o and the bytes are valid 2 cycles after rd_load_i.
 // Note:   parallel mode: the queue of class 2 has two entries. The host reads one entry while the next
 //         response is written to the other. A complete response (response_done_i) becomes readable when the
 //         previous response has been read.
-// Note:   serial mode: the station reads a response to the host from the entry to which it was written.
-//         Class 2 reports the result of triggered instructions. rd_load_i then consumes a report, and a
-//         newer report replaces a pending report.
+// Note:   serial mode: the station reads a response to the host from the entry to which it was written. As
+//         reports, class 2 contains only the results of triggered instructions; a newer result replaces a
+//         pending result. rd_load_i consumes a report.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -28,8 +28,8 @@ module ppmc312_report_queue
     input wire response_done_t response_done_i,  // class 2: a response is complete
     output response_queue_t response_queue_o,  // class 2: status of the queue
     input wire logic aux_clear_i,  // class 6, strobe: discard pending reports
-    input wire logic aux_i,  // strobe: the generalized input has changed
-    input wire logic [7:0] aux_data_i,  // changed bits; valid with aux_i
+    input wire logic aux_i,  // class 6, strobe: the generalized input has changed
+    input wire logic [7:0] aux_data_i,  // class 6: changed bits; valid with aux_i
     input wire monitor_req_t monitor_req_i,  // classes 7 and 8: pending reports of the monitors
     output monitor_ack_t monitor_ack_o,  // classes 7 and 8: a report is being loaded, or has been read
     // front end
@@ -213,7 +213,7 @@ module ppmc312_report_queue
     end
   end
 
-  // The flag belongs to the data of the second entry, and moves with them to the first entry.
+  // aux_discarded_q belongs to the data of the second entry. It moves with these data to the first entry.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) aux_flag_q <= 1'b0;
     else if (shift) aux_flag_q <= aux_discarded_q && aux_count_q == 2'd2;
@@ -255,7 +255,7 @@ module ppmc312_report_queue
     endcase
   end
 
-  // Two registers give these bytes the latency of the RAM.
+  // Two registers delay these bytes, so that they have the same latency as the bytes of the RAM.
   always_ff @(posedge clk_i) begin
     local_at_q <= rd_addr_i[2:0];
     local_q <= local_byte;

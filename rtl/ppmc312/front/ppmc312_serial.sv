@@ -166,8 +166,8 @@ module ppmc312_serial
       .sent_i        (sent)
   );
 
-  // The response to I_POS contains the selected position as an extra byte before the value. The reply omits
-  // this byte.
+  // The response to I_POS (position read) repeats parameter s, which selects the position, before the value.
+  // The reply omits this byte.
   assign rd_addr_o = BLOCK_BITS'(index) + ((info.code == I_POS) ? 5'd4 : 5'd3);
 
   ppmc312_serial_tx #(

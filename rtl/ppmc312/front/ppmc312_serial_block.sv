@@ -40,7 +40,8 @@ module ppmc312_serial_block
     if (info_i.has_inner) size_o = too_long_q ? InvalidSize : (BLOCK_BITS + 1)'(inner_q) + InnerOverhead;
   end
 
-  // The serial mode has no split tables, and its monitors always continue after a report.
+  // The serial mode has no split tables (bits 7:4 are 0), and its monitors always continue after a report
+  // (bit 1 is 1).
   always_comb begin
     data_o = data_i;
     if (generated_i) begin

@@ -21,8 +21,8 @@ module ppmc312_serial_code_rom
     logic [3:0] bytes;  // data bytes received after the code
     logic [7:0] dir_flag, trigger;
     position      = code[5:4] == 2'b01;
-    dir_flag      = {1'b0, code[5], 6'd0};  // DIR
-    trigger       = {5'd0, code[5:4] != 2'b00, code[5] && code[4], code[5]};  // OV, TRG
+    dir_flag      = {1'b0, code[5], 6'd0};  // flag DIR
+    trigger       = {5'd0, code[5:4] != 2'b00, code[5] && code[4], code[5]};  // flags OV and TRG
     info          = '0;
     info.is_known = 1'b1;
     info.code     = code;
@@ -99,7 +99,7 @@ module ppmc312_serial_code_rom
         bytes = 4'd2;
         info.code = code[3] ? I_ZERO : I_ORIGIN;
         info.has_flags = 1'b1;
-        info.flags = dir_flag | {3'd0, code[4], 4'd0};  // IDX
+        info.flags = dir_flag | {3'd0, code[4], 4'd0};  // flag IDX
       end
       default:                                                               info.is_known = 1'b0;
     endcase

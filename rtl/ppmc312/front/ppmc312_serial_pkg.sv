@@ -12,7 +12,7 @@ package ppmc312_serial_pkg;
 
   typedef struct packed {
     logic       is_known;
-    logic       local_read;   // codes 40, 4E, 4F: the station itself sends the reply
+    logic       local_read;   // codes 40h, 4Eh, 4Fh: the station itself sends the reply
     logic       has_inner;    // event registration: the block contains an embedded block
     logic [7:0] code;         // code of the same instruction on the parallel bus
     logic [3:0] size;         // bytes of the parallel block, from header to last parameter
@@ -29,8 +29,8 @@ package ppmc312_serial_pkg;
 
   typedef struct packed {
     logic [3:0]                        report_class;    // class of the first pending report; 0: no report
-    ppmc312_link_pkg::trigger_result_e trigger_result;  // class 2
-    ppmc312_pkg::end_cause_t           cause;           // class 5; also stored for the END code
+    ppmc312_link_pkg::trigger_result_e trigger_result;  // class 2: result of an instruction
+    ppmc312_pkg::end_cause_t           cause;           // class 5: cause of the end; determines the END code
     logic                              discarded;       // class 6: a change was discarded
     logic [7:0]                        data;            // class 6: changed bits of the input
     logic                              outside;         // classes 7, 8; 1: outside, 0: inside

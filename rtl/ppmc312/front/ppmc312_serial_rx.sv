@@ -12,7 +12,8 @@ module ppmc312_serial_rx
 #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter bit          CharsSum = 1'b0         // 1: checksum over the characters, 0: over their values
+    // 1: checksum of the data characters, 0: of control code and data bytes
+    parameter bit          CharsSum = 1'b0
 ) (
     input  wire logic               clk_i,           // clock
     input  wire logic               rst_ni,          // reset, asynchronous

@@ -3,9 +3,9 @@
 //         check, execution, response.
 // Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06;
 //         docs/ppmc312/README.md, Instruction blocks.
-// Timing: execute_o follows host_block_i.valid by 24 cycles. The response is complete 5 + bytes cycles
-//         after execute_o. Set-ups, starts and rate changes extend this time. blk_done_o is asserted when
-//         the response is stored.
+// Timing: execute_o follows host_block_i.valid by 24 cycles. The response is complete 5 cycles plus
+//         one cycle per byte after execute_o. Set-ups, starts and rate changes extend this time. blk_done_o
+//         is asserted when the response is stored.
 // Note:   execute_o commands the other blocks to execute block_o.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -19,7 +19,7 @@ module ppmc312_exec
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: serial mode, in which no response waits to be read
-    input wire logic boot_i,  // 1: a reset instruction caused this reset, which must be reported
+    input wire logic boot_i,  // 1: a reset instruction caused the last reset; report this
     output logic reset_o,  // strobe: reset the device
     // sources of instructions
     input wire host_block_t host_block_i,  // block from the host
@@ -44,8 +44,8 @@ module ppmc312_exec
     output logic move_o,  // strobe: begin a start or a rate change
     input wire move_status_t move_status_i,  // result of move_o
     // responses
-    output response_t response_o,  // stable until response_done_o
-    output response_cmd_t response_cmd_o,  // write commands
+    output response_t response_o,  // response; stable until response_done_o
+    output response_cmd_t response_cmd_o,  // commands to the response writers
     input wire response_status_t response_status_i,  // status of the response writer
     output logic hold_o,  // 1: a response follows soon
     output logic response_done_o,  // strobe: the response is complete
@@ -59,7 +59,7 @@ module ppmc312_exec
     StFirst,    // checks for a reset and for unread responses
     StSettle,
     StAct,
-    StWait,     // waits for the processing time of instructions 26 and 80; the check is held
+    StWait,     // waits for the processing time of instructions 26 and 80; keeps the result of the check
     StSetup,
     StProcTime,     // waits for the remaining processing time
     StCopy,
@@ -166,7 +166,7 @@ module ppmc312_exec
   assign evt_n = inner ? flags[0] : flags[1];
   assign evt_count = queue_status_i.event_count[evt_n];
   assign empty = evt_count == '0;
-  // The event pin is already used by the other kind of trigger (command FIFO or event buffer).
+  // used = 1: the other kind of trigger (command FIFO or event buffer) already uses the event pin.
   assign used = inner ? queue_status_i.fifo_uses_event[evt_n] : flags[0] && !empty;
   assign full = inner ? evt_count == 3'd4 : queue_status_i.fifo_count == 4'd8;
   assign registers = act && check == CheckOk && (inner ? !flags[1] : ov) && !used && !full;

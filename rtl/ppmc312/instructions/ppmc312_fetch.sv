@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fetch: reads an instruction into block_o, or copies it into the instruction queue.
 // Rules:  P312-GEN-04, P312-CMD-00 and P312-CMD-82 (short forms), P312-OVR-01, P312-CMD-49.
-// Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length.
+// Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length of the instruction.
 // Assumes: data_i is valid two cycles after addr_o.
 `default_nettype none
 
@@ -23,7 +23,7 @@ module ppmc312_fetch
     output logic         [BLOCK_BITS-1:0] addr_o,       // byte number, 0 = header
     input  wire logic    [           7:0] data_i,       // byte at addr_o, two cycles later
     // destination of the copy
-    output logic                          copy_we_o,    // strobe
+    output logic                          copy_we_o,    // strobe: write a byte of the copy
     output logic         [           3:0] copy_addr_o,  // byte number, 0 = header; valid with copy_we_o
     output logic         [           7:0] copy_data_o   // byte; valid with copy_we_o
 );

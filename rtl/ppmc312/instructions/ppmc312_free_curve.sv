@@ -15,7 +15,7 @@ module ppmc312_free_curve
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic open_i,  // strobe: a transfer begins
-    input wire logic split_i,  // with open_i: LE, 1: separate deceleration side
+    input wire logic split_i,  // with open_i: flag LE, 1: separate deceleration side
     input wire logic [6:0] acc_i,  // with open_i: stages of the acceleration, 2 .. 127
     input wire logic [6:0] dec_i,  // with open_i and split_i: stages of the deceleration
     input wire logic abort_i,  // strobe: end the transfer without a table

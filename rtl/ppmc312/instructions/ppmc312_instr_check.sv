@@ -2,7 +2,7 @@
 // ppmc312_instr_check: checks whether a block may be executed. The order of the checks is size, header,
 //         code, status, length, values.
 // Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03; docs/ppmc312/README.md, 6.1 (error numbers).
-// Timing: check_o is valid three cycles after the block.
+// Timing: check_o is valid three cycles after block_i is valid.
 `default_nettype none
 
 module ppmc312_instr_check

@@ -94,21 +94,21 @@ package ppmc312_instr_pkg;
   // Contents of the instruction queue.
   typedef struct packed {
     logic            fifo_triggered;    // a triggered entry of the command FIFO is pending
-    logic [1:0]      fifo_trig;         // trigger of this entry
+    logic [1:0]      fifo_trig;         // trigger of the oldest triggered entry of the command FIFO
     logic [1:0]      events_triggered;  // event buffer [n] has been triggered
-    logic [3:0]      fifo_count;        // entries, 0 .. 8
+    logic [3:0]      fifo_count;        // entries of the command FIFO, 0 .. 8
     logic [1:0]      fifo_uses_event;   // an entry of the FIFO waits for event pin [n]
-    logic [1:0][2:0] event_count;       // entries, 0 .. 4
-    logic [1:0][1:0] event_next;        // next entry, 0 .. 3
+    logic [1:0][2:0] event_count;       // entries of event buffer [n], 0 .. 4
+    logic [1:0][1:0] event_next;        // next entry of event buffer [n], 0 .. 3
   } queue_status_t;
 
   // ---- set-up: initial setting and free curve -----------------------------------------------------
 
   // Commands to the set-up; strobes.
   typedef struct packed {
-    logic build;  // checked initial setting
-    logic open;   // checked code block of a free curve
-    logic data;   // checked data block of a free curve
+    logic build;  // build the table of an initial setting that passed the check
+    logic open;   // begin a free curve, whose code block passed the check
+    logic data;   // process a data block of a free curve that passed the check
     logic fail;   // a set-up has failed
   } setup_cmd_t;
 
@@ -126,14 +126,14 @@ package ppmc312_instr_pkg;
     logic                  done;      // strobe: build or data has ended
     logic                  failed;    // with done: the set-up has failed
     logic [7:0]            error;     // with failed: error number of response F0
-    curve_progress_t       progress;  // with done
-    logic [BLOCK_BITS-1:0] addr;      // byte of the block, two cycles before it is used
+    curve_progress_t       progress;  // with done: progress of the free curve
+    logic [BLOCK_BITS-1:0] addr;      // number of the block byte that is used two cycles later
   } setup_status_t;
 
   // ---- moves and rate changes ---------------------------------------------------------------------
 
   typedef struct packed {
-    logic       done;         // strobe: finished
+    logic       done;         // strobe: the start or rate change is finished
     logic       at_limit;     // with done: a limit prevents the start
     logic       rejected;     // with done: the current status does not allow the start
     logic [7:0] status_byte;  // with done: status byte of the response

@@ -2,8 +2,9 @@
 // ppmc312_instr_queue: stores instructions that wait for a trigger. Contains a command FIFO with eight
 //         entries, and two event buffers with four entries each.
 // Rules:  P312-OVR-01/02/05/10/12, P312-EVT-01/04, P312-BAD-13.
-// Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous head. halt_o follows
-//         counted_i by one cycle. The bytes of an entry are valid two cycles after fetch_addr_i.
+// Timing: a new head of the FIFO is armed (waits for its trigger) 2 cycles after the trigger of the previous
+//         head. halt_o follows counted_i by one cycle. The bytes of an entry are valid two cycles after
+//         fetch_addr_i.
 // How:    one RAM stores the complete blocks. The FIFO has 16 places, because triggered entries remain
 //         stored until they are processed; the event buffers have 2 * 4 places. The FIFO has three
 //         pointers: written, armed, processed.

@@ -19,7 +19,7 @@ module ppmc312_instr_unit
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic serial_i,  // 1: the front end is the serial station
-    input wire logic boot_i,  // 1: a reset instruction caused this reset, which must be reported
+    input wire logic boot_i,  // 1: a reset instruction caused the last reset; report this
     output logic reset_o,  // strobe: an instruction requests a reset
     // blocks from the host
     input wire host_block_t host_block_i,  // block from the host

@@ -27,8 +27,8 @@ module ppmc312_response_format
     input  wire logic          [2:0] evt_count_i,     // entries of the event buffer, 0 .. 4
     // result
     input  wire result_data_t        result_data_i,   // data of the executed instruction
-    input  wire setup_status_t       setup_status_i,  // valid with at_setup_i
-    input  wire move_status_t        move_status_i,   // valid with at_move_i
+    input  wire setup_status_t       setup_status_i,  // status of the set-up; valid with at_setup_i
+    input  wire move_status_t        move_status_i,   // result of the move; valid with at_move_i
     output response_t                response_o       // response to be written
 );
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_response_writer: writes a response byte by byte into the queue of class 2.
 // Rules:  docs/ppmc312/README.md, 6.1; P312-GEN-04 (logical order), P312-RSP-10.
-// Timing: done_o follows start_i by 3 + bytes cycles. For an echo, echo_data_i is valid two cycles after
-//         echo_addr_o.
+// Timing: done_o follows start_i by 3 cycles plus one cycle per byte. For an echo, echo_data_i is valid two
+//         cycles after echo_addr_o.
 // Assumes: response_i is stable from start_i to done_o.
 `default_nettype none
 

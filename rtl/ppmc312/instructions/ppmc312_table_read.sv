@@ -120,7 +120,7 @@ module ppmc312_table_read
     end
   end
 
-  // These registers are used long after their inputs change, so the delay has no effect.
+  // These registers are used long after their inputs change, so their delay of one cycle has no effect.
   always_ff @(posedge clk_i) begin
     if (!run_q && stage_q == Fastest) rest_q <= ~first;  // 127 - first
     else if (stage_ends) rest_q <= 7'(ppmc_pkg::dec(32'(rest_q)));

@@ -44,11 +44,11 @@ module ppmc312_motion
     output status_e               status_o,        // status of the device
     output logic                  end_wait_o,      // a motion waits for END
     output logic                  output_o,        // 1: pulses are being output
-    output logic                  launch_o,        // strobe: t0
+    output logic                  launch_o,        // strobe: t0, a motion starts
     output logic                  output_end_o,    // strobe: pulse output has ended
     output logic                  counted_o,       // strobe: a pulse in direction dir_o
-    output logic                  hold_end_o,      // strobe: report E2
-    output logic                  stop_o,          // strobe: report E0
+    output logic                  hold_end_o,      // strobe: report E2, a held start is released
+    output logic                  stop_o,          // strobe: report E0, a motion has ended
     output end_cause_t            cause_o          // cause of the end; valid with stop_o
 );
 

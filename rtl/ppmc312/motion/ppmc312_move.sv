@@ -4,7 +4,8 @@
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (check 8), P312-STA-04.
 // Timing: result_o.done follows begin_i by 4 cycles for a single step, which needs no look-up. Otherwise
 //         the time of the planner is added. start_o or change_o is asserted together with result_o.done.
-//         Rate and number of pulses are held until t0, even if other instructions are executed before t0.
+//         Rate and number of pulses are held until t0, when the motion starts, even if other instructions are
+//         executed before t0.
 `default_nettype none
 
 module ppmc312_move
@@ -23,12 +24,12 @@ module ppmc312_move
     input wire logic [15:0] limit_rate_i,  // rate limit HSL in base clocks
     input wire logic gate_i,  // 0: the start gate holds a start
     input wire logic elapsed_i,  // the processing time has passed
-    output move_status_t result_o,  // result
+    output move_status_t result_o,  // result of the move
     // motion
     output logic start_o,  // strobe: start op_o along profile_o
     output logic change_o,  // strobe: change the rate to profile_o.target
-    output operation_t op_o,  // valid with start_o
-    output profile_t profile_o,  // stable until t0
+    output operation_t op_o,  // operation; valid with start_o
+    output profile_t profile_o,  // plan of the operation; stable until t0
     output logic single_pulse_o,  // with start_o; 1: use the start-up rate instead of profile_o.target
     // planner
     output profile_req_t profile_req_o,  // command to the planner

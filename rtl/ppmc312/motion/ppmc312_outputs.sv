@@ -22,7 +22,7 @@ module ppmc312_outputs #(
     input  wire logic       aux_i,             // generalized output
     input  wire logic [5:0] aux_data_i,        // with aux_i; 1: pin low
     // state of the motor side
-    input  wire logic       launch_i,          // strobe: t0
+    input  wire logic       launch_i,          // strobe: a motion starts (t0)
     input  wire logic       output_end_i,      // strobe: pulse output has ended
     input  wire logic       abn_i,             // 1: abnormal status
     input  wire logic       lock_i,            // 1: interlock control is active

@@ -17,7 +17,7 @@ module ppmc312_position
     input wire logic ccw_i,  // 1: CCW, counts down
     input wire logic output_i,  // 1: pulses are being output
     // encoder, synchronous
-    input wire logic epin_i,  // counted at its rising edge
+    input wire logic epin_i,  // encoder pulse, counted at its rising edge
     input wire logic epdir_i,  // 0: up, 1: down
     // instructions
     input wire logic [31:0] value_i,  // new position in pulses or edges, two's complement
@@ -35,7 +35,7 @@ module ppmc312_position
     output logic counted_o,  // strobe: a pulse has been counted in pos_o
     // interlock
     output logic lock_o,  // 1: interlock control is active
-    output logic unlock_o,  // strobe: report E1
+    output logic unlock_o,  // strobe: report E1, interlock control ends
     // monitors, [0]: in-position, [1]: encode
     output logic [1:0] window_on_o,  // monitor is enabled
     output logic [1:0] outside_o,  // monitor is enabled, and the position is outside
@@ -67,7 +67,7 @@ module ppmc312_position
       pos_o      <= '0;
       enc_o      <= '0;
       counted_o  <= 1'b0;
-      epin_q     <= 1'b1;  // a pin that is high after reset is then not an edge
+      epin_q     <= 1'b1;  // so a pin that is high after reset is not an edge
       lock_pos_q <= '0;
       lock_o     <= 1'b0;
       unlock_o   <= 1'b0;

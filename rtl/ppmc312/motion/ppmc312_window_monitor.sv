@@ -3,8 +3,8 @@
 //         position is inside or outside the range.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
 // Timing: pending_o follows inside_i by two cycles.
-// Note:   a report is pending while the state differs from the state in the report that the host has read
-//         last.
+// Note:   a report is pending while the state (inside, outside) differs from the state in the report that the
+//         host has read last.
 `default_nettype none
 
 module ppmc312_window_monitor (

@@ -3,9 +3,9 @@
 //         base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
 // Timing: ready_o is combinational. For pulse 1, it is asserted CYC(WidthXtal) cycles after arm_i. Each
-//         later pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1. With the
-//         external clock, it can fire in the cycle of its tick. Two pulses are at least 4 cycles apart. A
-//         late pulse does not shorten later intervals.
+//         later pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1, where a tick is a
+//         base clock. With the external clock, a pulse can fire in the cycle of its tick. Two pulses are at
+//         least 4 cycles apart. A late pulse does not shorten later intervals.
 // Note:   a base clock may last one cycle. Therefore this module cannot use ppmc_base_clock and
 //         ppmc_rate_counter, which need 3 cycles per base clock.
 `include "ppmc_assert.svh"
@@ -24,7 +24,7 @@ module ppmc312_interval #(
     input  wire logic                arm_i,    // strobe: start of a motion
     input  wire logic                first_i,  // 1: the next pulse is pulse 1
     input  wire logic                fire_i,   // strobe: begin a pulse; only while ready_o = 1
-    input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next pulse, at least 2
+    input  wire logic [RateBits-1:0] rate_i,   // with fire_i: base clocks until the next pulse, at least 2
     output logic                     ready_o,  // 1: a pulse may begin
     output logic                     high_o    // 1: a pulse is active
 );

@@ -19,7 +19,7 @@ module ppmc312_muldiv #(
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic start_i,  // strobe
+    input wire logic start_i,  // strobe: start an operation
     input wire logic mul_i,  // 1: multiply, 0: divide
     input wire logic keep_i,  // 1: continue with {hi, lo} instead of h and lo_i
     input wire logic [5:0] steps_i,  // number of steps, 1 .. LoBits

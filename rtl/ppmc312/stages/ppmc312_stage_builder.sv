@@ -8,9 +8,10 @@
 // How:    the speed of stage i is D_i = K*RH + (Rs-RH)*W_i. W_i is the weight of the stage, K is the weight
 //         of the last stage, RH is the high-speed rate, and Rs is the larger of start_rate and stop_rate.
 //         The first pass computes the rates R[i] = C/D_i, rounded, with C = K*Rs*RH. It also finds the first
-//         stage of each side, and adds up D_i. The second pass computes the pulses of each stage in
-//         proportion to D_i. The remainder of this division is added to the next stage.
-//         The multiplier computes all sums as h + operand * lo. A small RAM stores the intermediate values.
+//         stage of each side, and adds up the D_i of each side. The second pass divides P*D_i plus the
+//         remainder of the stage before by this sum, where P is the number of pulses of the side. The
+//         quotient is the number of pulses of stage i. The multiplier computes all products and sums as
+//         summand + operand * multiplier (ppmc312_muldiv). A small RAM stores the intermediate values.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -19,7 +20,7 @@ module ppmc312_stage_builder
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic start_i,  // strobe
+    input wire logic start_i,  // strobe: start to build the table
     input wire curve_t curve_i,  // ramp; stable while busy_o = 1
     output logic busy_o,  // from the cycle after start_i until the table is written
     output logic too_few_pulses_o,  // a stage has at most 1 pulse; valid until the next start
@@ -31,8 +32,8 @@ module ppmc312_stage_builder
     output logic op_start_o,  // strobe: start an operation
     output logic op_mul_o,  // 1: multiply, 0: divide
     output logic [5:0] op_steps_o,  // 1 .. 24
-    output logic [23:0] op_lo_o,  // multiplier
-    output logic [39:0] word_o,  // with op_start_o: h; then the operand
+    output logic [23:0] op_lo_o,  // multiplication: multiplier; division: low part of the dividend
+    output logic [39:0] word_o,  // with op_start_o: summand or upper dividend; then the operand
     input wire logic op_busy_i,  // 1: the result is not valid yet
     input wire logic [39:0] hi_i,  // result; remainder
     input wire logic [23:0] lo_i  // low bits of the result; quotient
@@ -101,7 +102,7 @@ module ppmc312_stage_builder
   assign first = {first_dec_i, first_acc_i};
   assign begins_o = {side_q, !side_q} & {2{state_q == StBegin && hit}};
 
-  // ---- operation of a state: read h, read the operand, start --------------------------------------
+  // ---- operation of a state: read the summand, read the operand, start ----------------------------
 
   assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum,
                                   StProportion, StPulses};

@@ -72,7 +72,7 @@ package ppmc312_stage_pkg;
 
   // Command to the planner. All fields except start are stable while the planner is busy.
   typedef struct packed {
-    logic        start;    // strobe
+    logic        start;    // strobe: start the planner
     logic        ramp;     // 1: plan acceleration and deceleration, 0: only look up the rate
     logic        endless;  // 1: the operation runs until it is stopped
     logic [15:0] rate;     // base clocks of an interval

@@ -27,7 +27,7 @@ module ppmc312_stage_plan
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
     output logic busy_o,  // from the cycle after start_i until the results are valid
     // table
-    output logic both_o,  // 1: the other read port of the table is also needed
+    output logic both_o,  // 1: the read port of the motion is needed, too
     output logic [6:0] addr_o,  // stage to be read
     input wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
     input wire logic [23:0] table_acc_i,  // acceleration pulses of this stage, two cycles later
@@ -73,8 +73,8 @@ module ppmc312_stage_plan
   // valid_q[1] = 1: the table outputs stage `at`. in_acc_q[0], in_dec_q[0]: the side contains stage `at`;
   // in_acc_q[1], in_dec_q[1]: it contains the stage before `at`.
   logic [1:0] valid_q, in_acc_q, in_dec_q;
-  // Signals of StSearch. over_none: no pulse remains. The registers are one cycle late. below_q: `ahead` is
-  // negative; begins_q: first cycle of the search; counts_q: the pulses of the stage are added.
+  // Signals of StSearch. over_none: no pulse remains. The registers follow one cycle later. below_q: `ahead`
+  // is negative; begins_q: first cycle of the search; counts_q: the pulses of the stage are added.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;

@@ -6,13 +6,13 @@
 //         A deceleration request acts at a boundary if slow_i is high 2 cycles before the boundary. A change
 //         acts at a boundary if change_i occurs at least 5 cycles (constant rate) or 9 cycles (change along
 //         the table) before the boundary.
-//         If the rate of a stage becomes a constant rate at a boundary, a search for t(rate) begins, which
-//         takes 129 cycles. A ramp then begins at the earliest 136 cycles after this boundary. A deceleration
-//         to the end begins at the earliest 132 cycles after it; such a deceleration is possible only where
-//         the rates of the table do not fall.
-// How:    the running interval is a stage (up or down) or a constant rate. The flags are compared in the
-//         first cycle of an interval. The decision follows; it is delayed by two cycles, in which the table
-//         reads the stage that the decision needs.
+//         If the rate of a stage becomes a constant rate at a boundary, a search for t(rate) begins. t(rate)
+//         is the last stage that is not faster than this rate. The search takes 129 cycles. A ramp begins at
+//         the earliest 136 cycles after this boundary, a deceleration to the end 132 cycles after it. Such a
+//         deceleration is possible only where the rates of the table do not fall.
+// How:    the running interval is a stage (up or down) or a constant rate. Counts and stages are compared
+//         in the first cycle of an interval. The decision follows; it is delayed by two cycles, in which
+//         the table reads the stage that the decision needs.
 // Note:   a boundary is the end of an interval. With step_i = 1, a pulse begins at the boundary.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -38,7 +38,7 @@ module ppmc312_stage_seq
     input wire logic slow_i,  // 1: decelerate to the end
     // decision
     output logic next_end_o,  // no further pulse: the motion ends
-    output logic next_low_o,  // with next_end_o; cause: there is nothing to decelerate
+    output logic next_low_o,  // with next_end_o; cause: no deceleration is necessary
     output logic next_count_o,  // with next_end_o; cause: the last pulse has been output
     output logic next_slow_o,  // slow_i has been evaluated
     output logic next_final_decel_o,  // the deceleration to the end begins

@@ -112,8 +112,9 @@ module ppmc_bank_engine_fv
       end
     end
 
-  // Lemmas for the induction: axis and reset of each stage. In all stages before its use, a word equals the
-  // word that the previous visit has written.
+  // Lemmas for the induction: the axis that each stage processes, and whether the stage resets this axis. A
+  // word that was read for an axis equals, in every stage until it is used, the word that the previous visit
+  // of this axis has written.
   for (genvar i = 1; i < 6; i++) begin : g_stage
     `FV_ASSERT(lemma_axis, cycles_q < 5'(i) || axis[i] == axis[0] - 3'(i))
     `FV_ASSERT(lemma_clear, clear[i] == (cycles_q < 5'(8 + i)))
@@ -173,7 +174,7 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_gen_05_reset,
              !(resets && cycles_q > 5'd8) || (status_o == '0 && pin_cmd_o == '0 && position_o == '0))
 
-  // Words in the memories.
+  // Words of the watched axis in the memories.
   logic [$bits(state1_q)-1:0] state1_word;
   logic [$bits(state2_q)-1:0] state2_word;
   interval_t interval_word;

@@ -38,7 +38,7 @@ module ppmc_ram_fv (
     {word2_q, word1_q} <= {word1_q, word_q};
   end
 
-  // No write occurs before the first cycle. Then the watched word is zero.
+  // No write occurs before the first cycle. Until the first write, the watched word is zero.
   `FV_ASSERT(what_was_written, !hit2_q || rdata_o == word2_q)
   `FV_COVER(seen_two_words, hit2_q && word_q != word2_q && word_q != '0 && word2_q != '0)
 

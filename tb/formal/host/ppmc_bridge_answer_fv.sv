@@ -72,8 +72,7 @@ module ppmc_bridge_answer_fv (
     end
 
   // Lemmas for the induction: the position in the block, the bytes of the counter that match the current
-  // value,
-  // and the meaning of the flags.
+  // value, and the meaning of the flags.
   logic [4:0] left;
   logic same;
   assign left = 5'(dut.left_q);

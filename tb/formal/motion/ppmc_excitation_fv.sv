@@ -29,7 +29,7 @@ module ppmc_excitation_fv
   logic on_q;
   logic [3:0] index_q, length, stride;
 
-  assign length = 4'd2 * (4'(motor_code_i) + 4'd2);  // 6, 8 or 10
+  assign length = 4'd2 * (4'(motor_code_i) + 4'd2);  // rows of the half-step table: 6, 8 or 10
   assign stride = half_i ? 4'd1 : 4'd2;
 
   always_ff @(posedge clk_i)

@@ -9,7 +9,7 @@ module ppmc_bank_engine
   import ppmc_code_pkg::decoded_t;
   import ppmc_code_pkg::init_code_t;
 #(
-    parameter int unsigned Quantum   = 25,    // quantum in cycles
+    parameter int unsigned Quantum   = 25,    // quantum (4 crystal cycles) in clock cycles
     parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
     parameter bit          PhaseIdle = 1'b1,  // level of s before the first initialisation
     parameter int unsigned RoundBits = 5      // a round is 2^RoundBits cycles
@@ -23,7 +23,7 @@ module ppmc_bank_engine
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the cycles since GO
+    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the time since GO, in cycles
     // from pin blocks and switches
     input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5

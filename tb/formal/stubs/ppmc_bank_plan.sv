@@ -9,8 +9,8 @@ module ppmc_bank_plan
   import ppmc_motion_pkg::*;
   import ppmc_op_pkg::*;
 #(
-    parameter int unsigned Quantum  = 25,  // quantum in cycles
-    parameter int unsigned Round    = 32,  // round in cycles
+    parameter int unsigned Quantum  = 25,  // quantum (4 crystal cycles) in clock cycles
+    parameter int unsigned Round    = 32,  // time between two visits of an axis (a round) in cycles
     parameter int unsigned TimeBits = 20   // bits of an interval in cycles
 ) (
     // axis
@@ -28,16 +28,16 @@ module ppmc_bank_plan
     input wire logic in_buf_new_i,  // 1: in_buf_i has not been accepted yet
     input wire decoded_t decoded_i,  // in_buf_i.data decoded as a code
     input wire cmd_error_e param_error_i,  // error of an initialisation whose last byte is in_buf_i
-    input wire parser_state_t parser_i,  // state before the byte
-    output parser_state_t parser_o,  // state after the byte
+    input wire parser_state_t parser_i,  // state of the parser before the byte
+    output parser_state_t parser_o,  // state of the parser after the byte
     output logic take_o,  // 1: the byte is accepted
     output logic [7:0] code_o,  // code of the command in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
-    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the cycles since GO
-    input wire logic [TimeBits-1:0] after_low_i,  // cycles from the low time to the next pulse, minus Round
+    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the time since GO, in cycles
+    input wire logic [TimeBits-1:0] after_low_i,  // end of low time to next pulse in cycles, minus Round
     output decision_t decision_o,  // decisions of the visit
-    output logic restart_time_o,  // 1: clear cycles_left before the addition
+    output logic restart_time_o,  // 1: clear cycles_left before add_cycles_o is added
     output logic [TimeBits-1:0] add_cycles_o  // cycles that are added to cycles_left
 );
 

@@ -20,7 +20,7 @@ module ppmc_bank_tables #(
     // look up
     input  wire logic [AxisBits-1:0] axis_i,         // axis of the look-up
     input  wire logic [         7:0] rate_i,         // rate r
-    output logic      [StepBits-1:0] threshold_o     // first index with a rate below r
+    output logic      [StepBits-1:0] threshold_o     // first ramp index whose rate is below r
 );
 
 endmodule

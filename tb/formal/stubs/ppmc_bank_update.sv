@@ -23,7 +23,7 @@ module ppmc_bank_update
     input wire interval_t interval_i,  // interval of the motion
     input wire init_state_t init_state_i,  // progress of the initialisation
     input wire chop_units_t chop_units_i,  // units of the chopper phases
-    input wire logic chop_i,  // 1: chop at standstill; from the initialisation
+    input wire logic chop_i,  // 1: chop at standstill, as set by the initialisation
     input wire logic [7:0] slow_i,  // start-up rate
     input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
     input wire logic [HoldBits-1:0] hold_left_i,  // remaining rounds of the hold time, minus 1
