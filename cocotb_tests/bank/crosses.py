@@ -1,4 +1,5 @@
-"""Coverage crosses of the manual: operation, cause, phase and clock; error and state; GO and state.
+"""Coverage crosses of the manual: operation, cause, phase and clock; error and state; GO and state of the
+axis.
 
 They are counted in the golden model.
 """

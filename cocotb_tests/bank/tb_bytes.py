@@ -78,8 +78,8 @@ async def bank_hsk_03_replaced(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32, F100))
 async def bank_hsk_03_last_one_counts(dut):
-    """If all axes receive bytes faster than they accept them, only replaced bytes are missed
-    (BANK-HSK-03).
+    """If all axes receive bytes faster than they accept them, only bytes that a newer byte replaces are
+    missed (BANK-HSK-03).
     """
     env = await Env.start(dut)
     for axis in env.axes:

@@ -1,4 +1,6 @@
-"""Orders of events that a host relies on: requests near an end, STOP and GO, table builds, absent axes."""
+"""Orders of events on which a host relies: requests near the end of a motion, STOP and GO, table builds,
+absent axes.
+"""
 
 from __future__ import annotations
 

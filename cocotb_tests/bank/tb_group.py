@@ -15,7 +15,7 @@ def due(env: Env, g: int) -> int:
 
 @directed("BANK-GRP-01", "BANK-GRP-02", builds=(B4, B8, B32, B64, F100))
 async def bank_grp_02_all_on_one_edge(dut):
-    """After GO, the held operations of all axes output pulse 1 on the same edge (BANK-GRP-02)."""
+    """After GO, the held operations of all axes output their first pulse on the same edge (BANK-GRP-02)."""
     env = await Env.start(dut)
     axes = await env.all_ready()
     await env.mask(*range(env.size))

@@ -190,7 +190,8 @@ async def bank_mot_05_slow_down_limit(dut):
         await axis.pulse(2, env.cfg.w + 20)
         visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, l3_n=0)
-        axis.at(visit - early - SYNC + 1, l3_n=1)  # the level is sampled by this visit only, or by no visit
+        # this visit is the only one that samples the level, or no visit samples it
+        axis.at(visit - early - SYNC + 1, l3_n=1)
         if early == 4:
             await axis.idle()
             env.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)
@@ -228,8 +229,8 @@ async def bank_mot_05_only_the_first_request(dut):
         axis.at(visit - early - SYNC, l1_n=0, l3_n=0)
         await axis.idle()
         axis.set(l1_n=1, l3_n=1)
-        # Both levels are detected on edge V - early. Visit V samples the slow-down limit; it detects the end
-        # if early is at least 5.
+        # Both levels are detected on edge V - early. Visit V samples the slow-down limit. If early is at
+        # least 5, visit V also detects the end of the motion.
         await axis.result(f"BANK-MOT-03, V - {early}, {plus}", 6, 0x9E if early == 4 else 0x96)
 
 

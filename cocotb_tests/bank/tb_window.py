@@ -112,8 +112,8 @@ async def bank_win_04_short_reads(dut):
 
 @directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32))
 async def bank_win_04_irregular_strobes(dut):
-    """Bytes of 1-cycle writes, of accesses with both strobes and of strobes without cs_n are either written
-    completely or not at all (BANK-WIN-04).
+    """Bytes of 1-cycle writes, of accesses with both strobes asserted and of strobes without cs_n are either
+    written completely or not at all (BANK-WIN-04).
     """
     env = await Env.start(dut)
     host, bench = env.host, env.bench
@@ -221,14 +221,15 @@ async def bank_win_07_position_counts(dut):
 
 @directed("BANK-WIN-07", builds=(B8, F100, B32))
 async def bank_win_07_counted_at_the_visit(dut):
-    """A pulse on edge e is counted at the last visit at or before e (BANK-WIN-07).
+    """The position register includes a pulse on edge e from the last visit at or before e on (BANK-WIN-07).
 
-    The test reads the position at this visit -1, 0 and +1 cycles.
+    The test reads the position one cycle before this visit, at this visit and one cycle after it.
     """
     env = await Env.start(dut)
     axis = await env.ready(env.size - 2)
     for number, offset in enumerate((-1, 0, 1)):
-        await axis.set_config(1, 0)  # 30 quanta longer: not a multiple of R at 100 MHz
+        # Each interval is 30 quanta longer, so that it is not a multiple of R at 100 MHz.
+        await axis.set_config(1, 0)
         edge0 = await axis.go(0x44, 3, 20, poll=False)
         second = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(21 * 8 + 30)
         ordered = axis.visit(second - env.round + 1)

@@ -138,7 +138,7 @@ class AxisDriver:
         return await self.host.data(data[-1], poll)
 
     async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
-        """Call `go`, then wait for the end; return the pulses."""
+        """Start an operation with `go`, wait for its end, and return its pulses."""
         await self.go(code, n, rate)
         await self.idle()
         return self.pulses

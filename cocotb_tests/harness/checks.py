@@ -150,7 +150,7 @@ class ExtMoves:
 
 
 def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
-    """Yield moves on a ramp: edges 4 to 17 cycles apart, N from 2 to beyond a plateau, some with a limit.
+    """Yield moves on a ramp with edges 4 to 17 cycles apart, with and without a plateau, some with a limit.
 
     N determines where a move begins to decelerate and whether it holds its index before that (P104-PRO-03). A
     slow-down limit occurs where the move can still decelerate.

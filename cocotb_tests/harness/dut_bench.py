@@ -64,7 +64,7 @@ TIMEOUT = 1_000_000
 
 
 PinChange = tuple[int, Mapping[str, int]]
-"""Edge that is the first to sample these levels, and the levels."""
+"""One change: the first edge that samples the levels, and the level of each pin."""
 
 
 class Handle(Protocol):
@@ -214,9 +214,9 @@ class DutBench(ABC):
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
         """Run the external clock: each item is the number of cycles from one rising edge to the next.
 
-        `pin` (default: the clock pin of a device with one axis). The first rising edge occurs immediately,
-        and the clock stops at the end of the iterable. Each high time is `high` cycles. The result is that of
-        `drive`.
+        The clock is on `pin` (default: the clock pin of a device with one axis). The first rising edge occurs
+        immediately, and the clock stops at the end of the iterable. Each high time is `high` cycles. The
+        result is that of `drive`.
         """
         name, start = pin or self.part.clock, self.now
 

@@ -244,7 +244,7 @@ def notes(item: Item | None) -> list[tuple[str, Any]]:
 
 
 class Summary:
-    """Collects counts in the controlling process, to which xdist forwards every report."""
+    """Collects the counts of all tests in the controlling process, to which xdist forwards every report."""
 
     def __init__(self) -> None:
         self._seen: dict[str, dict[str, Any]] = {}

@@ -26,7 +26,7 @@ class State(NamedTuple):
 
     Attributes:
         begun: codes of the frames that lead from standstill into the state.
-        speeds: settings that are written before.
+        speeds: settings that are written before these frames.
     """
 
     begun: str = ""

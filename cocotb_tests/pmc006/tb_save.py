@@ -47,8 +47,9 @@ async def p006_save(dut: Any) -> None:
 async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
     """A save contains the old or the new VSTART, never a mixture, and its checksum is correct.
 
-    The test changes VSTART before, between and after the writes of its two bytes; each of the two pages reads
-    VSTART again. The device stretches the clock, so that a byte takes longer than a frame.
+    The test changes VSTART before, between and after the writes of its two bytes; the job reads VSTART
+    separately for each of the two pages. The device stretches the clock, so that a byte takes longer than a
+    frame.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     host.eeprom.stretch(host.us(900))
@@ -175,7 +176,7 @@ NEW = {
 
 
 BOOTED = {"k": 4, "r": 1, "h": 2, 0x55: 2, "K": 1, "L": 0x145, "S": 0x246, "M": 300, "P": 1250, "n": 0x3E8}
-"""Code -> value that the part returns after a boot with the settings NEW instead of SAVED."""
+"""Code -> value in the reply of the part after a boot with the settings NEW instead of SAVED."""
 
 
 PLACES = 7

@@ -1,4 +1,6 @@
-"""Timing of the user program: slots, WAIT and CMP with each source, concurrent frames and motions."""
+"""Timing of the user program: duration of instructions, WAIT and CMP with each source, concurrent frames and
+motions.
+"""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from .states import PLATEAU, enter
 
 ALL = 1 << 24
 PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")
-# (operation, pulse count, rate)
+# (operation, pulse count, rate if the operation has one)
 OPERATIONS = (
     (0x42, None, None),
     (0x43, 24, None),

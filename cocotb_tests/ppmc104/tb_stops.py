@@ -66,8 +66,8 @@ async def p104_stp_01_no_pulse_after_the_c_event(dut):
 
 @directed("P104-STP-02", "P104-STP-06", "P104-ERR-01")
 async def p104_stp_02_at_rest(dut):
-    """A stop at standstill returns error 0 and has no effect, before and after initialisation and after a
-    move (P104-STP-02).
+    """A stop command at standstill returns error 0 and has no effect, before and after initialisation and
+    after a move (P104-STP-02).
     """
     env = await Env.start(dut, None)
     for phase in range(4):

@@ -41,7 +41,7 @@ def after(env: Env, rule: str, what: str, got: int, edge0: int, micros: int, ext
 
 
 async def opens(env: Env, rule: str, edge0: int, micros: int) -> None:
-    """Write a byte now and check that it waits until `micros` us after the C-event of the byte written at
+    """Write a byte now; check that it waits until `micros` us after the C-event of the byte written at
     `edge0`.
     """
     nominal = edge0 + WRITE_EVENT + env.cfg.us(micros)

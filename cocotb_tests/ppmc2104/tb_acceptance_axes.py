@@ -58,7 +58,7 @@ async def p2104_ac_46_stop_in_run_wait(dut: Any) -> None:
 
 @directed("AC-47", "P2104-LIM-03", "P2104-LIM-07")
 async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
-    """In RUN wait of an origin search, ORG has no effect, and BL ends the search (AC-47)."""
+    """An origin search in RUN wait ignores ORG; BL ends the search (AC-47)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(run=0)
@@ -225,7 +225,9 @@ async def p2104_ac_55_hold_delay(dut: Any) -> None:
 
 @directed("AC-56", "P2104-AUX-02", "P2104-AUX-03")
 async def p2104_ac_56_auxiliary(dut: Any) -> None:
-    """In all states, codes C1, D1, E1 and F1 set the output pins, and C2 reads the input pins (AC-56)."""
+    """In all states, codes C1, D1, E1 and F1 set the auxiliary output pins, and C2 reads the input pins
+    (AC-56).
+    """
     env = await Env.start(dut)
     for state in ("initial", "moving"):
         for code, level in ((0xC1, 3), (0xD1, 2), (0xE1, 1), (0xF1, 0)):

@@ -276,7 +276,9 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
 
 @directed("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ds_15_as_fast(dut: Any) -> None:
-    """Pulses, ends, hold and the release of int_n are as in FAST in complete moves (P2104-DS-15)."""
+    """Pulses, ends, hold and the release of int_n occur in complete moves at the same times as in FAST
+    (P2104-DS-15).
+    """
     env = await Env.start(dut)
     axis = await env.ready(2, INIT_B)
     await axis.go(0x43, 30)

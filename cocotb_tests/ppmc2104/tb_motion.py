@@ -60,8 +60,8 @@ async def p2104_tim_01_starts(dut: Any) -> None:
 
 @directed("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", builds=(F16, F11, F100))
 async def p2104_tim_02_run(dut: Any) -> None:
-    """In RUN wait, pulse 1 occurs W to W + 6 cycles after run rises, even if run is high for only 2 cycles
-    (P2104-TIM-02).
+    """In RUN wait, pulse 1 occurs W to W + 6 cycles after run rises, even if run remains high for only 2
+    cycles (P2104-TIM-02).
     """
     env = await Env.start(dut)
     w = env.cfg.w

@@ -144,8 +144,8 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
 
 @directed("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
 async def p2104_fdc_02_flat_start(dut: Any) -> None:
-    """In a ramp with four flat indices, a request ends the motion immediately while the rate is RL
-    (P2104-FDC-02).
+    """In a ramp with four flat indices, a deceleration request ends the motion immediately while the rate is
+    RL (P2104-FDC-02).
     """
     env = await Env.start(dut)
     ramp = (14, 12, 16)

@@ -75,8 +75,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
             assert await host.ask(message(Code.STATUS)) == message(
                 Code.STATUS, f"{enabled | outside * value:02X} 01 00"
             )
-        # A disabled monitor sends no reports. When it is enabled again, it begins with the state inside, for
-        # one report with RES = 0.
+        # A disabled monitor sends no reports. When it is enabled again with RES = 0, it begins with the state
+        # "inside" and sends only one report.
         assert await host.ask(f"03 04 {code} 00 0004") == f"03 01 {code}"
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await host.ask(f"03 04 {code} 01 0004")

@@ -40,8 +40,8 @@ async def read_all(bench: Bench) -> tuple[Recorded, list[tuple[int, int]]]:
 @cocotb.test()
 @configs(REC)
 async def recorder_changes(dut: Any) -> None:
-    """The recorder stores the cycle of each change, also after long pauses, and that of the end (UB-REC-01,
-    UB-REC-02, UB-REC-03, UB-REC-04, UB-OPS-02).
+    """The recorder stores the cycle of each change, also after long pauses, and the cycle of the end of the
+    recording (UB-REC-01, UB-REC-02, UB-REC-03, UB-REC-04, UB-OPS-02).
     """
     bench = await Bench.start(dut)
     for turn in range(3):
