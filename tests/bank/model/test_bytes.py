@@ -92,8 +92,8 @@ def test_go_and_byte_at_one_visit():
 @pytest.mark.parametrize("round_before, waits", [(0, True), (1, False)])
 @pytest.mark.parametrize("quanta, rest, clk_hz", [(260, 0, 32 * 10**6), (260, 4, 10**8), (695, 7, 10**8)])
 def test_edge_of_the_chopper_takes_the_visit(quanta, rest, clk_hz, round_before, waits):
-    """A visit accepts no byte if it schedules an edge of the chopper, for its own edge or one of the next R -
-    1 edges (BANK-HSK-02, BANK-CHP-01).
+    """A visit accepts no byte if it schedules an edge of the chopper for the edge of the visit or for one of
+    the next R - 1 edges (BANK-HSK-02, BANK-CHP-01).
     """
     host = Host(4, clk_hz=clk_hz)
     last = host.send(3, "c 2A d 05 d 05 d 04 d 00")

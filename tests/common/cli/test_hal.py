@@ -25,7 +25,7 @@ LINES = ("ppmc312-serial", "pmc006")
 MOST_CYCLES = 5000
 Run = Callable[..., str]
 Story = Callable[["Component"], Iterator[Callable[[], object]]]
-"""Part of LinuxCNC: writes pins, and yields the conditions that it waits for."""
+"""Story that acts as LinuxCNC: it writes pins, and yields the conditions for which it waits."""
 
 
 class Component(dict[str, Any]):

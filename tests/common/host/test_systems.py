@@ -159,7 +159,7 @@ WINDOWS_ERRORS = {
     "could not open port 'COM3': PermissionError(13, 'No', None, 5)": "another program has this port open",
     "Cannot configure port. Original message: OSError(22, 'Wrong', None, 87)": "not a serial port",
 }
-"""Messages of pyserial on Windows, which have no error number, and the beginning of ours."""
+"""Messages of pyserial on Windows, which have no error number -> beginning of the message of this project."""
 
 
 @pytest.mark.parametrize("text", WINDOWS_ERRORS)

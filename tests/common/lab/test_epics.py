@@ -272,8 +272,8 @@ def test_stop():
 
 
 def test_homing():
-    """HOMR sets the position to 0 at the origin switch. The put fails if a limit switch comes first (here
-    with HOMF), or if STOP ends the search.
+    """HOMR sets the position to 0 at the origin switch. The put fails if a limit switch is reached before the
+    origin (here with HOMF), or if STOP ends the search.
     """
     with records("speed=max,cw=9000") as ioc:
         ioc.rejected("HOMF", 1, "a limit switch was reached before the origin")

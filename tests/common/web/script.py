@@ -92,7 +92,9 @@ class Player:
                     raise ScriptError(f"line {number}: {' '.join(words)}: {error}") from None
 
     def check(self, what: str, got: int, words: list[str]) -> list[str]:
-        """Store a byte that was read; compare it with that of the text, if any; return the other words."""
+        """Store a byte that was read; compare it with that of the text, if any; return the remaining words of
+        the statement.
+        """
         self.got.append(got)
         if words and re.fullmatch("[0-9A-Fa-f]{2}", words[0]):
             if got != int(words[0], 16):
