@@ -48,7 +48,9 @@ WRITE_EVENT = 2
 SNAPSHOT = 2
 """Edges from edge 0 of a read to the edge whose state it returns (BANK-WIN-05)."""
 SYNC = 2
-"""Edges from the first edge that samples a pin to the edge on which its level takes effect (BANK-MOT-02)."""
+"""Edges from the first edge that samples a level of a pin to the edge on which this level takes effect
+(BANK-MOT-02).
+"""
 
 
 class WindowBus(HostBus):
@@ -66,8 +68,8 @@ class WindowBus(HostBus):
 class Axis(AxisDriver):
     """Axis number `n` of a bank: its codes, pins and status.
 
-    The visits of the axis follow from `released`, the edge on which the reset was released, and from the
-    round R.
+    A visit is an edge on which the bank serves the axis, once in each round of R cycles. The visits follow
+    from `released`, the edge on which the reset was released, and from R.
     """
 
     def __init__(self, bench: DutBench, n: int) -> None:

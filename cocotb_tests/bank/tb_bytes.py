@@ -36,7 +36,7 @@ def idle_answer(code: int, initialised: bool) -> int:
 
 @directed("BANK-HSK-01", "BANK-GEN-01", builds=(B4, B8, B32, B64, F100))
 async def bank_hsk_01_seven_clk(dut):
-    """A byte written at w is accepted by the first visit V at w + 7 or later (BANK-HSK-01).
+    """A byte whose write event is on edge w is accepted by the first visit V at w + 7 or later (BANK-HSK-01).
 
     The test uses w = V - 8, V - 7, V - 6, V - 1 and V.
     """

@@ -69,8 +69,8 @@ async def bank_grp_01_mask_of_a_start(dut):
 
 @directed("BANK-GRP-02", "BANK-HSK-02", builds=(B4, B8, B32))
 async def bank_grp_02_refused(dut):
-    """GO sets error 1 in a busy member, error 2 in a member without an initialisation, and error 0 in a
-    member at standstill or waiting for parameters (BANK-GRP-02).
+    """Of the axes with MASK = 1, GO sets error 1 in a busy axis, error 2 in an axis without an
+    initialisation, and error 0 in an axis at standstill or waiting for parameters (BANK-GRP-02).
     """
     env = await Env.start(dut)
     busy, held, rest, fresh = env.axes[:4]
@@ -110,7 +110,7 @@ async def bank_grp_02_which_visit(dut):
         # The operation starts at `visit`; GO is written `early` cycles before it.
         events = sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (visit - early, GO, 0)])
         if abs(7 - early) < 6:
-            continue  # the bus is occupied by the other access
+            continue  # the two writes would overlap on the bus
         axis.since = visit - 30
         for event, address, byte in events:
             await env.write_at(event, address, byte)
@@ -268,7 +268,7 @@ async def bank_grp_03_third_go(dut):
         await env.mask(axis.n)
         await axis.go(0x42)
         await env.mask()
-        g = axis.visit(env.bench.now + 40) - 5  # the earliest visit detects this GO
+        g = axis.visit(env.bench.now + 40) - 5  # the visit at g + 5 is the earliest that detects this GO
         for edge in (g, g + env.round // 2, g + env.round + late):
             await env.write_at(edge, GO, 0)
         # MASK = 1 for the visit of the third GO, but not for an earlier visit.

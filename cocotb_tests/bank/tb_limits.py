@@ -41,7 +41,7 @@ class Case:
 
     @property
     def code(self) -> int:
-        """Operation code: an origin search, or N pulses."""
+        """Operation code of an origin search, or of a move of N pulses."""
         return (0x47 if self.cause == "origin" else 0x44) | self.ccw << 3
 
 
@@ -68,7 +68,7 @@ class Waves:
     async def let_go(self) -> list[int]:
         """Write GO at a fixed position in the round and return the edges of the pulses.
 
-        The pulses then have all positions in the rounds of the axes.
+        Because each axis has another position in the round, the pulses then have all positions in the rounds.
         """
         g = -(-(self.env.bench.now + 10) // self.env.round) * self.env.round
         await self.env.write_at(g, GO, 0)

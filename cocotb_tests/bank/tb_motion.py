@@ -171,8 +171,8 @@ async def bank_mot_03_byte_before_it_is_known(dut):
         axis.at(visit - early - SYNC, l1_n=0)
         await env.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
         await env.bench.clocks(3 * env.round)
-        # The visit that ends the motion does not accept the byte; at the next visit it is a stop at
-        # standstill.
+        # The visit that ends the motion does not accept the byte. At the next visit, which accepts it, the
+        # byte is a stop command at standstill.
         env.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
         axis.set(l1_n=1)
         env.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
@@ -190,7 +190,7 @@ async def bank_mot_05_slow_down_limit(dut):
         await axis.pulse(2, env.cfg.w + 20)
         visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, l3_n=0)
-        # this visit is the only one that samples the level, or no visit samples it
+        # Depending on `early`, this visit is the only one that samples the low level, or no visit samples it.
         axis.at(visit - early - SYNC + 1, l3_n=1)
         if early == 4:
             await axis.idle()

@@ -17,7 +17,9 @@ REGISTERS = range(16)
 
 @directed("BANK-WIN-03", builds=(B8, B32, B64, B4, F100))
 async def bank_win_03_info(dut):
-    """INFO returns the window and AXES, depending only on a[6:4] of the axis (BANK-WIN-03)."""
+    """INFO at an axis returns the byte that a[6:4] of the axis selects: 42, version 1, AXES, zeros
+    (BANK-WIN-03).
+    """
     env = await Env.start(dut)
     for axis in range(env.size):
         want = (0x42, 1, env.size, 0, 0, 0, 0, 0)[axis % 8]
@@ -288,8 +290,8 @@ async def bank_win_08_map_to_the_cycle(dut):
     for k in range(max(1, env.size // 8)):
         axes = env.axes[8 * k : 8 * k + 8]
         await env.mask(*(axis.n for axis in axes))
-        # Axis a is visited one cycle after axis a - 1, so it is sufficient to test the addresses next to the
-        # byte.
+        # Axis a is visited one cycle after axis a - 1. Therefore it is sufficient to read the byte at the
+        # axes next to those whose bits it contains.
         for at in [n for n in range(k, env.size, 8) if env.size < 32 or -8 <= n - 8 * k <= 16]:
             for step in range(len(axes) + 6):
                 await _map_near_visits(env, axes, at << 4 | MAP, step)

@@ -49,7 +49,7 @@ async def write(dut, part: str, a0: int, byte: int) -> None:
 @cocotb.parametrize(part=[*LIT])
 async def led_of_the_switches(dut, part: str):
     """Each limit and the alarm (MON of the STMC) of each axis lights led_switch and no other LED; other
-    switches do not light it.
+    switches do not light led_switch.
     """
     await start(dut, part)
     same("at rest", (int(dut.led_switch.value), int(dut.led_moving.value)), (0, 0))

@@ -99,7 +99,7 @@ class Lines:
         return scl, sda
 
     def _data(self, scl: int, sda: int) -> None:
-        """Note what a change of SDA is: START, STOP, or a bit while SCL is low."""
+        """Record the meaning of a change of SDA: START, STOP, or a bit while SCL is low."""
         if not (scl and self.scl):
             assert not scl and not self.scl, f"cycle {self.t}: both lines change together"
             self._note("hd_dat", "fall")

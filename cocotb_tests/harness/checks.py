@@ -167,7 +167,7 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
 
 
 BOTH = 0xB0
-"""Finish status for limit and alarm, without the code of the operation."""
+"""Finish status of an operation that a limit and an alarm have ended, without the code of the operation."""
 MOVES = (
     (0x43, 24, None, (2, 10, 22)),
     (0x44, 24, 9, (6,)),

@@ -37,7 +37,7 @@ class StimulusLog:
         self.changes: list[Change] = []
         self._driven = 0
         self._made: dict[str, tuple[int, tuple[int, int]]] = {}
-        """Name -> number of its rows in the list, and the last of these rows."""
+        """Name -> number of its rows that have been appended, and the last of these rows."""
 
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
         """Append the rows that both arguments have gained since the previous call; return all rows so far.
@@ -333,7 +333,7 @@ class DutBench(ABC):
         return self.falls(pin, since)[n - 1]
 
     async def level_is(self, output: str, level: int, timeout: int = TIMEOUT) -> int:
-        """Wait until an output has this level, which may already be so; return `now`."""
+        """Wait until an output has this level, which it may have already; return `now`."""
         if self.level(output) != level:
             await self.edge(output, level, timeout)
         return await self.align()

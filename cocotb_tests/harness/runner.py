@@ -58,7 +58,7 @@ def hint(text: str, design: Design) -> str:
 
 
 def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int]:
-    """Return (scope, name with range, width) of each signal of the top, and the last time stamp.
+    """Return (scope, name with range, width) of each signal of the top in a VCD, and the last time stamp.
 
     If the ports are known, only the ports are returned.
     """

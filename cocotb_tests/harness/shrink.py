@@ -15,7 +15,9 @@ from .part import Part, recorded
 
 LINE = "rxd"
 BUSY = 64
-"""A pin with more changes is a clock, whose periods are combined to about this number of transactions."""
+"""A pin with more than this number of changes is a clock. Its periods are combined to about this number of
+transactions.
+"""
 
 
 class Step(NamedTuple):

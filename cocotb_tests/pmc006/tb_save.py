@@ -114,7 +114,8 @@ async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
 async def p006_lines_that_stick_while_saving(dut: Any) -> None:
     """If SCL is held low, a job ends after 1 ms and reports an error.
 
-    If SDA is held low, it looks like acknowledges: the job ends without an error, and nothing is written.
+    If SDA is held low, the part receives this level as acknowledges: the job ends without an error, and
+    nothing is written.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     chip = host.eeprom

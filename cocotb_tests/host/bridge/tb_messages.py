@@ -28,7 +28,7 @@ async def messages_repeat(dut):
         same("SEQ", first[0], seq)
         bench.accesses()
         for again in (script, b"\x12\x01", script + b"\x00", b""):
-            # Faults and NAKs in between have no effect.
+            # Faults and NAKs before a repeated request have no effect.
             await bench.send(b"\x7e\x01\x02\x03\x04\x7e")
             same("NAK", await bench.message(), b"\x81\x02")
             await bench.send(encode(b"\xff\x12\x01"))
@@ -124,7 +124,7 @@ async def messages_events(dut):
     same("event", await bench.message(), event)
     same("NAK", await bench.message(), b"\x81\x07")
     await bench.silent("one for all")
-    # During a script, the event is not sent before the answer.
+    # An event that occurs during a script is not sent before the answer.
     await bench.send(encode(b"\x12" + b"\x05" * 60 + b"\x06"))
     await bench.clocks(300)
     await pulses(2)

@@ -94,7 +94,8 @@ async def recorder_full(dut: Any) -> None:
 @configs(REC)
 async def recorder_reading(dut: Any) -> None:
     """Bytes are read in order, REWIND returns to the first byte, and reads during a recording return zeros.
-    The limit of the data and invalid operands have the effects in the rules (UB-REC-03, UB-ANS-05).
+    An answer with too many data bytes, and invalid operands, have the effects that the rules state
+    (UB-REC-03, UB-ANS-05).
     """
     bench = await Bench.start(dut)
     bench.dut.watch_i.value = 0x155
