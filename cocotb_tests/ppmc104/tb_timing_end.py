@@ -212,7 +212,9 @@ async def p104_end_02_reaction_time(dut):
 
 @directed("P104-END-04", "P104-LIM-09", "P104-BAD-15", exact="the switches must be sampled at the same edge")
 async def p104_end_04_cause_bits(dut):
-    """If several causes apply at the end of a move or before, exactly their bits are set (P104-END-04)."""
+    """If several causes apply at the end of a move or before, exactly the bits of these causes are set
+    (P104-END-04).
+    """
     env = await Env.start(dut, INIT_B)
     for pins, bits in (
         ({"l1_n": 0, "alm_n": 0}, 0x30),

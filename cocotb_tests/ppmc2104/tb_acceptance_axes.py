@@ -248,7 +248,7 @@ async def p2104_ac_56_auxiliary(dut: Any) -> None:
 
 @directed("AC-57", "P2104-AUX-01", "P2104-PHS-02", "P2104-PHS-03")
 async def p2104_ac_57_excitation_off(dut: Any) -> None:
-    """After code C0 the phases are off and operations set error 4; the next setting begins with its index 0
+    """After code C0 the phases are off and operations set error 4; the next setting begins with index 0
     (AC-57).
     """
     env = await Env.start(dut)
@@ -365,7 +365,7 @@ async def p2104_ac_62_what_waits(dut: Any) -> None:
 
 @directed("AC-63", "P2104-HSK-02", "P2104-BAD-08")
 async def p2104_ac_63_written_over(dut: Any) -> None:
-    """If code 52 replaces a waiting code 42, one pulse follows, and no interrupt (AC-63)."""
+    """If code 52 replaces a waiting code 42, one pulse follows, and no interrupt occurs (AC-63)."""
     env = await Env.start(dut)
     axis = env.x1
     await env.run(B1)

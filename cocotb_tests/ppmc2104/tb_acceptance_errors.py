@@ -269,7 +269,7 @@ async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
 
 @directed("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
 async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
-    """If FHL is low for 10 cycles on the plateau, twice, 31 pulses are output; BHL has no effect (AC-38)."""
+    """If FHL is low twice for 10 cycles on the plateau, 31 pulses are output; BHL has no effect (AC-38)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for code, finish, left in ((0x43, 0x8B, [0xC8, 3, 0]), (0x46, 0x8E, [0xE0, 0xFF, 0xFF])):

@@ -221,7 +221,9 @@ async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
     exact="a level of one cycle may not be sampled",
 )
 async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
-    """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is missed (P2104-BUS-20)."""
+    """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is missed; T is the period of
+    `clk` (P2104-BUS-20).
+    """
     env = await Env.start(dut)
     bus = SlowBus(env)
     period = env.bench.period / 1000

@@ -302,8 +302,8 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
             if cause:
                 first.set(**{cause: 1})
             await second.finish()
-    # A deceleration stop sets its flag, which takes effect with the next edges; at RL it ends the motion
-    # immediately.
+    # A deceleration stop sets the deceleration flag, which takes effect with the next edges; at RL the stop
+    # ends the motion immediately.
     await first.go(0x43, 100)
     await first.tick_until(3)
     await first.command(0x41)

@@ -158,8 +158,8 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
             env.check("P2104-FDC-02", "figures", len(expected) + 1, j if j <= 4 else 2 * j)
             await axis.result(f"P2104-FDC-02 I({j})", len(expected) + 1, 0x83 | bit, 60 - len(expected) - 2)
             axis.check_train("P2104-FDC-02", expected)
-        # If the flat part is reached while decelerating, the flag is already set, so the deceleration
-        # continues to its end.
+        # If the flat part is reached while decelerating, the deceleration flag is already set, so the
+        # deceleration continues to its end.
         await start_and_decelerate(axis, how, 60, 6, 200, 0x43)
         await axis.pulse(10, 100)
         await axis.refused("P2104-STP-03", "41 on the way down", 8, 0x41)
@@ -180,7 +180,7 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
         await axis.command(0x41)
         env.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
         await axis.result("P2104-FDC-04", 1, 0xC0 | code & 7, left)
-        # The pin requests the deceleration in RUN wait or in START; it is active three times.
+        # The slow-down limit requests the deceleration in RUN wait or in START; it is active three times.
         for waiting in (False, True):
             axis.set(run=0 if waiting else 1)
             await axis.go(code, n, poll=False)
@@ -197,8 +197,8 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
 
 @directed("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", builds=(F16, F11))
 async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
-    """If FHL falls near a pulse event, and at least 4 cycles before it, it takes effect for this event
-    (P2104-FDC-06).
+    """If FHL falls shortly before a pulse event, but at least 4 cycles before it, FHL takes effect for this
+    event (P2104-FDC-06).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

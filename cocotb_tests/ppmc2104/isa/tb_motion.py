@@ -96,8 +96,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_write_makes_a_new_edge(dut: Any) -> None:
-    """If the axis moves again and its cause cannot be read, a write to base + 4 causes another rising edge of
-    irq (ISA-11).
+    """If an axis moves again and the cause of its interrupt cannot be read, a write to base + 4 causes
+    another rising edge of irq (ISA-11).
     """
     setting = await Setting.start(dut)
     bench, master = setting.bench, setting.master
