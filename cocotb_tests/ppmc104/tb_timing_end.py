@@ -303,8 +303,8 @@ async def p104_end_07_int(dut):
 
 @directed("P104-END-08", "P104-DS-09", "P104-LIM-07", builds=(F8, F11))
 async def p104_end_08_hold(dut):
-    """hold rises 34.0 ms after BUSY falls, both after a masked move without a pulse and after a normal move
-    (P104-END-08).
+    """hold rises 34.0 ms after BUSY falls, both after a step that an active alarm suppresses and after a
+    normal step (P104-END-08).
     """
     env = await Env.start(dut, INIT_A)
     us = env.cfg.us

@@ -54,7 +54,7 @@ async def p312_answers_within_their_limits(dut: Any) -> None:
         await host.wait()
         assert host.t - host.header <= T_EXEC + POLL
         await host.response()
-        # t0 is at most 64 cycles before the answer, TW before pulse 1.
+        # t0 is at most 64 cycles before the answer, and pulse 1 follows t0 by TW.
         await host.pulse(1)
         await host.ask(message(Code.STOP, "00"))
         await host.response()

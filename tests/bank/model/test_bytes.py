@@ -144,8 +144,8 @@ def test_new_answer_while_the_old_one_is_read(late, left):
 @pytest.mark.parametrize("rl", range(9, 13))
 @pytest.mark.parametrize("axis", [5, 6])
 def test_one_builder(axis, rl):
-    """While a table of another axis is built, the last byte waits; visits from 2 cycles after the end of the
-    build accept it (BANK-HSK-05, BANK-INI-01).
+    """While a table of another axis is built, the last byte of an initialisation waits; visits from 2 cycles
+    after the end of the build accept it (BANK-HSK-05, BANK-INI-01).
     """
     host = Host()
     host.send(1, f"c 0A d {rl:02X} d 04 d 04")
@@ -160,8 +160,8 @@ def test_one_builder(axis, rl):
 
 
 def test_command_need_not_wait_for_the_builder():
-    """A command does not wait for the table of another axis, and replaces a last byte that waits
-    (BANK-HSK-05).
+    """A command does not wait for the table of another axis, and replaces the last byte of an initialisation
+    that waits (BANK-HSK-05).
     """
     host = Host()
     host.send(6, "c 0A d 09 d 04 d 04")

@@ -55,8 +55,8 @@ def test_motion(
 
 
 def test_interrupts(lines: Lines) -> None:
-    """The driver reports busy and pending axes of two motions, and the interrupt pin is active while one is
-    pending.
+    """The driver reports busy and pending axes of two motions, and the interrupt pin is active while one of
+    these ends is pending.
     """
     both = 1 << 7 | 1 << 3
     assert (lines["both"][0]["busy"], lines["both"][0]["irq"]) == (str(both), "0")

@@ -395,7 +395,7 @@ def test_group(part: str, hal: Run, devices: list[Any], monkeypatch: pytest.Monk
 
 
 def test_group_waits(hal: Run) -> None:
-    """A group starts after the end of a motion of its members."""
+    """A group starts only when the running motions of its members have ended."""
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
         one, two = Axis(pins, 1), Axis(pins, 2)

@@ -125,7 +125,7 @@ def test_names_of_ports(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_file_of_windows_in_the_text_of_a_line() -> None:
-    """The colon of a drive does not end the value of a word."""
+    """The colon after a drive letter does not end the value of a word in the text of a line."""
     text = r"program=C:\none\shuttle.asm"
     with pytest.raises(PortError, match=re.escape(f"{text}: ")):
         open_line(f"model:{text}", 9600, "pmc006")

@@ -455,7 +455,9 @@ def test_a_command_whose_motion_a_reset_ends(
 @pytest.mark.parametrize("operation", range(8))
 @pytest.mark.parametrize("finish", range(256))
 def test_each_finish_status(finish: int, operation: int) -> None:
-    """Bit 7 and the operation confirm the end (P104-RD-03, STMC-FIN-01); with a cause, pulses remain."""
+    """Bit 7 and the operation confirm the end (P104-RD-03, STMC-FIN-01); if a cause bit is set, pulses must
+    remain.
+    """
     good = finish & 0x80 and finish & 7 == operation >= 2
     for remaining, moved in ((0, 10), (0, 9), (3, 6), (9, 0), (10, -1), (3, 7), (0, 0), (0xFFFFFF, 10)):
         cause = finish & 0x78
