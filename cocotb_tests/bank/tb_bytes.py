@@ -1,5 +1,7 @@
 """Bytes: input buffer, output queue, codes, and the table builder that all axes share (BANK-HSK, BANK-INI,
 BANK-GEN-03).
+
+V is the edge of a visit of the axis, w the edge of the write event of a byte (BANK-WIN-06).
 """
 
 from __future__ import annotations

@@ -1,5 +1,8 @@
 """Orders of events on which a host relies: requests near the end of a motion, STOP and GO, table builds,
 absent axes.
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, and R the number of cycles
+in a round.
 """
 
 from __future__ import annotations

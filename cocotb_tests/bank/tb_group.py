@@ -1,4 +1,8 @@
-"""Groups: MASK, GO, STOP (BANK-GRP)."""
+"""Groups: MASK, GO, STOP (BANK-GRP).
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, w the edge of any other
+write event, and R the number of cycles in a round.
+"""
 
 from __future__ import annotations
 

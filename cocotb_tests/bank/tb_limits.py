@@ -3,6 +3,9 @@
 
 One GO releases the held operations of all axes. Their pulses occur on the same edge, which has a different
 position in the round for each axis. The expected results follow from the edges alone.
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, R the number of cycles in a
+round, and W the pulse and set-up time of 5 us in cycles.
 """
 
 from __future__ import annotations

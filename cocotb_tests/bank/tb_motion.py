@@ -1,5 +1,7 @@
 """Motions: exact intervals on several axes at the same time, ends, and the visits that detect the ends
 (BANK-MOT).
+
+V is the edge of a visit of the axis.
 """
 
 from __future__ import annotations

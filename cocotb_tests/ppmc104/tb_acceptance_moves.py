@@ -1,5 +1,7 @@
 """Acceptance checks AC-01 to AC-24 and AC-40 at the pins; stimulus and values are those of the acceptance
 table.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Base clocks, external clock and interval lengths (P104-BCK, P104-INT, P104-GEN-02..04, P104-TIM-03)."""
+"""Base clocks, external clock and interval lengths (P104-BCK, P104-INT, P104-GEN-02..04, P104-TIM-03).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,8 @@
 """Processing times of the old chip, TIMING = "DATASHEET" (P104-DS).
 
 All times are CYC(16·us), -0/+16 cycles.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
 """
 
 from __future__ import annotations

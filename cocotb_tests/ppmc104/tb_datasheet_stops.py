@@ -1,5 +1,7 @@
 """Processing times of the old chip, second part: decelerating stops, aux commands, speed limit, external
 clock.
+
+I(j) is the interval that follows pulse j.
 """
 
 from __future__ import annotations

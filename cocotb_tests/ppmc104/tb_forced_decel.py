@@ -1,4 +1,7 @@
-"""Forced deceleration (P104-FDC, P104-EX-04, P104-EX-05)."""
+"""Forced deceleration (P104-FDC, P104-EX-04, P104-EX-05).
+
+I(j) is the interval that follows pulse j. The C-event of a byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Limit, alarm and origin inputs (P104-LIM): effect on each operation, priorities, timing."""
+"""Limit, alarm and origin inputs (P104-LIM): effect on each operation, priorities, timing.
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 

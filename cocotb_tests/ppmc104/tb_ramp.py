@@ -1,4 +1,7 @@
-"""Ramp table and profile (P104-RMP, P104-PRO, P104-EX-01..03, P104-EX-07, P104-EX-11)."""
+"""Ramp table and profile (P104-RMP, P104-PRO, P104-EX-01..03, P104-EX-07, P104-EX-11).
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Status register, error numbers and the handshake (P104-STA, P104-ERR, P104-HSK)."""
+"""Status register, error numbers and the handshake (P104-STA, P104-ERR, P104-HSK).
+
+The C-event of a byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Stop commands and operations (P104-STP, P104-OPR)."""
+"""Stop commands and operations (P104-STP, P104-OPR).
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
+"""
 
 from __future__ import annotations
 

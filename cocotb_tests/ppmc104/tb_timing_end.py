@@ -1,4 +1,7 @@
-"""Start, pulse shape and end of a motion (P104-TIM, P104-END)."""
+"""Start, pulse shape and end of a motion (P104-TIM, P104-END).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 

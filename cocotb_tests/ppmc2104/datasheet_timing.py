@@ -1,4 +1,7 @@
-"""Measurements of the DATASHEET timing model (P2104-DS)."""
+"""Measurements of the DATASHEET timing model (P2104-DS).
+
+The C-event of a byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 

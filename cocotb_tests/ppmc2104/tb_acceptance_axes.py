@@ -1,4 +1,7 @@
-"""Acceptance checks AC-45 to AC-63 at the pins: RUN, two axes, phases, switching, waiting codes."""
+"""Acceptance checks AC-45 to AC-63 at the pins: RUN, two axes, phases, switching, waiting codes.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Acceptance checks AC-22 to AC-44 at the pins: errors, stops, limits."""
+"""Acceptance checks AC-22 to AC-44 at the pins: errors, stops, limits.
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Acceptance checks AC-01 to AC-21 at the pins; stimulus and values are those of the acceptance table."""
+"""Acceptance checks AC-01 to AC-21 at the pins; stimulus and values are those of the acceptance table.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Processing windows of the old chip, TIMING = "DATASHEET" (P2104-DS-01…15, AC-71 to AC-74)."""
+"""Processing windows of the old chip, TIMING = "DATASHEET" (P2104-DS-01…15, AC-71 to AC-74).
+
+I(j) is the interval that follows pulse j, and W the pulse and set-up time of 5 us in cycles. The C-event of a
+byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Limit, slow-down, alarm and origin inputs (P2104-LIM): effect on each operation."""
+"""Limit, slow-down, alarm and origin inputs (P2104-LIM): effect on each operation.
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 

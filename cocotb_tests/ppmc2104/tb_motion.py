@@ -1,4 +1,7 @@
-"""Operations, starts, base clocks (P2104-OPR, P2104-TIM, P2104-BCK, P2104-INTV)."""
+"""Operations, starts, base clocks (P2104-OPR, P2104-TIM, P2104-BCK, P2104-INTV).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Ramps and forced deceleration (P2104-RMP, P2104-PRO, P2104-FDC)."""
+"""Ramps and forced deceleration (P2104-RMP, P2104-PRO, P2104-FDC).
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Read instructions and interrupts (P2104-RD, P2104-INT)."""
+"""Read instructions and interrupts (P2104-RD, P2104-INT).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 

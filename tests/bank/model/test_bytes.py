@@ -1,4 +1,7 @@
-"""Bytes of the bank's model: the visit that accepts a byte, and the rejected codes (BANK-HSK, BANK-GEN)."""
+"""Bytes of the bank's model: the visit that accepts a byte, and the rejected codes (BANK-HSK, BANK-GEN).
+
+V is the edge of a visit of the axis, w the edge of a write event, and R the number of cycles in a round.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""MASK, GO and STOP of the bank's model (BANK-GRP)."""
+"""MASK, GO and STOP of the bank's model (BANK-GRP).
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, R the number of cycles in a
+round, and W the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,7 @@
 """Motion of the bank's model, exact to the cycle: which events are on their own edge, and which wait for a
 visit (BANK-MOT).
+
+V is the edge of a visit of the axis, and W the pulse and set-up time of 5 us in cycles.
 """
 
 from __future__ import annotations

@@ -138,7 +138,7 @@ class Player:
         return motor.step.partition("[")[0] if motor.phases else motor.step
 
     def pulses(self, motor: Motor) -> int:
-        """Return the number of steps of a motor since the mark."""
+        """Return the number of steps that a motor has made since the last command."""
         output = self.output(motor)
         edges = self.bench.edges(output, self.mark)
         if not motor.phases:

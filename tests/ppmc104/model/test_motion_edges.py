@@ -1,6 +1,9 @@
 """Coincidences of events in the motion of the golden model, exact to the cycle.
 
 Rules: P104-LIM-09, P104-END, P104-FDC-06.
+
+W is the pulse and set-up time of 5 us in cycles. The C-event of a byte is the edge on which the core consumes
+it.
 """
 
 from __future__ import annotations
