@@ -1,4 +1,7 @@
-"""Speed that follows the voltage on GPI1, and the time bases."""
+"""Speed that follows the voltage on GPI1, and the time bases.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

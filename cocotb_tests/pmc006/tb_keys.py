@@ -1,4 +1,7 @@
-"""Keys of a user program on GPI1 and GPI2: filters, and effect in each state."""
+"""Keys of a user program on GPI1 and GPI2: filters, and effect in each state.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

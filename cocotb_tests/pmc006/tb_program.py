@@ -1,4 +1,7 @@
-"""User program: download, each opcode with legal and illegal operands, jumps, E (P006-PRG)."""
+"""User program: download, each opcode with legal and illegal operands, jumps, E (P006-PRG).
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Writes to the EEPROM: save, burn, factory restore, and cases that are rejected (P006-EEP-10 to 23)."""
+"""Writes to the EEPROM: save, burn, factory restore, and cases that are rejected (P006-EEP-10 to 23).
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

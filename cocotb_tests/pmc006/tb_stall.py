@@ -1,4 +1,7 @@
-"""Stall detector: conditions of a stall, and its effects."""
+"""Stall detector: conditions of a stall, and its effects.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

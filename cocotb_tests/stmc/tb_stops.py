@@ -1,4 +1,7 @@
-"""Stops, deceleration requests and switches during a motion: STMC-STP, STMC-DEC, STMC-IN, STMC-FIN."""
+"""Stops, deceleration requests and switches during a motion: STMC-STP, STMC-DEC, STMC-IN, STMC-FIN.
+
+Gap i is the time from step i to step i + 1.
+"""
 
 from __future__ import annotations
 
