@@ -52,7 +52,7 @@ class Move:
 class Train:
     """Record of a move: edges of the clock, pulses, and low times if any.
 
-    `edges` and `falls` are the times when the edges of the clock take effect at the pins.
+    `edges` and `falls` are the times when the rising and falling edges of the clock take effect at the pins.
     """
 
     edges: list[int]

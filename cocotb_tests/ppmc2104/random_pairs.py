@@ -24,7 +24,9 @@ Event = tuple[int, str, int]
 
 @dataclass(frozen=True)
 class Slot:
-    """One operation of axis 2: bytes, pin changes, and stops (cycles, pin or "code", level or code)."""
+    """One operation of axis 2: its bytes, and its events (cycles, pin, level) or (cycles, "code", code of a
+    stop).
+    """
 
     writes: tuple[Write, ...]
     events: tuple[Event, ...]
@@ -32,7 +34,7 @@ class Slot:
 
 @dataclass(frozen=True)
 class Pair:
-    """Build, bus style, setting of axis 2, slots.
+    """The plan of a seed: build, bus style, setting of axis 2, and slots.
 
     `period` is the period of extck[2] in cycles, or 0 for the internal clock.
     """

@@ -24,7 +24,7 @@ LIMITS = {
 
 
 def rate_error(kind: str, csel: int, rate: int, operating: bool) -> int:
-    """Return error 12 or 13 of P2104-DS-30, or 0."""
+    """Return the rate error (12 or 13) that P2104-DS-30 requires, or 0."""
     single, double = LIMITS[kind, csel]
     return 12 if rate < single else 13 if operating and rate < double else 0
 

@@ -58,7 +58,8 @@ async def stmc_dec_03_start_speed(dut: Any) -> None:
                 ticks = slowed(60, i, ramp)
                 made = len(ticks) + 1
                 await env.outcome("STMC-DEC-03", made, 0x83 | bit, 59 - made, ticks)
-    # Without a ramp (D1 = D2, or PA = 0) there is no natural deceleration: a request stops immediately.
+    # Without a ramp (D1 = D2, or PA = 0) there is no natural deceleration: a deceleration request stops the
+    # motion immediately.
     for ramp in ((9, 9, 5), (12, 6, 0)):
         await env.init(0x1A, *ramp)
         for how, bit in REQUESTS:

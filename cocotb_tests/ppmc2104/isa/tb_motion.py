@@ -198,7 +198,7 @@ async def isa_four_axes_together(dut: Any) -> None:
     await bench.align()
     start = bench.set(run=0b1111)
     busy = list(setting.hosts)
-    while busy:  # polling continues while they run
+    while busy:  # polling continues while the axes move
         busy = [host for host in busy if await host.status() & (BUSY1 | BUSY2)]
     falls = {drive.pulses[0] for drive in axes.values()}
     bench.check("ISA-10", "first falls on one edge", len(falls), 1)

@@ -260,7 +260,9 @@ def test_a_reset_between_two_moves_is_refused(
 
 @pytest.mark.parametrize("kind", ["ppmc104", "ppmc2104-x", "stmc"])
 def test_a_counter_that_jumped_contradicts_the_status(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The host compares the counts after the frame. No further frame is sent."""
+    """If the pulse counter contradicts the status, the host detects this after the frame and sends no further
+    frame.
+    """
     with opened(kind) as axis:
 
         def jump() -> None:

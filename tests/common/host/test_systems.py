@@ -193,7 +193,7 @@ def test_no_permission_on_macos(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_virtual_board_names_what_it_needs(
     system: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """On Windows and macOS, `sim:` prints one line."""
+    """On Windows and macOS, one line states what the port `sim:` needs."""
     monkeypatch.setattr(sys, "platform", system)
     needs = "the virtual board needs Linux with Verilator, make, g++ and perl; use model: instead"
     for start in (sim.start, sim.start_line):

@@ -107,7 +107,7 @@ def test_stop_in_motion(success):
     """
     with started(words="speed=1") as device:
         motor = PpmcPositioner(device, name="x")
-        motor.stop()  # no error without a motion
+        motor.stop()  # a stop without a motion is not an error
         move = motor.set(30_000)
         with pytest.raises(AxisBusy, match="x is moving"):
             motor.set(5)

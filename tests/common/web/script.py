@@ -16,7 +16,9 @@ from openppmc.check.records import Recording, steps
 from scripts.site.webparts import Motor, WebPart
 
 DENSE, FIRST, LONGEST = 16, 4, 8_000
-"""Number of polls without a pause; first pause in cycles, which then grows by a quarter; longest pause."""
+"""Number of polls without a pause; first pause in cycles; longest pause. Each pause is a quarter longer than
+the previous one.
+"""
 PATIENCE = 400_000_000
 """Maximum wait of a statement in cycles."""
 RESET = 16
