@@ -1,5 +1,5 @@
-"""Window: registers, strobes, positions, interrupt map (BANK-WIN); the bank before it is ready
-(BANK-GEN-05).
+"""Window of the bank: registers, strobes, positions and interrupt map (BANK-WIN), also before the bank is
+ready (BANK-GEN-05).
 
 V is the edge of a visit of the axis, and R the number of cycles in a round.
 """

@@ -134,8 +134,9 @@ async def p2104_ac_29_limit_refuses(dut: Any) -> None:
 
 @directed("AC-30", "P2104-LIM-06", "P2104-LIM-02")
 async def p2104_ac_30_what_refuses(dut: Any) -> None:
-    """A CW start of axis 1 is rejected while ALM is active, or ORG for code 47; BL, FHL and FL of axis 2 do
-    not reject it (AC-30).
+    """A CW start of axis 1 is rejected while ALM of the axis is active, and with code 47 also while ORG is
+    active. BL and FHL of the axis, FL of the other axis, and ORG with another code do not reject the start
+    (AC-30).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

@@ -1,4 +1,4 @@
-"""Upper bounds in the rules of the PPMC-312 for FAST, and the ports."""
+"""Upper bounds of times in the rules of the PPMC-312 for FAST, and a check of the ports."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
 """Rates 4, 400 and 800 at 8 MHz, which are 8, 800 and 1600 cycles."""
 T_INIT, T_EXEC, T_TRIG, T_STOP, T_PIN = 65_536, 4_096, 512, 64, 4
 POLL = 40
-"""Number of cycles that the poll of the host adds."""
+"""Number of cycles that polling by the host adds to a measured time."""
 
 
 @directed("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")

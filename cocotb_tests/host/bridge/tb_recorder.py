@@ -1,4 +1,4 @@
-"""The recorder of the bridge: each change with its cycle, full memory, read-back; and op VERSION."""
+"""The recorder of the bridge (each change with its cycle, full memory, read-back), and the op VERSION."""
 
 from __future__ import annotations
 

@@ -108,8 +108,8 @@ def arming_writes(bench: RtlBench) -> list[tuple[int, int]]:
 
 
 def check_irq(bench: RtlBench) -> None:
-    """Check that irq is the registered OR of both interrupts, and low during a write that re-arms it (ISA-06,
-    ISA-11).
+    """Check that irq is the registered OR of both interrupts, and low during a write to the source register
+    (ISA-06, ISA-11).
     """
     # A change of int_n counts from the edge after its stamp on, a change of the pins from its stamp on.
     calls = [(t + 1, "call", int(value != 0b11)) for t, value in bench.edges("int_n")]
