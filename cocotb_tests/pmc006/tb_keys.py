@@ -147,7 +147,7 @@ async def p006_a_key_active_at_power_up_has_no_effect(dut: Any) -> None:
 @cocotb.parametrize(held=[False, True])
 @directed("P006-PRG-30")
 async def p006_enabling_after_the_event(dut: Any, held: bool) -> None:
-    """An event before RESET_EN has no effect, although the key is still pressed."""
+    """A key event before RESET_EN has no effect, even if the key is still pressed at RESET_EN."""
     host = await armed(dut)
     await level(host, KEY1)
     await host.wait_us(2 * FILTER)

@@ -132,8 +132,8 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
     ):
         for j in range(1, n):
             await start_and_decelerate(axis, pin, n, j, 40, code)
-            # Natural deceleration begins with the first interval whose index is lower than in an
-            # acceleration.
+            # Natural deceleration begins with the first interval whose index is lower than it would be while
+            # accelerating.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
             expected = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
             if pin == "stop":
