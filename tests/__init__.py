@@ -1,3 +1,3 @@
-"""Python tests of golden models, host package, command line and scripts: one folder per device, one
-common.
+"""Python tests of golden models, host package, command line and scripts: a folder for each device, and
+`common`.
 """

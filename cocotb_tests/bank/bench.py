@@ -47,10 +47,13 @@ def build(name: str, axes: int, mhz: int, phase_idle: int = 1) -> Config:
 
 B8 = build("b8", 8, 16)
 B32 = build("b32", 32, 32)
-"""Build with the lowest clock frequency for 32 axes: half of the shortest interval is one round."""
+"""Build with 32 axes at their lowest clock frequency: the shortest interval between pulses is two rounds
+long.
+"""
 F100 = build("f100", 32, 100)
 B4 = build("b4", 4, 8, phase_idle=0)
-"""Build whose round is longer than its number of axes; a quantum is 2 cycles."""
+"""Build whose round has more cycles than the bank has axes; a quantum of the internal base clock is 2 cycles.
+"""
 B16 = build("b16", 16, 16)
 """Build in which the interrupt map and MASK have two bytes each."""
 B64 = build("b64", 64, 64)
@@ -58,7 +61,7 @@ BUILDS = (B8, B32, F100, B4, B64)
 
 
 def axes_of(config: Config) -> int:
-    """Return AXES of a build."""
+    """Return the parameter AXES of a build."""
     return int(dict(config.extra)["AXES"])
 
 

@@ -1,6 +1,6 @@
-"""Coverage crosses of the manual: operation, cause, phase and clock; error and state; GO and state.
+"""Coverage crosses of the manual, counted in the golden model.
 
-They are counted in the golden model.
+The crosses are operation, cause, phase and clock; error and state; and GO and state of the axis.
 """
 
 from __future__ import annotations

@@ -20,7 +20,9 @@ from .bench import BANK, axes_of, round_of
 
 Init = tuple[int, int, int, int]
 INIT_A: Init = (0x0A, 9, 4, 4)
-"""Four-phase motor, positive logic, 2-phase excitation; its table is built quickly."""
+"""Initialisation for a four-phase motor: positive logic, 2-phase excitation, and a ramp table that is built
+quickly.
+"""
 
 DATA, STATUS, CONFIG, POSITION, MASK, MAP, GO, STOP, INFO = 0, 1, 2, 4, 8, 9, 10, 11, 12
 WORDS = {
@@ -46,11 +48,13 @@ WRITE_EVENT = 2
 SNAPSHOT = 2
 """Edges from edge 0 of a read to the edge whose state it returns (BANK-WIN-05)."""
 SYNC = 2
-"""Edges from the first edge that samples a pin to the edge on which its level takes effect (BANK-MOT-02)."""
+"""Edges from the first edge that samples a level of a pin to the edge on which this level takes effect
+(BANK-MOT-02).
+"""
 
 
 class WindowBus(HostBus):
-    """Host that accesses the window of the bank; with `axis`, registers 0 and 1 are those of this axis.
+    """Host that accesses the window of the bank; its registers 0 and 1 are those of the axis `axis`.
 
     Strobes and pauses have the minimum lengths of BANK-WIN-04.
     """
@@ -62,9 +66,10 @@ class WindowBus(HostBus):
 
 
 class Axis(AxisDriver):
-    """Axis n with its codes, pins and status.
+    """Axis number `n` of a bank: its codes, pins and status.
 
-    `released`, the edge on which the reset was released, and the round R determine the visits of the axis.
+    A visit is an edge on which the bank serves the axis, once in each round of R cycles. The visits follow
+    from `released`, the edge on which the reset was released, and from R.
     """
 
     def __init__(self, bench: DutBench, n: int) -> None:
@@ -132,7 +137,7 @@ class Axis(AxisDriver):
     # ---------------------------------------------------------------- instructions and registers
 
     async def init(self, code: int, rl: int, rh: int, pa: int, opened: bool = True) -> None:
-        """Initialise the axis; with `opened`, wait for the end of the table build."""
+        """Initialise the axis; if `opened` is true, wait until its ramp table is built."""
         await self.host.init(code, rl, rh, pa)
         if opened:
             await self.opened()
@@ -178,7 +183,7 @@ class Axis(AxisDriver):
         remaining: int | None = None,
         rates: Sequence[int] | None = None,
     ) -> None:
-        """Check the result of a motion and, if `rates` is present, its pulse train."""
+        """Check the result of a motion; if `rates` are passed, check its pulse train as well."""
         await self.result(rule, pulses, finish, remaining)
         if rates is not None:
             self.check_train(rule, rates)
@@ -252,9 +257,9 @@ class Env:
     # ---------------------------------------------------------------- exact to the cycle
 
     def at_event(self, edge: int, address: int, byte: int) -> Any:
-        """Schedule a write whose write event occurs on that edge; the test continues during this time.
+        """Schedule a write whose write event occurs on edge `edge`, and return immediately.
 
-        The host must make no other access then.
+        The host must make no other access until the write has ended.
         """
         edge0 = edge - WRITE_EVENT
         return self.bench.drive(
@@ -266,12 +271,12 @@ class Env:
         )
 
     async def write_at(self, edge: int, address: int, byte: int) -> None:
-        """Write a byte so that its write event occurs on that edge; return when the next access may begin."""
+        """Write a byte with its write event on edge `edge`; return when the next access may begin."""
         await self.bench.until(edge - WRITE_EVENT - 3)
         await self.host.write(address, byte)
 
     async def as_of(self, edge: int, address: int) -> int:
-        """Read a register; return its value after that edge (BANK-WIN-05)."""
+        """Read a register; return the value that it has just after edge `edge` (BANK-WIN-05)."""
         await self.bench.until(edge - SNAPSHOT - 1)
         return await self.host.read(address)
 

@@ -2,8 +2,9 @@
 switches.
 
 `build(seed)` returns the build of a seed, and `play(dut, seed)` runs the seed. In one of four seeds the host
-sends many instructions and moves little. In all other seeds the host keeps all axes in fast motions until the
-golden model has output INTERVALS intervals. If the RTL outputs fewer, the comparison reports the missing one.
+sends many instructions and starts few motions. In all other seeds the host keeps all axes in fast motions
+until the golden model has output INTERVALS intervals. If the RTL outputs fewer, the comparison reports the
+missing one.
 """
 
 from __future__ import annotations
@@ -19,11 +20,9 @@ from .env import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Env
 
 build = Builds("bank", ((B32, 50), (B8, 18), (B64, 12), (F100, 12), (B4, 8)))
 INTERVALS = 50_000
-"""Number of pulse intervals, summed over all axes. A host that keeps the axes in motion ends after this
-number.
-"""
+"""Number of pulse intervals, summed over all axes, after which a host that keeps the axes in motion ends."""
 ACTS = 260
-"""Number of actions of a host that sends many instructions."""
+"""Number of actions after which a host that sends many instructions ends."""
 QUICK = (0, 0, 0, 0, 1, 1, 2, 2, 3, 4, 5)
 CLK_LIMIT = 3_000_000
 
@@ -147,7 +146,7 @@ class BankHost(RandomHost):
             await bus.write(reg, byte, self.rng.choice((2, 2, 3)), self.rng.choice((3, 3, 4, 9)))
 
     async def init(self, n: int) -> None:
-        """Initialise an axis: seeds with much motion use a short ramp, other seeds also use unusual
+        """Initialise an axis; seeds that keep all axes in motion use a short ramp, other seeds also unusual
         settings.
         """
         rng = self.rng
@@ -225,7 +224,7 @@ class BankHost(RandomHost):
             await self.env.axes[n].host.write(DATA, self.rng.randrange(256))
 
     async def overrun(self) -> None:
-        """Send bytes to many axes, or several to one axis, without polling."""
+        """Send bytes to many axes, or several bytes to one axis, without polling."""
         one = self.axis()
         for n in self.rng.choices(range(self.env.size), k=6) if self.rng.random() < 0.5 else [one] * 3:
             byte = self.rng.choice((0x80, 0x83, 0x42, 0x4A, 0x41, 0x81))
@@ -254,7 +253,7 @@ class BankHost(RandomHost):
         await self.env.host.write(k << 4 | MASK, self.rng.choice((0, few, few, 255, self.rng.randrange(256))))
 
     async def go(self) -> None:
-        """Write GO once or more.
+        """Write GO one or more times.
 
         A host that keeps the axes in motion seldom lets a held operation wait for long.
         """

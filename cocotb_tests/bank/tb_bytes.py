@@ -1,5 +1,7 @@
 """Bytes: input buffer, output queue, codes, and the table builder that all axes share (BANK-HSK, BANK-INI,
 BANK-GEN-03).
+
+V is the edge of a visit of the axis, w the edge of the write event of a byte (BANK-WIN-06).
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ def idle_answer(code: int, initialised: bool) -> int:
 
 @directed("BANK-HSK-01", "BANK-GEN-01", builds=(B4, B8, B32, B64, F100))
 async def bank_hsk_01_seven_clk(dut):
-    """A byte written at w is accepted by the first visit V at w + 7 or later (BANK-HSK-01).
+    """A byte whose write event is on edge w is accepted by the first visit V at w + 7 or later (BANK-HSK-01).
 
     The test uses w = V - 8, V - 7, V - 6, V - 1 and V.
     """
@@ -78,8 +80,8 @@ async def bank_hsk_03_replaced(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32, F100))
 async def bank_hsk_03_last_one_counts(dut):
-    """If all axes receive bytes faster than they accept them, only replaced bytes are missed
-    (BANK-HSK-03).
+    """If all axes receive bytes faster than they accept them, only bytes that a newer byte replaces are
+    missed (BANK-HSK-03).
     """
     env = await Env.start(dut)
     for axis in env.axes:

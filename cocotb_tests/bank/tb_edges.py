@@ -1,4 +1,9 @@
-"""Orders of events that a host relies on: requests near an end, STOP and GO, table builds, absent axes."""
+"""Orders of events on which a host relies: requests near the end of a motion, STOP and GO, table builds,
+absent axes.
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, and R the number of cycles
+in a round.
+"""
 
 from __future__ import annotations
 
@@ -83,7 +88,7 @@ async def bank_grp_04_causes_of_a_start_after_stop(dut):
         visit = axis.visit(env.bench.now + 120)
         g = visit - late
         if abs(g - (visit - 7)) < 6:
-            continue  # the bus is occupied by the other access
+            continue  # the two writes would overlap on the bus
         axis.since = visit - 30
         axis.set(**{pin: 0})
         for event, address, byte in sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (g, STOP, 0)]):
@@ -105,7 +110,7 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
     axis = await env.ready(5)
     for gap in (6, 7, env.round - 1, env.round, env.round + 1):
         if gap > 2 * env.round - 8:
-            continue  # the bus is occupied by the other access
+            continue  # the writes of the second GO and of MASK would overlap on the bus
         await env.mask(axis.n)
         await axis.go(0x42)
         await env.mask()

@@ -1,4 +1,8 @@
-"""Groups: MASK, GO, STOP (BANK-GRP)."""
+"""Groups: MASK, GO, STOP (BANK-GRP).
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, w the edge of any other
+write event, and R the number of cycles in a round.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +19,7 @@ def due(env: Env, g: int) -> int:
 
 @directed("BANK-GRP-01", "BANK-GRP-02", builds=(B4, B8, B32, B64, F100))
 async def bank_grp_02_all_on_one_edge(dut):
-    """After GO, the held operations of all axes output pulse 1 on the same edge (BANK-GRP-02)."""
+    """After GO, the held operations of all axes output their first pulse on the same edge (BANK-GRP-02)."""
     env = await Env.start(dut)
     axes = await env.all_ready()
     await env.mask(*range(env.size))
@@ -69,8 +73,8 @@ async def bank_grp_01_mask_of_a_start(dut):
 
 @directed("BANK-GRP-02", "BANK-HSK-02", builds=(B4, B8, B32))
 async def bank_grp_02_refused(dut):
-    """GO sets error 1 in a busy member, error 2 in a member without an initialisation, and error 0 in a
-    member at standstill or waiting for parameters (BANK-GRP-02).
+    """Of the axes with MASK = 1, GO sets error 1 in a busy axis, error 2 in an axis without an
+    initialisation, and error 0 in an axis at standstill or waiting for parameters (BANK-GRP-02).
     """
     env = await Env.start(dut)
     busy, held, rest, fresh = env.axes[:4]
@@ -110,7 +114,7 @@ async def bank_grp_02_which_visit(dut):
         # The operation starts at `visit`; GO is written `early` cycles before it.
         events = sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (visit - early, GO, 0)])
         if abs(7 - early) < 6:
-            continue  # the bus is occupied by the other access
+            continue  # the two writes would overlap on the bus
         axis.since = visit - 30
         for event, address, byte in events:
             await env.write_at(event, address, byte)
@@ -268,7 +272,7 @@ async def bank_grp_03_third_go(dut):
         await env.mask(axis.n)
         await axis.go(0x42)
         await env.mask()
-        g = axis.visit(env.bench.now + 40) - 5  # the earliest visit detects this GO
+        g = axis.visit(env.bench.now + 40) - 5  # the visit at g + 5 is the earliest that detects this GO
         for edge in (g, g + env.round // 2, g + env.round + late):
             await env.write_at(edge, GO, 0)
         # MASK = 1 for the visit of the third GO, but not for an earlier visit.

@@ -3,6 +3,9 @@
 
 One GO releases the held operations of all axes. Their pulses occur on the same edge, which has a different
 position in the round for each axis. The expected results follow from the edges alone.
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, R the number of cycles in a
+round, and W the pulse and set-up time of 5 us in cycles.
 """
 
 from __future__ import annotations
@@ -22,7 +25,7 @@ N = 4
 OFFSETS = range(-2, 3)
 WAYS = (0, 1)
 PULSES = (1, 2, N)
-"""First, middle and last pulse."""
+"""The first, a middle and the last pulse of an operation of N pulses."""
 CAUSES = {"limit": 0x10, "alarm": 0x20, "origin": 0x00}
 PINS = {"limit": ("l1_n", "l2_n"), "alarm": ("alm_n", "alm_n"), "origin": ("cnp_n", "cnp_n")}
 
@@ -41,7 +44,7 @@ class Case:
 
     @property
     def code(self) -> int:
-        """Operation code: an origin search, or N pulses."""
+        """Operation code of an origin search, or of a move of N pulses."""
         return (0x47 if self.cause == "origin" else 0x44) | self.ccw << 3
 
 
@@ -68,7 +71,7 @@ class Waves:
     async def let_go(self) -> list[int]:
         """Write GO at a fixed position in the round and return the edges of the pulses.
 
-        The pulses then have all positions in the rounds of the axes.
+        Because each axis has another position in the round, the pulses then have all positions in the rounds.
         """
         g = -(-(self.env.bench.now + 10) // self.env.round) * self.env.round
         await self.env.write_at(g, GO, 0)
@@ -159,7 +162,7 @@ async def bank_mot_02_pins_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B4, B8, B32, B64, F100))
 async def bank_mot_02_pins_around_slower_pulses(dut):
-    """At a rate whose low time is W, and in the other builds, a limit, an alarm or the origin near a pulse
+    """In the other builds, and at a rate whose low time is W, a limit, an alarm or the origin near a pulse
     also ends the motion on its edge of detection (BANK-MOT-02).
     """
     waves = await pin_waves(dut, 3, 2)
@@ -247,8 +250,8 @@ async def bank_mot_02_two_causes(dut):
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
     """If L1 and ALM fall on the same edge, both finish bits are set, for each operation, while accelerating,
-    at constant speed and while decelerating. If a slow-down limit occurs before the last pulse of a counted
-    operation, the completed count sets no bit (BANK-MOT-02, BANK-MOT-05).
+    at constant speed and while decelerating. If a slow-down limit occurs before the last pulse of an
+    operation with a pulse count, the end of the count sets no bit (BANK-MOT-02, BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)

@@ -1,5 +1,7 @@
 """Motions: exact intervals on several axes at the same time, ends, and the visits that detect the ends
 (BANK-MOT).
+
+V is the edge of a visit of the axis.
 """
 
 from __future__ import annotations
@@ -171,8 +173,8 @@ async def bank_mot_03_byte_before_it_is_known(dut):
         axis.at(visit - early - SYNC, l1_n=0)
         await env.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
         await env.bench.clocks(3 * env.round)
-        # The visit that ends the motion does not accept the byte; at the next visit it is a stop at
-        # standstill.
+        # The visit that ends the motion does not accept the byte. At the next visit, which accepts it, the
+        # byte is a stop command at standstill.
         env.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
         axis.set(l1_n=1)
         env.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
@@ -190,7 +192,8 @@ async def bank_mot_05_slow_down_limit(dut):
         await axis.pulse(2, env.cfg.w + 20)
         visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, l3_n=0)
-        axis.at(visit - early - SYNC + 1, l3_n=1)  # the level is sampled by this visit only, or by no visit
+        # Depending on `early`, this visit is the only one that samples the low level, or no visit samples it.
+        axis.at(visit - early - SYNC + 1, l3_n=1)
         if early == 4:
             await axis.idle()
             env.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)
@@ -228,8 +231,8 @@ async def bank_mot_05_only_the_first_request(dut):
         axis.at(visit - early - SYNC, l1_n=0, l3_n=0)
         await axis.idle()
         axis.set(l1_n=1, l3_n=1)
-        # Both levels are detected on edge V - early. Visit V samples the slow-down limit; it detects the end
-        # if early is at least 5.
+        # Both levels are detected on edge V - early. Visit V samples the slow-down limit. If early is at
+        # least 5, visit V also detects the end of the motion.
         await axis.result(f"BANK-MOT-03, V - {early}, {plus}", 6, 0x9E if early == 4 else 0x96)
 
 

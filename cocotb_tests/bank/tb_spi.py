@@ -52,7 +52,7 @@ class Host:
         await Timer(round(n * self.period), "ps")
 
     async def frame(self, word: int, *data: int) -> bytes:
-        """Send a header and bytes, store the status of the bridge, and return the bytes that follow the
+        """Send a header and bytes, store the status of the bridge, and return the bytes received after the
         header.
         """
         dut, seen = self.dut, bytearray()

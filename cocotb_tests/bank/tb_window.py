@@ -1,5 +1,7 @@
-"""Window: registers, strobes, positions, interrupt map (BANK-WIN); the bank before it is ready
-(BANK-GEN-05).
+"""Window of the bank: registers, strobes, positions and interrupt map (BANK-WIN), also before the bank is
+ready (BANK-GEN-05).
+
+V is the edge of a visit of the axis, and R the number of cycles in a round.
 """
 
 from __future__ import annotations
@@ -17,7 +19,9 @@ REGISTERS = range(16)
 
 @directed("BANK-WIN-03", builds=(B8, B32, B64, B4, F100))
 async def bank_win_03_info(dut):
-    """INFO returns the window and AXES, depending only on a[6:4] of the axis (BANK-WIN-03)."""
+    """INFO at an axis returns the byte that a[6:4] of the axis selects: 42, version 1, AXES, zeros
+    (BANK-WIN-03).
+    """
     env = await Env.start(dut)
     for axis in range(env.size):
         want = (0x42, 1, env.size, 0, 0, 0, 0, 0)[axis % 8]
@@ -112,8 +116,8 @@ async def bank_win_04_short_reads(dut):
 
 @directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32))
 async def bank_win_04_irregular_strobes(dut):
-    """Bytes of 1-cycle writes, of accesses with both strobes and of strobes without cs_n are either written
-    completely or not at all (BANK-WIN-04).
+    """Bytes of 1-cycle writes, of accesses with both strobes asserted and of strobes without cs_n are either
+    written completely or not at all (BANK-WIN-04).
     """
     env = await Env.start(dut)
     host, bench = env.host, env.bench
@@ -221,14 +225,15 @@ async def bank_win_07_position_counts(dut):
 
 @directed("BANK-WIN-07", builds=(B8, F100, B32))
 async def bank_win_07_counted_at_the_visit(dut):
-    """A pulse on edge e is counted at the last visit at or before e (BANK-WIN-07).
+    """The position register includes a pulse on edge e from the last visit at or before e on (BANK-WIN-07).
 
-    The test reads the position at this visit -1, 0 and +1 cycles.
+    The test reads the position one cycle before this visit, at this visit and one cycle after it.
     """
     env = await Env.start(dut)
     axis = await env.ready(env.size - 2)
     for number, offset in enumerate((-1, 0, 1)):
-        await axis.set_config(1, 0)  # 30 quanta longer: not a multiple of R at 100 MHz
+        # Each interval is 30 quanta longer, so that it is not a multiple of R at 100 MHz.
+        await axis.set_config(1, 0)
         edge0 = await axis.go(0x44, 3, 20, poll=False)
         second = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(21 * 8 + 30)
         ordered = axis.visit(second - env.round + 1)
@@ -287,8 +292,8 @@ async def bank_win_08_map_to_the_cycle(dut):
     for k in range(max(1, env.size // 8)):
         axes = env.axes[8 * k : 8 * k + 8]
         await env.mask(*(axis.n for axis in axes))
-        # Axis a is visited one cycle after axis a - 1, so it is sufficient to test the addresses next to the
-        # byte.
+        # Axis a is visited one cycle after axis a - 1. Therefore it is sufficient to read the byte at the
+        # axes next to those whose bits it contains.
         for at in [n for n in range(k, env.size, 8) if env.size < 32 or -8 <= n - 8 * k <= 16]:
             for step in range(len(axes) + 6):
                 await _map_near_visits(env, axes, at << 4 | MAP, step)

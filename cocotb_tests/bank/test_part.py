@@ -22,8 +22,8 @@ ITEMS = cocotb_items(
     part=BANK,
 )
 
-# A row contains a parameter, its legal values, and values just outside the range. The other parameters keep
-# their defaults: 32 axes, 100 MHz.
+# Each row contains a parameter, its legal values, and values just outside its range. The other parameters
+# keep their defaults: 32 axes, 100 MHz.
 RANGES = {
     "CLK_HZ": (("32_000_000", "200_000_000"), ("28_000_000", "204_000_000", "100_000_001")),
     "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001", "15_000_000")),
@@ -34,7 +34,7 @@ RANGES = {
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_bank(item: Item, sim_options: SimOptions) -> None:
-    """Run one simulation."""
+    """Run the simulation of one item."""
     run_item(item, sim_options)
 
 

@@ -1,4 +1,4 @@
-"""Compares random hosts with the golden model: a fixed list of seeds, or one seed with `--seed N`.
+"""Compares the bank under random hosts with the golden model, for fixed seeds or with `--seed N`.
 
 One simulation runs several seeds of one build. `make soak PART=bank` runs any number of other seeds.
 """
@@ -23,7 +23,7 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_seeds_are_enough() -> None:
-    """The fixed seeds are all different, together use each build, and compare a million intervals in total.
+    """The fixed seeds are all different, and together they use each build and compare a million intervals.
     Each host checks its number of intervals.
     """
     assert random_item.complete

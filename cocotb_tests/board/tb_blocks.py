@@ -60,7 +60,9 @@ async def board_reset_release(dut):
 
 @cocotb.test()
 async def board_reset_assertion(dut):
-    """lock_i resets immediately and without a clock; req_ni resets on the third edge that samples it low."""
+    """lock_i = 0 resets immediately and without a clock. req_ni = 0 resets on the third edge that samples
+    it.
+    """
     clk_hz, hold_us = RESETS[2]
     unit = BlockDriver(dut, "reset2", BLOCKS, "rst_no")
     unit.put(lock_i=1, req_ni=1)

@@ -1,4 +1,6 @@
-"""A complete board top without a PLL: power-on, bidirectional bus, both resets, pins of the UART host."""
+"""A complete board top without a PLL: power-on, bidirectional bus, both resets, and the bus pins with the
+UART host.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,7 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness import same
 
 CLK_HZ = 50_000_000
-READ_PINS = 0x82  # command that requests S1 … S5, HOLD, DIR, from bit 7 down
+READ_PINS = 0x82  # command that requests S1 … S5, HOLD and DIR as its answer, from bit 7 down
 
 
 async def power_on(dut) -> int:

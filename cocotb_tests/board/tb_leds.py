@@ -1,7 +1,7 @@
 """LEDs of the carriers, with a bus as host: a limit, an alarm or MON lights one LED, a motion lights the
 other, and no other input lights an LED.
 
-The PPMC-312 only moves through other hosts, so its motion LED is tested at standstill only.
+The hosts of this test cannot start motions of a PPMC-312, so its motion LED is tested at standstill only.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ LIT = {
 DARK = {"ppmc104": ("cnp_n",), "ppmc2104": ("org_n",), "stmc": ("cnp_n",), "ppmc312": ("org_n", "end_n")}
 STROBES = {"ppmc104": "wr_n", "stmc": "wr_n", "ppmc2104": "ds_wrs_n"}
 RAMP = (9, 4, 4, 0)  # RL, RH, PA
-AXES = {"ppmc2104": (0x00, 0x20)}  # bit of the code that selects each axis
+AXES = {"ppmc2104": (0x00, 0x20)}  # bit of the operation code that selects each axis
 
 
 async def start(dut, part: str) -> None:
@@ -49,7 +49,7 @@ async def write(dut, part: str, a0: int, byte: int) -> None:
 @cocotb.parametrize(part=[*LIT])
 async def led_of_the_switches(dut, part: str):
     """Each limit and the alarm (MON of the STMC) of each axis lights led_switch and no other LED; other
-    switches do not light it.
+    switches do not light led_switch.
     """
     await start(dut, part)
     same("at rest", (int(dut.led_switch.value), int(dut.led_moving.value)), (0, 0))

@@ -1,4 +1,6 @@
-"""rtl/boards in simulation: reset and LEDs, a top with each host, a PPMC-312 on its line, the PMC006B4."""
+"""rtl/boards in simulation: reset and LEDs, a board top with each host, a PPMC-312 on its serial line, the
+PMC006B4.
+"""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ SQUARES = [
     (48_000_000, 16_000_000, 2),
     (200_000_000, 1_000_000, 2),
     (25_000_000, 12_000_000, 3),
-    (16_000_000, 2 * 48_675, 1),  # of the J105 board
+    (16_000_000, 2 * 48_675, 1),  # crystal of the J105 board
     (8_000_000, 4_000_000, 1),
 ]
 TIMERS = [
@@ -166,7 +166,7 @@ async def square_no_drift(dut):
 
 @cocotb.test()
 async def xtal_timer_exact(dut):
-    """past_o rises in the cycle after ceil(limit * ClkHz / XtalHz) cycles, and then stays high."""
+    """past_o rises in the cycle after ceil(limit * ClkHz / XtalHz) cycles, and then remains high."""
     rand = rng()
     for i, (clk, xtal, width) in enumerate(TIMERS):
         u = unit(dut, f"timer{i}", "past_o")

@@ -15,8 +15,8 @@ AREA = "i2c"
 NONE, START, STOP, BYTE, FREE = range(5)
 CLOCKS = [
     (8_000_000, 400_000),
-    (8_727_000, 400_000),  # 0.55 bit is slightly less than 12 cycles
-    (8_909_000, 400_000),  # half a bit is one cycle less than 12
+    (8_727_000, 400_000),  # 0.55 of a bit time is slightly less than 12 cycles
+    (8_909_000, 400_000),  # half a bit time is slightly more than 11 cycles
     (11_059_200, 300_000),
     (12_000_000, 400_000),
     (16_000_000, 400_000),
@@ -55,7 +55,8 @@ ACCESS_NS = 900
 
 @dataclass
 class Lines:
-    """Levels of both lines over time, and the shortest value of each time in cycles.
+    """Levels of both lines over time, and the shortest duration found for each time of the data sheets, in
+    cycles.
 
     The device holds SCL low for `stretch` cycles.
     """
@@ -74,8 +75,8 @@ class Lines:
             self.found[name] = min(span, self.found.get(name, span))
 
     def clk(self, scl_oe: int, sda_oe: int) -> tuple[int, int]:
-        """Make one edge; return the levels of both lines with these output enables of the master (1: pulls
-        low).
+        """Make one clock edge with these output enables of the master (1: pulls low); return the levels of
+        both lines.
         """
         self.t += 1
         self.held = max(0, self.held - 1)
@@ -98,7 +99,7 @@ class Lines:
         return scl, sda
 
     def _data(self, scl: int, sda: int) -> None:
-        """Note a change of SDA: START, STOP, or a bit while SCL is low."""
+        """Record the meaning of a change of SDA: START, STOP, or a bit while SCL is low."""
         if not (scl and self.scl):
             assert not scl and not self.scl, f"cycle {self.t}: both lines change together"
             self._note("hd_dat", "fall")
@@ -124,7 +125,7 @@ def course() -> Iterator[tuple[int, int]]:
 
 
 async def played(dut: object, number: int, stretch: int = 0) -> Lines:
-    """Execute the commands of `course` on one instance; return the lines."""
+    """Execute the commands of `course` on one instance; return the record of the lines."""
     u = BlockDriver(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o sda_oe_o")
     lines = Lines(stretch)
     await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=NONE)
@@ -156,7 +157,7 @@ async def i2c_times_of_the_data_sheets(dut):
 
 @cocotb.test()
 async def i2c_times_with_a_stretched_clock(dut):
-    """If a device holds SCL low for any time, SCL is then still high for the minimum time or longer."""
+    """If a device holds SCL low for any time, SCL is afterwards still high for at least the minimum time."""
     rand = rng()
     for number, (clk, scl) in enumerate(CLOCKS[:6]):
         low = clk * 11 // (scl * 20)

@@ -18,7 +18,7 @@ LEFT: list[str] = []
 
 
 async def _clk(dut: Any, **levels: int) -> int:
-    """Make one clock cycle with these input levels (0 if omitted); return the level of q after it."""
+    """Make one clock cycle with these input levels (0 if omitted); return the level of output q after it."""
     for pin in ("clk", "fire", "die"):
         getattr(dut, pin).value = levels.get(pin, 0)
     await Timer(1, "step")
@@ -85,7 +85,7 @@ async def shows(dut):
 @cocotb.test()
 @cocotb.parametrize(edge=[1, 2])
 async def clocked(dut: Any, edge: int) -> None:
-    """An assertion fires at one rising edge of a running clock."""
+    """An assertion of the RTL fires at one rising edge of a running clock."""
     work = sim_backend()
     dut.fire.value = dut.die.value = 0
     work.clock(work.port("clk"), 10)
@@ -118,7 +118,7 @@ async def crashes(dut):
 
 @cocotb.test()
 async def loops(dut):
-    """The test does not end, and no simulation time passes."""
+    """The test does not end, although no simulation time passes."""
     await _clk(dut)
     while True:
         pass
@@ -140,7 +140,7 @@ async def follows(dut):
 
 @cocotb.test()
 async def wavers(dut):
-    """The test fails the first time and passes from then on."""
+    """The test fails when it runs for the first time and passes from then on."""
     await _clk(dut)
     seen = Path(os.environ["OPENPPMC_SEEN"])
     if not seen.exists():

@@ -1,1 +1,1 @@
-"""Code for gate-level simulations only: the board top that they run, its UART, models of FPGA cells."""
+"""Code for gate-level simulations only: the simulated board top, its UART, and models of FPGA cells."""

@@ -23,7 +23,7 @@ CW, CCW = 0x43, 0x4B
 MOTOR = ("pout_n", "dir", "s", "hold", "int_n")
 EVENT, NAK, NAK_CRC = 0x80, 0x81, 2
 RESET_MS = 3
-"""Longest reset of a board. Without a board, the reset of a carrier ends immediately."""
+"""Duration of the longest reset of a board. The reset of a carrier without a board ends immediately."""
 
 
 def present(dut: Any, part: Part) -> Part:
@@ -36,7 +36,7 @@ def present(dut: Any, part: Part) -> Part:
 
 
 async def start(dut: Any, code: int = 0, part: Part | None = None) -> tuple[RtlBench, Uart]:
-    """Reset the board, then select the line rate that has this code."""
+    """Reset the board, then select the line rate with the code `rate`."""
     uart = Uart(dut)
     bench = await RtlBench.start(dut, present(dut, part or PARTS["ppmc104"]))
     uart.listen()
@@ -50,7 +50,7 @@ async def start(dut: Any, code: int = 0, part: Part | None = None) -> tuple[RtlB
 
 
 class Golden:
-    """Initialised golden model, which makes one move after the other."""
+    """An initialised golden model that makes one move after another."""
 
     def __init__(self, config: Config) -> None:
         self.model = Ppmc104(config.clk_hz, config.xtal_hz, config.timing, config.phase_idle)
@@ -108,8 +108,9 @@ async def move(
 ) -> int:
     """Make one move with one frame and compare edges and finish status with the golden model.
 
-    The pulse counter must count the pulses from `counted` on (upwards for CW). The event at the end of the
-    move ends the comparison, because a board may have no pin for int_n. Return the number of pulses.
+    `counted` is the value of the pulse counter before the move; the counter must count each pulse (upwards
+    for CW). The event at the end of the move ends the comparison, because a board may have no pin for int_n.
+    Return the number of pulses.
     """
     begin = bench.now
     sender = cocotb.start_soon(uart.ask(Script().call(op, *(count - 1).to_bytes(3, "little"))))

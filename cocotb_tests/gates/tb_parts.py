@@ -1,4 +1,4 @@
-"""The bitstream of a board with each part on the UART bridge: self-test, bank.
+"""The bitstream of a board with each part behind the UART bridge: its self-test, or moves of a bank.
 
 The self-test is that of the host package; it compares every edge in the recorder with the golden model. A
 bank leaves no block RAM for a recorder.
@@ -29,7 +29,10 @@ AXES, PULSES = 8, 30
 
 
 class LinePort(UartBfm):
-    """The UART of the board as a port of the host package, whose calls block; they run in a thread."""
+    """The UART of the board as a port of the host package.
+
+    The calls of the host package block, so they run in a thread.
+    """
 
     name = "simulated line"
 
@@ -68,7 +71,7 @@ class LinePort(UartBfm):
 
 @cocotb.test()
 async def board_selftest(dut: Any) -> None:
-    """In the self-test, the registers and moves of each kind have no difference from the golden model."""
+    """In the self-test, the registers and each kind of move do not differ from the golden model."""
     port = LinePort(dut)
     name = dut._name.split("_", 2)[2]
     bench = await RtlBench.start(dut, present(dut, PARTS[name]))

@@ -37,7 +37,8 @@ def steps(name: str, positive: bool = True) -> list[int]:
 def rate(rl: int, rh: int, pa: int, k: int) -> int:
     """Return the exact rate of ramp index k, rounded half up (P104-RMP-01).
 
-    x(k)^2 = A·B·PA / (B·PA + (A - B)·k); the rate plus one is the largest n with n - 1/2 <= x.
+    x(k)^2 = A·B·PA / (B·PA + (A - B)·k) with A = (RL + 1)^2 and B = (RH + 1)^2; the rate plus one is the
+    largest n with n - 1/2 <= x.
     """
     a, b = (rl + 1) ** 2, (rh + 1) ** 2
     four_x2 = 4 * a * b * pa // (b * pa + (a - b) * k)
@@ -126,8 +127,8 @@ class AxisDriver:
     async def go(self, code: int, n: int | None = None, rate: int | None = None, poll: bool = True) -> int:
         """Send an operation of n pulses (None: an operation without a pulse count).
 
-        Returns the status after the last byte, or edge 0 of the write of this byte if `poll` is False. Pulses
-        from `since` on, which this method sets, count for the operation.
+        Returns the status after the last byte, or edge 0 of the write of this byte if `poll` is False. This
+        method sets `since`; pulses from this edge on count for the operation.
         """
         self.since = self.bench.now
         data = ([] if rate is None else [rate]) + ([] if n is None else bytes_of(n - 1))
@@ -138,7 +139,7 @@ class AxisDriver:
         return await self.host.data(data[-1], poll)
 
     async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
-        """Call `go`, then wait for the end; return the pulses."""
+        """Start an operation with `go`, wait for its end, and return its pulses."""
         await self.go(code, n, rate)
         await self.idle()
         return self.pulses

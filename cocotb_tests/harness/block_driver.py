@@ -49,7 +49,7 @@ def is_input(port: str) -> bool:
 def wrapper_text(top: str, blocks: Mapping[str, Block]) -> str:
     """Return the SystemVerilog of the top module.
 
-    Only the instance with the number `chosen` (from 1), a signal of the module, is clocked.
+    Only one instance is clocked: the signal `chosen` of the module holds its number, counted from 1.
     """
     # Inputs start at random levels. Because only the chosen instance is clocked, no assertion of another
     # instance fires.

@@ -307,7 +307,7 @@ def simulator(main: str) -> Any:
 
 
 def from_root(text: str) -> str:
-    """Return a tool's text with paths of the project relative to its root."""
+    """Return the output of a tool, with paths of the project relative to its root."""
     return text.replace(f"{ROOT}/", "").replace(seen_from(SIM_BUILDS / "any", ROOT) + "/", "")
 
 

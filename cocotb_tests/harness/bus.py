@@ -121,7 +121,7 @@ class HostBus:
             await self.bench.clocks(extra)
 
     async def _address(self, reg: int) -> int:
-        """Drive the address, if it must be valid before the strobe; return it."""
+        """Drive the address, if it must be valid before the strobe; return the address."""
         address = self.base + reg
         if self.lead:
             self.bench.set(**{self.style.address: address})

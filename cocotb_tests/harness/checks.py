@@ -52,7 +52,7 @@ class Move:
 class Train:
     """Record of a move: edges of the clock, pulses, and low times if any.
 
-    `edges` and `falls` are the times when the edges of the clock take effect at the pins.
+    `edges` and `falls` are the times when the rising and falling edges of the clock take effect at the pins.
     """
 
     edges: list[int]
@@ -150,7 +150,7 @@ class ExtMoves:
 
 
 def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
-    """Yield moves on a ramp: edges 4 to 17 cycles apart, N from 2 to beyond a plateau, some with a limit.
+    """Yield moves on a ramp with edges 4 to 17 cycles apart, with and without a plateau, some with a limit.
 
     N determines where a move begins to decelerate and whether it holds its index before that (P104-PRO-03). A
     slow-down limit occurs where the move can still decelerate.
@@ -167,7 +167,7 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
 
 
 BOTH = 0xB0
-"""Finish status for limit and alarm, without the code of the operation."""
+"""Finish status of an operation that a limit and an alarm have ended, without the code of the operation."""
 MOVES = (
     (0x43, 24, None, (2, 10, 22)),
     (0x44, 24, 9, (6,)),

@@ -41,7 +41,8 @@ _SUBJECTS = "|".join(row.rules[0] for row in parts.folders() if row.rules)
 _NUMBERS = "|".join(prefix for row in parts.folders() for prefix in row.rules[1:]) or "(?!)"
 RULE_ID = re.compile(
     rf"^(?:(?P<prefix>(?:{_SUBJECTS})(?=-[A-Z])|(?:{_NUMBERS})(?=-\d))(?:-[A-Z]+)?-\d\d"
-    # IDs of rules about an instruction of the PPMC-312 contain its code, those about free curves a number.
+    # IDs of rules about an instruction of the PPMC-312 contain its code; IDs of rules about free curves
+    # contain a number.
     r"|(?P<code>P312)-CMD-(?:(?!FC)[0-9A-F]{2}|8L|8V|FC-\d{1,2})|AC-\d\d)$"
 )
 _ID = r"[A-Z0-9]+(?:-[A-Z]+)?-\d\d|P312-CMD-[0-9A-Z]{2}(?:-\d{1,2})?"

@@ -37,7 +37,7 @@ class StimulusLog:
         self.changes: list[Change] = []
         self._driven = 0
         self._made: dict[str, tuple[int, tuple[int, int]]] = {}
-        """Name -> number of its rows in the list, and the last of these rows."""
+        """Name -> number of its rows that have been appended, and the last of these rows."""
 
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
         """Append the rows that both arguments have gained since the previous call; return all rows so far.
@@ -64,7 +64,7 @@ TIMEOUT = 1_000_000
 
 
 PinChange = tuple[int, Mapping[str, int]]
-"""Edge that is the first to sample these levels, and the levels."""
+"""One change: the first edge that samples the levels, and the level of each pin."""
 
 
 class Handle(Protocol):
@@ -214,9 +214,9 @@ class DutBench(ABC):
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
         """Run the external clock: each item is the number of cycles from one rising edge to the next.
 
-        `pin` (default: the clock pin of a device with one axis). The first rising edge occurs immediately,
-        and the clock stops at the end of the iterable. Each high time is `high` cycles. The result is that of
-        `drive`.
+        The clock is on `pin` (default: the clock pin of a device with one axis). The first rising edge occurs
+        immediately, and the clock stops at the end of the iterable. Each high time is `high` cycles. The
+        result is that of `drive`.
         """
         name, start = pin or self.part.clock, self.now
 
@@ -333,7 +333,7 @@ class DutBench(ABC):
         return self.falls(pin, since)[n - 1]
 
     async def level_is(self, output: str, level: int, timeout: int = TIMEOUT) -> int:
-        """Wait until an output has this level, which may already be so; return `now`."""
+        """Wait until an output has this level, which it may have already; return `now`."""
         if self.level(output) != level:
             await self.edge(output, level, timeout)
         return await self.align()

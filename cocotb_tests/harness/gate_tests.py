@@ -1,4 +1,4 @@
-"""`PartTests`: tests of a device that run on netlists, and why others do not (`gates.py` of the device)."""
+"""`PartTests`: which tests of a device run on netlists, and why the others do not (its `gates.py`)."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class PartTests:
 
     @property
     def functions(self) -> list[str]:
-        """Names of the test functions in both modules."""
+        """Names of the test functions in the directed and the random module."""
         modules = [module for module in (self.directed, self.random) if module]
         return [name for module in modules for name in vars(module) if name.startswith("test_")]
 

@@ -52,7 +52,7 @@ class StageLog:
     Attributes:
         changes: changes so far, in order of time.
         late: number of changes that were sampled one cycle late.
-        prompt: number of changes that were sampled at once.
+        prompt: number of changes that were sampled without the extra cycle.
     """
 
     def __init__(self, part: Part) -> None:

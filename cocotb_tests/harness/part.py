@@ -78,8 +78,8 @@ class Part:
         shape: function that returns the pins for parameters that determine the widths of ports (see `built`).
 
     For `make test JITTER=1`, `stages` lists the synchronisers of the pins: path -> pins from the most
-    significant bit on. `direct` lists pins of these that another register also samples. `exact` is the reason
-    why only random hosts run with JITTER=1.
+    significant bit on. `direct` lists the pins among them that another register also samples. `exact` is the
+    reason why only random hosts run with JITTER=1.
 
     The top of a bench may contain more than the device. Then `fed` lists inputs of the device that the top
     drives (outputs of the bench), and `aside` lists inputs that only the top has.

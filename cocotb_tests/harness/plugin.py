@@ -159,7 +159,7 @@ class _Recorder:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the grouping where tests are collected, and the recorder in the controller only.
+    """Register the grouping of tests in each collecting process, and the recorder in the controller only.
 
     A worker of xdist has the attribute `workerinput`; the controller does not.
     """

@@ -88,7 +88,8 @@ def shrink_report(folder: Path, design: Design | None = None) -> str:
     try:
         design = design or part_design(item.part, item.config)
         run_sim(design, item, item.seed, env={REPLAY: str(file.resolve())}, folder=short, repro=line)
-    except SimError as error:  # an assertion or the time limit: the file has the best list
+    except SimError as error:
+        # A failed assertion or the time limit ended the search; the file contains the best list so far.
         trouble = str(error).splitlines()[0]
     words = short / WORDS
     if not words.is_file():

@@ -108,7 +108,7 @@ def running_test(compare: Comparer | None, seed: int | None = None) -> Iterator[
 
 
 def last_test() -> RunContext | None:
-    """Return the directed or random test that ended last, with its bench; None before the first."""
+    """Return the directed or random test that ended last, with its bench; None if no test has ended."""
     return _last[-1] if _last else None
 
 

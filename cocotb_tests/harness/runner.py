@@ -58,7 +58,7 @@ def hint(text: str, design: Design) -> str:
 
 
 def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int]:
-    """Return (scope, name with range, width) of each signal of the top, and the last time stamp.
+    """Return (scope, name with range, width) of each signal of the top in a VCD, and the last time stamp.
 
     If the ports are known, only the ports are returned.
     """
@@ -244,7 +244,7 @@ def notes(item: Item | None) -> list[tuple[str, Any]]:
 
 
 class Summary:
-    """Collects counts in the controlling process, to which xdist forwards every report."""
+    """Collects the counts of all tests in the controlling process, to which xdist forwards every report."""
 
     def __init__(self) -> None:
         self._seen: dict[str, dict[str, Any]] = {}

@@ -28,7 +28,7 @@ LINE = re.compile(r"^(?:(c|d|w) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|
 
 @dataclass(frozen=True)
 class Step:
-    """One line: a c, d or w byte with the status, r with its byte, s a status read, or p a polled status."""
+    """One access: c, d, w with its byte and the status after it, r with the byte, s or p with the status."""
 
     kind: str
     byte: int

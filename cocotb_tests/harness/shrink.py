@@ -15,7 +15,9 @@ from .part import Part, recorded
 
 LINE = "rxd"
 BUSY = 64
-"""A pin with more changes is a clock, whose periods are combined to about this number of transactions."""
+"""A pin with more than this number of changes is a clock. Its periods are combined to about this number of
+transactions.
+"""
 
 
 class Step(NamedTuple):
@@ -265,7 +267,7 @@ def messages(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
 
 
 def exchanges(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
-    """Return the messages to the device, each with the reads that follow it, and bursts of other pins."""
+    """Return the exchanges (each message with the reads that follow it) and the bursts of other pins."""
     found: list[list[Transaction]] = []
     exchange: list[Transaction] = []
     for message in messages(transactions):
@@ -378,9 +380,10 @@ class Shrinker:
         return True
 
     async def _keep_the_end(self) -> None:
-        """Try only the last exchanges, moved to just after the reset; add more of them until the list fails.
+        """Try only the last exchanges, moved to just after the reset; add earlier ones until the list fails.
 
-        Without exchanges in the middle, later reads would differ; short lists from the end are quick to try.
+        Omitting exchanges from the middle would change later reads. Short lists from the end are quick to
+        try.
         """
         runs, count = exchanges(self.transactions), 1
         head = [txn for txn in self.transactions if txn.begin < PAUSE]
@@ -396,8 +399,8 @@ class Shrinker:
     async def _leave_out_kinds(self) -> None:
         """Omit all transactions of a kind, the most frequent kind first.
 
-        Such kinds are polls, clocks, and changes of other pins. Rare kinds are left to later steps. The last
-        message is kept, because it may be the poll that shows the difference.
+        Such kinds are polls, clocks, and changes of other pins. The later searches omit transactions of rare
+        kinds. The last message is kept, because it may be the poll that shows the difference.
         """
         for kind, count in Counter(txn.kind for txn in self.transactions).most_common():
             if count < len(self.transactions) // 20:

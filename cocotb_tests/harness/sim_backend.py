@@ -115,7 +115,7 @@ _ROW = struct.Struct("=QQQ")
 _WORD = 64
 _ONES = (1 << _WORD) - 1
 _OTHER = 1 << 20
-"""Offset of the numbers of ports that `CocotbBackend` handles."""
+"""Offset that is added to the numbers of the ports that a `CocotbBackend` handles."""
 
 
 def _function(name: str, result: Any, *arguments: Any) -> Any:

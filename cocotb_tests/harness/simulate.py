@@ -251,6 +251,6 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
     except RuntimeError as error:
         trouble = f"the simulator ended: {error}"
     except SystemExit:
-        pass  # The outcome states that a test failed.
+        pass  # cocotb has ended the process after a failed test; the outcome of the test states the failure.
     keep_counts(folder)
     return outcomes(job.items, log, results, trouble)

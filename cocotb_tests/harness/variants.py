@@ -61,7 +61,7 @@ def coverage_args() -> list[str]:
 
 
 def with_counters(sources: Sequence[Path]) -> list[Path]:
-    """Return the sources of a design, with copies in place of the files that have one."""
+    """Return the sources of a design, with the copy in place of each file that has a copy."""
     folder = os.environ.get(COVERAGE_COPIES)
     if not folder:
         return list(sources)

@@ -268,7 +268,9 @@ async def ext_lag_sum(dut):
 
 @cocotb.test()
 async def pulse_shaper_width(dut):
-    """For all kinds of pulses the low time is exact: the full time, half an interval, or a cut time."""
+    """For all kinds of pulses the low time is exact: the full time, half an interval, or a time that cut_i
+    ends.
+    """
     rand = rng()
     for i, (clk, xtal, width, half, rates) in enumerate(SHAPES):
         u = BlockDriver(dut, f"shape{i}", BLOCKS, "low_o past_o")

@@ -229,7 +229,7 @@ class Walker:
     async def move(self, rand: random.Random, n: int, forced_at: int) -> None:
         """Make n pulses, with a deceleration request at pulse `forced_at`.
 
-        `forced_at` = 0 requests it before pulse 1, and a value above n never.
+        With `forced_at` = 0 the request is before pulse 1; with a value above n there is no request.
         """
         slow, fast, steps = self.ramp
         where = f"{self.ramp}, {n} pulses, forced at {forced_at}"

@@ -20,13 +20,13 @@ class Chip:
     """An EEPROM that was just powered up.
 
     Attributes:
-        content: bytes from address 0 on, the rest is FF.
+        content: bytes from address 0 on; all further bytes are FF.
         write_us: time of a write cycle.
         stretch_us: time for which SCL is held low after each acknowledge.
         missing: True if no device responds.
         other: True if the address of the device differs from the one that the part uses.
         stuck: "scl" or "sda", a line that is held low.
-        busy_us: time for which a write cycle is in progress.
+        busy_us: time after power-up for which a write cycle is in progress.
     """
 
     content: bytes = b""

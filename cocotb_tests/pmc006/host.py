@@ -138,7 +138,7 @@ class Host(View, SerialLine):
         return await self.until("bridge_a_en", 1)
 
     async def reset(self, clk: int = 12, **levels: int) -> None:
-        """Apply a pulse on rst_n; `levels` change at its end. Return before BOOT ends."""
+        """Apply a pulse on rst_n; `levels` change at the end of the pulse. Return before BOOT ends."""
         await self.pins(rst_n=0)
         await self.pause(clk)
         await self.pins(rst_n=1, **levels)

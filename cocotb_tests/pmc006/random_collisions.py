@@ -12,7 +12,7 @@ from .random_motion import MotionHost
 LIMIT_US = 6_000
 """Maximum time for which a motion is observed for events, in microseconds."""
 NEAR = 4
-"""Maximum distance of frame and event, in cycles."""
+"""Maximum distance between a frame and an event, in cycles."""
 SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
 EASY = (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("o", 5))
 MOVE = (("v", 3000), ("L", 3000), ("S", 3000))
@@ -42,7 +42,7 @@ class CollisionHost(MotionHost):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.bench.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
-        # Numbers of cycles from one edge at which a microsecond begins to the next.
+        # The start of a microsecond has the same phase to `clk` again after `period` cycles.
         period = host.clk_hz // gcd(host.clk_hz, 1_000_000)
         for _ in range(4):
             if await host.busy() or not found["mon_busy"]:

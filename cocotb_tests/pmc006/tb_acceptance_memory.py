@@ -1,4 +1,7 @@
-"""Acceptance checks of a part with an EEPROM: save, restore, and storage of a program."""
+"""Acceptance checks of a part with an EEPROM: save, restore, and storage of a program.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

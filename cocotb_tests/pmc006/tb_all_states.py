@@ -26,7 +26,7 @@ class State(NamedTuple):
 
     Attributes:
         begun: codes of the frames that lead from standstill into the state.
-        speeds: settings that are written before.
+        speeds: settings that are written before these frames.
     """
 
     begun: str = ""
@@ -57,7 +57,7 @@ REPLIES: dict[str, int | None] = {
 UNLIKE = {"R": 1, "T": -1, "y": 7, "w": 0, "H": 1}
 """Code -> data to send, for codes whose reply is not the data."""
 AT = {"E": OUT, "G": OUT, "W": OUT, "z": LOOP}
-"""Code -> value that the program pointer must have."""
+"""Code -> value that the program pointer must have before the code is sent."""
 DISTURBS = "BEFINgstz"
 
 

@@ -1,4 +1,7 @@
-"""Speed that follows the voltage on GPI1, and the time bases."""
+"""Speed that follows the voltage on GPI1, and the time bases.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 
@@ -80,7 +83,7 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     await host.strobe(adc_data=800)
     await cruise(host, 1_000_000 / target(3000, 800), 90_000)
     begun = host.steps(mark)[0] - host.edges("mon_busy", mark)[0][0]
-    # The first step is at 1 = a t² / 2, which is 6 ms later.
+    # The first step occurs when a t² / 2 reaches 1 step, 6 ms after the acceleration begins.
     assert host.us(15_500) < begun < host.us(17_500)
     await host.strobe(adc_data=0)
     await host.ms(12)

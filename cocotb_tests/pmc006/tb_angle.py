@@ -1,4 +1,7 @@
-"""Electrical angle, references, currents, compensation, hold and decay."""
+"""Electrical angle, references, currents, compensation, hold and decay.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

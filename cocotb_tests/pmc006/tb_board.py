@@ -171,7 +171,7 @@ async def board006_button_and_eeprom(dut: Any) -> None:
     rs485 = board.rs485
     for code, data in (("m", 32), ("v", 2000), ("t", 0)):
         await rs485.ask(code, data)
-    await Timer(4, "ms")  # time for a page at 400 kHz, and the write time of the device
+    await Timer(4, "ms")  # time to write a page at 400 kHz, and the write time of the device
     dut.btn_n.value = 0
     await with_timeout(FallingEdge(dut.bridge_a_en), 1, "us")
     same("bridges", int(dut.bridge_b_en.value), 0)

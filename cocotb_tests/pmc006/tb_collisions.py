@@ -1,4 +1,7 @@
-"""Two events in the same cycle or some cycles apart: stops, starts, flags, keys, frames, the program."""
+"""Two events in the same cycle or some cycles apart: stops, starts, flags, keys, frames, the program.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

@@ -78,8 +78,8 @@ async def p006_nothing_is_left_at_a_reference_of_0(dut: Any) -> None:
 
 @directed("P006-CHP-01", "P006-STA-12")
 async def p006_released_and_excited_again(dut: Any) -> None:
-    """While the bridges are off, the current decays through the diodes; afterwards it returns in the next
-    period.
+    """While the bridges are off, the currents decay to 0 through the diodes. 1 ms after the bridges are
+    switched on again, the currents follow their references.
     """
     host, plant = await ready(dut, Motor(2.0, 1e-3, 12.0), e=3000)
     await set_constant_speed(host, 3000)

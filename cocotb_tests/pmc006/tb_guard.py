@@ -1,4 +1,7 @@
-"""Emergency stops, port word, and events in the same cycle."""
+"""Emergency stops, port word, and events in the same cycle.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Keys of a user program on GPI1 and GPI2: filters, and effect in each state."""
+"""Keys of a user program on GPI1 and GPI2: filters, and effect in each state.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 
@@ -144,7 +147,7 @@ async def p006_a_key_active_at_power_up_has_no_effect(dut: Any) -> None:
 @cocotb.parametrize(held=[False, True])
 @directed("P006-PRG-30")
 async def p006_enabling_after_the_event(dut: Any, held: bool) -> None:
-    """An event before RESET_EN has no effect, although the key is still pressed."""
+    """A key event before RESET_EN has no effect, even if the key is still pressed at RESET_EN."""
     host = await armed(dut)
     await level(host, KEY1)
     await host.wait_us(2 * FILTER)

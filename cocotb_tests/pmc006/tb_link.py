@@ -107,8 +107,8 @@ async def p006_breaks(dut: Any, bits: float) -> None:
     await host.send(J[:4])
     await host.low(bits)
     if bits < 9.5:
-        # The low level is shorter than a break, so it is a valid byte 00, like J[4]. The remaining bytes of
-        # the frame follow.
+        # The low level is shorter than a break, so it is received as a valid byte 00, which is the value of
+        # the fifth byte of the frame. The remaining bytes of the frame follow.
         await host.send(J[5:])
         assert await host.receive_reply() == DECAY
     assert await host.ask("j") == DECAY
@@ -260,7 +260,9 @@ async def p006_talking_while_the_reply_is_sent(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-UART-02", "P006-BAD-06", builds=BUILDS)
 async def p006_line_that_is_low_when_the_reply_ends(dut: Any) -> None:
-    """After a reply, no byte begins before the line has been high; a frame shortly afterwards is received."""
+    """If the line is low at the end of a reply, no byte begins before the line has been high. A frame shortly
+    after the line has become high is received.
+    """
     for gap in (2, 4, 8):
         host = await Host.start(dut)
         await host.send_frame("c")

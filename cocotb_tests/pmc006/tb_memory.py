@@ -1,4 +1,7 @@
-"""A part with an EEPROM on its link: frames during the boot, background jobs, another line rate."""
+"""A part with an EEPROM on its link: frames during the boot, background jobs, another line rate.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

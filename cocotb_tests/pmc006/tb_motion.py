@@ -1,4 +1,7 @@
-"""Moves and speed mode: intervals, planning, changes of the target, ends of motions."""
+"""Moves and speed mode: intervals, planning, changes of the target, ends of motions.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""User program: download, each opcode with legal and illegal operands, jumps, E (P006-PRG)."""
+"""User program: download, each opcode with legal and illegal operands, jumps, E (P006-PRG).
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +28,7 @@ async def go(host: Host, *program: Op) -> int:
 
 
 class Case(NamedTuple):
-    """An instruction, and the later reply of the code that reads its register."""
+    """An instruction, and the later reply to the code that reads the register of the instruction."""
 
     op: Op
     after: int
@@ -181,7 +184,7 @@ async def p006_spare_fields_are_ignored(dut: Any) -> None:
     assert await host.ask("z") == 1
     await host.pause(3 * SLOT)
     assert await host.out("gpo") == 1
-    # These instructions have no option, but the option field of the word is not 0.
+    # These instructions have no option, but the option field of their word is not 0.
     assert await go(host, Op(0x0C, 0xFF), Op(0x0B, 7, 99), Op(CMP, 8, 1), goto(5, JNE), out(2, 1)) == 0b11
 
 

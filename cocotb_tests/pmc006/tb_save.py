@@ -1,4 +1,7 @@
-"""Writes to the EEPROM: save, burn, factory restore, and cases that are rejected (P006-EEP-10 to 23)."""
+"""Writes to the EEPROM: save, burn, factory restore, and cases that are rejected (P006-EEP-10 to 23).
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 
@@ -47,8 +50,9 @@ async def p006_save(dut: Any) -> None:
 async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
     """A save contains the old or the new VSTART, never a mixture, and its checksum is correct.
 
-    The test changes VSTART before, between and after the writes of its two bytes; each of the two pages reads
-    VSTART again. The device stretches the clock, so that a byte takes longer than a frame.
+    The test changes VSTART before, between and after the writes of its two bytes; the job reads VSTART
+    separately for each of the two pages. The device stretches the clock, so that a byte takes longer than a
+    frame.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     host.eeprom.stretch(host.us(900))
@@ -113,7 +117,8 @@ async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
 async def p006_lines_that_stick_while_saving(dut: Any) -> None:
     """If SCL is held low, a job ends after 1 ms and reports an error.
 
-    If SDA is held low, it looks like acknowledges: the job ends without an error, and nothing is written.
+    If SDA is held low, the part receives this level as acknowledges: the job ends without an error, and
+    nothing is written.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     chip = host.eeprom
@@ -175,7 +180,7 @@ NEW = {
 
 
 BOOTED = {"k": 4, "r": 1, "h": 2, 0x55: 2, "K": 1, "L": 0x145, "S": 0x246, "M": 300, "P": 1250, "n": 0x3E8}
-"""Code -> value that the part returns after a boot with the settings NEW instead of SAVED."""
+"""Code -> value in the reply of the part after a boot with the settings NEW instead of SAVED."""
 
 
 PLACES = 7

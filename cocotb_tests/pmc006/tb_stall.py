@@ -1,4 +1,7 @@
-"""Stall detector: conditions of a stall, and its effects."""
+"""Stall detector: conditions of a stall, and its effects.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 
@@ -78,7 +81,7 @@ async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
 
 @directed("P006-STL-01", "P006-STL-02", "P006-BAD-20")
 async def p006_samples_off_constant_speed(dut: Any) -> None:
-    """During a ramp no sample counts, and the count restarts.
+    """During a ramp no sample counts, and the count of low samples restarts.
 
     If a strobe stays asserted, each cycle is a sample.
     """
@@ -105,8 +108,8 @@ async def p006_samples_off_constant_speed(dut: Any) -> None:
 
 @directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
 async def p006_the_count_of_low_samples_restarts(dut: Any) -> None:
-    """The count restarts at each start (also without a sample in between) and with any sample at
-    standstill.
+    """The count of low samples restarts at each start (also without a sample in between) and with any sample
+    at standstill.
     """
     host = await constant_speed_host(dut, 2500)
     await host.ok(L=2500, S=2500, Z=256, T=3, Y=1)
@@ -138,7 +141,7 @@ async def p006_what_a_stall_does(dut: Any) -> None:
     assert await host.ask("y", 0x10) == 0x10
     assert await host.out("gpo") == 0x12
     stalled_at = await host.ask("X")
-    # If bit 1 is set after the stall, it also stops the motion.
+    # If bit 1 of Y is set after the stall, the stall also stops the motion.
     await host.ok(Y=7)
     assert not await host.busy() and await host.out("gpo") == 0x12
     await host.ok(Y=3)

@@ -1,4 +1,7 @@
-"""Acceptance of each instruction in each state, and its effect on the motion (P006-STA)."""
+"""Acceptance of each instruction in each state, and its effect on the motion (P006-STA).
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""pwm_a_ref and pwm_b_ref, which toggle continuously and are not recorded, compared with their rule."""
+"""pwm_a_ref and pwm_b_ref, compared with the rule for them; they toggle all the time and are not recorded."""
 
 from __future__ import annotations
 

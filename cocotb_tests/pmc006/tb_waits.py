@@ -1,4 +1,8 @@
-"""Timing of the user program: slots, WAIT and CMP with each source, concurrent frames and motions."""
+"""Timing of the user program: duration of instructions, WAIT and CMP with each source, concurrent frames and
+motions.
+
+Instructions are named by their letters; a number after the letter is the data.
+"""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ RANGES = {
 def test_p006_ports() -> None:
     """The top has exactly the ports of docs/pmc006/README.md, 2.
 
-    It has no port for supply or CAN; the mon_* ports do not exist in the original.
+    It has no ports for the supply and CAN pins of the original chip, which in turn has no mon_* ports.
     """
     found = ports(part_design("pmc006", F8B))
     expected = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}

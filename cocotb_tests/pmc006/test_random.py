@@ -1,7 +1,7 @@
-"""Compares random hosts with the golden model: a fixed list of seeds, or one seed with `--seed N`.
+"""Compares the part under random hosts with the golden model, for fixed seeds or with `--seed N`.
 
-One simulation plays several seeds of one build one after the other, each from a reset. `make soak
-PART=pmc006` plays any number of other seeds.
+One simulation plays several seeds of one build in turn, each after a reset. `make soak PART=pmc006` plays any
+number of other seeds.
 """
 
 from __future__ import annotations

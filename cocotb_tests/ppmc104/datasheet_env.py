@@ -17,7 +17,9 @@ class DatasheetEnv(Env):
     """`Env` with the measurements that the DATASHEET tests use."""
 
     def after(self, rule: str, what: str, got: int, xtal_cycles: int, pin: int = PIN) -> None:
-        """Check that `got` cycles are CYC(xtal_cycles), -0/+16, plus the delay to the pin."""
+        """Check that `got` cycles are CYC(xtal_cycles), with a tolerance of -0/+16 cycles, plus the delay to
+        the pin.
+        """
         nominal = self.cfg.cyc(xtal_cycles)
         self.window(rule, what, got, nominal, nominal + TOLERANCE + pin)
 
@@ -26,7 +28,7 @@ class DatasheetEnv(Env):
         return await self.go(code, n, rate, poll=False) + WRITE_EVENT
 
     async def opens(self, rule: str, since: int, xtal_cycles: int, code: int = 0xC1) -> int:
-        """Write a command now and check that it is accepted `xtal_cycles` after `since` and not before.
+        """Write a command now; check that it is accepted `xtal_cycles` after edge `since`, and not before.
 
         Return the edge at which the host has read IBF = 0.
         """
@@ -50,7 +52,7 @@ class DatasheetEnv(Env):
         self.window(rule, "start of chopping to the first OFF phase", off - start, low, high)
 
     async def rest(self) -> None:
-        """Wait until all processing windows are closed, and release the INT of an operation."""
+        """Wait until all processing windows have ended, and release the INT of an operation."""
         await self.host.poll(BUSY | IBF, 0)
         await self.finish()
         await self.bench.clocks(self.cfg.us(14) + 40)

@@ -33,8 +33,8 @@ async def results(host: HostBus) -> None:
 
 @cocotb.test()
 async def demo_move(dut: Any) -> None:
-    """A host moves 1000 pulses, and then moves until L1 ends the motion; the run is recorded from reset to
-    its end.
+    """A host moves the motor by 1000 pulses, and then until L1 ends the motion; the run is recorded from
+    reset to its end.
     """
     bench = await RtlBench.start(dut, PPMC104)
     host = HostBus(bench)

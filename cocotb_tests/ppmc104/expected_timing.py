@@ -40,7 +40,8 @@ __all__ = [
 
 INIT_A = (0x0A, 9, 4, 4)
 INIT_B = (0x0A, 19, 9, 10)
-# As A, but with the external clock and a short ramp of small rates, for tests that control each clock edge.
+# Like INIT_A, but with the external clock and a short ramp of small rates, for tests that control each clock
+# edge.
 INIT_EXT = (0x1A, 1, 0, 4)
 
 # Initialisation code of each step list, for positive logic; with bit 3 = 0 the logic is negative.

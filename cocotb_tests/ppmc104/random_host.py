@@ -1,8 +1,8 @@
 """Constrained-random hosts of the PPMC-104: a seed determines a list of actions before the simulation starts.
 
 `scenario(seed)` is a pure function: the same seed returns the same configuration and the same actions.
-`random_player` executes the list on a test bench. The actions are those of `harness.player`, and ("finish",
-cycles).
+`random_player` executes the list on a test bench. The actions are those of `harness.player`, and in addition
+("finish", cycles).
 """
 
 from __future__ import annotations

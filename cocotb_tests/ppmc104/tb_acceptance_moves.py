@@ -1,5 +1,7 @@
 """Acceptance checks AC-01 to AC-24 and AC-40 at the pins; stimulus and values are those of the acceptance
 table.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
 """
 
 from __future__ import annotations
@@ -157,7 +159,7 @@ async def p104_ac_11_long_move(dut):
 
 @directed("AC-12", "P104-RMP-03")
 async def p104_ac_12_half_rounds_up(dut):
-    """With RL 4, RH 0, PA 8, the value at index 1, exactly n + 1/2, is rounded up (AC-12)."""
+    """With RL 4, RH 0, PA 8, the rate at index 1, whose exact value is n + 1/2, is rounded up (AC-12)."""
     env = await Env.start(dut, None)
     await env.host.run("c 0A d 04 d 00 d 08 d 00 c 43 d 13 d 00 d 00")
     await env.idle()

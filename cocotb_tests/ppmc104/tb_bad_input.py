@@ -149,7 +149,7 @@ async def p104_bad_13_clock_stops_in_motion(dut):
 @directed("P104-BAD-15", "P104-LIM-07", "P104-LIM-09", exact="the switches must be sampled at the same edge")
 async def p104_bad_15_everything_active(dut):
     """If all inputs become active at the start of an operation or during it, no further pulse is output, and
-    bits 5 and 4 are set (P104-BAD-15).
+    bits 5 and 4 of the finish status are set (P104-BAD-15).
     """
     env = await Env.start(dut, INIT_A)
     pins = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")

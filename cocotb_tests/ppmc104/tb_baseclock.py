@@ -1,4 +1,7 @@
-"""Base clocks, external clock and interval lengths (P104-BCK, P104-INT, P104-GEN-02..04, P104-TIM-03)."""
+"""Base clocks, external clock and interval lengths (P104-BCK, P104-INT, P104-GEN-02..04, P104-TIM-03).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +17,8 @@ EXTERNAL = (0x1A, 9, 4, 4)
 
 
 def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) -> list[int]:
-    """Return the pulse times with vsel = L for external edges, where pulse 1 is on edges[first]
-    (P104-INT-03).
+    """Return the times of the pulses that external clock edges cause with vsel = L; pulse 1 is on
+    edges[first] (P104-INT-03).
 
     All times include the same constant delay from a pin edge to its effect.
     """

@@ -19,7 +19,7 @@ PARAMETERS = {0x42: 0, 0x43: 3, 0x44: 4, 0x45: 1, 0x46: 0, 0x47: 1, 0xC3: 3, 0xC
 
 @directed("P104-CMD-01", "P104-CMD-03", "P104-OPR-03")
 async def p104_cmd_01_all_codes_ready(dut):
-    """After initialisation, each of the 256 codes sets its number of parameters or has its effect
+    """After initialisation, each of the 256 codes sets NUM to its number of parameters or takes effect
     (P104-CMD-01).
     """
     env = await Env.start(dut, INIT_A)
@@ -67,7 +67,7 @@ async def p104_cmd_04_all_codes_busy(dut):
 
 @directed("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
 async def p104_cmd_04_stop_codes_busy(dut):
-    """Every code of the two stops ends a move; bit I of the move determines INT (P104-CMD-04)."""
+    """Every code of the two stop commands ends a move; bit I of the move determines INT (P104-CMD-04)."""
     env = await Env.start(dut, INIT_A)
     for code in (c for c in range(0x40, 0x80) if c & 7 < 2):
         masked = bool(code & 0x20)
@@ -162,8 +162,8 @@ async def p104_fsm_01_table(dut):
 
 @directed("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
 async def p104_fsm_01_stops(dut):
-    """In each state, a stop command ends the motion, sets the flag, returns an error or has no effect, as the
-    table of chapter 7 states (P104-FSM-01).
+    """In each state, a stop command ends the motion, sets the deceleration flag, returns an error or has no
+    effect, as the table of chapter 7 states (P104-FSM-01).
     """
     env = await Env.start(dut, None)
     for state in ("UNINIT", "READY"):

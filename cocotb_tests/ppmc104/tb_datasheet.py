@@ -1,6 +1,8 @@
 """Processing times of the old chip, TIMING = "DATASHEET" (P104-DS).
 
 All times are CYC(16·us), -0/+16 cycles.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
 """
 
 from __future__ import annotations
@@ -54,8 +56,8 @@ async def p104_ds_02_init_time(dut):
 
 @directed("P104-DS-02", "P104-DS-13", "P104-INI-06", builds=(D16,))
 async def p104_ds_13_no_time_for_the_rest(dut):
-    """After a rejected initialisation, a read, command 0x84 or an error, the next bytes are accepted as in
-    FAST (P104-DS-13).
+    """After a rejected initialisation, a read, command 0x84 or an error, the next bytes are accepted as early
+    as in FAST (P104-DS-13).
     """
     env = await DatasheetEnv.start(dut, None)
     got = []
@@ -202,7 +204,7 @@ async def p104_ds_06_single_step(dut):
 
 @directed("P104-DS-07", "P104-END-01", "P104-SW-02", "P104-DS-09", builds=(D16, D11))
 async def p104_ds_07_normal_end(dut):
-    """After the last pulse of a complete move, INT falls 26 us later, and the mailbox opens 156 us later
+    """After the last pulse of a complete move, INT falls after 26 us, and the mailbox opens after 156 us
     (P104-DS-07).
     """
     env = await DatasheetEnv.start(dut, (0x2A, 9, 4, 4))

@@ -1,5 +1,7 @@
 """Processing times of the old chip, second part: decelerating stops, aux commands, speed limit, external
 clock.
+
+I(j) is the interval that follows pulse j.
 """
 
 from __future__ import annotations
@@ -42,8 +44,8 @@ async def p104_ds_10_decelerating_stop(dut):
 
 @directed("P104-DS-10", "P104-FDC-01", "P104-LIM-04", builds=(D16,))
 async def p104_ds_10_slow_down_limit(dut):
-    """If L3 is low for 10 cycles, the flag is set 12 us later in START or ACC, and 17 us later in HIGH
-    (P104-DS-10).
+    """If L3 is low for 10 cycles, the deceleration flag is set 12 us later in START or ACC, and 17 us later
+    in HIGH (P104-DS-10).
     """
     env = await DatasheetEnv.start(dut, INIT_B)
     # j: interval in which L3 falls; then its length and the delay of the flag, in cycles at 16 MHz.
@@ -68,8 +70,8 @@ async def p104_ds_10_slow_down_limit(dut):
 
 @directed("P104-DS-10", "P104-END-05", "P104-FDC-05", builds=(D16,))
 async def p104_ds_10_flag_too_late(dut):
-    """If the flag of command 0x41 or L3 is set only after the natural deceleration or the end has begun, it
-    has no effect on this operation or the next one (P104-DS-10).
+    """If command 0x41 or L3 sets the deceleration flag only after the natural deceleration or the end has
+    begun, the flag has no effect on this operation or the next one (P104-DS-10).
     """
     env = await DatasheetEnv.start(dut, INIT_B)
     for cause in ("41", "l3_n", "none"):
@@ -122,12 +124,12 @@ async def p104_ds_11_aux_times(dut):
 
 @directed("P104-DS-12", "P104-STP-01", builds=(D16,))
 async def p104_ds_12_speed_limit(dut):
-    """Command 0xC1 waits during intervals below 148 q (phase mode) or 100 q (POUT mode); it is accepted in
-    longer intervals (P104-DS-12).
+    """Command 0xC1 waits during intervals below 148 quanta (phase mode) or 100 quanta (POUT mode); it is
+    accepted in longer intervals (P104-DS-12).
     """
     env = await DatasheetEnv.start(dut, None)
-    # The intervals are just below and just above the limit: 144 q and 152 q in phase mode, 96 q and 104 q in
-    # POUT mode, 142 q and 150 q with vsel = L.
+    # The intervals are just below and just above the limit, in quanta: 144 and 152 in phase mode, 96 and 104
+    # in POUT mode, 142 and 150 with vsel = L.
     for rate, code, vsel, open_ in (
         (17, 0x44, 1, False),
         (18, 0x44, 1, True),
@@ -161,8 +163,8 @@ async def p104_ds_12_ends_with_the_fast_part(dut):
     await env.event(0x43, 60)
     await env.pulse(15, 40)
     await env.host.command(0xC1, poll=False)
-    # The rates while decelerating are 9,10,10,11,12,12,14,15,17,19. I(58) has rate 17 and lasts 144 q; I(59),
-    # the last interval, has rate 19 and lasts 160 q.
+    # The rates while decelerating are 9,10,10,11,12,12,14,15,17,19. I(58) has rate 17 and lasts 144 quanta;
+    # I(59), the last interval, has rate 19 and lasts 160 quanta.
     await env.pulse(58, 100)
     env.check("P104-DS-12", "IBF in I(58), 144 q", await env.host.status() & IBF, IBF)
     await env.pulse(59, 60)
@@ -175,7 +177,7 @@ async def p104_ds_12_ends_with_the_fast_part(dut):
     await env.host.command(0x41, poll=False)
     await env.bench.clocks(20)
     env.check("P104-DS-12", "0x41 is taken", await env.host.status() & IBF, 0)
-    # The flag is set 17 us = 272 cycles later, in the same interval of 320 cycles.
+    # The deceleration flag is set 17 us = 272 cycles later, in the same interval of 320 cycles.
     await env.result("P104-DS-12", 26, 0xC3, 173)
     await env.rest()
     await env.event(0x44, 100, 9)

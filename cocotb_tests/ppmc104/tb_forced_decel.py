@@ -1,4 +1,7 @@
-"""Forced deceleration (P104-FDC, P104-EX-04, P104-EX-05)."""
+"""Forced deceleration (P104-FDC, P104-EX-04, P104-EX-05).
+
+I(j) is the interval that follows pulse j. The C-event of a byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 
@@ -96,8 +99,8 @@ async def p104_fdc_03_flag_in_start(dut):
 
 @directed("P104-FDC-04", "P104-BAD-20", "P104-LIM-04")
 async def p104_fdc_04_never_withdrawn(dut):
-    """After the flag is set, a limit that bounces or is released does not change the deceleration
-    (P104-FDC-04).
+    """After the deceleration flag is set, a slow-down limit that bounces or is released does not change the
+    deceleration (P104-FDC-04).
     """
     env = await Env.start(dut, INIT_B)
     await env.go(0x43, 200)

@@ -143,7 +143,7 @@ async def p104_ini_05_index_kept(dut):
 
 @directed("P104-INI-08", "P104-SW-02", "P104-SW-03")
 async def p104_ini_08_chopping_and_completion(dut):
-    """During a re-initialisation chopping continues with the old S until completion; then, with S = 1, it
+    """During a re-initialisation chopping continues with the old bit S until completion; then, with S = 1, it
     restarts with an ON phase (P104-INI-08).
     """
     env = await Env.start(dut, None)

@@ -1,4 +1,7 @@
-"""Limit, alarm and origin inputs (P104-LIM): effect on each operation, priorities, timing."""
+"""Limit, alarm and origin inputs (P104-LIM): effect on each operation, priorities, timing.
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from .states import PLATEAU, enter
 
 ALL = 1 << 24
 PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")
-# (operation, pulse count, rate)
+# (operation, pulse count, rate if the operation has one)
 OPERATIONS = (
     (0x42, None, None),
     (0x43, 24, None),
@@ -75,8 +78,8 @@ async def p104_lim_02_matrix_in_motion(dut):
                 if kind == "end":
                     await env.result(what, 6, 0x80 | bit(pin) | low, (n or ALL) - 7)
                 elif kind == "slow":
-                    # The flag is set in I(6), on the plateau: pulse 7 ends this interval, and 4 more pulses
-                    # follow.
+                    # The deceleration flag is set in I(6), on the plateau: pulse 7 ends this interval, and 4
+                    # more pulses follow.
                     await env.result(what, 11, 0x88 | low, (n or ALL) - 12)
                     env.check_train("P104-FDC-02", rates((9, 4, 4), forced(1000, 4, 6)))
                 elif n:
@@ -199,7 +202,7 @@ async def p104_lim_04_pout_mode_plateau(dut):
         which = forced(1000, 10, at)
         env.check_train("P104-LIM-04", rates(INIT_B[1:], which))
         await env.result("P104-LIM-04", len(which) + 1, 0x8B, 60 - len(which) - 2)
-    # HIGH begins with pulse 11, after I(10), which lasts 320 cycles. A level that ends before HIGH has no
+    # HIGH begins with pulse 11, after I(10), which lasts 320 cycles. A low level that ends before HIGH has no
     # effect.
     for release, pulses, finish in ((314, 60, 0x83), (326, 22, 0x8B)):
         await env.go(0xC3, 60)
@@ -212,7 +215,7 @@ async def p104_lim_04_pout_mode_plateau(dut):
 
 @directed("P104-LIM-01", "P104-GEN-07", builds=(F16, F100))
 async def p104_lim_01_two_clk_levels(dut):
-    """A level of 2 cycles takes effect exactly once, at any time within an interval (P104-LIM-01)."""
+    """A low level of 2 cycles takes effect exactly once, at any time within an interval (P104-LIM-01)."""
     env = await Env.start(dut, INIT_A)
     for pin, bits in (("l1_n", 0x94), ("alm_n", 0xA4)):
         for delay in (1, 2, 17, env.cfg.w - 1, env.cfg.w, env.cfg.w + 9):
@@ -220,7 +223,8 @@ async def p104_lim_01_two_clk_levels(dut):
             await env.pulse(3, delay)
             await env.bench.pulse_pin(pin, 0, 2)
             await env.result("P104-LIM-01", 3, bits, 26)
-    # A level of 2 cycles also takes effect in START; a level that ended before the start has no effect.
+    # A low level of 2 cycles also takes effect in START; a low level that ended before the start has no
+    # effect.
     await env.bench.pulse_pin("l1_n", 0, 8)
     await env.bench.clocks(2)
     await env.go(0x44, 3, 9)

@@ -1,4 +1,7 @@
-"""Ramp table and profile (P104-RMP, P104-PRO, P104-EX-01..03, P104-EX-07, P104-EX-11)."""
+"""Ramp table and profile (P104-RMP, P104-PRO, P104-EX-01..03, P104-EX-07, P104-EX-11).
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 
@@ -190,8 +193,8 @@ async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
         await env.go(0xC3, n)
         env.bench.set(l3_n=0)
         await env.idle()
-        # The flag is set in the first plateau interval I(5): this results in 5 + 1 + 4 pulses, the whole move
-        # for N = 10.
+        # The deceleration flag is set in the first plateau interval I(5): this results in 5 + 1 + 4 pulses,
+        # the whole move for N = 10.
         complete = n == 10
         await env.result("P104-PRO-06", 10, 0x83 if complete else 0x8B, 0 if complete else n - 11)
 

@@ -1,4 +1,4 @@
-"""Constrained-random hosts, compared with the golden model edge by edge; and noise on all pins."""
+"""Constrained-random hosts, which are compared with the golden model edge by edge, and noise on all pins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Status register, error numbers and the handshake (P104-STA, P104-ERR, P104-HSK)."""
+"""Status register, error numbers and the handshake (P104-STA, P104-ERR, P104-HSK).
+
+The C-event of a byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 
@@ -165,8 +168,8 @@ async def p104_err_03_faulty_bytes_are_harmless(dut):
 
 @directed("P104-HSK-01", "P104-HSK-04", "P104-INI-07", "P104-FSM-02", "P104-BAD-06")
 async def p104_hsk_04_table_build_window(dut):
-    """During the build of the longest ramp table, bytes wait, and only the newest byte is accepted
-    (P104-HSK-04).
+    """During the build of the longest ramp table, bytes wait; when the build ends, only the newest byte is
+    accepted (P104-HSK-04).
     """
     env = await Env.start(dut, None)
     last = 0
@@ -195,9 +198,9 @@ async def p104_hsk_02_replacement(dut):
     executed twice (P104-HSK-02).
     """
     env = await Env.start(dut, None)
-    # Gap and strobe of the second write. Its edge 0 follows that of the first write by gap + strobe. If this
-    # is 8 cycles or more, the first byte was certainly accepted: its C-event is at most 8 cycles after its
-    # write event.
+    # Length of the gap before the second write, and of its strobe. Its edge 0 follows that of the first write
+    # by gap + strobe. If this is 8 cycles or more, the first byte was certainly accepted: its C-event is at
+    # most 8 cycles after its write event.
     spacings = [(1, 1), (1, 2), *((gap, 2) for gap in range(2, 15))]
     sure = next(i for i, pair in enumerate(spacings) if sum(pair) == C_EVENT_LATEST - WRITE_EVENT)
     first_seen = []

@@ -1,4 +1,7 @@
-"""Stop commands and operations (P104-STP, P104-OPR)."""
+"""Stop commands and operations (P104-STP, P104-OPR).
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ ALL = 1 << 24
 @directed("P104-STP-01", "P104-END-02", "P104-PHS-04", "P104-TIM-01", builds=(F16, F100))
 async def p104_stp_01_immediate(dut):
     """If command 0x40 occurs in the high or low time of a pulse, each kind of move ends at this pulse, with
-    bit 6, and the phases stay energised (P104-STP-01).
+    finish bit 6, and the phases stay energised (P104-STP-01).
     """
     env = await Env.start(dut, INIT_A)
     w = env.cfg.w
@@ -66,8 +69,8 @@ async def p104_stp_01_no_pulse_after_the_c_event(dut):
 
 @directed("P104-STP-02", "P104-STP-06", "P104-ERR-01")
 async def p104_stp_02_at_rest(dut):
-    """A stop at standstill returns error 0 and has no effect, before and after initialisation and after a
-    move (P104-STP-02).
+    """A stop command at standstill returns error 0 and has no effect, before and after initialisation and
+    after a move (P104-STP-02).
     """
     env = await Env.start(dut, None)
     for phase in range(4):
@@ -287,8 +290,8 @@ async def p104_opr_11_origin_search(dut):
 
 @directed("P104-OPR-01", "P104-RD-07", "P104-RD-03")
 async def p104_opr_01_status_of_old_move_replaced(dut):
-    """If a complete move follows a stopped move, it has no cause bit and no remaining count of the stopped
-    move (P104-OPR-01).
+    """A complete move that follows a stopped move has no cause bit and no remaining count of the stopped move
+    (P104-OPR-01).
     """
     env = await Env.start(dut, INIT_A)
     for stop_first in (True, False, True):

@@ -1,4 +1,7 @@
-"""Start, pulse shape and end of a motion (P104-TIM, P104-END)."""
+"""Start, pulse shape and end of a motion (P104-TIM, P104-END).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 
@@ -212,7 +215,9 @@ async def p104_end_02_reaction_time(dut):
 
 @directed("P104-END-04", "P104-LIM-09", "P104-BAD-15", exact="the switches must be sampled at the same edge")
 async def p104_end_04_cause_bits(dut):
-    """If several causes apply at the end of a move or before, exactly their bits are set (P104-END-04)."""
+    """If several causes apply at the end of a move or before, exactly the bits of these causes are set
+    (P104-END-04).
+    """
     env = await Env.start(dut, INIT_B)
     for pins, bits in (
         ({"l1_n": 0, "alm_n": 0}, 0x30),
@@ -301,8 +306,8 @@ async def p104_end_07_int(dut):
 
 @directed("P104-END-08", "P104-DS-09", "P104-LIM-07", builds=(F8, F11))
 async def p104_end_08_hold(dut):
-    """hold rises 34.0 ms after BUSY falls, both after a masked move without a pulse and after a normal move
-    (P104-END-08).
+    """hold rises 34.0 ms after BUSY falls, both after a step that an active alarm suppresses and after a
+    normal step (P104-END-08).
     """
     env = await Env.start(dut, INIT_A)
     us = env.cfg.us

@@ -1,4 +1,4 @@
-"""Compares random hosts with the golden model: a fixed list of seeds, or one seed with `--seed N`.
+"""Compares the part under random hosts with the golden model, for fixed seeds or with `--seed N`.
 
 `python -m scripts.measure.soak --seed S --count N` runs any number of other seeds.
 """
@@ -56,7 +56,9 @@ def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
-    """If golden model and RTL have different crystals, a failing run is reduced to a few bytes."""
+    """If golden model and RTL have different crystals, the failing run is reduced to fewer than ten
+    transactions.
+    """
 
     async def run(bench: ModelBench) -> None:
         host = HostBus(bench)

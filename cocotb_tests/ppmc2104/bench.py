@@ -25,7 +25,8 @@ _LEVELS = ("run", "csel", "org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
 PPMC2104 = Part.of_model(
     "ppmc2104",
     codes,
-    more={"clk_o": (1, 0)},  # free-running and independent of all inputs, so it is not in the model
+    # the pin is free-running and independent of all inputs, so it is not in the model
+    more={"clk_o": (1, 0)},
     styles=(STROBES_WRS_RDS, STROBES_DS_RW),
     style_pin="busc",
     clock="extck",

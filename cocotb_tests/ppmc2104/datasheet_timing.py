@@ -1,4 +1,7 @@
-"""Measurements of the DATASHEET timing model (P2104-DS)."""
+"""Measurements of the DATASHEET timing model (P2104-DS).
+
+The C-event of a byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +44,7 @@ def after(env: Env, rule: str, what: str, got: int, edge0: int, micros: int, ext
 
 
 async def opens(env: Env, rule: str, edge0: int, micros: int) -> None:
-    """Write a byte now and check that it waits until `micros` us after the C-event of the byte written at
+    """Write a byte now; check that it waits until `micros` us after the C-event of the byte written at
     `edge0`.
     """
     nominal = edge0 + WRITE_EVENT + env.cfg.us(micros)

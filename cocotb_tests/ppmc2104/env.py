@@ -155,7 +155,9 @@ class Env:
         await self.bench.clocks(4)
 
     async def run(self, script: str) -> list[int]:
-        """Run a script of the acceptance table as `HostBus.run` does; e1 and e2 are Error code reads."""
+        """Run a script of the acceptance table as `HostBus.run` does; e1 and e2 read the Error code of axis 1
+        or 2.
+        """
         words = {"e1": "c 86 r", "e2": "c A6 r"}
         return await self.host.run(" ".join(words.get(w, w) for w in script.replace(";", " ").split()))
 
@@ -169,7 +171,7 @@ class Env:
         await self.bench.clocks(6)
 
     def all_reset(self, rule: str) -> None:
-        """Check that every output has its reset level."""
+        """Check that every output has the level that it has in reset."""
         reset = self.bench.part.reset_levels()
         names = self.bench.outputs
         levels = {name: self.bench.level(name) for name in names}

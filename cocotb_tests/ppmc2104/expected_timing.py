@@ -28,7 +28,7 @@ BUILD_LATEST = 40_000
 def slowed(ramp: Ramp, n: int, j: int) -> list[int]:
     """Return the rates of all intervals if deceleration is requested in I(j), j >= 1 (P2104-FDC-02/03).
 
-    If I(j) has the start-up rate, the motion ends during I(j), which is not included then.
+    If I(j) has the start-up rate, the motion ends during I(j), and the rate of I(j) is not returned.
     """
     rl, _, pa = ramp
     which = forced(n, pa, j)

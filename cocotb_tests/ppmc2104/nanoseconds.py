@@ -57,8 +57,8 @@ class SlowBus:
     async def write(
         self, register: int, byte: int, width: float = WIDTH, setup: float = DATA_SETUP, rest: float = 0
     ) -> int:
-        """Make one write with a strobe of `width`, then wait `rest`. d_i is valid from `setup` before its
-        end.
+        """Make one write with a strobe of `width`, then wait `rest`. d_i is valid from `setup` before the end
+        of the strobe.
 
         Return the first edge that samples the end of the strobe.
         """

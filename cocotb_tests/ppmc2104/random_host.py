@@ -2,8 +2,8 @@
 starts.
 
 `scenario(seed)` is a pure function: the same seed returns the same configuration and the same actions.
-`random_player` executes the list on a test bench. The actions are those of `harness.player`, and ("finish",
-[axes], cycles). `random_codes` creates the instructions and their data.
+`random_player` executes the list on a test bench. The actions are those of `harness.player`, and in addition
+("finish", [axes], cycles). `random_codes` creates the instructions and their data.
 """
 
 from __future__ import annotations
@@ -127,7 +127,9 @@ class _Writer(HostWriter):
             self.setting(axis)
 
     def half_instruction(self) -> None:
-        """Omit the last data byte before the next code, which is often a stop of a running axis."""
+        """Omit the last data byte of an instruction before the next code, which is often a stop of a running
+        axis.
+        """
         code, data = self.codes.operation(self.axis())
         self.blind([(1, code), *((0, byte) for byte in data[:-1])])
         if self.rng.random() < 0.6:

@@ -1,7 +1,7 @@
 """Two runs of axis 2, one of them with traffic to axis 1 between the accesses to axis 2.
 
-A plan for axis 2 is a pure function of a seed. Times are cycles after the beginning of a slot; each slot
-begins with an operation of axis 2.
+A plan for axis 2 is a pure function of a seed. The plan consists of slots, each of which begins with an
+operation of axis 2. Times are cycles after the beginning of a slot.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from cocotb_tests.ppmc2104.random_codes import Codes
 from cocotb_tests.ppmc2104.random_host import SWITCHES
 
 SLOT = 24_000
-# An instruction of axis 2 is complete long before this time, from which on switches change and stops are
-# sent.
+# The instruction that begins a slot is complete long before this time of the slot. From this time on,
+# switches change and stops are sent.
 FIRST_EVENT = 400
 
 Write = tuple[int, int]
@@ -24,7 +24,9 @@ Event = tuple[int, str, int]
 
 @dataclass(frozen=True)
 class Slot:
-    """One operation of axis 2: bytes, pin changes, and stops (cycles, pin or "code", level or code)."""
+    """One operation of axis 2: its bytes, and its events (cycles, pin, level) or (cycles, "code", code of a
+    stop).
+    """
 
     writes: tuple[Write, ...]
     events: tuple[Event, ...]
@@ -32,7 +34,7 @@ class Slot:
 
 @dataclass(frozen=True)
 class Pair:
-    """Build, bus style, setting of axis 2, slots.
+    """The plan of a seed: build, bus style, setting of axis 2, and slots.
 
     `period` is the period of extck[2] in cycles, or 0 for the internal clock.
     """

@@ -1,4 +1,7 @@
-"""Acceptance checks AC-45 to AC-63 at the pins: RUN, two axes, phases, switching, waiting codes."""
+"""Acceptance checks AC-45 to AC-63 at the pins: RUN, two axes, phases, switching, waiting codes.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
+"""
 
 from __future__ import annotations
 
@@ -58,7 +61,7 @@ async def p2104_ac_46_stop_in_run_wait(dut: Any) -> None:
 
 @directed("AC-47", "P2104-LIM-03", "P2104-LIM-07")
 async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
-    """In RUN wait of an origin search, ORG has no effect, and BL ends the search (AC-47)."""
+    """An origin search in RUN wait ignores ORG; BL ends the search (AC-47)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     axis.set(run=0)
@@ -225,7 +228,9 @@ async def p2104_ac_55_hold_delay(dut: Any) -> None:
 
 @directed("AC-56", "P2104-AUX-02", "P2104-AUX-03")
 async def p2104_ac_56_auxiliary(dut: Any) -> None:
-    """In all states, codes C1, D1, E1 and F1 set the output pins, and C2 reads the input pins (AC-56)."""
+    """In all states, codes C1, D1, E1 and F1 set the auxiliary output pins, and C2 reads the input pins
+    (AC-56).
+    """
     env = await Env.start(dut)
     for state in ("initial", "moving"):
         for code, level in ((0xC1, 3), (0xD1, 2), (0xE1, 1), (0xF1, 0)):
@@ -246,7 +251,7 @@ async def p2104_ac_56_auxiliary(dut: Any) -> None:
 
 @directed("AC-57", "P2104-AUX-01", "P2104-PHS-02", "P2104-PHS-03")
 async def p2104_ac_57_excitation_off(dut: Any) -> None:
-    """After code C0 the phases are off and operations set error 4; the next setting begins with its index 0
+    """After code C0 the phases are off and operations set error 4; the next setting begins with index 0
     (AC-57).
     """
     env = await Env.start(dut)
@@ -363,7 +368,7 @@ async def p2104_ac_62_what_waits(dut: Any) -> None:
 
 @directed("AC-63", "P2104-HSK-02", "P2104-BAD-08")
 async def p2104_ac_63_written_over(dut: Any) -> None:
-    """If code 52 replaces a waiting code 42, one pulse follows, and no interrupt (AC-63)."""
+    """If code 52 replaces a waiting code 42, one pulse follows, and no interrupt occurs (AC-63)."""
     env = await Env.start(dut)
     axis = env.x1
     await env.run(B1)

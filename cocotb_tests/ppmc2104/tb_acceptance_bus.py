@@ -92,8 +92,8 @@ async def p2104_ac_77_strobes_together(dut: Any) -> None:
 
 @directed("AC-78", "P2104-BAD-23", "P2104-PORT-03", "P2104-AUX-06", "P2104-HLD-01")
 async def p2104_ac_78_reset_in_motion(dut: Any) -> None:
-    """If rst_n falls between two edges while both axes move, the state afterwards is that after power-on
-    (AC-78).
+    """If rst_n falls between two edges while both axes move, the state after this reset is the state after
+    power-on (AC-78).
     """
     env = await Env.start(dut)
     bench = env.bench

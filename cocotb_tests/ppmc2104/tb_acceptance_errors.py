@@ -1,4 +1,7 @@
-"""Acceptance checks AC-22 to AC-44 at the pins: errors, stops, limits."""
+"""Acceptance checks AC-22 to AC-44 at the pins: errors, stops, limits.
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +35,7 @@ async def stop_after_pulse(axis: Axis, j: int, code: int = 0x41, n: int = 1000) 
 
 @directed("AC-22", "P2104-ERR-06", "P2104-STA-06")
 async def p2104_ac_22_error_bit(dut: Any) -> None:
-    """If both axes have an error, ERROR is cleared by the second of the two reads (AC-22)."""
+    """If both axes have an error, only the second of the two Error code reads clears ERROR (AC-22)."""
     env = await Env.start(dut)
     got = await env.run("c 87 c A7 s e1 s e2 s e2")
     env.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])
@@ -131,8 +134,9 @@ async def p2104_ac_29_limit_refuses(dut: Any) -> None:
 
 @directed("AC-30", "P2104-LIM-06", "P2104-LIM-02")
 async def p2104_ac_30_what_refuses(dut: Any) -> None:
-    """A CW start of axis 1 is rejected while ALM is active, or ORG for code 47; BL, FHL and FL of axis 2 do
-    not reject it (AC-30).
+    """A CW start of axis 1 is rejected while ALM of the axis is active, and with code 47 also while ORG is
+    active. BL and FHL of the axis, FL of the other axis, and ORG with another code do not reject the start
+    (AC-30).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -269,7 +273,7 @@ async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
 
 @directed("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
 async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
-    """If FHL is low for 10 cycles on the plateau, twice, 31 pulses are output; BHL has no effect (AC-38)."""
+    """If FHL is low twice for 10 cycles on the plateau, 31 pulses are output; BHL has no effect (AC-38)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for code, finish, left in ((0x43, 0x8B, [0xC8, 3, 0]), (0x46, 0x8E, [0xE0, 0xFF, 0xFF])):

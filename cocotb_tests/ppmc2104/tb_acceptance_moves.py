@@ -1,4 +1,7 @@
-"""Acceptance checks AC-01 to AC-21 at the pins; stimulus and values are those of the acceptance table."""
+"""Acceptance checks AC-01 to AC-21 at the pins; stimulus and values are those of the acceptance table.
+
+D = N - 1 is the number that a host sends for an operation of N pulses.
+"""
 
 from __future__ import annotations
 
@@ -185,7 +188,7 @@ async def p2104_ac_10_triangles(dut: Any) -> None:
 
 @directed("AC-11", "P2104-RMP-03", "P2104-EX-07")
 async def p2104_ac_11_half_rounds_up(dut: Any) -> None:
-    """With RL 3, RH 1, PA 25, the value at index 13, exactly n + 1/2, is rounded up (AC-11)."""
+    """With RL 3, RH 1, PA 25, the rate at index 13, whose exact value is n + 1/2, is rounded up (AC-11)."""
     env = await Env.start(dut)
     await env.run("c 02 d 03 d 01 d 19 d 00 c 43 d 3B d 00 d 00")
     await env.x1.idle()

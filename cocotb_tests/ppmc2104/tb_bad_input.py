@@ -74,7 +74,7 @@ async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
         axis.set(run=1, csel=1, bl_n=1, bhl_n=1, org_n=1)
         env.bench.set(errint_n=1)
         await axis.result("P2104-BAD-20", 40, 0x83, 0)
-        # The slow-down limit bounces: the first level sets the flag.
+        # The slow-down limit bounces: its first low level sets the deceleration flag.
         await axis.go(0x43, 40)
         await axis.pulse(8, 20)
         for _ in range(30):

@@ -117,8 +117,8 @@ async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
     exact="a level of one cycle may not be sampled",
 )
 async def p2104_bus_06_read_edges(dut: Any) -> None:
-    """In reads of 1 to 60 cycles, d_oe and d_o change only on the edges of the rule, even if the state
-    changes (P2104-BUS-06).
+    """In reads of 1 to 60 cycles, d_oe and d_o change only on the edges that the rule states, even if the
+    state changes (P2104-BUS-06).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_A)
@@ -180,7 +180,9 @@ async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
 
 @directed("P2104-BUS-08", "P2104-HSK-06", exact="a level of one cycle may not be sampled")
 async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
-    """After an answer was read, no status read from 1 cycle later on returns its OBF (P2104-BUS-08)."""
+    """After an answer was read, a status read that begins 1 cycle later or more does not return OBF = 1 for
+    this answer (P2104-BUS-08).
+    """
     env = await Env.start(dut)
     for busc, length, gap in product(STYLES, (1, 2, 3, 5), range(1, 6)):
         await env.style(busc)
@@ -219,7 +221,9 @@ async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
     exact="a level of one cycle may not be sampled",
 )
 async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
-    """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is missed (P2104-BUS-20)."""
+    """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is missed; T is the period of
+    `clk` (P2104-BUS-20).
+    """
     env = await Env.start(dut)
     bus = SlowBus(env)
     period = env.bench.period / 1000

@@ -127,7 +127,9 @@ async def p2104_fsm_01_moving_axis_2(dut: Any) -> None:
 
 @directed("P2104-FSM-02", "P2104-OPR-10", "P2104-RD-08")
 async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
-    """With any states of the two axes, the state of the addressed axis decides (P2104-FSM-02)."""
+    """For any states of the two axes, the response to a code depends only on the state of the addressed axis
+    (P2104-FSM-02).
+    """
     env = await Env.start(dut)
     for axis, other in ((env.x1, env.x2), (env.x2, env.x1)):
         for state in ("INITIAL", "RUNWAIT", "ACC", "DEC", "CONST"):

@@ -1,4 +1,8 @@
-"""Processing windows of the old chip, TIMING = "DATASHEET" (P2104-DS-01…15, AC-71 to AC-74)."""
+"""Processing windows of the old chip, TIMING = "DATASHEET" (P2104-DS-01…15, AC-71 to AC-74).
+
+I(j) is the interval that follows pulse j, and W the pulse and set-up time of 5 us in cycles. The C-event of a
+byte is the edge on which the core consumes it.
+"""
 
 from __future__ import annotations
 
@@ -95,7 +99,9 @@ async def p2104_ac_71_starts(dut: Any) -> None:
 
 @directed("P2104-DS-14", "P2104-DS-22", "P2104-OPR-02", builds=(D16,))
 async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
-    """If run changes during the window, only its level at the end of the window applies (P2104-DS-14)."""
+    """If run changes during the window of an operation, only the level of run at the end of the window
+    applies (P2104-DS-14).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     w = env.cfg.w
@@ -166,8 +172,8 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
 
 @directed("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", builds=(D16,))
 async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
-    """The flag of code 41 is set after 32 us. If the rate is RL then, the motion ends immediately; if the
-    deceleration or the end has begun, the flag has no effect (P2104-DS-03).
+    """Code 41 sets the deceleration flag after 32 us. If the rate is RL at that time, the motion ends
+    immediately; if the deceleration or the end has begun, the flag has no effect (P2104-DS-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -179,7 +185,8 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
         await axis.pulse(j, plus)
         edge0 = await axis.command(0x41, poll=False)
 
-    # I(6) has index 5 and lasts 896 cycles. The flag is set 512 cycles after the stop, in I(6) or in I(7).
+    # I(6) has index 5 and lasts 896 cycles. The deceleration flag is set 512 cycles after the stop, in I(6)
+    # or in I(7).
     for plus, flagged in ((100, 6), (600, 7)):
         await ask(6, plus)
         await opens(env, "P2104-DS-03", edge0, 32)
@@ -194,7 +201,7 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
     await axis.result("P2104-DS-03", 1, 0xC3, 98)
     await rest(env)
     # The stop is requested while accelerating, and its window ends after the natural deceleration (from pulse
-    # 6 of 10 on) has begun: it has no effect and sets no bit.
+    # 6 of 10 on) has begun: the stop has no effect and sets no bit.
     await ask(5, 992 - 300, n=10)
     await axis.result("P2104-DS-03", 10, 0x83, 0)
     axis.check_train("P2104-DS-03", rates(INIT_B[1:], [0, 1, 2, 3, 4, 3, 2, 1, 0]))
@@ -276,7 +283,9 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
 
 @directed("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ds_15_as_fast(dut: Any) -> None:
-    """Pulses, ends, hold and the release of int_n are as in FAST in complete moves (P2104-DS-15)."""
+    """Pulses, ends, hold and the release of int_n occur in complete moves at the same times as in FAST
+    (P2104-DS-15).
+    """
     env = await Env.start(dut)
     axis = await env.ready(2, INIT_B)
     await axis.go(0x43, 30)

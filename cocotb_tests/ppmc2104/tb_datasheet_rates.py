@@ -24,7 +24,7 @@ LIMITS = {
 
 
 def rate_error(kind: str, csel: int, rate: int, operating: bool) -> int:
-    """Return error 12 or 13 of P2104-DS-30, or 0."""
+    """Return the rate error (12 or 13) that P2104-DS-30 requires, or 0."""
     single, double = LIMITS[kind, csel]
     return 12 if rate < single else 13 if operating and rate < double else 0
 
@@ -197,7 +197,7 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
     end = await axis.wait_end()
     env.window("P2104-DS-20", "pin to the end, 40 us window", end - stamp, us(40 + 35) - 20, us(40 + 35) + 30)
     axis.set(fl_n=1)
-    # The slow-down limit is polled, too: during code 43 it sets the flag at a polling tick.
+    # The slow-down limit is polled, too: during code 43 it sets the deceleration flag at a polling tick.
     await rest(env)
     await axis.go(0x43, 1000)
     await axis.pulse(30, 100)

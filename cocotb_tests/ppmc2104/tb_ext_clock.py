@@ -11,7 +11,7 @@ from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
 
 from .env import Env
 
-# As INIT_A, but with EXTCK.
+# Like INIT_A, but with the external base clock EXTCK.
 EXTERNAL = (0x0A, 9, 4, 4)
 
 

@@ -255,8 +255,8 @@ async def p2104_stp_01_around_a_pulse(dut: Any) -> None:
 
 @directed("P2104-AUX-02", "P2104-AUX-03", "P2104-FSM-01")
 async def p2104_aux_02_pins(dut: Any) -> None:
-    """After the codes in any order, AUXO has the inverted bits, and a read returns the AUXI levels
-    (P2104-AUX-02, P2104-AUX-03).
+    """After the codes of the auxiliary outputs in any order, AUXO has the inverted bits 5 and 4 of the code,
+    and a read returns the AUXI levels (P2104-AUX-02, P2104-AUX-03).
     """
     env = await Env.start(dut)
     rng = env.bench.rng

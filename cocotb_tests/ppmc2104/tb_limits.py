@@ -1,4 +1,7 @@
-"""Limit, slow-down, alarm and origin inputs (P2104-LIM): effect on each operation."""
+"""Limit, slow-down, alarm and origin inputs (P2104-LIM): effect on each operation.
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from .expected_timing import INIT_A
 from .states import MOVING, enter, leave
 
 PINS = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
-# (operation, pulse count, rate)
+# (operation, pulse count, rate if the operation has one)
 OPERATIONS = (
     (0x42, None, None),
     (0x43, 24, None),
@@ -65,8 +68,8 @@ async def matrix_in_motion(env: Env, axis_number: int) -> None:
             if kind == "end":
                 await axis.result(what, 6, 0x80 | bit(pin) | low, (n or NO_PULSES_DONE) - 7)
             elif kind == "slow":
-                # The flag is set in I(6), on the plateau: pulse 7 ends this interval, and 4 more pulses
-                # follow.
+                # The deceleration flag is set in I(6), on the plateau: pulse 7 ends this interval, and 4 more
+                # pulses follow.
                 await axis.result(what, 11, 0x88 | low, (n or NO_PULSES_DONE) - 12)
                 axis.check_train("P2104-FDC-03", rates(INIT_A[1:], forced(1000, 4, 6)))
             elif n:
@@ -221,8 +224,8 @@ async def p2104_lim_03_every_state(dut: Any) -> None:
 
 @directed("P2104-LIM-05", "P2104-FDC-01", "P2104-PRO-05", "P2104-FSM-03")
 async def p2104_lim_05_every_state(dut: Any) -> None:
-    """A 3-cycle slow-down pulse sets the flag only in RUNWAIT, START, ACC and HIGH; all moving states
-    except FIN are tried (P2104-LIM-05).
+    """A 3-cycle slow-down pulse sets the deceleration flag only in RUNWAIT, START, ACC and HIGH; all moving
+    states except FIN are tried (P2104-LIM-05).
     """
     env = await Env.start(dut)
     for state, ccw in product(MOVING, (0, 1)):
@@ -243,7 +246,7 @@ async def p2104_lim_05_every_state(dut: Any) -> None:
 
 @directed("P2104-LIM-01", "P2104-GEN-07", "P2104-LIM-10", builds=(F16, F100))
 async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
-    """A level of 2 cycles takes effect exactly once, at any time within an interval (P2104-LIM-01)."""
+    """A low level of 2 cycles takes effect exactly once, at any time within an interval (P2104-LIM-01)."""
     env = await Env.start(dut)
     for axis, (pin, bits, code) in product(
         await env.both(INIT_A), (("fl_n", 0x94, 0x44), ("alm_n", 0xA4, 0x4C), ("bl_n", 0x94, 0x4C))
@@ -253,7 +256,7 @@ async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
             await axis.pulse(3, delay)
             await axis.blip(pin, 2)
             await axis.result("P2104-LIM-01", 3, bits, 26)
-        # A level that ended before the start has no effect; in START it ends the operation.
+        # A low level that ended before the start has no effect; a low level in START ends the operation.
         await axis.blip(pin, 8)
         await env.bench.clocks(4)
         await axis.go(code, 3, 9)

@@ -18,7 +18,7 @@ BUSY = 0x0C
 
 
 async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[DutBench, HostBus]:
-    """Return a test bench after reset; if `ready` is set, example 1 was run."""
+    """Return a test bench after reset; if `ready` is set, example 1 has already run."""
     bench = await start_bench(dut, PPMC2104, **pins)
     host = HostBus(bench)
     if ready:

@@ -1,4 +1,7 @@
-"""Operations, starts, base clocks (P2104-OPR, P2104-TIM, P2104-BCK, P2104-INTV)."""
+"""Operations, starts, base clocks (P2104-OPR, P2104-TIM, P2104-BCK, P2104-INTV).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 
@@ -60,8 +63,8 @@ async def p2104_tim_01_starts(dut: Any) -> None:
 
 @directed("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", builds=(F16, F11, F100))
 async def p2104_tim_02_run(dut: Any) -> None:
-    """In RUN wait, pulse 1 occurs W to W + 6 cycles after run rises, even if run is high for only 2 cycles
-    (P2104-TIM-02).
+    """In RUN wait, pulse 1 occurs W to W + 6 cycles after run rises, even if run remains high for only 2
+    cycles (P2104-TIM-02).
     """
     env = await Env.start(dut)
     w = env.cfg.w
@@ -302,8 +305,8 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
             if cause:
                 first.set(**{cause: 1})
             await second.finish()
-    # A deceleration stop sets its flag, which takes effect with the next edges; at RL it ends the motion
-    # immediately.
+    # A deceleration stop sets the deceleration flag, which takes effect with the next edges; at RL the stop
+    # ends the motion immediately.
     await first.go(0x43, 100)
     await first.tick_until(3)
     await first.command(0x41)

@@ -15,11 +15,11 @@ from .expected_timing import INIT_B
 KPPS_10, KPPS_20 = 49, 24
 """Rates of the 500 kHz base clock."""
 OFFSETS = (0, 9, 18, 27, 34)
-"""Delays in us from a fixed time to the limit, which cover a polling cycle."""
+"""Delays in us from a fixed moment to the fall of the limit; together they cover a polling cycle."""
 
 
 async def limit(env: Env, axis: Axis, longest: int, own: int) -> int:
-    """Hold the CW limit low until the operation ends; return the time in cycles.
+    """Hold the CW limit low until the operation ends; return the cycles until then.
 
     Check that the operation ends within `longest` us (bound of the data sheet) and within `own` us (bound of
     P2104-DS-20).
@@ -62,7 +62,7 @@ async def rest_of_window(env: Env) -> None:
 @cocotb.parametrize(offset=list(OFFSETS))
 @directed("P2104-DS-20", "P2104-DS-23", builds=(D16, D11))
 async def p2104_polling_example_2_one_axis_at_10_kpps(dut: Any, offset: int) -> None:
-    """At constant 10 kpps of one axis, it detects its limit within 73 us, at any time of the polling
+    """An axis that moves alone at constant 10 kpps detects its limit within 73 us, at any time of the polling
     cycle.
     """
     env = await Env.start(dut)
@@ -77,7 +77,7 @@ async def p2104_polling_example_2_one_axis_at_10_kpps(dut: Any, offset: int) -> 
 @cocotb.parametrize(offset=list(OFFSETS))
 @directed("P2104-DS-20", "P2104-DS-23", builds=(D16, D11))
 async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) -> None:
-    """At constant 10 kpps of both axes, each axis detects its limit within 187 us; the other axis
+    """If both axes move at constant 10 kpps, each axis detects its limit within 187 us, and the other axis
     continues.
     """
     env = await Env.start(dut)
@@ -98,8 +98,8 @@ async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) ->
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
 async def p2104_polling_example_4_setting_during_20_kpps(dut: Any) -> None:
-    """At 20 kpps, while the other axis processes its setting, the axis detects its limit within 295 995
-    us.
+    """While the other axis processes its setting, an axis that moves at 20 kpps detects its limit within 295
+    995 us.
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

@@ -1,4 +1,7 @@
-"""Ramps and forced deceleration (P2104-RMP, P2104-PRO, P2104-FDC)."""
+"""Ramps and forced deceleration (P2104-RMP, P2104-PRO, P2104-FDC).
+
+I(j) is the interval that follows pulse j.
+"""
 
 from __future__ import annotations
 
@@ -129,8 +132,8 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
     ):
         for j in range(1, n):
             await start_and_decelerate(axis, pin, n, j, 40, code)
-            # Natural deceleration begins with the first interval whose index is lower than in an
-            # acceleration.
+            # Natural deceleration begins with the first interval whose index is lower than it would be while
+            # accelerating.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
             expected = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
             if pin == "stop":
@@ -144,8 +147,8 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
 
 @directed("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
 async def p2104_fdc_02_flat_start(dut: Any) -> None:
-    """In a ramp with four flat indices, a request ends the motion immediately while the rate is RL
-    (P2104-FDC-02).
+    """In a ramp with four flat indices, a deceleration request ends the motion immediately while the rate is
+    RL (P2104-FDC-02).
     """
     env = await Env.start(dut)
     ramp = (14, 12, 16)
@@ -158,8 +161,8 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
             env.check("P2104-FDC-02", "figures", len(expected) + 1, j if j <= 4 else 2 * j)
             await axis.result(f"P2104-FDC-02 I({j})", len(expected) + 1, 0x83 | bit, 60 - len(expected) - 2)
             axis.check_train("P2104-FDC-02", expected)
-        # If the flat part is reached while decelerating, the flag is already set, so the deceleration
-        # continues to its end.
+        # If the flat part is reached while decelerating, the deceleration flag is already set, so the
+        # deceleration continues to its end.
         await start_and_decelerate(axis, how, 60, 6, 200, 0x43)
         await axis.pulse(10, 100)
         await axis.refused("P2104-STP-03", "41 on the way down", 8, 0x41)
@@ -180,7 +183,7 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
         await axis.command(0x41)
         env.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
         await axis.result("P2104-FDC-04", 1, 0xC0 | code & 7, left)
-        # The pin requests the deceleration in RUN wait or in START; it is active three times.
+        # The slow-down limit requests the deceleration in RUN wait or in START; it is active three times.
         for waiting in (False, True):
             axis.set(run=0 if waiting else 1)
             await axis.go(code, n, poll=False)
@@ -197,8 +200,8 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
 
 @directed("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", builds=(F16, F11))
 async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
-    """If FHL falls near a pulse event, and at least 4 cycles before it, it takes effect for this event
-    (P2104-FDC-06).
+    """If FHL falls shortly before a pulse event, but at least 4 cycles before it, FHL takes effect for this
+    event (P2104-FDC-06).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

@@ -1,4 +1,7 @@
-"""Read instructions and interrupts (P2104-RD, P2104-INT)."""
+"""Read instructions and interrupts (P2104-RD, P2104-INT).
+
+W is the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +18,8 @@ CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3
 
 @directed("P2104-RD-01", "P2104-RD-02", "P2104-RD-03", "P2104-END-04", "P2104-END-05")
 async def p2104_rd_01_end_status(dut: Any) -> None:
-    """After each operation and each cause of its end, the first code 80 returns its bits with bit 7, the
-    second without bit 7 (P2104-RD-01).
+    """After each operation and each cause of its end, the first code 80 returns the bits of both together
+    with bit 7; the second code 80 returns them without bit 7 (P2104-RD-01).
     """
     env = await Env.start(dut)
     for axis, (code, low) in product(await env.both(INIT_A), CODES):
@@ -84,8 +87,8 @@ async def p2104_rd_05_output_signal(dut: Any) -> None:
 
 @directed("P2104-RD-06", "P2104-END-06", "P2104-RD-08", "P2104-OPR-10")
 async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
-    """Code 83 for a stopped move, read while the other axis moves, returns max(m - 1, 0); another move with
-    this value completes the count (P2104-RD-06).
+    """Code 83 for a stopped move, read while the other axis moves, returns max(m - 1, 0), where m is the
+    number of pulses not output; another move with this value completes the count (P2104-RD-06).
     """
     env = await Env.start(dut)
     axis, other = await env.both(INIT_A)
@@ -218,7 +221,9 @@ async def p2104_int_02_what_does_not_clear(dut: Any) -> None:
 
 @directed("P2104-INT-01", "P2104-LIM-08", "P2104-BAD-20")
 async def p2104_int_01_errint_when_it_happens(dut: Any) -> None:
-    """The level of errint_n at the time of the error decides whether it asserts int_n (P2104-INT-01)."""
+    """The level of errint_n at the time of an error decides whether this error asserts int_n
+    (P2104-INT-01).
+    """
     env = await Env.start(dut)
     for axis in env.axes:
         outcomes = []

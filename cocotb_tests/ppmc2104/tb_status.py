@@ -221,8 +221,8 @@ async def p2104_hsk_04_data_wait_during_a_table_build(dut: Any) -> None:
 
 @directed("P2104-HSK-05", "P2104-RMP-04")
 async def p2104_hsk_05_longest_tables(dut: Any) -> None:
-    """If the largest tables of both axes are requested together, they are complete within 40 000 and 80 000
-    cycles (P2104-HSK-05).
+    """If the largest tables of both axes are requested together, the first is complete within 40 000 cycles
+    and the second within 80 000 cycles (P2104-HSK-05).
     """
     env = await Env.start(dut)
     first, second = env.axes

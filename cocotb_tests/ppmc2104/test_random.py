@@ -1,5 +1,5 @@
-"""Compares random hosts with the golden model, and runs of axis 2 with and without traffic to axis 1; also
-tests noise on all pins.
+"""Random tests: hosts compared with the golden model, axis 2 with and without traffic to axis 1, noise on
+pins.
 
 The seeds are fixed lists, or one seed with `--seed N`. `make soak PART=ppmc2104` runs any number of other
 seeds.

@@ -160,7 +160,7 @@ class MisuseHost(StateAwareHost):
         rng = self.rng
         clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
         if rng.random() < 0.08 and not self.slow:
-            # In the last two, R[1] = R[0] if the curve is a sigmoid. These two have stages of 2 pulses.
+            # The last two tables have stages of 2 pulses; in them, R[1] = R[0] if the curve is a sigmoid.
             self.rates, tail = rng.choice(
                 (
                     ([40, 120, 400], "09 00 {} 0190 0028 000480"),

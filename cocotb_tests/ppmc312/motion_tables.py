@@ -9,7 +9,8 @@ from openppmc.model.ppmc312.codes import Code
 
 STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")
 ALWAYS = "03 04 86 00"
-# Rates that are not monotonic, separate tables for both ramps: R[124..126] = 200 300 100, pa 3 4 5, pd - 7 6.
+# Rates that are not monotonic, separate tables for both ramps: R[124..126] = 200 300 100; pulses of these
+# stages in the acceleration 3 4 5, in the deceleration - 7 6 (-: unused).
 ODD = ("02 04 01 11 03 02", "00 06 0064 012C 00C8", "00 09 000005 000004 000003", "01 06 000006 000007")
 
 

@@ -276,7 +276,7 @@ class ScenarioHost(MisuseHost):
         ahead, pins = 0, []
         for _ in range(rng.choice((1, 2, 3, 3, 5, 9))):
             trigger = rng.choice((0, 0, 0, 0, 2, 1, 3))
-            step = rng.choice((0, 1, 3, 4, 6, 9))  # 0: armed for the current position
+            step = rng.choice((0, 1, 3, 4, 6, 9))  # a step of 0 arms the entry for the current position
             ahead += step + (0 if before or not step else 6)
             if trigger in (1, 3):
                 pins.append("evt0_n" if trigger == 1 else "evt1_n")

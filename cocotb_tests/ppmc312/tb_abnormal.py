@@ -24,7 +24,7 @@ async def p312_alarm_by_its_pin(dut: Any) -> None:
     await host.pins(alm_n=0)
     assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
     assert host.out("cd_n") == 0 and host.condition == 0x10
-    # A second edge has no effect.
+    # A second edge of alm_n has no effect.
     await host.blip("alm_n", 50, 50)
     assert await host.quiet(500)
     for block, answer in (

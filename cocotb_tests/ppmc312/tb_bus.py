@@ -110,7 +110,7 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
         for byte in block:
             await host.write(DWR, byte)
 
-    # Once armed, the window stays open; WAR may be written first.
+    # Once armed, the write window stays open; WAR may be written first.
     await host.write(WAR, 0x1D)
     await host.write(WCR, 0x20)
     await data(0x40, 0x01, 0x03)

@@ -271,8 +271,8 @@ async def p312_a_report_about_the_effect_of_an_instruction(dut: Any, code: Code)
 @cocotb.parametrize(gap=range(38, 56, 3))
 @directed("P312-OVR-10", "P312-RSP-20", "P312-EVT-04")
 async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> None:
-    """A second edge during a registration is an alarm, because the first edge has released the only
-    override.
+    """A second edge of the event pin during a registration causes an alarm, because the first edge has
+    released the only override.
     """
     host = await Host.start(dut, *TF, message(Code.STOP, "07"))
     await host.put(message(Code.EVENT_SET, "01", message(Code.INPUT)), gap=0)

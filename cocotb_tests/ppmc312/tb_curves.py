@@ -107,7 +107,7 @@ async def p312_free_curves(dut: Any, case: tuple) -> None:
 
 
 FC_ERRORS = [
-    # Errors of code blocks.
+    # Errors of the code block, which begins a transfer.
     ("11", ("02 04 01 11 01 03",)),
     ("11", ("02 04 01 11 03 01",)),
     ("11", ("02 04 01 11 80 03",)),
@@ -116,8 +116,8 @@ FC_ERRORS = [
     ("11", ("02 05 01 11 03 03 00",)),
     ("11", ("02 01 01",)),
     ("10", (message(Code.FREE_CURVE, "11 80 03"),)),  # the size is checked before error 11
-    # Errors of the sizes: 15 and 16, also for a block with the header of an instruction; then, in this order,
-    # 16, 18 or 19, 1A and 17.
+    # Errors of data blocks: the sizes 15 and 16, also for a block with the header of an instruction; then, in
+    # this order, 16, 18 or 19, 1A and 17.
     ("15", (TF[0], "00 1F" + "0064" * 15)),
     ("16", (TF[0], "00 07 0064 00C8 0190")),
     ("16", (TF[0], "00 00 64")),

@@ -85,7 +85,7 @@ async def p312_serial_least_pulses_of_a_table(dut: Any, case: Any) -> None:
 
 @directed("P312-TBL-05", "P312-CMD-49", "P312-EVT-01")
 async def p312_least_table_from_an_event(dut: Any) -> None:
-    """An initial setting that an event pin triggers has the same limits."""
+    """An initial setting that an event pin triggers has the same limits as one that the host sends."""
     for pulses in (761, 762):
         data = f"01 03E8 00C8 {pulses:06X}"
         host = await Host.start(dut, message(Code.INITIAL, "01 03E8 00C8 0007D0"))

@@ -1,4 +1,8 @@
-"""Motions through the stages of a table of the PPMC-312, and rate changes during them."""
+"""Motions through the stages of a table of the PPMC-312, and rate changes during them.
+
+R[i] is the rate of stage i, pa[i] and pd[i] are its pulses in the acceleration and the deceleration; - is an
+unused stage.
+"""
 
 from __future__ import annotations
 

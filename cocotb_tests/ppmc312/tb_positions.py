@@ -75,8 +75,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
             assert await host.ask(message(Code.STATUS)) == message(
                 Code.STATUS, f"{enabled | outside * value:02X} 01 00"
             )
-        # A disabled monitor sends no reports. When it is enabled again, it begins with the state inside, for
-        # one report with RES = 0.
+        # A disabled monitor sends no reports. When it is enabled again with RES = 0, it begins with the state
+        # "inside" and sends only one report.
         assert await host.ask(f"03 04 {code} 00 0004") == f"03 01 {code}"
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await host.ask(f"03 04 {code} 01 0004")
@@ -113,8 +113,8 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     assert await host.response() == message(Code.VERSION, "12")
     assert await host.response() == message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS)
     assert await host.quiet()
-    # A report is loaded, and then the value returns. After the report has been read, the return counts as
-    # another change.
+    # A report is loaded, and then the distance returns into the window. After the report has been read, the
+    # return counts as another change.
     await encoder(host, 1)
     await host.pause(20)
     await encoder(host, -1)
@@ -123,7 +123,8 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
         message(Answer.ENCODE_CHANGE, "00", source=SPONTANEOUS),
     ]
     assert await host.quiet()
-    # The encode monitor is disabled while its report waits for another report to be read: it is discarded.
+    # The encode monitor is disabled while its report waits for another report to be read: the waiting report
+    # is discarded.
     await host.ask(message(Code.IN_POSITION, "03 0002"))
     await encoder(host, 1)
     await host.issue(message(Code.ENCODE, "00 0002"))
@@ -165,8 +166,8 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
 async def p312_interlock_by_its_position(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.INTERLOCK_POSITION, "00000003"))
     for sign, first in ((0x00, 3), (0x40, 3)):
-        # A motion that starts at the position does not trigger the interlock; a motion that arrives from
-        # either side does.
+        # A motion that starts at the interlock position does not trigger the interlock; a motion that arrives
+        # from either side does.
         await host.ask(message(Code.POSITION_SET, f"00 {first if sign else 0:08X}"))
         assert await host.ask(message(Code.INTERLOCK)) == message(Code.INTERLOCK, "01")
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "40 02 00")
@@ -181,7 +182,7 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
         host.mark = mark
         assert 0 <= edge - host.pulses()[number - 1] <= 4
         assert (await host.response())[:11] == "23 06 E0 40"
-        # The position stays stored; without instruction 44 it has no effect.
+        # The interlock position stays stored; without instruction 44 it has no effect.
         await host.ask(message(Code.CONSTANT, "40 0190 00000004"))
         await host.response()
         assert await host.quiet()
@@ -190,8 +191,8 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
     assert host.out("intlk_n") == 1 and await host.ask(message(Code.STATUS)) == message(
         Code.STATUS, "00 02 00"
     )
-    # The position is set while the interlock is active. If a setting makes the positions equal, it does not
-    # trigger the interlock either.
+    # The position is set while the interlock is active. A setting that makes position and interlock position
+    # equal does not trigger the interlock either.
     await host.ask(message(Code.INTERLOCK))
     await host.ask(message(Code.POSITION_SET, "00 00000003"))
     assert await host.quiet() and host.out("intlk_n") == 0

@@ -16,8 +16,8 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 @directed("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
 async def p312_a_read_during_the_software_reset(dut: Any) -> None:
-    """If a read strobe coincides with a software reset, one value is driven from the specified time to its
-    end.
+    """If a read strobe coincides with a software reset, one value is driven from the specified time to the
+    end of the strobe.
 
     The strobes begin up to 40 cycles after the header of FF.
     """

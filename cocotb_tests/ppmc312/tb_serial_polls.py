@@ -155,7 +155,7 @@ async def p312_serial_no_alarm_by_unread_answers(dut: Any) -> None:
 
 @directed("P312-RSP-22", "P312-MON-05", "P312-SER-42")
 async def p312_serial_monitors_that_return(dut: Any) -> None:
-    """An unread monitor report is discarded if the distance returns."""
+    """An unread monitor report is discarded if the distance returns into or out of the window."""
     host = await SerialHost.start(dut, TS, "02 01 0002", "03 01 0002")
     for far in ("00000010", "00000001"):
         assert await host.ask(f"43 {far}") == "90"

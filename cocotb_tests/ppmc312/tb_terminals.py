@@ -66,7 +66,8 @@ async def p312_clear_pulses(dut: Any) -> None:
     await host.pause(CLEAR + 100)
     for name, fall in first.items():
         assert host.bench.edges(name) == [(fall, 0), (fall + CLEAR, 1)]
-    # The two pulses are independent; another instruction 24 restarts only the time of the same pulse.
+    # The pulses of cclr_n and aclr_n are independent; another instruction 24 restarts only the time of
+    # aclr_n.
     await host.ask(message(Code.ALARM_CLEAR))
     again = host.bench.falls("aclr_n")[-1]
     await host.pause(200_000)
@@ -112,7 +113,7 @@ async def p312_current_reduction_after_each_kind_of_end(dut: Any) -> None:
     await host.pause(1_600_200)
     (edge,) = host.bench.falls("cd_n")
     assert 0 <= edge - low - 1_600_000 < 10
-    assert host.condition == 0x08  # the END wait does not delay it
+    assert host.condition == 0x08  # the END wait does not delay the fall of cd_n
     await host.pins(end_n=0, fl_n=1)
     await host.response()
     # alm_n asserts cd_n (low) immediately in any state; t0 deasserts it.

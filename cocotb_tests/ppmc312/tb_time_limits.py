@@ -1,4 +1,4 @@
-"""Upper bounds in the rules of the PPMC-312 for FAST, and the ports."""
+"""Upper bounds of times in the rules of the PPMC-312 for FAST, and a check of the ports."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
 """Rates 4, 400 and 800 at 8 MHz, which are 8, 800 and 1600 cycles."""
 T_INIT, T_EXEC, T_TRIG, T_STOP, T_PIN = 65_536, 4_096, 512, 64, 4
 POLL = 40
-"""Number of cycles that the poll of the host adds."""
+"""Number of cycles that polling by the host adds to a measured time."""
 
 
 @directed("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")
@@ -54,7 +54,7 @@ async def p312_answers_within_their_limits(dut: Any) -> None:
         await host.wait()
         assert host.t - host.header <= T_EXEC + POLL
         await host.response()
-        # t0 is at most 64 cycles before the answer, TW before pulse 1.
+        # t0 is at most 64 cycles before the answer, and pulse 1 follows t0 by TW.
         await host.pulse(1)
         await host.ask(message(Code.STOP, "00"))
         await host.response()

@@ -1,7 +1,7 @@
-"""Compares random hosts and noise with the golden model: fixed lists of seeds, or one seed with `--seed N`.
+"""Compares the part under random hosts and noise with the golden model, for fixed seeds or with `--seed N`.
 
-One simulation plays several seeds of one build one after the other, each from a reset. `make soak
-PART=ppmc312` plays any number of other seeds.
+One simulation plays several seeds of one build in turn, each after a reset. `make soak PART=ppmc312` plays
+any number of other seeds.
 """
 
 from __future__ import annotations

@@ -303,7 +303,7 @@ async def proc_time_datasheet(dut, name):
         ramp, single = op in (3, 6), op == 2
         for end in ("normal", "stop", "short"):
             if end == "short" and not ramp:
-                continue  # only a ramp can end with a pulse before its count
+                continue  # only an operation with a ramp can end at a pulse before its count is complete
             await u.clk(
                 act_i=action("start"),
                 code_i=0x40 | op,

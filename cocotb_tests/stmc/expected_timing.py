@@ -60,7 +60,9 @@ def steps(code: int) -> list[int]:
 
 
 def divisor(ramp: Ramp, k: int) -> int:
-    """Return x(k) of STMC-RMP-01: the smallest integer r with 4*Y < (2r+1)^2."""
+    """Return x(k) of STMC-RMP-01: the smallest integer r with 4*Y < (2r+1)^2, where Y is the square of the
+    exact x(k).
+    """
     d1, d2, pa = ramp
     if pa == 0 or d1 == d2:
         return d2

@@ -1,8 +1,8 @@
 """Constrained-random hosts of the STMC core: a seed determines a list of actions before the simulation
 starts.
 
-`scenario(seed)` is a pure function. The actions are those of `harness.player`, and ("finish", cycles). Gaps
-last at least 64 cycles, so that every rule is exact (STMC-CLK-04).
+`scenario(seed)` is a pure function. The actions are those of `harness.player`, and in addition ("finish",
+cycles). Gaps last at least 64 cycles, so that every rule is exact (STMC-CLK-04).
 """
 
 from __future__ import annotations

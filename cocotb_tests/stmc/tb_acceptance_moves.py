@@ -1,4 +1,7 @@
-"""Acceptance checks AC-01 to AC-20 at the pins; stimulus and values are those of the acceptance table."""
+"""Acceptance checks AC-01 to AC-20 at the pins; stimulus and values are those of the acceptance table.
+
+Gap i is the time from step i to step i + 1. W1 to W23 are the worked moves of the manual.
+"""
 
 from __future__ import annotations
 

@@ -94,7 +94,9 @@ async def stmc_ac_40_bytes_during_the_build(dut: Any) -> None:
 
 @directed("AC-41", "STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-01", "STMC-OUT-02", builds=(SHEET,))
 async def stmc_ac_41_chopper(dut: Any) -> None:
-    """With bit 5, the pattern is chopped at standstill and full during a step (AC-41)."""
+    """With bit 5 of the initialisation code = 1, the pattern is chopped at standstill and full during a step
+    (AC-41).
+    """
     env = await Env.start(dut, None)
     await env.host.init(0x3A, 20, 5, 8)
     await env.bench.level_is("s", 0b00000, 60_000)

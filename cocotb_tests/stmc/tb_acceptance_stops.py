@@ -1,4 +1,7 @@
-"""Acceptance checks AC-21 to AC-34 at the pins: stops, limits, reference point, motor switch."""
+"""Acceptance checks AC-21 to AC-34 at the pins: stops, limits, reference point, motor switch.
+
+Gap i is the time from step i to step i + 1. W1 to W23 are the worked moves of the manual.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The board j105_stmc: J105-01..08, AC-46, AC-47."""
+"""Tests of the board j105_stmc (rules J105-01 to J105-08, acceptance checks AC-46 and AC-47)."""
 
 from __future__ import annotations
 

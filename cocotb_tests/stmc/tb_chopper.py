@@ -41,7 +41,9 @@ def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> N
 
 @directed("STMC-CHP-01", builds=(F16, F12, ODD))
 async def stmc_chp_01_phases(dut: Any) -> None:
-    """With bit 5, on-times and off-times repeat without drift at standstill, for each logic (STMC-CHP-01)."""
+    """With bit 5 of the initialisation code = 1, on-times and off-times repeat without drift at standstill,
+    for each logic (STMC-CHP-01).
+    """
     env = await Env.start(dut, None, clock=0)
     for code, pattern, off in ((0x2A, 0b00011, 0b00000), (0x22, 0b11100, 0b11111), (0x2F, 0b00011, 0)):
         await env.reset()

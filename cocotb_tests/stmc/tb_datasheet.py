@@ -16,7 +16,7 @@ ALL_CLOCKS = (D16, D25X8)
 
 
 def after(env: Env, rule: str, what: str, got: int, xt: int, pin: int = PIN) -> None:
-    """Check that `got` cycles are CYC(xt), -0/+16, plus the delay to the pin."""
+    """Check that `got` cycles are CYC(xt), with a tolerance of -0/+16 cycles, plus the delay to the pin."""
     nominal = env.cfg.cyc(xt)
     env.window(rule, what, got, nominal, nominal + TOLERANCE + pin)
 
@@ -27,7 +27,7 @@ async def event(env: Env, code: int, n: int | None = None, rate: int | None = No
 
 
 async def check_accepted(env: Env, rule: str, since: int, xt: int, code: int = 0x80) -> None:
-    """Write a command now and check that it is accepted CYC(xt) cycles after `since`, not before."""
+    """Write a command now; check that it is accepted CYC(xt) cycles after edge `since`, and not before."""
     nominal = since + env.cfg.cyc(xt)
     await env.host.write(1, code)
     await env.bench.until(max(env.bench.now, nominal - 20))

@@ -1,4 +1,7 @@
-"""Motion commands: STMC-MOT, STMC-CLK, STMC-MOV, STMC-RUN, STMC-SGL, STMC-RMP, STMC-BAD-14..16."""
+"""Motion commands: STMC-MOT, STMC-CLK, STMC-MOV, STMC-RUN, STMC-SGL, STMC-RMP, STMC-BAD-14..16.
+
+Gap i is the time from step i to step i + 1.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Stops, deceleration requests and switches during a motion: STMC-STP, STMC-DEC, STMC-IN, STMC-FIN."""
+"""Stops, deceleration requests and switches during a motion: STMC-STP, STMC-DEC, STMC-IN, STMC-FIN.
+
+Gap i is the time from step i to step i + 1.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,9 @@ async def request(env: Env, how: str) -> None:
 
 @directed("STMC-DEC-01", "STMC-DEC-02", "STMC-DEC-04", "STMC-STP-03", "STMC-FIN-02", "STMC-FIN-03")
 async def stmc_dec_04_every_gap_of_a_move(dut: Any) -> None:
-    """In moves of 12 and 23 steps, a request in each gap results in the gaps of the rule (STMC-DEC-04)."""
+    """In moves of 12 and 23 steps, a deceleration request in each gap results in the gaps of the rule
+    (STMC-DEC-04).
+    """
     env = await Env.start(dut)
     for n, how, bit in ((12, "c 41", 0x40), (23, "l3_n", 0x08)):
         for i in range(n - 1):
@@ -39,8 +44,8 @@ async def stmc_dec_04_every_gap_of_a_move(dut: Any) -> None:
 
 @directed("STMC-DEC-03", "STMC-MOV-04", "STMC-DEC-04")
 async def stmc_dec_03_start_speed(dut: Any) -> None:
-    """In ramps that begin flat, and in flat profiles, a request at D1 stops the motion immediately
-    (STMC-DEC-03).
+    """In ramps that begin flat, and in flat profiles, a deceleration request at D1 stops the motion
+    immediately (STMC-DEC-03).
     """
     env = await Env.start(dut)
     for ramp, last in (((10, 9, 16), 9), ((10, 6, 16), 4), ((12, 6, 0), 3), ((9, 9, 5), 3), ((50, 49, 3), 3)):
@@ -53,7 +58,8 @@ async def stmc_dec_03_start_speed(dut: Any) -> None:
                 ticks = slowed(60, i, ramp)
                 made = len(ticks) + 1
                 await env.outcome("STMC-DEC-03", made, 0x83 | bit, 59 - made, ticks)
-    # Without a ramp (D1 = D2, or PA = 0) there is no natural deceleration: a request stops immediately.
+    # Without a ramp (D1 = D2, or PA = 0) there is no natural deceleration: a deceleration request stops the
+    # motion immediately.
     for ramp in ((9, 9, 5), (12, 6, 0)):
         await env.init(0x1A, *ramp)
         for how, bit in REQUESTS:
@@ -65,8 +71,8 @@ async def stmc_dec_03_start_speed(dut: Any) -> None:
 
 @directed("STMC-DEC-03", "STMC-MOT-08", "STMC-IN-02")
 async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
-    """After a request in gap 0, BUSY falls within 8 cycles of the pin edge, or within 12 cycles of the byte
-    (STMC-DEC-03).
+    """After a deceleration request in gap 0, BUSY falls within 8 cycles of the pin edge, or within 12 cycles
+    of the byte (STMC-DEC-03).
     """
     env = await Env.start(dut)
     for how, latest in (("l3_n", 8), ("c 41", PINS_LATEST)):
@@ -83,8 +89,8 @@ async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
 
 @directed("STMC-DEC-02", "STMC-STP-04", "STMC-FIN-03", "STMC-DEC-05")
 async def stmc_dec_02_second_requests(dut: Any) -> None:
-    """After an accepted request, a further code 41 returns error 7, and a further limit has no effect: only
-    the first request counts (STMC-DEC-02).
+    """After an accepted deceleration request, a further code 41 returns error 7, and a further slow-down
+    limit has no effect: only the first request counts (STMC-DEC-02).
     """
     env = await Env.start(dut)
     await env.go(0x43, 100)
@@ -104,7 +110,7 @@ async def stmc_dec_02_second_requests(dut: Any) -> None:
 @directed("STMC-DEC-06", "STMC-STP-06", "STMC-FIN-02", "STMC-STP-01", "STMC-IN-02")
 async def stmc_dec_06_stops_in_the_ramp_down(dut: Any) -> None:
     """During a deceleration that code 41 or l3_n requested, l1_n, mon or code 40 stops the motion
-    immediately, and all bits are set (STMC-DEC-06).
+    immediately, and the bits of all these causes are set (STMC-DEC-06).
     """
     env = await Env.start(dut)
     for how, first in REQUESTS:
@@ -265,7 +271,9 @@ async def stmc_in_04_command_and_limit_together(dut: Any) -> None:
 
 @directed("STMC-DEC-07", "STMC-DEC-04")
 async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
-    """A request 4 or more cycles before a step counts for the gap before this step (STMC-DEC-07)."""
+    """A deceleration request 4 or more cycles before a step counts for the gap before this step
+    (STMC-DEC-07).
+    """
     env = await Env.start(dut)
     for how, _ in REQUESTS:
         for before in (0, 1, 2, 3, 4, 6, 12):
@@ -304,7 +312,9 @@ async def stmc_mot_08_after_the_last_step(dut: Any) -> None:
 
 @directed("STMC-DEC-03", "STMC-STP-03", "STMC-MOT-06")
 async def stmc_dec_03_requests_before_step_0(dut: Any) -> None:
-    """After a request in state S of commands 3 and 6, step 0 is made and is the last (STMC-DEC-03)."""
+    """After a deceleration request in state S of commands 3 and 6, step 0 is made and is the last
+    (STMC-DEC-03).
+    """
     env = await Env.start(dut, clock=0)
     for code, n in ((0x43, 30), (0x43, 1), (0x46, None)):
         for how, bit in REQUESTS:

@@ -1,5 +1,5 @@
-"""Compares random hosts with the golden model, and tests noise: fixed lists of seeds, or one seed with
-`--seed N`.
+"""Random tests with fixed lists of seeds, or one seed with `--seed N`: hosts compared with the golden model,
+noise.
 
 `make soak PART=stmc` runs any number of other seeds.
 """

@@ -19,7 +19,7 @@ PORT = "model:speed=max,part=bank"
 
 
 def block(kind: str) -> str:
-    """Return the only fenced block of a kind."""
+    """Return the only fenced code block of this language on the page."""
     (found,) = re.findall(rf"^```{kind}\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
     return str(found)
 

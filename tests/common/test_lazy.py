@@ -31,7 +31,9 @@ def written_out(package: str) -> dict[str, tuple[str, str]]:
 
 @pytest.mark.parametrize("package", LAZY)
 def test_names_are_those_of_the_imports_written_out(package: str) -> None:
-    """`__all__` contains exactly the names imported for type checkers, and each name is the same object."""
+    """`__all__` contains exactly the names imported for type checkers, and each of them is the object of that
+    name in its module.
+    """
     module, names = import_module(package), written_out(package)
     assert sorted(names) == sorted(module.__all__)
     for public, (place, own) in names.items():

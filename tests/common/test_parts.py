@@ -1,4 +1,6 @@
-"""The table of devices agrees with the tree: places load, folders have rows, rows have folders."""
+"""The table of devices agrees with the tree: each module that it names can be loaded, each folder has a row,
+and each row has its folders.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +53,7 @@ def modules(layer: str) -> set[str]:
 
 @pytest.mark.parametrize(("name", "column"), PLACES)
 def test_every_place_loads(name, column):
-    """Each place in the table can be loaded."""
+    """Each module that the table names can be loaded."""
     assert parts.part(name).load(column) is not None
 
 
@@ -186,8 +188,8 @@ def append(path: Path, before: str, text: str) -> None:
 
 
 def test_a_part_of_three_files_and_a_row(tmp_path):
-    """In a copy of the tree, a new device needs only three files, a row and a group; all users of the table
-    know it.
+    """In a copy of the tree, a new device needs only three files, a row in the table and a group in
+    rtl/files.yml; all users of the table know it.
     """
     left = shutil.ignore_patterns(".git", ".venv", "build", "__pycache__", "*.png", ".*_cache", ".hypothesis")
     root = tmp_path / "copy"

@@ -156,6 +156,6 @@ def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_package_without_marks() -> None:
-    """If the package lacks the marks, it is rejected and not changed."""
+    """If the package lacks the marks around the generated text, the package is rejected and not changed."""
     with pytest.raises(ProjectError, match="the marks of `make rom` are missing"):
         calc_rom.package_text("package p; endpackage", program("halt"))

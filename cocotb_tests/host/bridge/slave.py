@@ -15,8 +15,8 @@ class RegisterModel:
 
     After a write to register 0 or 1, IBF stays 1 for up to `lag` status reads. A write to register 1 may
     produce `answers` bytes; OBF is set after some further status reads. `refuse` is the probability of ERR.
-    `log` contains ("W" or "R", a, byte) of every access. `hold_ibf` and `hold_obf` (0, 1 or None) replace the
-    bits.
+    `log` contains ("W" or "R", a, byte) of every access. `hold_ibf` and `hold_obf` replace the bits IBF and
+    OBF of the status, unless they are None.
     """
 
     def __init__(self, seed: int = 1, lag: int = 3, refuse: float = 0.0) -> None:

@@ -171,7 +171,7 @@ async def frames_while_busy(dut):
     long_script = bytes([0x32, 40])
     line = encode(b"\x01" + long_script)
     other = encode(b"\x02\x13\x01")
-    # The same happens while the bridge sends the answer.
+    # Bytes that arrive while the bridge sends the answer have the same effect.
     await bench.send(line)
     await bench.quiet(100)
     await bench.send(other[:-1])
@@ -181,7 +181,7 @@ async def frames_while_busy(dut):
     await bench.silent("hunt")
     await bench.send(other)
     same("next frame", await bench.message(), b"\x02\x00")
-    # Flags are ignored here, but the last of them may begin a frame.
+    # Flags during a script are ignored, but the last of them may begin a frame.
     await bench.send(encode(b"\x03" + long_script))
     await bench.send(b"\x7e" * 10)
     same("answer", (await bench.message())[:2], b"\x03\x00")

@@ -21,8 +21,8 @@ NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer (SEQ 0, R
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_literal_frames(dut):
-    """The line idles high and starts at 115 200 baud; the bytes of two frames are as written out (UB-LIN-01,
-    UB-LIN-02, UB-FRM-01, UB-FRM-03).
+    """The line idles high and starts at 115 200 baud; two frames have the bytes that are written out in this
+    file (UB-LIN-01, UB-LIN-02, UB-FRM-01, UB-FRM-03).
     """
     bench = await Bench.start(dut)
     same("idle", (int(dut.txd_o.value), bench.edges), (1, []))
@@ -126,8 +126,8 @@ async def line_middle(dut):
 @cocotb.test()
 @configs(FAST)
 async def line_framing_error(dut):
-    """A low stop bit within a frame causes one NAK 1, however long the line stays low; while the bridge waits
-    for a flag it causes no NAK (UB-LIN-05, UB-FRM-06).
+    """A low stop bit within a frame causes one NAK 1, however long the line stays low; a low stop bit while
+    the bridge waits for a flag causes no NAK (UB-LIN-05, UB-FRM-06).
     """
     bench = await Bench.start(dut)
     line = encode(b"\x05\x12\x34")
@@ -183,8 +183,8 @@ async def line_break(dut):
 @cocotb.test()
 @configs(SLOW)
 async def line_rate_trial(dut):
-    """The old rate returns if no valid frame arrives within 1000 ms; after a valid frame the new rate stays
-    (UB-LIN-07).
+    """The bridge returns to the old rate if no valid frame arrives within 1000 ms; after a valid frame it
+    keeps the new rate (UB-LIN-07).
     """
     bench = await Bench.start(dut)
     await bench.done("02 01")

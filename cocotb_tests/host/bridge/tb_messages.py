@@ -28,7 +28,7 @@ async def messages_repeat(dut):
         same("SEQ", first[0], seq)
         bench.accesses()
         for again in (script, b"\x12\x01", script + b"\x00", b""):
-            # Faults and NAKs in between have no effect.
+            # Faults and NAKs before a repeated request have no effect.
             await bench.send(b"\x7e\x01\x02\x03\x04\x7e")
             same("NAK", await bench.message(), b"\x81\x02")
             await bench.send(encode(b"\xff\x12\x01"))
@@ -42,7 +42,7 @@ async def messages_repeat(dut):
     for seq in (5, 6, 5):
         same("SEQ before the last", await bench.ask("12 01", seq=seq), b"\x00")
         same("executed", bench.accesses(), [("W", 2, 1)])
-    # SEQ 0 is a request like any other: after it, the SEQ before it is no longer the last one.
+    # SEQ 0 is a request like any other: after it, the previous SEQ is no longer the last one.
     await bench.ask("12 02", seq=0)
     await bench.ask("12 03", seq=5)
     same("executed", bench.accesses(), [("W", 2, 2), ("W", 2, 3)])
@@ -114,7 +114,8 @@ async def messages_events(dut):
     await pulses()
     same("escaped", await bench.message(), b"\x80\x7e")
     dut.pins_i.value = 0xFF
-    # During an answer, any number of falls causes one event, which is sent after the answer and before NAK 7.
+    # During an answer, any number of falls of int_ni causes one event, which is sent after the answer and
+    # before NAK 7.
     await bench.send(encode(b"\x11\x32\x20"))
     await bench.quiet(120)
     await pulses(5)
@@ -123,19 +124,20 @@ async def messages_events(dut):
     same("event", await bench.message(), event)
     same("NAK", await bench.message(), b"\x81\x07")
     await bench.silent("one for all")
-    # During a script, the event is not sent before the answer.
+    # An event that occurs during a script is not sent before the answer.
     await bench.send(encode(b"\x12" + b"\x05" * 60 + b"\x06"))
     await bench.clocks(300)
     await pulses(2)
     same("answer first", await bench.message(), b"\x12\x00\xff")
     same("event", await bench.message(), event)
-    # Falls while an event is being sent cause another event.
+    # Falls of int_ni while an event is being sent cause another event.
     await pulses()
     await bench.quiet(45)
     await pulses(3)
     same("events", [await bench.message() for _ in range(2)], [event, event])
     await bench.silent("two")
-    # Enabling with int_n low causes an event; enabling again does not. Disabling discards a fall.
+    # Enabling events with int_ni low causes an event; enabling them again does not. Disabling events discards
+    # a fall of int_ni.
     await bench.done("03 00")
     dut.int_ni.value = 0
     await bench.silent("disabled")
@@ -215,14 +217,14 @@ async def messages_order(dut):
         await bench.clocks(3)
 
     await bench.done("03 01")
-    # The second fault and the fall occur while the first NAK is being sent.
+    # The second fault and the falling edge of int_ni occur while the first NAK is being sent.
     await bench.send(b"\x01\x7e")
     await bench.quiet(30)
     await bench.send(b"\x01\x7e")
     await fall()
     assert not bench.got, "the first NAK has already been sent"
     same("order", [await bench.message() for _ in range(3)], [b"\x81\x04", b"\x80\xff", b"\x81\x04"])
-    # A fall during a script that enables events again is kept.
+    # A fall of int_ni during a script that enables events again still causes an event.
     await bench.send(encode(b"\x21" + b"\x05" * 60 + b"\x03\x01"))
     await bench.clocks(300)
     await fall()

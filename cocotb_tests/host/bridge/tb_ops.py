@@ -280,7 +280,7 @@ async def ops_two_snapshots(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_count_snapshot(dut):
-    """While the counter counts, COUNT returns a value that it has had, never a mixture of two values
+    """While the counter counts, COUNT returns a value that the counter has had, never a mixture of two values
     (UB-OPS-02).
     """
     bench = await Bench.start(dut)

@@ -1,4 +1,4 @@
-"""The recorder of the bridge: each change with its cycle, full memory, read-back; and op VERSION."""
+"""The recorder of the bridge (each change with its cycle, full memory, read-back), and the op VERSION."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ async def read_all(bench: Bench) -> tuple[Recorded, list[tuple[int, int]]]:
 @cocotb.test()
 @configs(REC)
 async def recorder_changes(dut: Any) -> None:
-    """The recorder stores the cycle of each change, also after long pauses, and that of the end (UB-REC-01,
-    UB-REC-02, UB-REC-03, UB-REC-04, UB-OPS-02).
+    """The recorder stores the cycle of each change, also after long pauses, and the cycle of the end of the
+    recording (UB-REC-01, UB-REC-02, UB-REC-03, UB-REC-04, UB-OPS-02).
     """
     bench = await Bench.start(dut)
     for turn in range(3):
@@ -94,7 +94,8 @@ async def recorder_full(dut: Any) -> None:
 @configs(REC)
 async def recorder_reading(dut: Any) -> None:
     """Bytes are read in order, REWIND returns to the first byte, and reads during a recording return zeros.
-    The limit of the data and invalid operands have the effects in the rules (UB-REC-03, UB-ANS-05).
+    An answer with too many data bytes, and invalid operands, have the effects that the rules state
+    (UB-REC-03, UB-ANS-05).
     """
     bench = await Bench.start(dut)
     bench.dut.watch_i.value = 0x155

@@ -93,9 +93,10 @@ def check_both(bench: RtlBench, at_least: int = 0) -> None:
 
 
 def arming_writes(bench: RtlBench) -> list[tuple[int, int]]:
-    """Return (edge, level) of all writes to the source register, regardless of the byte (ISA-11).
+    """Return (edge, level) of the strobe of all writes to the source register, regardless of the byte
+    (ISA-11).
 
-    The level is 1 from the first edge that samples a write to the first edge that does not.
+    The level is 1 from the first edge that samples a write to the first edge that no longer samples it.
     """
     pins, found = {**ISA_4AXIS.inputs}, [(0, 0)]
     for t, group in groupby(bench.stimulus, key=lambda change: change.t):
@@ -107,10 +108,10 @@ def arming_writes(bench: RtlBench) -> list[tuple[int, int]]:
 
 
 def check_irq(bench: RtlBench) -> None:
-    """Check that irq is the registered OR of both interrupts, and low during a write that re-arms it (ISA-06,
-    ISA-11).
+    """Check that irq is the registered OR of both interrupts, and low during a write to the source register
+    (ISA-06, ISA-11).
     """
-    # The edge from which a level counts is the next edge for int_n, and the edge itself for the pins.
+    # A change of int_n counts from the edge after its stamp on, a change of the pins from its stamp on.
     calls = [(t + 1, "call", int(value != 0b11)) for t, value in bench.edges("int_n")]
     events = sorted(calls + [(t, "write", level) for t, level in arming_writes(bench)])
     now, level, expected = {"call": 0, "write": 0}, 0, []

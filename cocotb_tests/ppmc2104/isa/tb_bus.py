@@ -129,8 +129,8 @@ async def isa_both_commands(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_address_moves_away(dut: Any) -> None:
-    """If the address changes from A to B or to another device during a read of A, or if AEN rises, A stops
-    driving the bus immediately.
+    """If the address changes from part A to part B or to another device during a read of part A, or if AEN
+    rises, part A stops driving the bus immediately.
     """
     setting = await Setting.start(dut)
     bench = setting.bench

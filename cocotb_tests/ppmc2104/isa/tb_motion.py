@@ -96,8 +96,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_write_makes_a_new_edge(dut: Any) -> None:
-    """If the axis moves again and its cause cannot be read, a write to base + 4 causes another rising edge of
-    irq (ISA-11).
+    """If an axis moves again and the cause of its interrupt cannot be read, a write to base + 4 causes
+    another rising edge of irq (ISA-11).
     """
     setting = await Setting.start(dut)
     bench, master = setting.bench, setting.master
@@ -138,7 +138,8 @@ async def isa_write_makes_a_new_edge(dut: Any) -> None:
 @configs(F16, F25)
 async def isa_service_after_the_restart(dut: Any) -> None:
     """If axes are started again before a late handler reads their end statuses, the handler still returns
-    each time. If a periodic write re-arms pending causes, the last end of every axis is found.
+    each time. If a periodic write to base + 4 causes a new edge of irq while a cause is left, the handler
+    finds the last end of every axis.
     """
     setting = await Setting.start(dut)
     bench, controller, rng = setting.bench, Controller(setting), setting.bench.rng
@@ -164,7 +165,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
                 services, idle = services + 1, 0
                 assert len(bench.accesses) - accesses < 200, "ISA-08: the handler goes round and round"
             else:
-                await bench.clocks(bench.config.us(400))  # until the periodic interrupt of a timer
+                await bench.clocks(bench.config.us(400))  # wait until the periodic interrupt of a timer
                 if left:
                     left, ticks = False, ticks + 1
                     await setting.master.write(SOURCE, 0)
@@ -197,7 +198,7 @@ async def isa_four_axes_together(dut: Any) -> None:
     await bench.align()
     start = bench.set(run=0b1111)
     busy = list(setting.hosts)
-    while busy:  # polling continues while they run
+    while busy:  # polling continues while the axes move
         busy = [host for host in busy if await host.status() & (BUSY1 | BUSY2)]
     falls = {drive.pulses[0] for drive in axes.values()}
     bench.check("ISA-10", "first falls on one edge", len(falls), 1)

@@ -1,4 +1,4 @@
-"""isa_4axis in simulation, its slave alone, and its parameters."""
+"""Simulations of isa_4axis and of its slave alone, and a check of the parameters."""
 
 from __future__ import annotations
 

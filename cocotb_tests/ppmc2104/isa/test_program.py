@@ -56,7 +56,9 @@ class Module:
         return sum((not part.outputs["int_n"]) << number for number, part in enumerate(self.parts))
 
     def pass_time(self, clk: int, rearm: bool = False) -> None:
-        """Simulate this number of cycles; with `rearm`, the source register is written during them."""
+        """Simulate this number of cycles; if `rearm` is set, the source register is written during these
+        cycles.
+        """
         for _ in range(0, clk, STEP):
             self.t += STEP
             for part in self.parts:

@@ -111,7 +111,9 @@ async def bad_checksums(master: Master, rng: random.Random) -> None:
 
 
 async def foreign(master: Master, rng: random.Random) -> None:
-    """Undefined kinds, bit 6, frames without a control code, and truncated frames are not answered."""
+    """Frames with an undefined kind or with bit 6 in the control code, frames without a control code, and
+    truncated frames are not answered.
+    """
     for station in (0, 9):
         for control in (0xA0, 0xB0, 0xC0, 0xD0, 0xE0, 0xF0):
             check(await master.exchange(polled(station, control)), None, f"control code {control:02X}")

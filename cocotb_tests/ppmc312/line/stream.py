@@ -1,6 +1,6 @@
 """Random characters, frames, noise and silence on a line, for tests and for `make soak PART=ppmc312-serial`.
 
-After each part of a stream, at most one poll recovers every station.
+After each section of a stream, at most one poll recovers every station.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ PART = 60
 
 
 async def disorder(master: Master, rng: random.Random, size: int, count: int = STATIONS) -> int:
-    """Send at least `size` characters to `count` stations, in parts.
+    """Send at least `size` characters to `count` stations, in sections of PART characters.
 
     Returns:
         The number of stations that needed a second poll.

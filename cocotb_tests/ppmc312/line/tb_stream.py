@@ -24,7 +24,7 @@ SIZE = 120
 @configs(F8L)
 @verifies("P312-BAD-16", "P312-SER-10", "P312-SER-15", "P312-SER-19")
 async def line_stream(dut: Any) -> None:
-    """After each part of a random stream on the line, every station answers its first or second poll."""
+    """After each section of a random stream on the line, every station answers its first or second poll."""
     seed = int(os.environ.get("OPENPPMC_SEED", "1"))
     bench = await RtlBench.start(dut, LINE, settle=8, **pins_of(seed))
     cocotb.log.info("seed %d", seed)

@@ -57,7 +57,7 @@ class Target(NamedTuple):
     """target_t: a rate and its look-up result.
 
     Attributes:
-        ge: t(rate); if there is no such stage, the number before that of the first stage in use.
+        ge: t(rate), the last stage that is not faster than `rate`; without one, the first used stage - 1.
     """
 
     rate: int

@@ -134,8 +134,8 @@ async def interval_external(dut):
     """With clock edges at a pin, a pulse follows the R-th edge after the edge of the previous pulse, R being
     its rate.
 
-    The delay is less than 3 cycles. A pulse ends after half of these edges or after its width, even if the
-    clock stops.
+    The delay from the edge to the pulse is less than 3 cycles. A pulse ends after half of these edges or
+    after its width, even if the clock stops.
     """
     rand = rng()
     for clk, base in ((8_000_000, 6), (16_000_000, 7), (50_000_000, 6)):

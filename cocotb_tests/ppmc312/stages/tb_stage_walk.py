@@ -214,7 +214,9 @@ class CollisionRun(SequencerRun):
         return {} if 0 < before else super().plan_requests()
 
     def aim(self) -> int:
-        """Return a rate at which a ramp has stages, then a higher speed."""
+        """Return a rate from which a ramp has stages; for the request of the ramp itself, return the high
+        speed.
+        """
         before = (self.plan.n or 0) - self.plan.down - self.sequence.done
         if self.rand.random() < 0.2 or before < 1:
             return super().aim()

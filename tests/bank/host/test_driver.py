@@ -195,8 +195,8 @@ def test_chopper_times_are_those_of_this_axis() -> None:
 
 
 def test_looks_at_64_axes_take_few_frames() -> None:
-    """With 64 axes, `positions` uses two frames (252 bytes of 42 axes), `snapshot` three, `status` and
-    `pending` one.
+    """With 64 axes, `positions` uses two frames (the first with 252 bytes for 42 axes), `snapshot` three,
+    `status` and `pending` one each.
     """
     with PpmcBank.open(SPEC.replace("axes=4", "axes=64,clk=64000000")) as bank:
         assert len(bank.axes) == 64 and bank.info().axes == 64

@@ -200,7 +200,9 @@ def test_groups_of_moving_axes_and_in_groups() -> None:
 
 
 def test_a_group_survives_a_new_driver() -> None:
-    """If a program ended inside a group, the next program clears MASK and can stop the held motions."""
+    """If a program ended inside the context of a group, the next program clears MASK and can stop the held
+    motions.
+    """
     with PpmcBank.open(SPEC) as first:
         first.axis[1].initialise(**SETUP)  # type: ignore[arg-type]
         first.group((1,)).__enter__()

@@ -56,7 +56,7 @@ class Host:
         return self.model.now
 
     def ready(self, axis: int, script: str = INIT_A) -> None:
-        """Initialise and wait for the table."""
+        """Initialise the axis and wait until its ramp table is built."""
         self.send(axis, script)
         self.t += 5000
 
@@ -66,7 +66,7 @@ class Host:
         return sum(self.read(axis, DATA) << 8 * place for place in range(count))
 
     def finish(self, axis: int) -> tuple[int, int]:
-        """Wait for the end; return finish status and remaining pulses."""
+        """Wait for the end of the motion; return finish status and remaining pulses."""
         self.idle(axis)
         return self.answer(axis, 0x80), self.answer(axis, 0x83, 3)
 

@@ -1,4 +1,7 @@
-"""Bytes of the bank's model: the visit that accepts a byte, and the rejected codes (BANK-HSK, BANK-GEN)."""
+"""Bytes of the bank's model: the visit that accepts a byte, and the rejected codes (BANK-HSK, BANK-GEN).
+
+V is the edge of a visit of the axis, w the edge of a write event, and R the number of cycles in a round.
+"""
 
 from __future__ import annotations
 
@@ -92,8 +95,8 @@ def test_go_and_byte_at_one_visit():
 @pytest.mark.parametrize("round_before, waits", [(0, True), (1, False)])
 @pytest.mark.parametrize("quanta, rest, clk_hz", [(260, 0, 32 * 10**6), (260, 4, 10**8), (695, 7, 10**8)])
 def test_edge_of_the_chopper_takes_the_visit(quanta, rest, clk_hz, round_before, waits):
-    """A visit accepts no byte if it schedules an edge of the chopper, for its own edge or one of the next R -
-    1 edges (BANK-HSK-02, BANK-CHP-01).
+    """A visit accepts no byte if it schedules an edge of the chopper for the edge of the visit or for one of
+    the next R - 1 edges (BANK-HSK-02, BANK-CHP-01).
     """
     host = Host(4, clk_hz=clk_hz)
     last = host.send(3, "c 2A d 05 d 05 d 04 d 00")
@@ -144,8 +147,8 @@ def test_new_answer_while_the_old_one_is_read(late, left):
 @pytest.mark.parametrize("rl", range(9, 13))
 @pytest.mark.parametrize("axis", [5, 6])
 def test_one_builder(axis, rl):
-    """While a table of another axis is built, the last byte waits; visits from 2 cycles after the end of the
-    build accept it (BANK-HSK-05, BANK-INI-01).
+    """While a table of another axis is built, the last byte of an initialisation waits; visits from 2 cycles
+    after the end of the build accept it (BANK-HSK-05, BANK-INI-01).
     """
     host = Host()
     host.send(1, f"c 0A d {rl:02X} d 04 d 04")
@@ -160,8 +163,8 @@ def test_one_builder(axis, rl):
 
 
 def test_command_need_not_wait_for_the_builder():
-    """A command does not wait for the table of another axis, and replaces a last byte that waits
-    (BANK-HSK-05).
+    """A command does not wait for the table of another axis, and replaces the last byte of an initialisation
+    that waits (BANK-HSK-05).
     """
     host = Host()
     host.send(6, "c 0A d 09 d 04 d 04")

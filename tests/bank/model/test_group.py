@@ -1,4 +1,8 @@
-"""MASK, GO and STOP of the bank's model (BANK-GRP)."""
+"""MASK, GO and STOP of the bank's model (BANK-GRP).
+
+g is the edge of the write event of GO or STOP, V the edge of a visit of the axis, R the number of cycles in a
+round, and W the pulse and set-up time of 5 us in cycles.
+"""
 
 from __future__ import annotations
 
@@ -193,7 +197,7 @@ def test_stop_acts_on_the_next_edge(offset, pulses):
 
 
 def test_stop_and_limit_on_one_edge():
-    """STOP and a limit on the same edge set both bits (BANK-GRP-04, P104-LIM-09)."""
+    """STOP and a limit on the same edge set both finish bits (BANK-GRP-04, P104-LIM-09)."""
     for late, status in ((0, 0xD5), (1, 0xC5), (-1, 0x95)):
         host = held(8, count=1)
         stop = host.t + 50
@@ -204,8 +208,8 @@ def test_stop_and_limit_on_one_edge():
 
 @pytest.mark.parametrize("after, stopped", [(0, True), (1, True), (30, True), (64, True), (65, False)])
 def test_operation_that_starts_after_stop(after, stopped):
-    """STOP at g also ends operations that start at visits g (as running ones) and g + 1 .. g + R, but no
-    later ones (BANK-GRP-04).
+    """STOP at g also ends operations that start at visit g, which count as running, and at visits g + 1 to g
+    + R, but no later operations (BANK-GRP-04).
     """
     host = Host(64)
     host.ready(4)

@@ -1,5 +1,7 @@
 """Motion of the bank's model, exact to the cycle: which events are on their own edge, and which wait for a
 visit (BANK-MOT).
+
+V is the edge of a visit of the axis, and W the pulse and set-up time of 5 us in cycles.
 """
 
 from __future__ import annotations
@@ -120,7 +122,7 @@ def test_low_time_ends_first_in_an_immediate_end():
 )
 def test_decelerating_stop_after_an_end(known, status, finish):
     """If an end was decided on edge e, a visit before e + 5 accepts a decelerating stop as if the motion
-    continued: it sets flag and bit 6 without error 7 (BANK-MOT-03).
+    continued: the stop sets the deceleration flag and finish bit 6, without error 7 (BANK-MOT-03).
     """
     host = Host(64)
     start(host, 5, "c 43 d E7 d 03 d 00")
@@ -240,7 +242,7 @@ def test_immediate_stop_and_the_pulse_of_its_own_edge(stop_at, pulses):
 
 
 def test_stop_and_limit_on_one_edge():
-    """A stop and a limit on the same edge set both bits (P104-LIM-09)."""
+    """A stop and a limit on the same edge set both finish bits (P104-LIM-09)."""
     host = Host()
     start(host, 5, "c 45 d 63")
     visit = host.visit(5, 3000)
@@ -262,8 +264,8 @@ def test_read_of_the_switches(early, inputs):
 
 @pytest.mark.parametrize("early, pulses", [(5, 6), (4, 6), (3, 8)])
 def test_slow_limit(early, pulses):
-    """A slow-down limit that is detected on edge V - 4 sets the flag at visit V, in time for a pulse on edge
-    V (BANK-MOT-05).
+    """A slow-down limit that is detected on edge V - 4 sets the deceleration flag at visit V, in time for a
+    pulse on edge V (BANK-MOT-05).
     """
     host = Host(clk_hz=32_000_000)
     visit = start(host, 5, "c 43 d E7 d 03 d 00")
@@ -316,8 +318,8 @@ def test_slow_limit_of_the_high_part():
 
 
 def test_both_requests_in_one_visit():
-    """A slow-down limit and a decelerating stop at one visit set bits 3 and 6, without an error (P104-LIM-09
-    (3)).
+    """A slow-down limit and a decelerating stop at one visit set finish bits 3 and 6, without an error
+    (P104-LIM-09 (3)).
     """
     host = Host(64)
     start(host, 5, "c 43 d E7 d 03 d 00")

@@ -13,8 +13,8 @@ FLAT = "c 2A d 05 d 05 d 04 d 00"
 
 @pytest.mark.parametrize("rl, rh", [(9, 4), (200, 20), (255, 0), (30, 29)])
 def test_completion(rl, rh):
-    """The phases change at the visit of the last byte; the times of the chopper count from the completion
-    (BANK-INI-01, BANK-INI-02).
+    """The phases change at the visit of the last byte; the times of the chopper are counted from the
+    completion of the initialisation (BANK-INI-01, BANK-INI-02).
     """
     for axis in range(8):
         host = Host()

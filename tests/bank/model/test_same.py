@@ -39,7 +39,7 @@ def script(code: tuple[int, ...]) -> str:
 
 @st.composite
 def moves(draw: st.DrawFn) -> Move:
-    """Draw ramps and constant speeds, phase and POUT mode, both directions, all clocks, complete or cut."""
+    """Draw a move: ramp or constant speed, phase or POUT mode, direction, clock, complete or cut short."""
     rl = draw(st.integers(0, 40))
     rh, pa = draw(st.integers(0, rl)), draw(st.integers(4, 30))
     motor = draw(st.sampled_from((0x01, 0x02, 0x03, 0x05, 0x0E, 0x0F)))
@@ -70,7 +70,9 @@ def seen(changes: list[list[tuple[int, int]]], start: int, end: tuple[int, int])
 
 
 def alone(move: Move, clk_hz: int) -> Seen:
-    """Run the move on the PPMC-104; its motor pins follow by one cycle."""
+    """Run the move on the PPMC-104; its motor pins change one cycle after the event that causes the
+    change.
+    """
 
     class Single(ModelHost):
         MODEL = Ppmc104

@@ -1,4 +1,7 @@
-"""The window of the bank's model: addresses, registers, strobes, snapshots (BANK-WIN, BANK-GEN)."""
+"""The window of the bank's model: addresses, registers, strobes, snapshots (BANK-WIN, BANK-GEN).
+
+R is the number of cycles in a round.
+"""
 
 from __future__ import annotations
 

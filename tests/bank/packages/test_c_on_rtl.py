@@ -55,8 +55,8 @@ def test_motion(
 
 
 def test_interrupts(lines: Lines) -> None:
-    """The driver reports busy and pending axes of two motions, and the interrupt pin is active while one is
-    pending.
+    """The driver reports busy and pending axes of two motions, and the interrupt pin is active while one of
+    these ends is pending.
     """
     both = 1 << 7 | 1 << 3
     assert (lines["both"][0]["busy"], lines["both"][0]["irq"]) == (str(both), "0")
@@ -65,7 +65,9 @@ def test_interrupts(lines: Lines) -> None:
 
 
 def test_base_clock_of_an_axis(lines: Lines) -> None:
-    """With the slow base clock, intervals of this axis are four times as long; other axes do not change."""
+    """With the slow base clock on one axis, the intervals of this axis are four times as long; other axes do
+    not change.
+    """
     assert [line["result"] for line in lines["config"]] == ["0", "0"]
     assert pulses(lines, "slow") == (4, 0, [1280] * 3)
 
@@ -105,7 +107,7 @@ def test_ends(lines: Lines, name: str, total: int, raw: int) -> None:
 
 
 def test_jog_is_stopped_with_the_others(lines: Lines) -> None:
-    """If all axes are stopped during a jog, it ends after the pulse that was already counted."""
+    """If the driver stops all axes during a jog, the jog ends after the pulse that was already counted."""
     cw, ccw, got = pulses(lines, "jog")
     assert (ending(lines, "jog")["raw"], ccw, cw) == (0xC5, 0, ending(lines, "jog")["position"])
     assert cw in (9, 10) and got == predict_move(INIT, cw, 30).intervals
@@ -113,5 +115,7 @@ def test_jog_is_stopped_with_the_others(lines: Lines) -> None:
 
 @pytest.mark.parametrize("name", ["reset", "reset left"])
 def test_reset_in_a_motion(lines: Lines, name: str) -> None:
-    """After a reset of the bank in a motion, its end is unconfirmed, not "complete" (P104-END-04)."""
+    """If the bank is reset during a motion, the end of the motion is unconfirmed, not "complete"
+    (P104-END-04).
+    """
     assert result(lines, name) == (19, "the part does not confirm the end of the motion")

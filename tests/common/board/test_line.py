@@ -95,10 +95,12 @@ def test_does_not_sleep_while_a_script_waits(board: SimBoard, line: Line) -> Non
     assert 4.0 <= board.status().seconds - begin < 5.0
 
 
-# 106 000 is 8 % low: the bridge samples the last data bit as the stop bit.
+# 106 000 baud is 8 % below 115 200 baud: the bridge samples the last data bit as the stop bit.
 @pytest.mark.parametrize("baud", [9600, 57_600, 106_000, 230_400, 921_600])
 def test_wrong_rate_hears_no_answer(board: SimBoard, baud: int) -> None:
-    """At a wrong baud rate the bridge sends nothing that could be a response; at its own rate it responds."""
+    """At a wrong baud rate the bridge sends nothing that could be a response; at the right one it
+    responds.
+    """
     with serial.Serial(board.port, baud, timeout=0.1) as port:
         for _ in range(3):
             port.write(IDENT)

@@ -127,7 +127,7 @@ def test_alarm_stops(start_board: StartBoard) -> None:
 
 
 def test_jog_and_stop(board: SimBoard, until: Wait) -> None:
-    """A jog runs until the stop, which decelerates with the ramp; after that the motor does not move."""
+    """A jog runs until it is stopped with the deceleration ramp; after that the motor does not move."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         axis.jog(CW, high=True)

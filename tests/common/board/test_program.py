@@ -1,4 +1,4 @@
-"""The virtual board as a program: texts, start and end, sleep, waveforms."""
+"""The virtual board as a program: its text after `sim:`, start and end, sleep, waveforms."""
 
 from __future__ import annotations
 
@@ -48,7 +48,9 @@ def alive(pid: int) -> bool:
     ],
 )
 def test_bad_text(text: str, expected: str) -> None:
-    """Each mistake raises ValueError with one line; for an unknown word, the line lists the known words."""
+    """Each mistake in the text after `sim:` raises ValueError with one line; for an unknown word, the line
+    lists the known words.
+    """
     with pytest.raises(sim.SpecError) as caught:
         sim.start(text)
     message = str(caught.value)

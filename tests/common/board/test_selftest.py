@@ -102,8 +102,8 @@ def test_other_parts(part: str, tmp_path: Path) -> None:
 
 
 def test_datasheet_timing(tmp_path: Path) -> None:
-    """With DATASHEET timing, moves of each kind agree with the golden model, also with the clock of the
-    board.
+    """With DATASHEET timing, moves of each kind agree with the golden model, also those on the clock that the
+    board generates.
     """
     code, out, err = selftest("sim:part=stmc,speed=max,timing=DATASHEET", tmp_path, "--only", "moves")
     assert code == 0 and out.splitlines()[-1].endswith("0 differences"), out + err

@@ -121,7 +121,9 @@ endpackage
 
 
 def test_copies_in_which_verilator_counts() -> None:
-    """In the copy, each return that ends a function is an assignment, and all lines keep their numbers."""
+    """In the copy of a package for coverage, each return that ends a function is an assignment, and all lines
+    keep their numbers.
+    """
     copy = Copy(PACKAGE).text
     assert copy.splitlines()[0] == "package p;" + KEPT
     assert copy.splitlines()[2:8] == [
@@ -138,8 +140,8 @@ def test_copies_in_which_verilator_counts() -> None:
 
 
 def test_verilator_counts_a_copy(tmp_path: Path) -> None:
-    """If the functions above are called with each number, Verilator counts them in the copy, not in
-    the file.
+    """If the functions of PACKAGE are called with each number, Verilator counts their branches in the copy,
+    but not in the original file.
     """
     main = """#include "Vtop.h"
 int main() { VerilatedContext c; Vtop t{&c};

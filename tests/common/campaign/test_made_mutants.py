@@ -161,7 +161,7 @@ def test_a_sample_keeps_what_it_has() -> None:
 
 
 def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Endless mutants and equivalent mutants are counted separately from survivors."""
+    """Mutants whose check does not end, and equivalent mutants, are counted separately from survivors."""
     file = "rtl/common/ppmc_sync.sv"
     fault = faults(TEXT)[0]
     tried = [Tried(file, fault, verdict, "") for verdict in (KILLED, KILLED, ENDLESS, ALIVE)]

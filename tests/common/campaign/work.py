@@ -26,7 +26,7 @@ def begun(folder: Path, number: int) -> int:
 
 
 def square(what: tuple[Path, int]) -> Result:
-    """Return the square of the number; 13 fails."""
+    """Return the square of the number; raise an error for 13."""
     folder, number = what
     note(folder, number)
     time.sleep(0.05)

@@ -1,4 +1,4 @@
-"""Invalid captures and maps: one line with advice. Also the command line of `decode`."""
+"""The command line of `decode`, and invalid captures and maps, which are rejected in one line with advice."""
 
 from __future__ import annotations
 

@@ -148,7 +148,7 @@ def test_files_of_other_kinds(suffix: str, says: str, tmp_path: Path) -> None:
 
 
 def test_vcd_of_pulseview(tmp_path: Path) -> None:
-    """Changes may be on the line of their time, and $dumpvars is not required."""
+    """In a VCD, changes may follow their time on the same line, and $dumpvars is not required."""
     (tmp_path / "a.vcd").write_text(
         "$date Sat Apr  1 10:00:00 2023 $end\n$version libsigrok 0.5.2 $end\n$comment\n"
         "  Acquisition with 2/8 channels at 24 MHz\n$end\n"

@@ -1,4 +1,4 @@
-"""VCDs of our own cores, which name device and parameters; advice for files that do not."""
+"""VCDs of our own cores, which name device and parameters, and advice for files that do not name them."""
 
 from __future__ import annotations
 

@@ -12,9 +12,9 @@ from tests.common.capture.analyser import probe, write_saleae
 
 REJECTED = {
     **{"stop": 1, "table": 1, "selftest": 1},
-    # The tests have no LinuxCNC.
+    # The tests run without LinuxCNC.
     **{"hal": 1, "ppmc312-serial hal": 1, "pmc006 hal": 1},
-    # The prefix is not ASCII.
+    # The prefix of the EPICS records in ARGUMENTS is not ASCII.
     **{"ioc": 2, "ppmc312-serial ioc": 2, "pmc006 ioc": 2},
 }
 """Commands that an idle model rejects, with their exit status; they print nothing to stdout."""

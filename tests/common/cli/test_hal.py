@@ -25,11 +25,13 @@ LINES = ("ppmc312-serial", "pmc006")
 MOST_CYCLES = 5000
 Run = Callable[..., str]
 Story = Callable[["Component"], Iterator[Callable[[], object]]]
-"""Part of LinuxCNC: writes pins, and yields the conditions that it waits for."""
+"""Story that acts as LinuxCNC: it writes pins, and yields the conditions for which it waits."""
 
 
 class Component(dict[str, Any]):
-    """Component of HAL. After each cycle it continues the story; at the end of the story, SIGTERM follows."""
+    """Component of HAL. After each cycle it continues the story; at the end of the story, it sends
+    SIGTERM.
+    """
 
     def __init__(self, story: Story) -> None:
         self.story, self.steps = story, 0
@@ -359,7 +361,9 @@ def test_homing_of_two_axes(hal: Run) -> None:
 
 @pytest.mark.parametrize("part", ("ppmc2104", "bank", *LINES))
 def test_group(part: str, hal: Run, devices: list[Any], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Armed axes start together; nothing moves if one of them cannot start, and an early end stops all."""
+    """Armed axes start together. No axis moves if one of them cannot start, and an early end of one motion
+    stops all.
+    """
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
         one, two = Axis(pins, 1), Axis(pins, 2)
@@ -395,7 +399,7 @@ def test_group(part: str, hal: Run, devices: list[Any], monkeypatch: pytest.Monk
 
 
 def test_group_waits(hal: Run) -> None:
-    """A group starts after the end of a motion of its members."""
+    """A group starts only when the running motions of its members have ended."""
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
         one, two = Axis(pins, 1), Axis(pins, 2)

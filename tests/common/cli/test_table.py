@@ -23,7 +23,9 @@ ROWS = [pytest.param(row, id=f"{row.name}-{row.parts[0] or 'bridge'}") for row i
 
 @pytest.mark.parametrize("row", ROWS)
 def test_a_row_is_true_of_its_command(row: Command) -> None:
-    """The place in a row can be imported; the first row of a name has the help text that `--help` prints."""
+    """The function that a row names can be imported; the first row of a name has the help text that `--help`
+    prints.
+    """
     found = row.load()
     text = found.info.help if isinstance(found, typer.Typer) else inspect.getdoc(found)
     first = next(one for one in Commands.rows if one.name == row.name)

@@ -10,7 +10,7 @@ from enum import Enum, auto
 
 
 class Kind(Enum):
-    """Kind of the other function of a pin. It determines the uses of the pin that are excluded."""
+    """Kind of the other function of a pin. The kind determines which uses of the pin are excluded."""
 
     NEVER = auto()  # configuration, flash, JTAG, control lines of a monitor: not usable
     DRIVEN = auto()  # another chip on the board can drive it: not usable as an output, limit or alarm

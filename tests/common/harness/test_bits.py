@@ -71,7 +71,7 @@ def test_faults_of_icebox_vlog_are_repaired(tmp_path: Path, monkeypatch: pytest.
     assert "module top (s, q, clk, rst_n);\noutput [1:0] s;\noutput q;\n" in text
     assert "assign n3 = clk;\nassign n9 = 1'b1;\n" in text and "Warning" not in text and "PLL" not in text
     assert (tmp_path / "pins.pcf").read_text() == "set_io clk 35\n"
-    assert bits.counts(text) == (2, 1, 0)  # the second cell only passes q
+    assert bits.counts(text) == (2, 1, 0)  # the second cell only passes q on
 
 
 @pytest.mark.parametrize(

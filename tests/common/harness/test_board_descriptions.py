@@ -143,7 +143,7 @@ def test_bits_in_the_middle_are_not_left_out(tmp_path: Path) -> None:
 
 
 def test_written_files_are_fresh() -> None:
-    """All generated files are fresh except for spaces, and no file of a removed board remains.
+    """Except for spaces, all generated files are up to date, and no file of a removed board remains.
 
     `make lint` also compares the spaces, because it has the program that formats the tops.
     """

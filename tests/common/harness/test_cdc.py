@@ -1,4 +1,6 @@
-"""The structural check of asynchronous inputs finds registers without a synchroniser (docs/cdc.md)."""
+"""The structural check of asynchronous inputs reports each register without a synchroniser as a case
+(docs/cdc.md).
+"""
 
 from __future__ import annotations
 
@@ -41,7 +43,9 @@ def found(top: str, sources: list[Path], folder: Path) -> dict[str, list[str]]:
 
 
 def test_missing_synchroniser(tmp_path: Path) -> None:
-    """A pin, a first stage and another clock at a register are cases; a synchronised pin is none."""
+    """A register that samples a pin, a first stage or a level of another clock is a case; one that samples a
+    synchronised pin is not.
+    """
     source = tmp_path / "top.sv"
     source.write_text(TOP, encoding="utf-8")
     assert found("top", [SYNC, source], tmp_path) == {

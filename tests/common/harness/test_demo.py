@@ -63,8 +63,8 @@ def test_bytes_of_the_2104_in_words(script, meaning, reply):
 
 
 def test_remaining_pulses_know_the_end_of_their_axis():
-    """The remaining pulses are described according to the end of their own axis: 0 means one pulse if it was
-    stopped, no pulse if it is complete.
+    """The remaining pulses are described according to the end of their own axis: 0 means one pulse if the
+    motion was stopped, and no pulse if the motion is complete.
     """
     rows = exchanges(Ppmc2104Decoder(), accesses("c80 rC3 cA0 r83 c83 r00 r00 r00 cA3 r00 r00 r00"))
     assert [row.reply for row in rows[2:]] == ["1 pulse not made", "no pulse left"]

@@ -115,7 +115,7 @@ def test_another_parameter_source_or_yosys_is_another_netlist() -> None:
 
 
 def test_tests_of_the_suite_are_those_of_the_part() -> None:
-    """Except for tag and target, the tests of the suite for netlists equal those of `make test`."""
+    """The tests on netlists are the tests of `make test`, except for their tag and their make target."""
     own = {param.values[0].id: param.values[0] for part in SUITES for param in part.directed.ITEMS}
     for test in EVERYTHING:
         if test.item.module.startswith(

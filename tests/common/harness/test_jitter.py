@@ -32,7 +32,9 @@ def sampled(driven: list[Change], a: list[tuple[int, int]], b: list[tuple[int, i
 
 
 def test_late_and_prompt_changes() -> None:
-    """Each bit changes at the edge at which its first stage does; a direct pin has two levels."""
+    """Each bit changes at the edge at which its first stage changes; a pin that a register also samples
+    directly has two levels.
+    """
     driven = [Change(10, "l1_n", 0), Change(20, "auxi", 3), Change(30, "rd_n", 0), Change(30, "d_i", 7)]
     log = sampled(driven, [(10, 0b000), (20, 0b010), (21, 0b011)], [(31, 0)])
     assert log.changes[1:] == [

@@ -142,7 +142,7 @@ def test_a_value_reaches_the_command_unchanged() -> None:
 
 
 def test_variables_of_the_environment() -> None:
-    """Variables of the environment are used if the target has them; empty ones are ignored."""
+    """Variables of the environment are used if the target uses them; empty ones are ignored."""
     assert " -n 7 -k a " in make("test", J="7", T="a", COUNT="x", SEED="").stdout
     assert "J=x: expected" in make("test", J="x").stderr
 
@@ -175,7 +175,7 @@ def test_the_old_variable_states_the_new_one(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_the_environment_is_made_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Missing groups are installed first; the command runs only if this succeeds."""
+    """Missing groups of packages are installed first; the command runs only if this succeeds."""
     monkeypatch.setattr(env, "missing", lambda groups: [name for name in groups if name != "sim"])
     assert run.plan(["mutate"]).startswith(
         f"{sys.executable} -m scripts.env dev campaign || exit; .venv/bin/"

@@ -20,7 +20,7 @@ from cocotb_tests.stmc import test_random as stmc
         (ppmc2104.random_item, 1),
         (stmc.random_item, 3),
         (ppmc312.random_item, 2),
-        (ppmc312.random_item, 8043),  # a motion waits for its start until the host has sent enough
+        (ppmc312.random_item, 8043),  # the host ends while a motion waits for its start
         (ppmc312.noise_item, 1),
         (ppmc312.serial_item, 1),
         (pmc006.random_item, 2),

@@ -110,8 +110,8 @@ def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch
     ],
 )
 def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
-    """The message has the test, the values or line, and the command that repeats it; it expresses no
-    doubt.
+    """The message has the test, the values or line, and the command that repeats it; it does not doubt that
+    the failure can be reproduced.
     """
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text

@@ -76,13 +76,15 @@ def test_state_before_configuration_is_documented(family: str) -> None:
 
 @pytest.mark.parametrize("line", ["exon_n", "int_n", "irq_n", "rs485_de", "d_oe", "sd_oe"])
 def test_lines_active_before_configuration(line: str) -> None:
-    """For each line, section 4 of boards.md states how it is held at its idle level."""
+    """For each signal line, section 4 of boards.md states how the line is held at its idle level."""
     section = (project.DOCS / "boards.md").read_text().split("\n## 4 ")[1].split("\n## 5 ")[0]
     assert f"`{line}`" in section
 
 
 def test_readme_states_what_was_not_done() -> None:
-    """Below the table that says "complete", the page states what was not tested and what was done instead."""
+    """Below the table that says "complete", README.md states what was not tested and what was done
+    instead.
+    """
     parts = (project.ROOT / "README.md").read_text().split("\n## Parts\n")[1].split("\n## ")[0]
     text = " ".join(parts.split("|")[-1].split())
     for words in (

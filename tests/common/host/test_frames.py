@@ -77,8 +77,8 @@ def test_escapes() -> None:
     ],
 )
 def test_broken_frames(line: bytes, fault: Fault) -> None:
-    """UB-FRM-06: the flag that ends an invalid frame also begins the next frame, except after too long a
-    frame.
+    """UB-FRM-06: the flag that ends an invalid frame also begins the next frame, except after a frame that is
+    too long.
     """
     deframer = Deframer()
     assert deframer.feed(line) == [Broken(fault)]

@@ -260,7 +260,9 @@ def test_a_reset_between_two_moves_is_refused(
 
 @pytest.mark.parametrize("kind", ["ppmc104", "ppmc2104-x", "stmc"])
 def test_a_counter_that_jumped_contradicts_the_status(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The host compares the counts after the frame. No further frame is sent."""
+    """If the pulse counter contradicts the status, the host detects this after the frame and sends no further
+    frame.
+    """
     with opened(kind) as axis:
 
         def jump() -> None:
@@ -288,7 +290,8 @@ def test_a_floating_bus_ends_no_move(axis: Any, monkeypatch: pytest.MonkeyPatch)
     read = board.read
 
     def float_bus() -> None:
-        monkeypatch.setattr(board, "read", lambda a: read(a) | 0xFF)  # the access takes its time
+        # the original read is called, so the access takes its time
+        monkeypatch.setattr(board, "read", lambda a: read(a) | 0xFF)
 
     codes = after_start(axis, monkeypatch, 2, float_bus)
     ends = []
@@ -309,7 +312,9 @@ def test_a_board_that_disappears(axis: Any) -> None:
 
 
 def test_an_exception_during_a_frame_stops_the_motor(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If an exception leaves the block during a frame, the motion decelerates and no further move starts."""
+    """If an exception leaves the `with` block of the axis during a frame, the motion decelerates and no
+    further move starts.
+    """
     with pytest.raises(KeyboardInterrupt), opened("ppmc104") as axis:
         board = port_of(axis).board
 

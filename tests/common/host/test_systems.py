@@ -125,7 +125,7 @@ def test_names_of_ports(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_file_of_windows_in_the_text_of_a_line() -> None:
-    """The colon of a drive does not end the value of a word."""
+    """The colon after a drive letter does not end the value of a word in the text of a line."""
     text = r"program=C:\none\shuttle.asm"
     with pytest.raises(PortError, match=re.escape(f"{text}: ")):
         open_line(f"model:{text}", 9600, "pmc006")
@@ -159,7 +159,7 @@ WINDOWS_ERRORS = {
     "could not open port 'COM3': PermissionError(13, 'No', None, 5)": "another program has this port open",
     "Cannot configure port. Original message: OSError(22, 'Wrong', None, 87)": "not a serial port",
 }
-"""Messages of pyserial on Windows, which have no error number, and the beginning of ours."""
+"""Messages of pyserial on Windows, which have no error number -> beginning of the message of this project."""
 
 
 @pytest.mark.parametrize("text", WINDOWS_ERRORS)
@@ -193,7 +193,7 @@ def test_no_permission_on_macos(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_virtual_board_names_what_it_needs(
     system: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """On Windows and macOS, `sim:` prints one line."""
+    """On Windows and macOS, one line states what the port `sim:` needs."""
     monkeypatch.setattr(sys, "platform", system)
     needs = "the virtual board needs Linux with Verilator, make, g++ and perl; use model: instead"
     for start in (sim.start, sim.start_line):

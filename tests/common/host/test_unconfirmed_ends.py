@@ -250,7 +250,8 @@ def test_a_bus_that_reads_0_confirms_no_end(axis: Any, monkeypatch: pytest.Monke
     motion = axis.start_move(1000)
     board = port_of(axis).board
     read = board.read
-    monkeypatch.setattr(board, "read", lambda a: read(a) & 0)  # the access takes its time
+    # the original read is called, so the access takes its time
+    monkeypatch.setattr(board, "read", lambda a: read(a) & 0)
     with pytest.raises(Timeout, match="the part did not react in time"):
         motion.wait(5)
     assert not motion.over and motion.result is None
@@ -454,7 +455,9 @@ def test_a_command_whose_motion_a_reset_ends(
 @pytest.mark.parametrize("operation", range(8))
 @pytest.mark.parametrize("finish", range(256))
 def test_each_finish_status(finish: int, operation: int) -> None:
-    """Bit 7 and the operation confirm the end (P104-RD-03, STMC-FIN-01); with a cause, pulses remain."""
+    """Bit 7 and the operation confirm the end (P104-RD-03, STMC-FIN-01); if a cause bit is set, pulses must
+    remain.
+    """
     good = finish & 0x80 and finish & 7 == operation >= 2
     for remaining, moved in ((0, 10), (0, 9), (3, 6), (9, 0), (10, -1), (3, 7), (0, 0), (0xFFFFFF, 10)):
         cause = finish & 0x78
@@ -488,7 +491,7 @@ def test_a_status_of_no_motion(finish: int) -> None:
 def test_a_search_through_all_pulses_is_no_origin() -> None:
     """A search that ends after all its pulses is reported as complete, not as ended at the origin.
 
-    The status and the remaining pulses are the same if the origin ends the search one pulse before.
+    The status and the remaining pulses are the same if the origin ends the search one pulse earlier.
     """
     assert decode_end(0x87, 0, ENDLESS, CW, None, 7).cause is Cause.ORIGIN
     assert decode_end(0x87, 0, ENDLESS, CCW, -5, 7, 1 - ENDLESS).cause is Cause.ORIGIN

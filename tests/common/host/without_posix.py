@@ -24,7 +24,7 @@ MODULES = (
     "spwd",
     "syslog",
 )
-"""Modules that Windows does not have; termios, tty and curses, which Windows also lacks, follow."""
+"""Modules that Windows does not have. The next statement adds others, among them termios and tty."""
 MODULES += ("termios", "tty", "_curses", "_posixshmem")
 NAMES = {
     os: ("fork", "forkpty", "openpty", "killpg", "setsid", "getuid", "geteuid", "mkfifo", "ttyname"),

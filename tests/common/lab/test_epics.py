@@ -151,7 +151,9 @@ def test_every_part(part, count):
 
 
 def test_manual():
-    """The record has all fields of the table in docs/host.md, and the table has all fields with puts."""
+    """The record has all fields of the table in docs/host.md, and the table has all fields for which the IOC
+    accepts puts.
+    """
     page = (ROOT / "docs/host.md").read_text(encoding="utf-8").partition("## 17 EPICS")[2]
     rows = [row.split(" | ")[0] for row in page.splitlines() if row.startswith("| `.")]
     fields = {field for row in rows for field in re.findall(r"`\.(\w+)`", row)}
@@ -272,8 +274,8 @@ def test_stop():
 
 
 def test_homing():
-    """HOMR sets the position to 0 at the origin switch. The put fails if a limit switch comes first (here
-    with HOMF), or if STOP ends the search.
+    """HOMR sets the position to 0 at the origin switch. The put fails if a limit switch is reached before the
+    origin (here with HOMF), or if STOP ends the search.
     """
     with records("speed=max,cw=9000") as ioc:
         ioc.rejected("HOMF", 1, "a limit switch was reached before the origin")

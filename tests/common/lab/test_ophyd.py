@@ -107,7 +107,7 @@ def test_stop_in_motion(success):
     """
     with started(words="speed=1") as device:
         motor = PpmcPositioner(device, name="x")
-        motor.stop()  # no error without a motion
+        motor.stop()  # a stop without a motion is not an error
         move = motor.set(30_000)
         with pytest.raises(AxisBusy, match="x is moving"):
             motor.set(5)
@@ -119,7 +119,7 @@ def test_stop_in_motion(success):
 
 
 def test_stop_before_the_start():
-    """After a stop, neither a move nor homing starts until the caller resets the request."""
+    """After a stop, neither a move nor homing starts until the caller resets the stop request."""
     with started() as device:
         positioner = Positioner(device)
         positioner.stop()
@@ -131,7 +131,7 @@ def test_stop_before_the_start():
         positioner.stop_requested = False
         positioner.follow(positioner.start_move(100), print)
         assert positioner.position == 100 and positioner.start_move(100) is None
-        # A request between two motions of homing stops the next one.
+        # A stop request between two motions of a homing prevents the next motion.
         with pytest.raises(StoppedByCommand):
             positioner.home(False, lambda position: setattr(positioner, "stop_requested", True))
 

@@ -148,7 +148,7 @@ class ModelHost:
         return self.model.outputs[signal]
 
     def finish(self) -> tuple[int, int]:
-        """Wait for the end; return finish status and remaining value, read as a host does."""
+        """Wait for the end of the motion; return finish status and remaining value, read as a host does."""
         self.idle()
         mark = self.mark
         (status,) = self.run("c 80 r")

@@ -88,8 +88,8 @@ def put_plain(folder: Path, top: str) -> Path:
 
 @pytest.mark.parametrize(("path", "board", "on"), TCL, ids=[f"{b.name}-{o.name}" for _, b, o in TCL])
 def test_tcl_project(path, board, on, tmp_path, monkeypatch):
-    """The project of a part on a board passes its plain Verilog, all its constraint files and its top, for
-    the FPGA of the board.
+    """The project of a part on a board passes the plain Verilog of the part, all constraint files of the
+    board and the top to the tool, for the FPGA of the board.
     """
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PART", on.name)

@@ -1,4 +1,6 @@
-"""A part's module in this process: WebAssembly with wasmtime, or the equal native library with ctypes."""
+"""A part's module in this process: WebAssembly with wasmtime, or the equivalent native library with
+ctypes.
+"""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ class BlockPlayer(Player):
             await pauses.next()
 
     async def block(self, words: list[str]) -> list[str]:
-        """Write a block when the mailbox is free; return the rest of the statement."""
+        """Write a block when the mailbox is free; return the remaining words of the statement."""
         content = bytes.fromhex("".join(words))[::-1]
         await self._ready(MWEF)
         await self.host.write(WCR, 0x20)

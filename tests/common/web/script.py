@@ -16,7 +16,9 @@ from openppmc.check.records import Recording, steps
 from scripts.site.webparts import Motor, WebPart
 
 DENSE, FIRST, LONGEST = 16, 4, 8_000
-"""Number of polls without a pause; first pause in cycles, which then grows by a quarter; longest pause."""
+"""Number of polls without a pause; first pause in cycles; longest pause. Each pause is a quarter longer than
+the previous one.
+"""
 PATIENCE = 400_000_000
 """Maximum wait of a statement in cycles."""
 RESET = 16
@@ -92,7 +94,9 @@ class Player:
                     raise ScriptError(f"line {number}: {' '.join(words)}: {error}") from None
 
     def check(self, what: str, got: int, words: list[str]) -> list[str]:
-        """Store a byte that was read; compare it with that of the text, if any; return the other words."""
+        """Store a byte that was read; compare it with that of the text, if any; return the remaining words of
+        the statement.
+        """
         self.got.append(got)
         if words and re.fullmatch("[0-9A-Fa-f]{2}", words[0]):
             if got != int(words[0], 16):
@@ -136,7 +140,7 @@ class Player:
         return motor.step.partition("[")[0] if motor.phases else motor.step
 
     def pulses(self, motor: Motor) -> int:
-        """Return the number of steps of a motor since the mark."""
+        """Return the number of steps that a motor has made since the last command."""
         output = self.output(motor)
         edges = self.bench.edges(output, self.mark)
         if not motor.phases:

@@ -66,7 +66,8 @@ def test_looks(run: Run) -> None:
     values = json.loads(run(*PART, "status", "--address", "2", "--json").out)
     assert (values["position"], values["state"], values["inputs"]) == (0, "at rest", 31)
     assert len(json.loads(run(*PART, "status", "--address", "1,2", "--json").out)) == 2
-    assert "EXT1 off, level 1; EXT2 off, level 1" in run(*PART, "status").out  # the first that answers
+    # the first controller that answers
+    assert "EXT1 off, level 1; EXT2 off, level 1" in run(*PART, "status").out
     pins = json.loads(run(*PART, "io", *ONE, "--json").out)
     assert pins["gpi5"] == 1 and pins["gpo1"] == 0 and pins["ext2"] == 1
     assert "GPO1 1  GPO2 0  GPO3 1" in run(*PART, "io", "gpo1=1", "GPO3=1", *ONE).out

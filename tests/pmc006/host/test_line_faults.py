@@ -205,7 +205,8 @@ def test_a_program_that_does_not_stay() -> None:
 
 
 def test_half_a_frame_is_forgotten_before_the_next() -> None:
-    """After a cut frame, the driver sends the next frame only when the controller has discarded the rest.
+    """After an incomplete frame, the driver sends the next frame only when the controller has discarded the
+    bytes that it received.
 
     At 1200 bit/s, a controller waits longer for the rest of a frame than the master waits for a reply.
     """

@@ -178,7 +178,8 @@ def test_against_a_chopper_that_looks_at_every_clk(seed: int) -> None:
         causes.setdefault(t, []).append((what, levels))
         t += rng.choice((1, 5, 6, 20, rng.randint(1, 45), rng.randint(1, 150)))
 
-    # Registers of an equivalent synchronous circuit: state, counter, and those of the drive around them.
+    # Registers of an equivalent synchronous circuit: state and counter of the chopper, and the registers of
+    # the drive around it.
     state, count, pins = "OFF", 0, (0, 0)
     level = reference = sign_now = sign_before = enabled = 0
     wanted = []

@@ -165,8 +165,8 @@ def test_speed_mode(vs: int, ve: int, target: int, acc: int, dec: int) -> None:
     assert speeds[0] == min(vs, target) and max(speeds) <= target
     top = speeds.index(max(speeds))
     assert speeds[:top] == sorted(speeds[:top])
-    # The duration of the deceleration follows from its acceleration; up to one more update passes until the
-    # stop is detected.
+    # The duration of the deceleration follows from the coefficient `dec`; up to one more update passes until
+    # the stop is detected.
     there = dict(made.updates)[400_000]
     down = max(0, there - ve) / acceleration(dec) * 1e6
     assert -1 <= made.end - 400_000 - down <= 201

@@ -37,8 +37,8 @@ def ready(init: str = INIT_B, **pins: int) -> AnyHost:
     ],
 )
 def test_start(move, busy, first):
-    """BUSY, hold and dir change together, and pulse 1 follows after its time; the motor pins are one cycle
-    later (P104-DS-03..06).
+    """BUSY, hold and dir change together, and pulse 1 follows after its documented time; the motor pins are
+    one cycle later (P104-DS-03..06).
     """
     host = ready()
     host.run(move)
@@ -152,8 +152,8 @@ def test_speed_limit_ends_with_the_fast_part():
     ],
 )
 def test_end(move, pulses, disturb, end, opened):
-    """After the last pulse or the deciding edge, BUSY and INT change after their time, and then the mailbox
-    opens (P104-DS-06..08).
+    """After the last pulse or the deciding edge, BUSY and INT change after their documented times, and then
+    the mailbox opens (P104-DS-06..08).
     """
     host = ready(INIT_A, **({"l3_n": 0} if disturb == "l3_n" else {}))
     host.run(move)

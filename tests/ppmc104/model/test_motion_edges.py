@@ -1,6 +1,9 @@
 """Coincidences of events in the motion of the golden model, exact to the cycle.
 
 Rules: P104-LIM-09, P104-END, P104-FDC-06.
+
+W is the pulse and set-up time of 5 us in cycles. The C-event of a byte is the edge on which the core consumes
+it.
 """
 
 from __future__ import annotations
@@ -199,8 +202,8 @@ def test_suppressed_base_edge_when_the_clock_gets_faster():
 
 
 def test_external_clock_without_vsel_puts_the_pulse_off():
-    """With vsel low, the rest of 7.5 us delays the pulse after edge e_b, unless the clock is slow there
-    (P104-INT-03).
+    """With vsel low, the part of 7.5 us that has not passed at edge e_a delays the pulse after edge e_b,
+    unless the clock is slow at e_b. Both edges are those of P104-INT-03.
     """
     host = moving("c 1A d 09 d 04 d 04 d 00")
     host.pins(vsel=0)
@@ -215,6 +218,7 @@ def test_external_clock_without_vsel_puts_the_pulse_off():
     host.t = start + 2000
     host.sync()
     first, *rest = (fall - start - 3 for fall in host.pulses())
+    # In P104-INT-03, w is the time from a pulse to its first edge e_a, and the next pulse follows edge e_b.
     # Pulse 2: e_b = 100, w = 0, so 220. Pulse 3: e_a = 260, w = 40, e_b = 340, so 420. Pulse 4: e_b = 900,
     # where the clock is slow.
     assert (first, rest) == (0, [220, 420, 900])

@@ -19,8 +19,8 @@ def clock_run(host: Host, period: int, edges: int, phase: int = 0) -> None:
 
 
 def test_tim_05_external_pulse_width():
-    """With the external clock, a clock edge before W ends the low time: for R >= 1 a rising edge, for R = 0
-    the falling edge (P104-TIM-05).
+    """With the external clock, a clock edge before W ends the low time: a rising edge at rates from 1 on, the
+    falling edge at rate 0 (P104-TIM-05).
     """
     for rate, period, low in (
         (1, 64, 64),

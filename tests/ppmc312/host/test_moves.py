@@ -51,7 +51,8 @@ def after_start(
     """Call `act` when the response to the n-th start was read; return the lengths of all instructions."""
     board = port_of(part).board
     read, write, reads, lengths = board.read, board.write, [], []
-    last = 8 + 12 * (number - 1) + 4  # the position, and start, end of each move
+    # bytes read: 8 for the position; for each move, 4 for the start and 8 for the end
+    last = 8 + 12 * (number - 1) + 4
 
     def reading(a: int) -> int:
         byte: int = read(a)

@@ -315,7 +315,7 @@ def test_a_noisy_line(seed: int) -> None:
             assert isinstance(error, LinkError) or "station 1" in str(error), seed
 
 
-# ---------------------------------------------------------------------- stations that are not right
+# ---------------------------------------------------------------------- stations with wrong responses
 
 
 def test_nobody_there() -> None:

@@ -96,7 +96,7 @@ class Host(ModelHost):
         self.fall(i + 1, after)
 
     def finish(self) -> tuple[int, int]:
-        """Wait for the end; return FIN and REM, read as a host does."""
+        """Wait for the end of the motion; return FIN and REM, read as a host does."""
         self.idle()
         mark = self.mark
         (status,) = self.run("c 80 r")

@@ -88,7 +88,9 @@ def test_all_switches_active():
 @verifies("STMC-DEC-03")
 @pytest.mark.parametrize("stop", ["c 41", "l3_n"])
 def test_request_in_the_first_levels_of_a_flat_start(stop):
-    """If a level above 0 also has the divisor D1, a request at this level stops the motion immediately."""
+    """If a level above 0 also has the divisor D1, a deceleration request at this level stops the motion
+    immediately.
+    """
     host = Host(init(0x1A, 10, 9, 16))
     host.start("c 43 " + count(99))
     host.in_gap(3)

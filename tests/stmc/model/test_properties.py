@@ -109,7 +109,9 @@ def test_requests_in_any_gap(setting, n, data):
 
 
 def host_level(setting: tuple[int, int, int], k: int) -> int:
-    """Return x(k) with integers: the smallest r with 4Y < (2r + 1)^2 (STMC-RMP-01)."""
+    """Return x(k) with integers: the smallest r with 4Y < (2r + 1)^2, where Y is the square of the exact x(k)
+    (STMC-RMP-01).
+    """
     d1, d2, pa = setting
     if pa == 0 or d1 == d2:
         return d2
