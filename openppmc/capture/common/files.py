@@ -1,4 +1,4 @@
-"""Opening of a capture of any program."""
+"""Opening of a capture file in any supported format."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MENUS = {
 
 
 def read_capture(path: Path) -> Capture:
-    """Read a VCD, a CSV of Saleae or sigrok, or a .sr. Raises CaptureError."""
+    """Read a VCD file, a CSV file of Saleae or sigrok, or a .sr file. Raises CaptureError."""
     if not path.is_file():
         raise CaptureError(f"{path}: there is no such file")
     reader = READERS.get(path.suffix.lower())
