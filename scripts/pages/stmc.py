@@ -307,7 +307,7 @@ def _ready(code: int, **parameters: object) -> Bench:
 
 
 def moved(command: str, code: int = 0x0A) -> Start:
-    """Return the model during a move. The diagram's base is the edge of the last, future step."""
+    """Return the model during a move; the base of the diagram is the edge of the last step, still to come."""
     ahead = _ready(code)
     ahead.start(command)
     last = ahead.end().steps[-1]

@@ -120,7 +120,7 @@ def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], s
 
 
 def fit(board: Description, on: Carried, carrier: Carrier) -> Fitted:
-    """Return a part with its pads on a board. ProjectError: a wrong signal, header pin or package pin."""
+    """Return a part with its pads on a board; raise ProjectError for a wrong signal or pin."""
     where = f"{board.source}: parts: {on.name}"
     groups = own_pads(board, on)
     for title, signals in on.pins.items():

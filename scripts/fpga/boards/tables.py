@@ -89,7 +89,7 @@ def record_width(row: parts.Row) -> int:
 
 
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
-    """Return `text` with `body` between the lines `begin` and `end`; ProjectError without these lines."""
+    """Return `text` with `body` between the lines `begin` and `end`; raise ProjectError without them."""
     head, found, rest = text.partition(f"{begin}\n")
     _, closed, tail = rest.partition(end)
     if not found or not closed:

@@ -125,7 +125,7 @@ class Top:
         return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
 
     def connection(self, port: Port) -> str | None:
-        """Return the expression connected to a port of the carrier; None for the signal of that name."""
+        """Return the expression connected to a port of the carrier; None for the signal of the same name."""
         own, known = self.own_connection(port)
         if own:
             return known

@@ -30,7 +30,7 @@ MISSING = "Project IceStorm is not installed (Debian: apt-get install fpga-icest
 CONVERTED = {"ICESTORM_LC", "ICESTORM_RAM", "ICESTORM_PLL", "SB_IO", "SB_GB"}
 """Cells that icebox_vlog converts. It omits all other cells, such as the large RAMs and multipliers."""
 CONSTANTS = 2
-"""Most logic cells that nextpnr counts, but the bits lack, because they are unused 0 and 1 sources."""
+"""Maximum number of logic cells that only nextpnr counts, because they are unused sources of 0 and 1."""
 
 
 @dataclass(frozen=True)

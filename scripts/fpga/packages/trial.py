@@ -130,7 +130,7 @@ def try_verilator(tool: Verilator) -> None:
 
 
 def try_boards(tool: Verilator) -> None:
-    """Check that no board top causes a warning with this Verilator, which `make lint` does not use."""
+    """Check that no board top causes a warning with a Verilator other than that of `make lint`."""
     waivers, includes = tool.waivers(), [f"-I{relative(path)}" for path in include_dirs()]
     boards = [path.stem for path in listed()["boards"].files if path.stem.startswith("board_")]
     for top in boards:

@@ -70,7 +70,7 @@ def source(file: str) -> list[str]:
 
 
 def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
-    """Yield an explained hole per line of a function; ProjectError: its file has no such function."""
+    """Yield an explained hole for each line of a function; raise ProjectError without such a function."""
     inside = False
     name = entry["function"]
     for line in source(entry["file"]):
@@ -83,7 +83,7 @@ def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
 
 
 def explained() -> list[Mapping[str, str]]:
-    """Return the explained holes of holes.yml, one per line; ProjectError: a line no longer exists."""
+    """Return the explained holes of holes.yml; raise ProjectError if one of the lines no longer exists."""
     entries: list[Mapping[str, str]] = []
     for entry in yaml.safe_load(HOLES.read_text(encoding="utf-8")) or []:
         entries += _of_function(entry) if "function" in entry else [entry]

@@ -19,7 +19,10 @@ from scripts.measure.coverage.collecting import OUT
 from scripts.measure.coverage.counted import copies
 
 WALL_S = {"OPENPPMC_WALL_S": "1200"}
-"""Wall-clock limit of a test in s; coverage counters make simulations several times slower."""
+"""Wall-clock limit of a test in s.
+
+It is high, because a simulation with coverage counters takes several times as long as one without them.
+"""
 
 
 def pytest(variables: Mapping[str, str], *words: str) -> tuple[int, str]:

@@ -27,7 +27,7 @@ SHOWN = 24
 
 @cache
 def program(name: str) -> Path:
-    """Return the program of a line, built if its sources changed; ProjectError with the log's end."""
+    """Return the program of a line, built if its sources changed; raise ProjectError if the build fails."""
     line = LINES[name]
     sources = [*files(line.group), FOLDER / f"{line.top}.sv", FOLDER / "main.cpp"]
     words = [*ARGS.split(), "--prefix", "Vfuzz", "--top-module", line.top, "-o", "fuzz"]

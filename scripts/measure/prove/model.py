@@ -1,11 +1,11 @@
-"""Convert wrapper and RTL to two and-inverter graphs.
+"""Convert wrapper and RTL to two and-inverter graphs: of the assertions (as bad states), of the covers.
 
-The outputs of the first graph are the assertions, as bad states; those of the second graph are the covers.
 The module is started as ``python -m scripts.measure.prove.model JOB.json`` in a separate process, because
 yosys calls exit() on an error and writes its log to stdout. The job names the sources, the include folders,
-the top, the folder of the results, and the labels that count (empty: all). The results are: prove.aig,
-cover.aig  the graphs, each with the names of inputs and registers (.aim) *.il                  the design,
-for a trace labels.json           the labels of the outputs of each graph, in order
+the top, the folder of the results, and the labels that count (empty: all). The results are:
+    prove.aig, cover.aig  the graphs, each with the names of inputs and registers (.aim)
+    *.il                  the design, for a trace
+    labels.json           the labels of the outputs of each graph, in order
 """
 
 from __future__ import annotations

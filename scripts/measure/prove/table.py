@@ -80,7 +80,7 @@ class Proof:
         return [*(place.get(path, path) for path in files(self.group)), self.file]
 
     def broken(self) -> Change:
-        """Return the change of `breaks`. ProjectError: the old text does not occur exactly once."""
+        """Return the change of `breaks`; raise ProjectError unless the old text occurs exactly once."""
         text = (ROOT / self.breaks["file"]).read_text(encoding="utf-8")
         if (times := text.count(self.breaks["old"])) != 1:
             raise ProjectError(f"{self.name}: {self.breaks['file']} has {times} times {self.breaks['old']!r}")

@@ -70,7 +70,7 @@ def step_of(drawing: dict[str, Any]) -> int:
 
 
 def _columns(lane: Lane) -> int:
-    """Return the number of columns of a line; half-cycle-early lines have one more in their wave."""
+    """Return the columns of a line, without the additional one of a line that is half a cycle early."""
     return len(lane.get("wave", "")) - bool(lane.get("phase"))
 
 

@@ -11,7 +11,7 @@ from scripts.pages.pictures.kinds import made
 
 Levels = Mapping[str, int]
 Schedule = Sequence[tuple[int, Levels]]  # in order of time: first edge that samples the levels, levels
-Samples = Sequence[Levels | None]  # one edge for each column; None represents cycles that are not shown
+Samples = Sequence[Levels | None]  # one sample for each column; None represents cycles that are not shown
 
 LEVEL = re.compile(r"(\w+)(?: while (\w+) = (\w+))?")
 LONG = 10_000

@@ -42,7 +42,7 @@ def _lot(file: str, number: int) -> str:
 
 
 def sample(files: Sequence[str], count: int | None) -> Iterator[tuple[str, Fault]]:
-    """Yield `count` pseudo-random mutants of each folder, which a higher count also yields."""
+    """Yield `count` pseudo-random mutants of each folder; a higher count yields the same and further ones."""
     lots = [(_lot(file, fault.number), file, fault) for file in files for fault in of_file(file)]
     drawn: Counter[str] = Counter()
     kept = []

@@ -31,7 +31,7 @@ def _block_files(proof: Proof) -> set[str]:
 
 @cache
 def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
-    """Return proofs of the block itself, and of blocks that contain it, not as a stub."""
+    """Return the proofs of the block itself, and of blocks that contain it, unless a stub replaces it."""
     name = Path(file).stem
     quick = (one for one in proofs() if not one.night)
     found = [one for one in quick if ROOT / file in one.sources() and name in _block_files(one)]
