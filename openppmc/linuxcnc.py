@@ -1,7 +1,7 @@
 """Axes as a HAL component of LinuxCNC: the logic between the pins and the library.
 
 `openppmc hal` connects this logic to LinuxCNC's module `hal` and to a device; docs/coming_from.md describes
-the pins. This module does not import `hal`, so it can be tested without LinuxCNC.
+the pins. This module imports neither `hal` nor a driver, so it can be tested without LinuxCNC.
 """
 
 from __future__ import annotations

@@ -22,8 +22,7 @@ from .registers import BY_NUMBER, CAPABILITIES, Status, command_error
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 ALL_HIGH = 0xFF
 CSEL, RUN, PINS_OF_1 = (0x01, 0x02), (0x04, 0x08), 0x80
-"""Bits of the straps: csel and run of each axis; the bit that selects the axis for PINS.
-"""
+"""Bits of the straps: csel and run of each axis; the bit that selects the axis for PINS."""
 
 
 class Axes(dict[int, Axis2104]):
@@ -67,7 +66,7 @@ class Ppmc2104(Part):
         return (self.x, self.y)
 
     def _other_axis(self, number: int) -> Axis2104:
-        """Return the other axis than the one with this number."""
+        """Return the axis other than the one with this number."""
         return self.axis[3 - number]
 
     # ------------------------------------------------------------------ both axes

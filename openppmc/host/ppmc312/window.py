@@ -43,8 +43,7 @@ WAIT_READ = 0x70 | READ
 SHORTEST, MOST_REPORTS = 3, 64
 ANSWER_MS, READY_MS = 250, 50
 POSITION_SIZE, START_SIZE, STOPPED_SIZE, POSITION_BYTES = 8, 4, 8, 4
-"""Sizes in bytes: responses to a position read and to a start; report of an end; its position.
-"""
+"""Sizes in bytes: responses to a position read and to a start; report of an end; its position."""
 
 
 class Window:

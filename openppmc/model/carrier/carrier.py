@@ -34,8 +34,8 @@ class Plant:
         start: position of the motor at the beginning.
         cw, ccw: hard limits, active at positions >= cw and <= ccw.
         slow_cw, slow_ccw: slow-down limits, active at positions >= slow_cw and <= slow_ccw.
-        origin: the origin switch is active at positions <= origin; with a cam, only at positions >=
-            origin_from as well.
+        origin: the origin switch is active at positions <= origin; with a cam, only at positions from
+            origin_from to origin.
         alarm: the alarm is active from the first to the second of these positions.
         index: period of the encoder's index in pulses, with an index at position -20; 0: no index.
         block: position that the shaft cannot pass in direction CW, `None` if there is none. At this position
