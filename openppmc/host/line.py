@@ -59,7 +59,7 @@ def unanswered(
 
     Args:
         check: advice to the user if no bytes were received.
-        others: possible causes of corrupt replies.
+        others: text about possible causes of corrupt replies.
     """
     if not any(miss.received for miss in misses):
         if len(misses) < attempts:

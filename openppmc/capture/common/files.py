@@ -22,7 +22,7 @@ MENUS = {
     ".kvdat": "in KingstVIS: File, Export, CSV",
     ".dwf3logic": "in WaveForms: File, Export, Acquisition, CSV",
 }
-"""Menu entries for the CSV export of programs that write other files."""
+"""Menu entries of the CSV export, for programs whose own file formats are not supported."""
 
 
 def read_capture(path: Path) -> Capture:

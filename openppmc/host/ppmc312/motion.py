@@ -200,7 +200,7 @@ class Homing(homing.Homing):
     """Homing run; see `Axis.home`.
 
     Args:
-        index: True if searches end at an index of the encoder.
+        index: True if a search ends at an index pulse of the encoder.
     """
 
     def __init__(

@@ -114,7 +114,7 @@ class Engine:
         return default if method is None else method(*arguments)
 
     def run(self, script: bytes, interrupted: Callable[[], bool]) -> tuple[int, int, int, bytes]:
-        """Execute a script; return RESULT, POS, LAST and the data."""
+        """Execute a script; return the fields RESULT, POS and LAST of its answer, and the data."""
         self._data = bytearray()
         self._last = 0
         self._reads = 0
