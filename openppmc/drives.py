@@ -1,8 +1,9 @@
 """Axis of any part for adapters to other control systems (`openppmc.linuxcnc`, `openppmc.positioner`).
 
-One rule maps commanded values to the settings of a part: a PMC006B4 uses the next lower speed and the next
-lower acceleration. For the other parts, the length of the ramp is calculated from the commanded speeds and
-rounded up; their set-up has the nearest speeds (`host.speeds`). Units are pulses (PMC006B4: steps) and s.
+Commanded values are mapped to the settings of a part as follows. A PMC006B4 uses the next lower speed and the
+next lower acceleration. For the other parts, the length of the ramp is calculated from the commanded speeds
+and rounded up; their speeds are set to the nearest possible values (`host.speeds`). Units are pulses
+(PMC006B4: steps) and s.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from .host.pmc006.settings import coefficient, mean_acceleration
 
 SHORTEST_RAMP = 4
 HOME_PPS, SLOW_PPS = 1000, 200
-TOLERANCE = 1e-6  # of a conversion of units, in pulses or steps
+TOLERANCE = 1e-6  # tolerance of a conversion of units, in pulses or steps
 
 
 class Speeds(NamedTuple):
@@ -38,7 +39,7 @@ class Speeds(NamedTuple):
 class Drive:
     """Axis with the functions that differ between parts. This class is for parts with a ramp as set-up."""
 
-    has_acceleration = False  # True: a setting replaces the pulses of a ramp
+    has_acceleration = False  # True if a setting of the part replaces the number of ramp pulses
     _prepared: object = None
 
     def __init__(self, axis: Any, request: SetupRequest | None) -> None:
@@ -55,7 +56,7 @@ class Drive:
 
     @property
     def speeds(self) -> Speeds:
-        """Speeds that are reached."""
+        """Speeds that the set-up of the part reaches."""
         setup = self.axis.setup
         base, top = float(setup.start.reached), float(setup.high.reached)
         return Speeds(base, top, 2 * setup.ramp_pulses / (base + top))
@@ -102,7 +103,7 @@ class SettingsDrive(Drive):
 
     has_acceleration = True
 
-    _before: tuple[tuple[str, int], ...] = ()  # settings before a homing that did not end
+    _before: tuple[tuple[str, int], ...] = ()  # settings before a homing that has not ended
 
     @cached_property
     def _rising(self) -> int:

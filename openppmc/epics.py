@@ -44,7 +44,7 @@ class Units:
     Attributes:
         mres: position change of a pulse in `egu`, negative if the position decreases with CW.
         prec: decimal places that clients show.
-        limits: soft limits in `egu`, (0, 0) for none.
+        limits: soft limits in `egu`; (0, 0) for no limits.
     """
 
     mres: float = 1
@@ -54,7 +54,7 @@ class Units:
 
 
 class Abandoned(Exception):  # noqa: N818 - not an error
-    """The IOC ends while a motion continues, or another put has replaced a motion."""
+    """A put has no result: the IOC ends while the motion continues, or another put has replaced it."""
 
 
 class Alarm(ChannelAlarm):  # type: ignore[misc]
@@ -89,7 +89,7 @@ class Motor(PVGroup):  # type: ignore[misc]
     as requested.
 
     Args:
-        ioc: the IOC, which has the threads.
+        ioc: the IOC, which runs the threads of the record.
         pvname: name of the record.
         positioner: the axis, initialised.
         units: initial values.
@@ -151,7 +151,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         await self._publish()
 
     async def close(self) -> None:
-        """Wait until no thread uses the axis."""
+        """Wait until no thread of this record uses the axis."""
         if self._task is not None:
             await asyncio.wait([self._task])
 
@@ -169,7 +169,7 @@ class Motor(PVGroup):  # type: ignore[misc]
 
     @property
     def _unknown(self) -> bool:
-        """Whether a motion ended without a confirmation of the part, so that RBV is NaN."""
+        """True if a motion ended without a confirmation of the part, so that RBV is NaN."""
         return isinstance(self._problem, LinkError)
 
     def _new_alarm(self) -> tuple[AlarmStatus, AlarmSeverity]:
@@ -232,7 +232,7 @@ class Motor(PVGroup):  # type: ignore[misc]
 
         Raises:
             PpmcError: the motion ended differently from its request.
-            Abandoned: a stop or another put replaced it.
+            Abandoned: a stop or another put replaced the motion.
         """
         self._next = job
         if self._moving:
@@ -250,7 +250,7 @@ class Motor(PVGroup):  # type: ignore[misc]
             raise Abandoned
 
     async def _work(self) -> Exception | None:
-        """Execute motions until no further one is requested; return the error of the last one."""
+        """Execute motions until no further motion is requested; return the error of the last motion."""
         while True:
             error: Exception | None = None
             self._stopped = True
@@ -345,7 +345,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         """Execute a put and return the value of the field.
 
         Raises:
-            OutOfRange: the record does not support puts to this field, or the value.
+            OutOfRange: the record does not support puts to this field, or it does not support the value.
         """
         if hasattr(value, "item"):
             value = value.item()  # of numpy
@@ -466,7 +466,7 @@ class Ioc:
         self.motors = [Motor(self, name, *values) for name, values in motors.items()]
 
     def report(self, error: Exception, name: str = "") -> None:
-        """Log a problem; a problem of the port only once for all records."""
+        """Log a problem. A problem of the port is logged only once for all records."""
         if not isinstance(error, LinkError) or isinstance(error, EndUnknown):
             kind = "" if isinstance(error, PpmcError) else f"{type(error).__name__}: "
             self._log(f"{name}: {kind}{error}")

@@ -15,7 +15,7 @@ class PpmcError(Exception):
 class MissingExtraError(PpmcError):
     """A library of an extra, such as `plot` or `ophyd`, is not installed.
 
-    The message is one line with its name.
+    The message is one line that names the library.
     """
 
 

@@ -1,12 +1,13 @@
 """Import of names at their first use (PEP 562), and old names with a warning.
 
-A package with such names lists its imports twice: under `TYPE_CHECKING` for type checkers and editors, and as
-rows for this module. `tests/common/test_lazy.py` compares both with `__all__`. The modules of the package
-import each other, but not the package. Therefore, a name loads only the modules that it needs.
+A package whose names are imported at their first use lists its imports twice: under `TYPE_CHECKING` for type
+checkers and editors, and as rows for this module. `tests/common/test_lazy.py` compares both lists with
+`__all__`. The modules of the package import each other, but not the package. Therefore, a name loads only the
+modules that it needs.
 
-After a public name is changed, the old name remains available for one minor version: through `renamed` and
-the argument `old` of `lazy` for names of modules, and through `Renamed` for attributes. Type checkers do not
-know the old names.
+After a public name is changed, the old name remains available for one minor version. For names in modules,
+`renamed` or the argument `old` of `lazy` provides the old name; for attributes, `Renamed` provides it. Type
+checkers do not know the old names.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ def renamed(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
     """Return the function `__getattr__` for a module with old names.
 
     Args:
-        names: new name by old name.
+        names: maps each old name to its new name.
     """
 
     def load(name: str) -> Any:
@@ -69,8 +70,8 @@ def lazy(
 
     Args:
         rows: lines with the name of a module, relative to the package, and names in this module;
-            `PUBLIC=NAME` gives a name another public name. The names of the module "." are modules.
-        old: new name by old name.
+            `PUBLIC=NAME` makes NAME public as PUBLIC. The names in the row of the module "." are modules.
+        old: maps each old name to its new name.
     """
     places, old = {}, old or {}
     for module, *names in map(str.split, rows.strip().splitlines()):

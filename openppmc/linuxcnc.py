@@ -1,7 +1,7 @@
 """Axes as a HAL component of LinuxCNC: the logic between the pins and the library.
 
-`openppmc hal` connects it to LinuxCNC's module `hal` and to a device; docs/coming_from.md describes the pins.
-This module imports neither, so it can be tested without LinuxCNC.
+`openppmc hal` connects this logic to LinuxCNC's module `hal` and to a device; docs/coming_from.md describes
+the pins. This module imports neither `hal` nor a driver, so it can be tested without LinuxCNC.
 """
 
 from __future__ import annotations
@@ -24,7 +24,10 @@ OUTPUTS = {
 }
 RAMP = ("start-velocity", "velocity", "acceleration")
 PARAMETERS = dict.fromkeys(("scale", *RAMP, "home-velocity"), "FLOAT")
-"""Parameters. The value 0 selects the default: scale 1, and the value of the set-up for all others."""
+"""Parameters.
+
+The value 0 selects the default: 1 for the scale, and the value of the set-up for each other parameter.
+"""
 PERIOD = 0.02
 """Pause after a cycle in s."""
 
@@ -37,11 +40,14 @@ FAULTS: tuple[type[PpmcError], ...] = (
     *(EndUnknown, LinkError, LimitReached, AlarmStop, StoppedByCommand),
     *(OutOfRange, OriginNotFound, CommandRefused, GroupEndedError, PpmcError),
 )
-"""Errors by `fault-code`, from 1 on; the first class that the error belongs to."""
+"""Classes of errors.
+
+The `fault-code` of an error is the place, counted from 1, of the first class to which the error belongs.
+"""
 
 
 class AbandonedError(Exception):
-    """Homing ends, because the axis is no longer enabled."""
+    """The axis is no longer enabled; this exception ends its homing."""
 
 
 class Reading(NamedTuple):
@@ -58,7 +64,7 @@ class Machine:
     """Open device with its axes by number.
 
     Attributes:
-        start: starts moves of several axes; `None`: one after the other.
+        start: starts moves of several axes together; `None` if moves can only be started one after the other.
     """
 
     device: Any
@@ -66,7 +72,7 @@ class Machine:
     start: Callable[[Mapping[int, int]], Mapping[int, AnyMotion]] | None = None
 
     def read(self) -> Mapping[int, Reading]:
-        """Read all axes; a bank needs only a few frames for them."""
+        """Read the states of all axes. For a bank, this requires only a few frames."""
         if not hasattr(self.device, "snapshot"):
             drives = self.drives.items()
             return {number: Reading(one.axis.position, *one.switches()[:2]) for number, one in drives}
@@ -112,11 +118,11 @@ class HalAxis:
 
     Attributes:
         seen: last value of `position-cmd`.
-        pending: a move to it has to be started.
-        confirmed: the part has confirmed the end of the last motion.
-        homing: homing is running or queued.
-        on: the axis is enabled and has no fault.
-        stopping: its motion was stopped by this component.
+        pending: True if a move to `seen` has to be started.
+        confirmed: True if the part has confirmed the end of the last motion.
+        homing: True if homing is running or queued.
+        on: True if the axis is enabled and has no fault.
+        stopping: True if this component has stopped the motion of the axis.
         fault: fault code, 0 without a fault.
     """
 
@@ -143,7 +149,7 @@ class HalAxis:
 
     @property
     def in_position(self) -> bool:
-        """True if the part has confirmed an end at the position that `position-cmd` requests."""
+        """True if the part has confirmed that the motion ended at the position `position-cmd`."""
         target = self.pins["position-cmd"] * self.scale
         ready = self.on and self.confirmed and self.idle and not self.pending and math.isfinite(target)
         return ready and round(target) == self.reading.position
@@ -199,12 +205,12 @@ class Controller:
     Args:
         component: object with `newpin`, `newparam` and items, as of `hal`.
         types: the module `hal`, for its constants.
-        report: prints a line about a fault.
-        check: called in each cycle, also during homing; may raise an exception.
+        report: function that prints a line about a fault.
+        check: function that is called in each cycle, also during homing. It may raise an exception.
 
     Attributes:
         machine: open device, `None` after the port was lost.
-        reopen: True if `reset` has risen since then.
+        reopen: True if the pin `reset` has risen since the port was lost.
     """
 
     machine: Machine | None = None
@@ -227,7 +233,7 @@ class Controller:
         self._axes = {number: HalAxis(component, types, number) for number in numbers}
 
     def attach(self, machine: Machine) -> None:
-        """Use a device that was opened. The faults of a lost port end."""
+        """Use an open device, and clear the faults that the lost port has caused."""
         self.machine, self.reopen = machine, False
         for number, axis in self._axes.items():
             axis.drive, axis.fault = machine.drives[number], 0
@@ -324,7 +330,7 @@ class Controller:
             self._end_group(f"axis {axis.number} of the group has ended early")
 
     def _start_group(self) -> None:
-        """Start the armed axes together when all of them are at standstill."""
+        """Start the axes that are armed for a common start when all of them are at standstill."""
         self._waiting = self._common.rose("group-start") or (
             self._waiting and bool(self._common["group-start"])
         )
@@ -346,14 +352,17 @@ class Controller:
             self._axes[number].motion = motion
 
     def _end_group(self, reason: str) -> None:
-        """Set a fault in each member that still moves. This clears `on`, so the next cycle stops it."""
+        """Set a fault in each axis of a group that still moves.
+
+        The fault clears `on`, so the next cycle stops the axis.
+        """
         members, self._members, error = self._members, (), GroupEndedError(reason)
         for axis in members:
             if axis.motion and not axis.stopping:
                 self._fail(axis, error)
 
     def _home(self, axis: HalAxis) -> None:
-        """Home an axis. The cycles of the others continue; they home later."""
+        """Home an axis. The cycles of the other axes continue, but only one axis homes at a time."""
 
         def progress(now: object) -> None:
             self._cycle()

@@ -49,8 +49,8 @@ class Part:
     Attributes:
         address: port with `bits` address lines.
         parameters: parameters with their defaults.
-        inputs: name -> width, and the level of all bits if there is no pad.
-        outputs: name -> width.
+        inputs: by name, the width, and the level of all bits of an input without a pad.
+        outputs: by name, the width.
 
     A width is a number of bits, or `*` and a number of bits per axis.
     """
@@ -110,7 +110,7 @@ def _plain(path: Path, expected: Mapping[str, Any]) -> None:
 
 
 def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapping[str, Any]) -> bool:
-    """Add the files to the platform, each once.
+    """Add the source files to the platform, each only once.
 
     Returns:
         True if the parameters are fixed in the files (plain Verilog).

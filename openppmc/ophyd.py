@@ -37,7 +37,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     and any thread can call them. Other code must not use the device during this time.
 
     Args:
-        device: open device whose axis is initialised; it must exist as long as the positioner.
+        device: open device whose axis is initialised. The device must exist as long as the positioner.
         axis: number of the axis from 1 on, or the station.
         pulses_per_unit: pulses per `egu`; negative if the position decreases in direction CW.
         limits: soft limits in `egu`, (0, 0) for no limits. Limit switches of the machine also end a motion.

@@ -42,7 +42,10 @@ LAYER_OF = {
     "demo": "scripts.demo",
     "bench": "scripts.measure.bench",
 }
-"""Columns that contain places -> package in which each part has its folder."""
+"""Columns of the table that contain places of objects.
+
+The value of a column is the package in which each part has its folder.
+"""
 
 
 @dataclass(frozen=True)
@@ -54,25 +57,27 @@ class Row:
         title: name in messages, on pages and pictures.
         of: part whose folder this variant shares. Where an entry of the variant is empty, the entry of that
             part is used, except for the columns in OWN.
-        number: number of the part on the UART bridge (IDENT); 0 = not on the bridge.
+        number: number of the part in IDENT of the UART bridge; 0 if the part is not accessed through the
+            bridge.
         axes: largest number of axes on the bridge.
-        rules: prefixes of its rule IDs. IDs with the first prefix contain a subject (P104-CMD-07); others
-            contain only a number (J105-07).
+        rules: prefixes of the rule IDs of the part. IDs with the first prefix contain a subject
+            (P104-CMD-07); IDs with other prefixes contain only a number (J105-07).
         rtl: group in rtl/files.yml.
-        top: its top module.
-        families: FPGA families for which it is built.
-        presenter: its output on the command line.
-        script_commands: its own commands in script files.
-        docs: pages of its folder in docs/ in addition to README.md and traceability.md.
-        selftest: actions of its board in `openppmc selftest`.
+        top: top module of the part.
+        families: FPGA families for which the part is built.
+        presenter: output of the part on the command line.
+        script_commands: commands in script files that only this part supports.
+        docs: pages in the folder of the part in docs/, in addition to README.md and traceability.md.
+        selftest: plan of `openppmc selftest` for a board with the part.
         carrier: True if there is a <part>_carrier, and therefore a virtual board and bitstreams.
-        line: True if the part is a station on a serial line with commands of its own.
-        decode: decoder of its captures.
+        line: True if the part is a station on a serial line, for which the command line has separate
+            commands.
+        decode: decoder of captures of the part.
         demo: content of `make demo`, or a function that runs the demo.
-        bench: function for `make bench`; only for parts without a test bench at pin level.
+        bench: function that `make bench` calls; only for parts without a test bench at pin level.
         soak: function that runs a seed for `make soak`.
-        gates: tests of `make test-gates` and `make test-verilog`.
-        crosses: crosses that `make coverage` counts in its golden model.
+        gates: tests that `make test-gates` and `make test-verilog` run.
+        crosses: coverage crosses that `make coverage` counts in the golden model of the part.
     """
 
     name: str
@@ -108,7 +113,7 @@ class Row:
         return self.of or self.name
 
     def load(self, column: str) -> Any:
-        """Import and return the object at the place in this column.
+        """Import and return the object whose place this column contains.
 
         Raises UnknownPartError if there is no place.
         """
@@ -334,7 +339,7 @@ def by_number(number: int) -> Row | None:
 
 
 def _chosen(options: list[str]) -> tuple[Row, ...] | None:
-    """Return the rows that the options of `names` select; `None` for unknown options."""
+    """Return the rows that the options of the command `names` select; `None` for unknown options."""
     if not options:
         return tuple(PARTS.values())
     if options in (["--folders"], ["--tops"]):

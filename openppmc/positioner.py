@@ -1,6 +1,7 @@
 """One axis of a device in engineering units, for adapters to control systems.
 
-`openppmc.ophyd` and `openppmc.epics` use it. Several threads may use the positioners of one device.
+The adapters `openppmc.ophyd` and `openppmc.epics` use this class. Several threads may use the positioners of
+one device.
 """
 
 from __future__ import annotations
@@ -21,11 +22,14 @@ from .host.motion_result import Cause, MotionResult
 from .host.part import Device
 
 POLL = 0.03
-"""Time between two polls of a motion, in seconds of the board; moving axes of a device share it."""
+"""Time between two polls of a motion, in seconds of the board's clock.
+
+If n axes of a device move, the pause after each poll is this time divided by n.
+"""
 FREE = 0.01
 """Pause in seconds after each poll, so that other threads can use the port.
 
-A lock does not serve waiting threads in turn.
+Without the pause, a thread could get the lock again before the threads that wait for it.
 """
 
 
@@ -63,7 +67,7 @@ class Positioner:
         device: the opened device.
         axis: number of the axis from 1 on, or the station.
         pulses_per_unit: negative if the position decreases with CW.
-        request: set-up of the axis for `initialise` and `set_speeds`; a PMC006B4 needs none.
+        request: set-up of the axis for `initialise` and `set_speeds`; a PMC006B4 needs no set-up.
 
     Attributes:
         stop_requested: True after `stop`. No motion starts until the caller resets it.
@@ -118,7 +122,7 @@ class Positioner:
             self._drive.initialise()
 
     def speeds(self) -> Speeds:
-        """Return the speeds that are reached."""
+        """Return the speeds that the set-up of the part reaches."""
         with self.lock:
             return self._drive.speeds
 
@@ -129,7 +133,7 @@ class Positioner:
             new_time: False to keep the acceleration of a PMC006B4, whose ramps then have another duration.
 
         Raises:
-            OutOfRange: the part does not support them; the former speeds are kept.
+            OutOfRange: the part does not support these speeds; the former speeds are kept.
         """
         base, top, seconds = (finite(value, name) for name, value in speeds._asdict().items())
         if not 0 < base <= top or seconds < 0:
@@ -171,11 +175,12 @@ class Positioner:
         """Report the position until the motion has ended, and at its end.
 
         Args:
-            report: an exception of it ends the call; the motion continues.
+            report: called about ten times a second. An exception that it raises ends the call; the motion
+                continues.
 
         Raises:
             MotionError: the motion ended differently from its request.
-            EndUnknown: the part does not confirm how it ended.
+            EndUnknown: the part does not confirm how the motion ended.
         """
         with self.lock:
             self._access.moving += 1
@@ -196,7 +201,9 @@ class Positioner:
         motion.result.check(motion.requested)
 
     def home(self, forward: bool, report: Callable[[float], None]) -> None:
-        """Find the origin switch in the direction of increasing or decreasing positions; its edge is pulse 0.
+        """Find the origin switch in the direction of increasing or decreasing positions.
+
+        The edge of the switch becomes pulse 0.
 
         A PMC006B4 searches EXT2 or EXT1.
 
@@ -220,14 +227,16 @@ class Positioner:
             self._drive.home(1 if cw else -1, 0, progress)
 
     def stop(self) -> None:
-        """Decelerate the motion in progress, if any, and prevent the start of another one."""
+        """Decelerate the motion in progress, if any, and prevent the start of further motions."""
         self.stop_requested = True
         self.send_stop()
 
     def send_stop(self) -> None:
-        """Send a stop to the motion in progress if `stop_requested` is True, but only one to each motion.
+        """Stop the motion in progress if `stop_requested` is True.
 
-        Homing consists of several motions.
+        Each motion receives only one stop.
+
+        Homing consists of several motions, and each of them must be stopped.
         """
         with self.lock:
             motion = self.axis.motion
@@ -240,7 +249,7 @@ class Positioner:
                 pass  # the motor has just stopped
 
     def _check_stop(self, position: int, pulses: int) -> None:
-        """Raise StoppedByCommand if a stop was requested before the start of a motion."""
+        """Raise StoppedByCommand if a stop has been requested, so that no motion starts."""
         if self.stop_requested:
             MotionResult(Cause.STOP, 0, pulses, position, 0).check(pulses)
 

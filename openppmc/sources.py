@@ -1,6 +1,6 @@
 """Reader of rtl/files.yml, the list of all RTL sources. It does not require a YAML package.
 
-The file has only this form; any other line is an error:
+Every line of the file must have one of these forms:
 
     group:
       about: description, one line
@@ -23,7 +23,7 @@ LIST = "rtl/files.yml"
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.S)
 _OWN = re.compile(r"^\s*(?:module|package|interface)\s+(?:automatic\s+|static\s+)?(\w+)", re.M)
 
-# A package is followed by `::`, a module by its parameters or by the name of its instance.
+# The name of a package is followed by `::`, the name of a module by its parameters or its instance name.
 _USED = re.compile(r"\b(\w+)(?=\s*::|\s*#\s*\(|\s+\w+\s*\()")
 
 
@@ -108,7 +108,7 @@ DIGEST_BYTES = 4
 
 
 def digest(root: Path, *names: str) -> bytes:
-    """Return the digest (4 bytes) of the sources of these groups and their needs.
+    """Return the digest (4 bytes) of the sources of these groups and of all groups that they need.
 
     Raises:
         SourcesError: a file is missing.
@@ -141,7 +141,7 @@ def build_define(build: bytes) -> str:
 
 
 def walls(listed: Mapping[str, Group]) -> list[str]:
-    """Return the errors in `needs`, a line for each.
+    """Return the errors in the lists `needs` of the groups, one line for each error.
 
     It is an error if a file uses a module or package of a group that is not in `needs`, or if a group in
     `needs` is not used.

@@ -21,7 +21,7 @@ PIPE_CLOSED = 141
 NARROW = 80
 """Number of columns of a terminal below which a table that is too wide is printed as a list.
 
-Below this width, help is plain text.
+On such a terminal, help is plain text.
 """
 
 ASCII = {
@@ -35,7 +35,10 @@ ASCII = {
     "▶": ">", "▸": ">", "◂": "<", "✓": "ok", "✗": "x", "§": "section ", "ß": "ss", "ø": "o", "æ": "ae",
     "%": "\u066a",  # cp864 has only the Arabic percent sign
 }  # fmt: skip
-"""Replacement of characters that an encoding does not have. Letters lose their accents."""
+"""Replacement of characters that an encoding does not have.
+
+In addition, letters lose their accents.
+"""
 
 
 class StdoutLost(SystemExit):
@@ -53,7 +56,7 @@ class StdoutLost(SystemExit):
 
     @property
     def line(self) -> str:
-        """Line for the user; empty if the reader has ended and no motor was moving."""
+        """Line that is printed for the user; empty if the reader has ended and no motor was moving."""
         if self.status == PIPE_CLOSED and not self.motors:
             return ""
         line = f"error: stdout: cannot be written ({self.reason})"
@@ -143,7 +146,7 @@ class _Stream(io.TextIOWrapper):
 
 
 class Ended:
-    """End of a block of `wrapped`.
+    """Object for the end of a block of `wrapped`.
 
     Attributes:
         status: exit status, set by the block.
@@ -154,7 +157,7 @@ class Ended:
 
 @contextmanager
 def wrapped() -> Iterator[Ended]:
-    """Accept any text on stdout and stderr in the block.
+    """Context manager in whose block stdout and stderr accept any text.
 
     If stdout cannot be written, StdoutLost ends the block, and one line on stderr states the reason. An exit
     status other than 0 that the block has set is kept, because the block has already reported its error. Text
@@ -204,12 +207,13 @@ def is_narrow() -> bool:
 
 
 def _opened(stream: TextIO | None, flags: int, mode: str = "w") -> TextIO:
-    """Return a stream, or a replacement for a closed one.
+    """Return the stream, or a replacement for it if it is closed.
 
     Without the replacement, the next file or port that is opened would get the number of the closed stream.
 
     Args:
-        flags: O_RDONLY: a write fails; O_WRONLY: written text is discarded.
+        flags: flags of the null device. With O_RDONLY, a write fails; with O_WRONLY, written text is
+            discarded.
     """
     if stream is not None:
         return stream

@@ -1,4 +1,4 @@
-"""Text files: UTF-8 with or without a byte order mark, UTF-16, Latin-1."""
+"""Reader of text files in UTF-8 with or without a byte order mark, UTF-16, or Latin-1."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def chunks(path: Path, size: int = 1 << 19) -> Iterator[bytes]:
 
     Raises:
         OSError: the file cannot be read.
-        NotTextError: the file is in UTF-16 or UTF-32 and damaged.
+        NotTextError: the file is encoded in UTF-16 or UTF-32, and is damaged.
     """
     with path.open("rb") as file:
         data = file.read(size)

@@ -41,7 +41,7 @@ sys.exit(main())
 
 
 class SetupError(Exception):
-    """Raised if the set-up has failed; the text is one line that states what is wrong and what to do."""
+    """The set-up has failed; the text is one line that states what is wrong and what to do."""
 
 
 def digest() -> str:
@@ -59,7 +59,7 @@ def stamp(group: str) -> Path:
 def missing(groups: Iterable[str]) -> list[str]:
     """Return the groups that are not installed as pyproject.toml and the lock require.
 
-    A .venv that is a link belongs to another checkout, which maintains it: the result is empty.
+    A .venv that is a link belongs to another checkout, which maintains it. In this case, the result is empty.
     """
     if VENV.is_symlink():
         return []
@@ -80,7 +80,7 @@ class Progress:
         self.label, self.begin = label, time.monotonic()
 
     def show(self, text: str, count: int = 0, done: bool = False) -> None:
-        """Show the current step with the number of packages so far, or show the result."""
+        """Show the current step with the number of packages that are done, or show the result."""
         line = f"{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)"
         if sys.stdout.isatty():
             line = line[: shutil.get_terminal_size().columns - 1]
@@ -130,7 +130,7 @@ def make_venv() -> None:
             text = f".venv: broken and not removable ({error.strerror}); remove it, then repeat"
             raise SetupError(text) from None
     progress.show("making .venv")
-    # This module may run in the Python of the broken .venv, which is a link to the Python that created .venv.
+    # This module may run with the Python of the broken .venv, a link to the Python that created .venv.
     python = os.path.realpath(sys.executable)
     made = subprocess.run([python, "-m", "venv", VENV], capture_output=True, text=True, check=False)
     if made.returncode:

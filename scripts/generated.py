@@ -1,4 +1,4 @@
-"""Generated files, which a script writes or, with --check, compares with the existing files."""
+"""Generated files: a script writes them or, with --check, compares them with the existing files."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def current(target: str, files: Mapping[Path, str | bytes]) -> None:
 
 
 def raw(content: str | bytes) -> bytes:
-    """Return the bytes of a content."""
+    """Return the content of a file as bytes."""
     return content.encode() if isinstance(content, str) else content
 
 

@@ -25,7 +25,7 @@ OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
 
 
 class WrongError(Exception):
-    """Raised for a wrong goal, variable or machine: one line that states what is wrong and what to do."""
+    """A goal, a variable or the machine is wrong; one line states what is wrong and what to do."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -35,9 +35,10 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 class Goal:
-    """A goal with its row of the table and the values of its variables; WrongError if it does not exist.
+    """A goal with its row of the table and the values of its variables.
 
-    Variables of the environment are also used, if the target has them.
+    If the goal does not exist, WrongError is raised. Variables of the environment are also used, if the
+    target has them.
 
     Args:
         given: variables of the command line.
@@ -104,7 +105,7 @@ class Goal:
 
 def check_machine(python: str | None) -> None:
     """Raise WrongError if the folder, the tools or the Python cannot be used to make the environment."""
-    # Spaces and letters of any language work; these characters end a name in PATH or in the scripts of pip.
+    # Only these characters are not permitted: they end a name in PATH or in the scripts of pip.
     if re.search(r"[:\"$`\\\x00-\x1f\x7f]", str(ROOT)):
         shown = re.sub(r"[\x00-\x1f\x7f]", "?", str(ROOT))
         raise WrongError(f"the project's folder must not have : \" $ ` or \\ in its path: {shown}")
@@ -129,7 +130,7 @@ def check_machine(python: str | None) -> None:
 
 
 def plan(words: list[str]) -> str:
-    """Return the shell text of the first word; raise WrongError for the first fault of any word."""
+    """Return the shell text of the goal in the first word; raise WrongError for a fault in any word."""
     given = dict(word.split("=", 1) for word in words if "=" in word)
     goals = [Goal(word, given) for word in words if "=" not in word]
     known = set().union(*(goal.known for goal in goals))

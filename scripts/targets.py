@@ -1,15 +1,15 @@
 r"""The table of make targets and their variables; ``python -m scripts.targets`` prints it (`make help`).
 
-A row of TABLE: name | groups of packages that the target needs | line of help. The command follows: shell
-text with the following marks, which scripts/run.py replaces:
+A row of TABLE has this form: name | groups of packages that the target needs | line of help. After the row,
+there is the command of the target: shell text with the following marks, which scripts/run.py replaces:
 
     {NAME} {NAME:text}   the value of a variable, quoted; the default `text` if it is not given
     {NAME/or}            the same with " or " in place of commas
     [… {NAME} …]         only if the variable is given; for a flag: only if it is 1, and {NAME} is removed
     {py} and others      abbreviations in SHORT
 
-A name with a variable (`prove NIGHT=1`) is the row of the target for this value; `NAME=`: for any value.
-`make` reads this table before the environment exists, so this module needs the standard library only.
+A row with a variable in its name (`prove NIGHT=1`) applies at this value, with `NAME=` at any value. `make`
+reads this table before the environment exists, so this module needs only the standard library.
 """
 
 from __future__ import annotations
@@ -155,7 +155,7 @@ OLD = {
 OLD_VARIABLES = {"INSIDE": "PROBE"}
 """Old names of variables; version 1.1.0 removes them."""
 
-# Name | values | line of help, in the order of the checks: HOST and the parameters depend on PART and BOARD.
+# Name | values | line of help. PART and BOARD are checked before HOST and the parameters that depend on them.
 VARIABLE_TABLE = """
 PYTHON | any | Python (3.10 or newer) that makes the environment
 PART | part tops | part name
@@ -200,7 +200,7 @@ OTHER_VALUES = {
     "trace": ("PART", "part folders"),
     "test-verilog": ("SIM", "icarus own cocotb"),
 }
-"""Target -> one of its variables, with the values that this target permits."""
+"""For a target, one of its variables, with the values that this target permits."""
 
 FORMS = {
     "any": ("(?s:.*)", ""),
@@ -211,7 +211,7 @@ FORMS = {
         "parts of test names (letters, digits and _ . : -), separated by commas",
     ),
 }
-"""Form of a value -> its pattern, and its description in an error."""
+"""For each form of a value, its pattern, and its description in an error."""
 
 
 @dataclass(frozen=True)
@@ -238,7 +238,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable of the command line; its values are a range, words, or a key that `fault` resolves."""
+    """A variable of the command line. Its values are a range, words, or a key that `fault` resolves."""
 
     values: str
     says: str
@@ -268,7 +268,7 @@ VARIABLES = {
 
 
 def boards() -> dict[str, dict[str, list[str]]]:
-    """Return board -> part -> hosts, from `devices` in the board descriptions; read without PyYAML."""
+    """Return the hosts by board and part, from `devices` in the board descriptions, without PyYAML."""
     found = {}
     for path in sorted(ROOT.glob("constraints/*/board.yml")):
         text = path.read_text(encoding="utf-8")
@@ -283,7 +283,7 @@ def boards() -> dict[str, dict[str, list[str]]]:
 
 
 def limits(name: str, part: str, default: str) -> list[int]:
-    """Return the range of a variable; for a parameter, from the header of the part's top ("1e6 .. 20e6")."""
+    """Return the range of a variable; that of a parameter is in the header of the part's top."""
     if part in parts.PARTS:
         figure = r"(\d+(?: \d{3})*(?:e\d+)?)"
         for path in ROOT.glob(f"rtl/*/{parts.PARTS[part].top}.sv"):
@@ -294,7 +294,11 @@ def limits(name: str, part: str, default: str) -> list[int]:
 
 
 def part_names(columns: list[str]) -> list[str]:
-    """Return the parts whose table has one of these columns, or one of their `tops` or `folders`."""
+    """Return the parts with an entry in one of these columns.
+
+    `tops` alone selects the parts with their own top module, `folders` alone those with their own folders.
+    For `soak` alone, the name `all` is added.
+    """
     if columns in (["tops"], ["folders"]):
         return [row.name for row in (parts.tops() if columns == ["tops"] else parts.folders())]
     found = [row.name for row in parts.PARTS.values() if any(getattr(row, column) for column in columns)]
@@ -302,7 +306,7 @@ def part_names(columns: list[str]) -> list[str]:
 
 
 def fault(name: str, values: Mapping[str, str], target: str) -> str:
-    """Return a text about the fault in the value of a variable; empty if the value is valid.
+    """Return a text about the fault in the value of a variable; an empty text if the value is valid.
 
     Args:
         values: values of all variables.

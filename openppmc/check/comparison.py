@@ -1,4 +1,4 @@
-"""Result of a comparison of two lists of output edges: both sides, and the first difference."""
+"""Comparison of two lists of output edges: the edges of both sides, and the first difference."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class Mismatch:
     """First difference of two lists of edges.
 
     Attributes:
-        t: edge of the difference.
+        t: clock edge of the difference.
         signal: output that differs there.
-        expected, actual: next change (t, value) of each side, `None` without one.
+        expected, actual: next change (t, value) of the model and of the other side; `None` if there is none.
         differing: all outputs that differ, in order of time.
     """
 
@@ -37,7 +37,7 @@ class Comparison:
 
     Attributes:
         pins: pins of the part.
-        seen: name of the side that was compared with the model.
+        seen: name of the source whose edges were compared with those of the model.
     """
 
     recording: Recording
@@ -50,7 +50,7 @@ class Comparison:
 
     @property
     def edges_compared(self) -> int:
-        """Number of output edges of the run."""
+        """Number of output edges in the run."""
         return sum(len(changes) for changes in self.actual.values())
 
     @property

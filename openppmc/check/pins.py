@@ -12,7 +12,7 @@ class Pinned(Protocol):
     """Pins of a part.
 
     Attributes:
-        inputs: idle levels, without `rst_n`.
+        inputs: idle level of each input except `rst_n`.
         bus_pins: inputs that are connected to the bus or the line of the host.
         clock: input of the external clock, "" for a part without one.
     """
@@ -32,7 +32,7 @@ class ModelPins:
     """`Pinned` of a golden model.
 
     Attributes:
-        outputs: levels in reset.
+        outputs: level of each output in reset.
     """
 
     inputs: Mapping[str, int]

@@ -108,7 +108,7 @@ def by_signal(edges: Iterable[Edge], initial: Mapping[str, int]) -> dict[str, li
 
 
 def level_at(changes: list[tuple[int, int]], t: int, initial: int) -> int:
-    """Return the level at t, including changes at t.
+    """Return the level at edge t, including a change at t.
 
     The search is a bisection because a recording may have 100 000 changes.
     """

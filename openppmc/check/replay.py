@@ -6,7 +6,7 @@
 
 A time is the index of a rising clock edge; 0 is the first edge after the reset. Edge t is the first edge that
 samples an input change at t. An output change at t occurs at edge t (`model.chip`). A recording that begins
-in a reset has `rst_n` 0 and 1 in its changes.
+in a reset contains the changes of `rst_n` to 0 and to 1.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .records import Change, Edge, Recording
 
 
 def new_model(part: str, params: Mapping[str, object]) -> Any:
-    """Return the golden model of a part with these parameters of its top module.
+    """Return the golden model of a part; `params` are the parameters of its top module.
 
     Raises:
         ValueError: a value is out of range.

@@ -65,7 +65,7 @@ def _complain(error: Exception) -> int:
     """Print an error as one line and return the exit status."""
     from typer import BadParameter
 
-    usage_error = BadParameter.__bases__[0]  # UsageError of the module click that typer uses
+    usage_error = BadParameter.__bases__[0]  # UsageError of the copy of click that typer uses
     if isinstance(error, usage_error.__bases__[0]):
         context = getattr(error, "ctx", None)
         where = context.command_path if context is not None else "openppmc"

@@ -167,7 +167,7 @@ class Axis(Checked):
         raise NotImplementedError
 
     def inputs(self) -> Switches:
-        """Return the switches. The call is allowed at any time."""
+        """Return the states of the switches. The call is allowed at any time."""
         raise NotImplementedError
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
@@ -213,7 +213,7 @@ class Axis(Checked):
 
     @property
     def position(self) -> int:
-        """Pulse counter of the bridge, CW positive. The call is allowed at any time."""
+        """Position in the pulse counter of the bridge, CW positive. The call is allowed at any time."""
         position = self._position_of(self._count())
         if position is None:
             raise ProtocolError(f"{self.link.name}: this board has no pulse counter, so no position")
@@ -234,8 +234,8 @@ class Axis(Checked):
         """Set the current position to 0.
 
         Raises:
-            AxisBusy: a motion that this object started is running; at its end, it is compared with the pulse
-                counter.
+            AxisBusy: a motion that this object started is running. At the end of a motion, its pulses are
+                compared with the pulse counter, so the counter must not change before.
         """
         motion = self._motion
         if motion is not None and not motion.over and motion.poll() is not None:
@@ -372,8 +372,8 @@ class Axis(Checked):
     def stop(self, wait: bool = True) -> MotionResult | None:
         """Stop with a ramp; return the result, or `None` if wait is False.
 
-        A motion at constant speed stops immediately. It is no error if the motor is already decelerating or
-        has just stopped.
+        A motion at constant speed stops immediately. If the motor is already decelerating or has just
+        stopped, this is no error.
 
         Raises:
             NothingToStop: the motor was already stopped.
@@ -432,12 +432,12 @@ class Axis(Checked):
 
         Raises:
             LimitReached, AlarmStop, StoppedByCommand: a move ended before all pulses were output.
-            OutOfRange: a number is out of range; the moves before it that share its frame do not start.
+            OutOfRange: a number is out of range. Earlier moves in the same frame do not start either.
         """
         from .moves import AHEAD, execute_moves, run_moves  # only this method needs the module
 
         numbers = wholes(pulses, "pulses")
-        if self._position_of(0) is None:  # no counter confirms the ends within a frame
+        if self._position_of(0) is None:  # no counter confirms the ends of moves in a frame
             return (self.move_constant(one, pps) if pps and one else self.move(one) for one in numbers)
 
         def execute(moves: Sequence[int]) -> tuple[Sequence[Motion], PpmcError | None]:
@@ -477,7 +477,10 @@ class Axis(Checked):
         return self._motion_started(request, answer.number(2, signed=True))
 
     def _start_script(self, request: MotionRequest) -> Script:
-        """Return the steps before the command of a motion. The third value is the position counter."""
+        """Return the script that precedes the command of a motion.
+
+        The third value of its answer is the position counter.
+        """
         script = Script().call(READ_FINISH | self._code_bits).get(1)
         return self._add_position_read(script.extend(self._strap_script(self._clock_for(request))))
 
@@ -489,7 +492,7 @@ class Axis(Checked):
         """Store the motion that the part has started.
 
         Args:
-            begin: pulse counter before the motion.
+            begin: value of the pulse counter before the motion.
         """
         self._motion = Motion(self, request, begin)
         return self._motion

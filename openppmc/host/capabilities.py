@@ -59,7 +59,10 @@ class SetupRequest:
 
     @property
     def own_stop(self) -> bool:
-        """True if the deceleration ramp is separate, not the reversed acceleration ramp."""
+        """True if the deceleration ramp is set separately.
+
+        Otherwise, it is the reversed acceleration ramp.
+        """
         return self.stop_pps is not None or self.down_pulses is not None
 
 
@@ -68,7 +71,7 @@ class AnySetup(Protocol):
 
     Attributes:
         start, high: start speed and high speed, as requested and as reached.
-        ramp_pulses: pulses between these speeds.
+        ramp_pulses: pulses of the ramp between these speeds.
         clock: base clock of the ramp.
     """
 
@@ -90,8 +93,8 @@ class Capabilities:
         row: row of the part in the table of parts.
         axes: number of axes.
         has: names of capabilities (see above).
-        outputs: highest value of the auxiliary outputs, 0 without outputs.
-        alarm: name of the alarm input, and the advice for it.
+        outputs: highest value of the auxiliary outputs; 0 if the part has no such outputs.
+        alarm: name of the alarm input, and the advice in the message about an alarm.
         origin_between: True if the origin is between the slow-down limits, and a search ends at them.
         usual_ramp: default length of a ramp in pulses.
     """
@@ -158,7 +161,7 @@ def capabilities_of(name: str) -> Capabilities:
 
 
 def name_of(number: int) -> str:
-    """Return the name of the part with this number; for an unknown part, it contains the number."""
+    """Return the name of the part with this number; a text with the number for an unknown part."""
     row = by_number(number)
     return f"PPMC-{number}" if row is None else row.title
 

@@ -117,7 +117,7 @@ def _usual(value: Any, what: str) -> Number:
 
 
 def _seconds(value: Any, what: str) -> float:
-    """Check a time in s, which may be infinite, and return it."""
+    """Return a time in s, which may be infinite, after a check."""
     return value if isinstance(value, float) and value == inf else float(exact(value, what))
 
 

@@ -1,4 +1,6 @@
-"""Exceptions for ports, lines and rejected commands. Ends of motions are in `motion_result`.
+"""Exceptions for ports, lines and rejected commands.
+
+The exceptions for the ends of motions are in `motion_result`.
 
 Each message states what is wrong and what to do. The name of an exception is the event, as in `except
 LimitReached`; only the common base class ends in Error. An exception that only one part raises is in the
@@ -42,7 +44,7 @@ class LinkError(PpmcError):
 class PortError(LinkError):
     """The port cannot be opened.
 
-    It does not exist, is in use, is not permitted, or is not a serial port.
+    The port does not exist, is in use, may not be opened by this user, or is not a serial port.
     """
 
 
@@ -72,7 +74,8 @@ class CommandRefused(PpmcError):
         status: status byte of the part.
 
     Attributes:
-        number: error number of PPMC-104 and STMC; the PPMC-2104 has its own table.
+        number: error number in the numbering of PPMC-104 and STMC; the PPMC-2104 numbers its errors
+            differently.
     """
 
     number: int

@@ -41,7 +41,7 @@ class Fault(IntEnum):
 
 @dataclass(frozen=True)
 class Frame:
-    """Valid frame."""
+    """Frame whose CRC, length and escapes are valid."""
 
     payload: bytes
 
@@ -177,7 +177,7 @@ class RetriesExhausted(Exception):  # noqa: N818 - names the event; the link rai
     """No answer after all attempts.
 
     Args:
-        naks: NAKs of the bridge during the attempts.
+        naks: NAKs that the bridge sent during the attempts.
         received: number of bytes received during the attempts.
     """
 
@@ -217,11 +217,11 @@ class Session:
 
     @property
     def deadline(self) -> float | None:
-        """Time at which `tick` must be called if no byte arrives; `None` without a request."""
+        """Time at which `tick` must be called if no byte arrives; `None` if no request is outstanding."""
         return self._deadline if self.busy else None
 
     def restart(self) -> None:
-        """Start again after a wake-up of the link: SEQ 0, no request, no incomplete frame."""
+        """Return to the initial state after a wake-up of the link: SEQ 0, no request, no incomplete frame."""
         self._deframer.reset()
         self._next_seq = 0
         self._request = self._answer = None
@@ -250,7 +250,7 @@ class Session:
         return line
 
     def abandon(self) -> None:
-        """Cancel the outstanding request; its answer will be ignored."""
+        """Cancel the outstanding request. If its answer arrives later, it is ignored."""
         self._request = self._answer = None
 
     def receive(self, data: bytes, now: float) -> bytes | None:
@@ -263,7 +263,7 @@ class Session:
         return answer
 
     def tick(self, now: float) -> bytes:
-        """Return the request again if its deadline has passed, else no bytes.
+        """Return the line bytes of the request if its deadline has passed, else no bytes.
 
         Raises RetriesExhausted after the last attempt.
         """

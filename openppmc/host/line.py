@@ -1,4 +1,4 @@
-"""Lines with several stations: the master, motions and errors of any frame format."""
+"""Lines with several stations: the master, motions and errors. The code supports any frame format."""
 
 # ruff: noqa: N818
 
@@ -49,7 +49,7 @@ class LineEcho(LinkError):
 
 
 class LostReply(LinkError):
-    """It is unknown whether an instruction was executed. The instruction must not be executed twice."""
+    """It is unknown whether an instruction was executed, and it must not be executed twice."""
 
 
 def unanswered(
@@ -58,8 +58,8 @@ def unanswered(
     """Return the exception for a station after all attempts have failed.
 
     Args:
-        check: advice for the user if no bytes were received.
-        others: possible causes of corrupt replies.
+        check: advice to the user if no bytes were received.
+        others: text about possible causes of corrupt replies.
     """
     if not any(miss.received for miss in misses):
         if len(misses) < attempts:
@@ -82,9 +82,9 @@ class LineMotion(AnyMotion, Protocol):
 
     @property
     def result_error(self) -> EndUnknown | None:
-        """EndUnknown if the part does not confirm how the motion ended.
+        """EndUnknown error if the part does not confirm how the motion ended.
 
-        The value is `None` while the motion is running, and if the part confirms its end.
+        The value is `None` while the motion is running, and if the part confirms how the motion ended.
         """
 
     @property
@@ -99,7 +99,7 @@ class LineMotion(AnyMotion, Protocol):
         """Poll the station; set `result` or `result_error` if the motion is over."""
 
     def _current_progress(self) -> Progress:
-        """Return the progress now, or at the end of the motion."""
+        """Return the current progress; after the end of the motion, the progress at its end."""
 
 
 def wait_all(
@@ -113,7 +113,7 @@ def wait_all(
 
     Args:
         timeout: longest wait for all motions together in s, `None` for no limit.
-        progress: called about ten times a second, with the sum of the pulses of several motions.
+        progress: called about ten times a second with the progress. The pulses of several motions are added.
 
     Raises:
         Timeout: the time limit is exceeded; the running motions continue.
@@ -162,9 +162,9 @@ def _sum(motions: Sequence[LineMotion]) -> Progress:
 # Master of a line with several stations, for any frame format. It sends a frame and receives one reply.
 
 PATIENCE = 0.1
-"""Time in s, beyond the line time, that the master waits for a reply.
+"""Time in s that the master waits for a reply in addition to the transmission time on the line.
 
-A station needs 4 ms, a USB adapter up to 16 ms.
+A station needs 4 ms for a reply, and a USB adapter delays it by up to 16 ms.
 """
 BITS = 10
 _GAP_BYTES, _GAP = 5, 0.01
@@ -186,13 +186,14 @@ class ReplyReceiver(Protocol[Answer]):
 class Master(Generic[Answer]):
     """Half-duplex master: it sends a frame and receives the reply.
 
-    It counts faults, but does not repeat frames.
+    The master counts faults, but does not repeat frames.
 
     Attributes:
         port: open port.
         baud: line rate in bit/s.
         echo: True if the master receives its own bytes.
-        patience: time in s, beyond the line time, that the master waits for a reply; at most 60.
+        patience: time in s that the master waits for a reply in addition to the transmission time on the
+            line; at most 60.
         counters: counters of each station, by its number.
     """
 
@@ -206,13 +207,13 @@ class Master(Generic[Answer]):
 
     @staticmethod
     def check_patience(patience: float) -> None:
-        """Raise OutOfRange unless the patience is more than 0 s and at most 60 s."""
+        """Raise OutOfRange unless this value of `patience` is more than 0 s and at most 60 s."""
         if not 0 < exact(patience, "patience") <= 60:
             raise OutOfRange(f"patience {patience:g} s is outside 0 to 60 s")
 
     @property
     def port_patience(self) -> float:
-        """Smallest patience that the port allows in s; virtual boards may be slower than real time."""
+        """Smallest value of `patience` in s for this port; virtual boards may be slower than real time."""
         return getattr(self.port, "patience", 0.0)
 
     @property
@@ -294,7 +295,7 @@ class Master(Generic[Answer]):
             self.stray_bytes += 1  # another device sends at the same time; the reply will show the effect
 
     def _await(self, listener: ReplyReceiver[Answer], seconds: float) -> Answer | MissingReply:
-        """Return the reply, or a MissingReply with the bytes received instead."""
+        """Return the reply, or a MissingReply with the bytes that were received instead."""
         received = bytearray()
         deadline = self.clock() + seconds + self.patience
         early, self._early_bytes = self._early_bytes, b""
@@ -328,7 +329,7 @@ class Master(Generic[Answer]):
 
 
 class Station(Stoppable, Protocol):
-    """Station of the line."""
+    """Members of a station that the line needs."""
 
     @property
     def number(self) -> int: ...
@@ -343,7 +344,7 @@ StationT = TypeVar("StationT", bound=Station)
 class LineBus(Device, Generic[LineT, StationT]):
     """Line with stations; `axis` returns a station. See `part.Device`.
 
-    If its `with` block is left by an exception, motions that this object started decelerate.
+    If an exception leaves the `with` block of the line, the motions that this object started decelerate.
     """
 
     link: LineT
@@ -362,7 +363,7 @@ class LineBus(Device, Generic[LineT, StationT]):
         """Read the unsolicited reports of a station."""
 
     def axis(self, station: int) -> StationT:
-        """Return the station with this number; it does not have to be connected.
+        """Return the station with this number. The station does not have to be connected.
 
         Each call returns the same object.
         """
@@ -374,7 +375,7 @@ class LineBus(Device, Generic[LineT, StationT]):
 
     @property
     def axes(self) -> tuple[StationT, ...]:
-        """Stations used so far."""
+        """Stations that `axis` has returned so far."""
         return tuple(self._stations[number] for number in sorted(self._stations))
 
     def wait(
@@ -383,7 +384,9 @@ class LineBus(Device, Generic[LineT, StationT]):
         timeout: float | None = None,
         progress: Callable[[Progress], None] | None = None,
     ) -> list[MotionResult]:
-        """Wait until motions are over; return their results, also of motions that ended early.
+        """Wait until motions are over; return their results.
+
+        Motions that ended early are included.
 
         Args:
             motions: motions, or stations whose motions are meant; default: all stations in use.

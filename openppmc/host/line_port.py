@@ -1,6 +1,6 @@
 """Ports of a line with several stations.
 
-The ports are a device or URL opened by pyserial, a modelled line (`model:`), and a line in a separate
+A port is a device or URL that pyserial opens, a modelled line (`model:`), or a virtual line in a separate
 process (`sim:`).
 """
 
@@ -144,12 +144,15 @@ class MissingReply:
 
 
 SIM_PATIENCE = 0.25
-"""Patience in s; a reply of the virtual line passes through two processes."""
+"""Time in s that the master waits for a reply of a virtual line.
+
+The time is long, because the reply passes through two processes.
+"""
 _SHORT, _LONGEST = 0.05, 30.0
 
 
 class UrlPort(SerialPort):
-    """Device or URL opened by pyserial.
+    """Device or URL that pyserial opens.
 
     Args:
         rs485: how RTS switches the line driver; `None` if RTS does not switch it.
@@ -211,7 +214,7 @@ class SimLinePort(SimPort):
 
 
 def open_line(spec: str, baud: int, part: str, rs485: RS485Settings | None = None) -> Port:
-    """Open a port of a line. Raises PortError if that fails.
+    """Open a port of a line. Raises PortError if the port cannot be opened.
 
     Args:
         part: part of the stations, for virtual lines.

@@ -23,7 +23,9 @@ from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity,
 
 DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
-"""Time in s, beyond line time and waits, after which a request without an answer is repeated.
+"""Time in s after which a request without an answer is repeated.
+
+The transmission time on the line and the waits of the script are added to it.
 
 USB adapters and busy computers need this time.
 """
@@ -51,7 +53,7 @@ class LinkProtocol(Protocol):
 
 
 class Link:
-    """Connection to a bridge at the selected line rate, which is a context manager.
+    """Connection to a bridge at the selected line rate. A link is a context manager.
 
     Attributes:
         spec: device path, `sim:…` or `model:…`.
@@ -71,7 +73,7 @@ class Link:
         self.refusal: Callable[[Answer], Exception] = lambda answer: command_error(answer.last)
         """Creates the exception for a rejected command.
 
-        Drivers of parts with other errors replace this function.
+        Drivers of parts with other error numbers replace this function.
         """
         self._session = Session()
         self._closed = False
@@ -149,12 +151,12 @@ class Link:
             )
 
     def build(self) -> Build | None:
-        """Return the build of the bitstream, `None` if the bitstream is too old or does not report it."""
+        """Return the build of the bitstream, `None` if it is too old or does not report the build."""
         answer = self.attempt(Script().version())
         return Build.parse(answer.values[0]) if answer.result is Result.DONE else None
 
     def use_rate(self, baud: int) -> bool:
-        """Switch to another rate of RATES; return True if board and adapter support it.
+        """Switch to another line rate of RATES; return True if board and adapter support it.
 
         Otherwise return False; the link then works at 115200.
         """

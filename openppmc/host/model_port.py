@@ -1,4 +1,4 @@
-"""Port `model:`: golden bridge, golden part and plant model, in virtual time.
+"""Port `model:`: golden models of bridge and part, and a plant model, in virtual time.
 
 The line is modelled byte by byte, including the time of each byte. A byte at a wrong rate arrives as a
 framing error or a break.
@@ -21,7 +21,8 @@ from ..sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, pa
 from ..sources import build_id
 from .errors import Disconnected, PortError
 
-# `Pacer` keeps the virtual time of a model in step with real time. `whole` completes each call of a model.
+# `Pacer` keeps the virtual time of a model in step with real time. `whole` calls a model such that no signal
+# interrupts the call.
 
 T = TypeVar("T")
 
@@ -34,7 +35,7 @@ class Pacer:
     """Coupling of virtual time to wall time.
 
     Args:
-        speed: virtual seconds per second, `None` for as fast as possible.
+        speed: virtual seconds per second of wall time, `None` for as fast as possible.
     """
 
     def __init__(self, speed: float | None) -> None:
@@ -65,7 +66,7 @@ class Pacer:
 
 _Jobs = SimpleQueue[tuple[Callable[[], Any], SimpleQueue[Any]]]
 _worker: tuple[int, int, _Jobs] | None = None
-"""Worker: number of its process, its thread, its queue."""
+"""Worker that calls models: number of its process, its thread, its queue."""
 
 
 def whole(call: Callable[[], T]) -> T:

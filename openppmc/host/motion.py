@@ -22,7 +22,7 @@ READ_FINISH = 0x80
 SAFETY_POLL = 0.5
 """Seconds between reads of BUSY while waiting for the interrupt message.
 
-Noise may destroy this message.
+Noise on the line may destroy the interrupt message.
 """
 PROGRESS_POLL = 0.1
 OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
@@ -47,7 +47,7 @@ class MotionRequest:
 
     @property
     def code(self) -> int:
-        """Command byte without an axis bit."""
+        """Command byte without the bit that selects the axis."""
         group = OPERATION_PULSES if self.pulse_only else OPERATION
         return group | side(self.direction) << DIRECTION_BIT | self.operation
 
@@ -62,9 +62,9 @@ class Progress:
     """Argument of a progress callback.
 
     Attributes:
-        position: position of the pulse counter.
+        position: position in the pulse counter.
         done: pulses output since the start.
-        requested: pulses of the move, `None` if endless.
+        requested: pulses of the move, `None` for an endless motion.
         seconds: time since the start in s.
     """
 
@@ -114,7 +114,7 @@ class Handle(Checked):
 
     Attributes:
         result: result that the part has confirmed.
-        result_error: error of a motion that is over without a confirmed result.
+        result_error: error of a motion that is over but has no confirmed result.
         requested: pulses, `None` for endless motions.
     """
 
@@ -143,9 +143,10 @@ class Motion(Handle):
         requested: pulses, `None` for endless motions.
         direction: 0 = CW, 1 = CCW.
         ramped: True if the motion has ramps.
-        begin: pulse counter before the motion.
+        begin: value of the pulse counter before the motion.
         ours: False if another program started the motion.
-        new: FINISH_NEW if a script may have read the finish status already, which clears this bit.
+        new: FINISH_NEW if a script may have read the finish status already. The read clears the bit
+            FINISH_NEW.
     """
 
     requested: int | None
@@ -207,7 +208,7 @@ class Motion(Handle):
     def wait(
         self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
     ) -> MotionResult:
-        """Wait for the end of the motion and return the result, also if it ended early.
+        """Wait for the end of the motion and return the result, also if the motion ended early.
 
         Args:
             timeout: longest wait in s, `None` for no limit.
@@ -237,7 +238,7 @@ class Motion(Handle):
         return self.result
 
     def _finish(self, finish: int | None = None) -> None:
-        """Read the finish status, which also releases int_n (P104-RD-04), unless a script has read it.
+        """Read the finish status unless a script has read it. The read also releases int_n (P104-RD-04).
 
         With DATASHEET timing, BUSY rises up to 112 us after the command, and the part accepts no byte before
         (P104-DS-03). A rejection in this time means that the motion has not begun yet.
@@ -274,13 +275,13 @@ class Motion(Handle):
             self.result = self._axis._annotate(end)
 
 
-# Homing approaches the same edge from the same side for any start position.
+# For any start position, homing approaches the same edge of the switch from the same side.
 
 LONGEST_BACK_OFF = 200_000
 
 
 class OriginInput(Protocol):
-    """Switches; True = active."""
+    """States of the switches; True = active."""
 
     @property
     def origin(self) -> bool: ...
@@ -330,7 +331,7 @@ class Homing:
     def run(self, fast: bool, to_limit: bool) -> MotionResult:
         """Find the switch and set the position to 0 at its edge.
 
-        First approach the switch at high speed if requested. If the switch is active then, move away from it.
+        First approach the switch at high speed if requested. If the switch is now active, move away from it.
         Finally, search for the edge of the switch.
         """
         if (fast or to_limit) and not self._axis.inputs().origin:
@@ -344,7 +345,7 @@ class Homing:
         return replace(end, position=None if end.position is None else 0)
 
     def _search(self, direction: int) -> MotionResult:
-        """Search at constant speed."""
+        """Search for the origin switch at constant speed, and return the result."""
         end = self._axis.search(direction, self._pps).wait(progress=self._progress)
         if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
             raise OriginNotFound(
@@ -359,7 +360,7 @@ class Homing:
         """Return the result of a search if the origin switch ended it.
 
         Raises:
-            OriginNotFound: the search output all its pulses.
+            OriginNotFound: the search output all its pulses and did not find the switch.
             MotionError: another cause ended the search; see `MotionResult.check`.
         """
         if end.cause is Cause.ORIGIN:
@@ -372,7 +373,7 @@ class Homing:
         )
 
     def _approach(self, to_limit: bool) -> None:
-        """Run at high speed to the slow-down limit; if `to_limit`, continue to the hard limit."""
+        """Run at high speed to the slow-down limit; if `to_limit` is set, continue to the hard limit."""
         end = self._axis.jog(self._towards, high=True).wait(progress=self._progress)
         if to_limit and end.cause == Cause.SLOW_LIMIT:
             end = self._axis.jog(self._towards, speed=self._pps).wait(progress=self._progress)

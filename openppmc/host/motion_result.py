@@ -22,9 +22,9 @@ from ..model.motion.codes import (
 from .errors import PpmcError, ProtocolError
 
 COUNTS = 1 << 32
-"""Number of values of a pulse counter."""
+"""Number of different values of a pulse counter."""
 ALARM_INPUT = ("alarm input", "clear the drive's alarm")
-"""Name of the alarm input on parts that have one, and the advice for it."""
+"""Name of the alarm input on parts that have one, and the advice in its message."""
 
 
 class MotionError(PpmcError):
@@ -60,10 +60,10 @@ class EndUnknown(ProtocolError):
     next homing.
 
     Attributes:
-        finish: finish status that was read, `None` if the part has none or did not report one.
+        finish: finish status that was read, `None` if the part has no such status or did not report it.
         pulses: pulses counted since the start of the motion, CW positive, `None` if unknown.
-        requested: pulses of the move, `None` for endless motions and for those of another program.
-        position: current pulse counter, `None` without one.
+        requested: pulses of the move, `None` for endless motions and for motions of another program.
+        position: current value of the pulse counter, `None` without a counter.
     """
 
     asked = Renamed("requested")
@@ -135,10 +135,10 @@ class MotionResult:
     Attributes:
         pulses: pulses output, CW positive; `None` for a motion that another program started.
         remaining: pulses not output; an endless operation counts as 2^24 pulses.
-        position: pulse counter after the motion, `None` if the bridge has none.
+        position: value of the pulse counter after the motion, `None` if the bridge has no counter.
         finish: finish status byte.
         message_prefix: prefix of messages, which names the axis if the part has several.
-        alarm: name of the alarm input of the part, and the advice for it.
+        alarm: name of the alarm input of the part, and the advice in the message about an alarm.
     """
 
     cause: Cause
@@ -153,7 +153,7 @@ class MotionResult:
 
     @property
     def cause_text(self) -> str:
-        """Cause as text."""
+        """Cause of the end as text."""
         return self.cause.describe(self.alarm[0])
 
     @property
@@ -169,7 +169,7 @@ class MotionResult:
 
         Raises:
             LimitReached, AlarmStop, StoppedByCommand: a limit, the alarm or a stop ended the motion.
-            EndUnknown: no cause ended the motion, but the number of pulses is not that of the move.
+            EndUnknown: no cause ended the motion, but the number of pulses is not the requested one.
         """
         if self.cause is Cause.COMPLETE:
             wrong = requested is not None and self.pulses is not None and abs(self.pulses) != requested
@@ -221,8 +221,8 @@ def decode_end(
         where: prefix of an error message.
 
     Raises:
-        EndUnknown: bit 7 of the finish status is 0, its operation is not the expected one, or the remaining
-            pulses or the pulse counter contradict it.
+        EndUnknown: bit 7 of the finish status is 0, the finish status names another operation than
+            `operation`, or the remaining pulses or the pulse counter contradict the finish status.
     """
 
     def unknown(reason: str) -> EndUnknown:

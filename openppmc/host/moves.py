@@ -1,8 +1,8 @@
-"""Moves of one axis that follow each other: a frame contains several of them.
+"""Consecutive moves of one axis, of which a frame contains several.
 
 For each move, the frame contains the command, a wait for its end, and reads of finish status and pulse
-counter. The bridge executes these steps. It starts the next move only if the finish status names this
-operation and no cause. Otherwise, the script ends there.
+counter. The bridge executes these steps. It starts the next move only if the finish status names the
+operation of the completed move and no cause of an early end. Otherwise, the script ends there.
 """
 
 from __future__ import annotations
@@ -26,13 +26,16 @@ The host waits for the end of a longer move. Therefore, a frame ends soon if its
 """
 _SELECT_BYTES = 2
 _HEAD = 3
-"""Number of values before the first move. The last of them is the counter."""
+"""Number of values in an answer that precede those of the first move.
+
+The last of them is the position counter.
+"""
 _STATUS, _FINISH, _COUNT = -4, -2, -1
-"""Indices of the values of one move, from the end."""
+"""Indices of the values of one move in its answer, counted from the end."""
 
 
 class QueueAxis(MotionAxis, Protocol):
-    """Members of an axis (`axis.Axis`) that its queue needs."""
+    """Members of an axis (`axis.Axis`) that the functions of this module need."""
 
     _motion: Motion | None
 
@@ -52,8 +55,8 @@ def run_moves(
     Args:
         numbers: pulses of each move.
         ahead: largest number of moves that are read ahead.
-        execute: executes a frame with the first of these moves. It returns the motions that were started, of
-            which the last one may still be running, and the error that prevented the next one.
+        execute: executes a frame with the first of the given moves. It returns the motions that were started,
+            of which the last one may still be running, and the error that prevented the next move.
         empty: returns the result of a move of 0 pulses.
     """
     waiting: list[int] = []
@@ -76,7 +79,7 @@ def run_moves(
 def execute_moves(
     axis: QueueAxis, requests: Sequence[MotionRequest]
 ) -> tuple[Sequence[Motion], PpmcError | None]:
-    """Execute a frame with the first of these moves of one kind, until it is full; see `run_moves`."""
+    """Execute one frame with the first moves that fit into it; see `run_moves`."""
     script = axis._start_script(requests[0]).timeout(LONGEST_WAIT_MS)
     room = LONGEST_SCRIPT - _SELECT_BYTES - len(bytes(script))
     requests = requests[: room // len(bytes(_add_move(Script(), axis, requests[0])))]

@@ -23,7 +23,8 @@ from .port import Port
 from .registers import Status
 from .script import Script
 
-# Base class of open devices. It closes the port, and stops the motions of the device after an error.
+# Base class of open devices. At the end of its `with` block, the port is closed. If an error ends the block,
+# the motions of the device are stopped first.
 
 DeviceT = TypeVar("DeviceT", bound="Device")
 
@@ -39,7 +40,7 @@ class Transport(Protocol):
 
 
 class Stoppable(Protocol):
-    """Members of an axis that are needed to stop it."""
+    """Members of an axis that a device needs to stop it."""
 
     @property
     def _message_prefix(self) -> str: ...
@@ -55,8 +56,8 @@ class Stoppable(Protocol):
 class Device(Checked):
     """Context manager for an open device; on exit it closes the port.
 
-    If the block is left by an exception, motions that this object started decelerate. If it is left normally,
-    they continue.
+    If an exception leaves the `with` block, motions that this object started decelerate. At a normal end of
+    the block, they continue.
     """
 
     kind: Capabilities
@@ -96,7 +97,7 @@ PartT = TypeVar("PartT", bound="Part")
 
 
 class AnyInputs(Protocol):
-    """Switches; True = active."""
+    """States of the switches; True = active."""
 
     @property
     def origin(self) -> bool: ...
@@ -172,7 +173,7 @@ class Part(Device):
 
     @classmethod
     def on(cls: type[PartT], link: Link) -> PartT:
-        """Create the driver for an open link; close the link if that fails."""
+        """Create the driver for an open link; close the link if the driver cannot be created."""
         try:
             return cls(link)
         except BaseException:

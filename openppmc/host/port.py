@@ -66,8 +66,8 @@ class SerialPort:
         import serial
 
         port = serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
-        # Without this mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Not every
-        # system and adapter has it.
+        # Without this mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Some systems
+        # and adapters do not support this mode.
         with suppress(AttributeError, NotImplementedError, ValueError):
             port.set_low_latency_mode(True)
         return port
@@ -157,7 +157,7 @@ def serial_ports() -> list[tuple[str, str]]:
         from serial.tools import list_ports
 
         ports = sorted(list_ports.comports())  # COM10 follows COM9
-    except (OSError, AttributeError) as error:  # Wine lacks functions of Windows
+    except (OSError, AttributeError) as error:  # Wine lacks some functions of Windows
         raise PortError(f"the serial ports cannot be listed ({error}); name one with --port") from error
     return [(port.device, port.description if port.description != "n/a" else "") for port in ports]
 

@@ -51,7 +51,7 @@ class ReadCodes:
 
 
 FAMILY = ReadCodes()
-"""Codes of most parts."""
+"""Codes of most parts for these read commands."""
 
 
 @dataclass(frozen=True)

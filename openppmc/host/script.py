@@ -56,7 +56,7 @@ class Script:
 
     @property
     def patience(self) -> float:
-        """Longest expected run time in s: the sum of its waits, and one time limit for the mailbox."""
+        """Longest expected run time in s: all waits of the script, and one time limit for the mailbox."""
         return (self._waits_ms + self._mailbox_ms) / 1000
 
     def _add(self, name: str, code: bytes, gives: int = 0, mailbox: bool = False) -> Script:
@@ -221,7 +221,7 @@ class Result(IntEnum):
 class Answer:
     """Answer to a script.
 
-    It is complete if its result is DONE.
+    The answer is complete if its result is DONE.
 
     Attributes:
         values: data of each operation that returns data, in order. If an operation failed, its data are the
@@ -246,7 +246,7 @@ class Answer:
 
 
 class BadAnswer(ValueError):  # noqa: N818 - names the invalid object
-    """The answer does not match the script, because the other device violates the protocol."""
+    """The answer does not match the script, because the device that sent it violates the protocol."""
 
 
 def parse_answer(script: Script, body: bytes) -> Answer:
@@ -308,7 +308,7 @@ class Identity:
 
     @classmethod
     def parse(cls, data: bytes) -> Identity:
-        """Decode the 16 bytes. Raises BadAnswer if they do not begin with the mark."""
+        """Decode the 16 bytes of the answer. Raises BadAnswer if they do not begin with the mark."""
         if len(data) != IDENT_BYTES or data[:4] != IDENT_MARK:
             raise BadAnswer("no IDENT of a PPMC bridge")
         return cls(
@@ -342,7 +342,7 @@ class Build:
 
     @classmethod
     def parse(cls, data: bytes) -> Build | None:
-        """Decode the 16 bytes; return `None` if all are 0 (unknown).
+        """Decode the 16 bytes of the answer; return `None` if all are 0 (build unknown).
 
         Raises BadAnswer for another length.
         """

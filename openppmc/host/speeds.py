@@ -2,9 +2,9 @@
 
 Rules: P104-INT-01, P104-INT-02, STMC-INI-01.
 
-All speeds are exact fractions in pulses per second (pps); for a part without pulses, a pulse is a step. A
-part supports only certain speeds: base clock / (rate + 1) with rate 0 to 255, or base clock / divisor.
-Therefore a requested speed is rounded to the nearest interval.
+All speeds are exact fractions in pulses per second (pps); for a part without a pulse output, a pulse means a
+step. A part supports only certain speeds: base clock / (rate + 1) with rate 0 to 255, or base clock /
+divisor. Therefore a requested speed is rounded to the nearest interval.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def nearby(speed: Fraction | float | int) -> str:
 
 @dataclass(frozen=True)
 class BaseClock:
-    """Base clock, in whose periods the intervals are counted.
+    """Base clock. The intervals between pulses are counted in its periods.
 
     Attributes:
         period: period of the base clock in s.
@@ -39,8 +39,8 @@ class BaseClock:
         csel, vsel: levels of the strap pins that select this clock.
         external: True for the clock at the pin `clock`.
         least_rate: lowest rate byte that the driver uses with this clock.
-        beyond: number of base clocks of an interval minus its rate byte.
-        slowest_rate: highest rate.
+        beyond: number of base clock periods of an interval minus its rate byte.
+        slowest_rate: highest rate, which is that of the slowest speed.
         clk: number of the clock, on parts that number their clocks.
     """
 
@@ -88,7 +88,7 @@ class BaseClock:
         return self.speed_of(rate + self.beyond)
 
     def speed_of(self, periods: int) -> Fraction:
-        """Return the speed in pps of an interval of this number of base clocks."""
+        """Return the speed in pps if an interval lasts this number of base clock periods."""
         return 1 / (periods * self.period + self.extra)
 
     @property
@@ -106,7 +106,7 @@ class BaseClock:
         return self.slowest <= exact(pps, "speed") <= self.fastest
 
     def choose(self, pps: Number, what: str = "speed") -> Speed:
-        """Return the rate whose interval is nearest.
+        """Return the rate whose interval is nearest to that of a speed.
 
         Raises:
             OutOfRange: the speed is out of range; the message states the range.
@@ -151,7 +151,7 @@ class Speed:
 
 @dataclass(frozen=True)
 class Setup:
-    """All settings of an initialisation, with the speeds that are reached."""
+    """All settings of an initialisation, with the requested and the reached speeds."""
 
     start: Speed
     high: Speed
@@ -168,7 +168,7 @@ class Setup:
 
     @property
     def data(self) -> bytes:
-        """Data bytes of the command: RL, RH, PA low, PA high."""
+        """Data bytes of the initialisation: start rate, high rate, ramp pulses (two bytes, low first)."""
         return bytes([self.start.rate, self.high.rate]) + self.ramp_pulses.to_bytes(2, "little")
 
     @property
@@ -182,7 +182,7 @@ class Setup:
     def ramp(self) -> Ramp:
         """Return the ramp for predictions of moves.
 
-        Its rates are the number of base clocks of an interval minus 1.
+        A rate of this ramp is the number of base clock periods of an interval minus 1.
         """
         beyond = self.clock.beyond - 1
         slow, fast = self.start.rate + beyond, self.high.rate + beyond
@@ -234,7 +234,7 @@ def choose_clock(
 def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
     """Return an internal base clock that reaches the speed.
 
-    The clock with csel = first is preferred.
+    If both clocks reach it, the clock with csel = `first` is returned.
 
     Raises:
         OutOfRange: no base clock reaches the speed.

@@ -50,7 +50,7 @@ class Inputs(Switches):
 LEAST_DIVISOR = 5
 """Lowest divisor that the driver uses.
 
-The data sheet advises against lower ones, which the part would accept.
+The part accepts lower divisors as well, but the data sheet advises against them.
 """
 
 
@@ -85,7 +85,7 @@ def divided_clock(hertz: Number, external: bool = True) -> BaseClock:
 # ---------------------------------------------------------------------- capabilities on the J105 board
 
 BOARD_CLOCK = BOARD_CLOCK_HZ
-"""Second step clock of the J105 board: 48 675 Hz."""
+"""Second step clock of the J105 board."""
 
 
 class StmcCapabilities(RateCapabilities):
@@ -159,8 +159,8 @@ class Stmc(OneAxis):
         The first use of this property determines it with a read, which is possible in any state.
         """
         if not self._read_map:
-            # 81h is either the read of the inputs, or undefined (error 0). Any other error shows that it is
-            # defined.
+            # Code 81h is either the read of the inputs or undefined (error 0). Any other error shows that it
+            # is defined.
             answer = self.link.attempt(Script().call(0x81).get(1))
             if answer.result is Result.REFUSED:
                 self._read_map = "FAMILY" if answer.last >> 4 & 7 else "SHEET"

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 LONGEST_WAIT = 10.0
 """Seconds allowed for motors to decelerate.
 
-A motor that still moves then is stopped immediately.
+A motor that still moves after this time is stopped immediately.
 """
 SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
 )
 """Signals of this system that `stop_on_signals` handles."""
 NO_MOTION = "nothing was moving"
-"""Beginning of the result of `stop_motors` if motors still move after this time."""
+"""Beginning of the result of `stop_motors` if motors still move after the time limit."""
 arrived: list[int] = []
 """Signals that the command line received before it opened a board.
 
@@ -89,9 +89,9 @@ def stop_motors(
     This line also reports errors.
 
     Args:
-        seconds: longest wait; motors that still move then are stopped immediately.
+        seconds: longest wait; motors that still move after it are stopped immediately.
         stop_now: called about ten times a second; if it returns True, the motors are stopped immediately.
-        every: also stop motions that these objects did not start.
+        every: True to stop also motions that these objects did not start.
     """
     from .errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
 

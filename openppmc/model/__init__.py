@@ -1,8 +1,8 @@
 """Golden models in pure Python, with integers and fractions.
 
-They are written from the rules, not from the RTL. Each part has a module or a folder. In a folder, `part` is
-the part at pin level, `codes` defines its codes, and `carrier` connects the part to a UART bridge. A part
-imports the shared modules, but no other part:
+The models are written from the rules in the manuals, not from the RTL. Each part has a module or a folder. In
+a folder, `part` is the part at pin level, `codes` defines its codes, and `carrier` connects the part to a
+UART bridge. A part imports the shared modules, but no other part:
 
     clock       time, events, edges
     chip        blocks of a clocked part, pins; `uart`: a UART

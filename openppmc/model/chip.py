@@ -17,14 +17,14 @@ from typing import ClassVar
 from .clock import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase
 
 # Shared elements of the blocks of a model: phases of an edge of `clk`, set-up, input levels, output
-# registers. At an edge, the blocks run in the order of `Phase`. Thus each block reads the state that the
-# registers of the other blocks hold just before the edge.
+# registers. At an edge, the callbacks of the blocks run in the order of `Phase`. Thus each block reads the
+# state that the registers of the other blocks hold just before the edge.
 
 SetPin = Callable[[int, str, int], None]
 
 
 class Phase(IntEnum):
-    """Order of events at one edge of `clk`."""
+    """Order in which the events at one edge of `clk` are processed."""
 
     PINS = 0
     BUS = 1
@@ -67,7 +67,7 @@ class Context:
 
 
 class PinRegister:
-    """Output registers that follow internal levels `lag` cycles later.
+    """Output registers. They adopt the internal levels `lag` cycles later.
 
     Args:
         set_pin: set_pin(t, signal, value) sets a pin of the part.
@@ -80,7 +80,7 @@ class PinRegister:
         self._last = dict(initial)
 
     def latch(self, t: int, internal: Mapping[str, int]) -> None:
-        """Pass the internal levels after edge t to the pins."""
+        """Set the pins, `lag` cycles later, to the internal levels after edge t."""
         for signal, value in internal.items():
             if self._last[signal] != value:
                 self._last[signal] = value
@@ -120,7 +120,7 @@ class Square:
 
     @property
     def next_level(self) -> int:
-        """Level from the next toggle on."""
+        """Level of the wave from the next toggle on."""
         return self._n & 1
 
     def advance(self) -> None:
@@ -128,7 +128,7 @@ class Square:
         self._n += 1
 
     def restart(self, origin: int) -> None:
-        """Start again at edge `origin` with a low level."""
+        """Restart the wave at edge `origin` with a low level."""
         self.origin, self._n = origin, 1
 
 
@@ -197,7 +197,7 @@ class Chip(ABC):
 
     @property
     def now(self) -> int:
-        """Last edge that was simulated, -1 before edge 0."""
+        """Last edge that was simulated; -1 before edge 0 is simulated."""
         return self._queue.now
 
     @property
@@ -217,9 +217,9 @@ class Chip(ABC):
     def pins(self, t: int, **levels: int) -> None:
         """Set input levels.
 
-        Edge t is the first edge that samples them; later calls for the same t override them. "stage.rd_n"
-        is the level of a strobe in its synchroniser, if that samples a change later than a register at the
-        pin. Without it, both sample the same level.
+        Edge t is the first edge that samples these levels; later calls for the same t override them.
+        "stage.rd_n" is the level of a strobe that its synchroniser samples, if the synchroniser samples a
+        change later than a register at the pin. Without "stage.rd_n", both sample the same level.
 
         rst_n = 0 is effective immediately; the output edges that it causes have the time t.
 
@@ -276,8 +276,8 @@ class Chip(ABC):
         """Write a data byte (reg 0) or command byte (reg 1) with a strobe from edge t.
 
         Returns:
-            Edge 0 of P104-BUS-06 = t + strobe. The levels of the pins are set up to this edge, but it is not
-            run yet.
+            Edge 0 of P104-BUS-06 = t + strobe. The levels of the pins are set up to this edge, but this edge
+            is not simulated yet.
         """
         levels = self._strobe(True, reg)
         self.pins(t, **levels, d_i=byte)
@@ -303,7 +303,7 @@ class Chip(ABC):
 
     @property
     def edges(self) -> list[Edge]:
-        """All output edges so far, in order of time."""
+        """All output edges up to `now`, in order of time."""
         return self.log.edges
 
     @property

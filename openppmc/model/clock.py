@@ -1,4 +1,4 @@
-"""Time: crystal cycles, quanta, edges of `clk`, and the latencies of a core.
+"""Time in a model: crystal cycles, quanta, edges of `clk`, and the latencies of a core.
 
 A core may choose its latencies within the bounds of the rules.
 
@@ -23,9 +23,9 @@ class Latency:
     Attributes:
         c_event: from the write event to the C-event if the mailbox is open (P104-HSK-03, 0..8).
         window_open: from the end of a closed window to the C-event of a byte that waited.
-        host_pins: from an internal change to int_n, aux_n, auxo (0..2).
+        host_pins: from an internal change to the pins int_n, aux_n, auxo (0..2).
         int_pin: from an interrupt latch to int_n on parts with several latches (P2104-INT-03, -05, 0..2).
-        motor_pins: from an internal change to s, pout_n, hold, dir (0..2).
+        motor_pins: from an internal change to the pins s, pout_n, hold, dir (0..2).
         start_extra: from the start edge to the internal pulse 1, in addition to W (P104-TIM-02, 0..2).
         end_extra: from the rising edge of pout_n to the falling edge of BUSY (P104-END-01, 0..4).
         imm_end: from the deciding edge to the falling edge of BUSY if pout_n is high (P104-END-02, 0..4).
@@ -112,12 +112,15 @@ class Timebase:
         return -(-cycles * self.clk_hz // self.xtal_hz)
 
     def nearest(self, cycles: int) -> int:
-        """Return the number of cycles nearest to n crystal cycles, halves up (X and H of P104-INT-03)."""
+        """Return the number of cycles nearest to n crystal cycles; a half is rounded up.
+
+        X and H of P104-INT-03 are such numbers.
+        """
         return (2 * cycles * self.clk_hz + self.xtal_hz) // (2 * self.xtal_hz)
 
     @property
     def w(self) -> int:
-        """W = CYC(80): pulse width and direction set-up, 5 us at a 16 MHz crystal."""
+        """W = CYC(80): pulse width, and direction set-up time; 5 us at a 16 MHz crystal."""
         return self.cyc(80)
 
     @property
@@ -153,7 +156,7 @@ class QuantumCounter:
         self.origin = origin
 
     def restart(self, t: int) -> None:
-        """Restart: tick 0 is at edge t."""
+        """Restart the counter: tick 0 is at edge t."""
         self.origin = t
 
     def edge_of(self, n: int) -> int:
@@ -174,7 +177,7 @@ Callback = Callable[[int], None]
 
 
 class Event:
-    """Handle of a scheduled callback; `cancel()` is allowed at any time."""
+    """Handle of a scheduled callback. `cancel()` may be called at any time."""
 
     __slots__ = ("action",)
 
@@ -257,7 +260,7 @@ class Scheduler:
         self.now = t
 
 
-# Output edges, and the log of them that a model writes and a comparison reads.
+# Output edges, and the log of output edges that a model writes and a comparison reads.
 
 
 class Edge(NamedTuple):

@@ -70,9 +70,11 @@ DEFAULT_QUANTA = (260, 435)
 
 
 class ChopperTimes:
-    """Chopper times: the defaults until the first command 0x84, then the two values of the command.
+    """Chopper times.
 
-    They are longer if vsel is low.
+    They are the defaults until the first command 0x84, and then the two values of the last command 0x84.
+
+    Both times are longer if vsel is low.
     """
 
     def __init__(self, context: Context) -> None:
@@ -161,7 +163,10 @@ class Motion(TimedMotion):
         return DS_FAST_PULSE if self._command.pulse_only else DS_FAST_PHASE
 
     def _fast_decision_delay(self, rate: int, limit: int) -> int:
-        """Return the cycles from a pulse event to the decision of P104-DS-12; see Latency.ds12_lag."""
+        """Return the number of cycles from a pulse event to the decision of P104-DS-12.
+
+        See Latency.ds12_lag.
+        """
         latency, quanta = self._context.latency, self._clock.quanta
         before = self.intervals[-2].rate if len(self.intervals) > 1 else rate
         passed = 0
@@ -233,12 +238,12 @@ class CommandUnit(ByteUnit):
         return None
 
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
-        """Execute an action immediately, or, with DATASHEET timing, after its processing time (P104-DS-11).
+        """Execute an action with FAST timing immediately, with DATASHEET timing after its time (P104-DS-11).
 
-        The mailbox is closed during this time.
+        The mailbox is closed during the processing time.
 
         Args:
-            cycles: time before the action in crystal cycles.
+            cycles: processing time before the action in crystal cycles.
         """
         if not self._context.datasheet:
             action(t)

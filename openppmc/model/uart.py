@@ -12,11 +12,11 @@ from .chip import Context, Phase
 from .clock import Callback, Event, Scheduler
 
 BITS = 10
-"""Start bit, eight data bits, stop bit."""
+"""Number of bits of a character: start bit, eight data bits, stop bit."""
 
 
 class Queued(Protocol):
-    """Object with the event queue of a part."""
+    """Object that provides the event queue of a part."""
 
     @property
     def queue(self) -> Scheduler:
@@ -71,7 +71,7 @@ class Receiver:
             self._event = self._queue.at(self._middle(BITS - 1), Phase.BUS, self._stop)
 
     def _at(self, t: int) -> int:
-        """Return the level that edge t has sampled."""
+        """Return the level that was sampled at edge t."""
         return next(level for since, level in reversed(self._history) if since <= t)
 
     def _stop(self, t: int) -> None:
@@ -88,7 +88,7 @@ class Transmitter:
     """Transmitter, which drives txd and snd.
 
     Attributes:
-        bit: cycles of a bit.
+        bit: duration of a bit in cycles.
         sent: list for (edge in the middle of the stop bit, character).
         lead: number of bits from the rising edge of snd to the first start bit.
     """

@@ -1,4 +1,6 @@
-"""Picture of a run: speed profile and pins over time, an overview above and close-ups below.
+"""Picture of a run: speed profile and pins over time.
+
+An overview is above, and close-ups are below.
 
 The input is plain data: for each signal, the level before the first edge and the changes (edge, level). The
 picture shows only recorded pins, and no values that are computed from the commands of the host.
@@ -64,7 +66,7 @@ def draw_traces(
         times, levels = trace.within(begin, end)
         xs = [(t - begin) / scale for t in times]
         ys = [base + level for level in levels]
-        idle = base + trace.name.endswith("*")  # the active level is filled
+        idle = base + trace.name.endswith("*")  # fill between the idle level and the waveform
         axes.fill_between(xs, idle, ys, step="post", color=colour, alpha=0.18, linewidth=0)
         dense = len(times) > 400
         axes.step(
@@ -110,7 +112,7 @@ def draw_speed(axes: Axes, run: Run, begin: int, end: int, scale: float) -> None
 
 
 def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
-    """Draw the complete run: the speed above, the pins below it, and the chapters as numbered bands."""
+    """Draw the complete run: the speed above, the pins below, and the chapters as numbered bands."""
     scale = run.clk_hz / 1000
     speed, pins = rows
     draw_speed(speed, run, 0, run.end, scale)

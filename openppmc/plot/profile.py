@@ -18,7 +18,7 @@ from .motion import GREY, INK, PALE, SPEED, bare
 
 
 class Move(Protocol):
-    """Move to draw: times of the pulses in s, and speed of each interval in pulses per second."""
+    """Move that is drawn: time of each pulse in s, speed in each interval in pulses per second."""
 
     @property
     def seconds(self) -> Sequence[float]: ...

@@ -16,9 +16,9 @@ class Trace:
     """One pin.
 
     Attributes:
-        name: name in the picture (* = active low).
+        name: name in the picture; a * marks an active-low pin.
         initial: level before the first change.
-        changes: (edge, level).
+        changes: changes of the pin as (edge, level).
         colour: colour of the waveform, instead of the colour that follows from the name.
     """
 
@@ -49,8 +49,8 @@ class Section:
 
     Attributes:
         note: subtitle.
-        marks: (edge, text), only in close-ups.
-        spans: (edge, edge, text), only in close-ups.
+        marks: marked edges as (edge, text), only in close-ups.
+        spans: marked times as (first edge, last edge, text), only in close-ups.
     """
 
     title: str
@@ -63,7 +63,10 @@ class Section:
 
 @dataclass(frozen=True)
 class Speed:
-    """Curve of the speed: name (empty: no legend), colour, and edges of the pulses in cycles."""
+    """Curve of the speed: name in the legend, colour, and times of the pulses in cycles.
+
+    If all names are empty, the picture has no legend.
+    """
 
     name: str
     colour: str
@@ -76,7 +79,7 @@ class Run:
 
     Attributes:
         row_scale: relative height of the rows of pins; 1 = normal.
-        unit: unit of the speed, thousands per second.
+        unit: unit of the speed axis, which counts thousands per second.
     """
 
     title: str

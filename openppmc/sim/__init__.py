@@ -3,10 +3,10 @@
     with openppmc.sim.start("start=2000") as board:
         print(board.port)
 
-The board is built from a checkout of the project. docs/virtual_board.md lists the words of the text. The
-folder `common` contains the board, its build and the parser of its text, and lines of modelled stations,
-which run in Python. The module of a device contains its machine model (positions of switches, additional
-words) and, for stations, the line.
+The board is built from a checkout of the project. The text consists of words such as `start=2000`, which
+docs/virtual_board.md lists. The folder `common` contains the board, its build, the parser of its text, and
+lines of modelled stations, which run in Python. The module of a device contains its machine model (positions
+of switches, additional words) and, for stations, the line.
 """
 
 from typing import TYPE_CHECKING

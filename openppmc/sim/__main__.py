@@ -24,7 +24,10 @@ SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp
 
 
 def split_link(text: str) -> tuple[str, Path | None]:
-    """Separate `link=PATH` from the text. Raise SpecError if another file has this name."""
+    """Return the text without `link=PATH`, and the path.
+
+    Raise SpecError if the path is empty, or if a file with this name exists that is not a link.
+    """
     words = text.split(",")
     links = [word.partition("=")[2].strip() for word in words if word.strip().startswith("link=")]
     rest = ",".join(word for word in words if not word.strip().startswith("link="))

@@ -1,4 +1,7 @@
-"""Machine model of a bank. All plants are equal, except for words with the number of an axis."""
+"""Machine model of a bank.
+
+The plants of all axes are equal, unless the text of the board contains words (`cw3=20000`) for single axes.
+"""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""`make demo`: run a part from its host bus to its motor pins."""
+"""`make demo`: show a run of a part, from the accesses on its host bus to the signals at its motor pins."""

@@ -28,7 +28,7 @@ from scripts.demo.steps import last_line, step
 
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
-MOST = 11  # bytes of a block that are printed
+MOST = 11  # number of bytes of a block that are printed
 
 
 def newest_build(part: str) -> str:
@@ -123,7 +123,7 @@ def spread(first: float, second: float) -> str:
 
 
 def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> None:
-    """Print the motions of the motors, as measured at the pins of the RTL."""
+    """Print the motions of the motors as measured at the pins of the RTL."""
     recording = comparison.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
     motors = waves.motor_pulses(comparison, demo.view)

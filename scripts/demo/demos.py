@@ -33,8 +33,8 @@ class View:
     """Content of the VCD.
 
     Attributes:
-        split: names of the single bits of a vector, lowest first.
-        motors: scope -> the pin or vector from which `pulses` derives the pulses of that motor.
+        split: for a vector that is shown as single bits, the names of the bits, lowest first.
+        motors: by scope of a motor, the pin or vector from which `pulses` derives the pulses of this motor.
         groups: (title, signals) of the saved views.
         access: function that returns the text of a host access.
     """
@@ -48,12 +48,12 @@ class View:
 
 @dataclass(frozen=True)
 class Demo:
-    """A demo: `name` is the value of PART, `part` is the part that it runs on.
+    """A demo: `name` is the value of PART, `part` is the part whose RTL runs.
 
     `picture` returns the content of the standard picture; `own` draws a special picture instead.
 
     Attributes:
-        config: build of the part.
+        config: configuration with which the part is built.
         marks: chapters that are marked in the saved views.
         motors: names of axes in the list of moves.
     """

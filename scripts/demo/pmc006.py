@@ -57,7 +57,7 @@ class Motor:
 
 
 class Step(NamedTuple):
-    """A step at edge `t`: position in full steps, speed in full steps/s (nan at the first of a motion)."""
+    """A step at edge `t`: position in full steps, speed in full steps/s (nan at a motion's first step)."""
 
     t: int
     place: float

@@ -34,7 +34,7 @@ def rises(changes: Changes) -> list[int]:
 
 
 def first(changes: Sequence[tuple[int, int]], level: int, since: int) -> int:
-    """Return the edge of the first change to a level, at `since` or later."""
+    """Return the edge of the first change to a level at or after edge `since`."""
     return next(t for t, value in changes if value == level and t >= since)
 
 
@@ -54,7 +54,7 @@ def frame_text(access: Any) -> str:
 
 
 def pin(stimulus: Sequence[Any], name: str) -> Changes:
-    """Return the changes of an input pin."""
+    """Return the recorded changes of an input pin."""
     return [(change.t, change.value) for change in stimulus if change.pin == name]
 
 

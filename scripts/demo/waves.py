@@ -1,8 +1,8 @@
 """The demo's VCD and its saved views for GTKWave and Surfer.
 
 The VCD holds every pin as recorded at the RTL, and in addition the bytes of the host as text, the number of
-pulses and the speed of each motor. It has no internal signals, because a dump of all of them for 100 ms would
-be half a gigabyte.
+pulses and the speed of each motor. It has no internal signals of the RTL, because the waveforms of all
+internal signals over 100 ms would need half a gigabyte.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from scripts.demo.scenes import bit
 Signal = tuple[str, str, int | str, Any, Sequence[tuple[int, Any]]]
 """Scope, name, width in bits or kind (string, real, integer), first value, changes (edge, value)."""
 TEXTS = ("host.access", "line.question", "line.answer")
-LATEST_FALL = 2.1e-3  # after this time in seconds without a pulse, the speed is 0
+LATEST_FALL = 2.1e-3  # time without a pulse in seconds after which the speed is 0
 
 
 def speed_changes(pulses: Sequence[int], clk_hz: int) -> Iterator[tuple[int, float]]:
@@ -42,7 +42,7 @@ def single_pins(
     changes: Mapping[str, Sequence[tuple[int, int]]],
     split: Mapping[str, Sequence[str]],
 ) -> dict[str, tuple[int, Sequence[tuple[int, int]]]]:
-    """Return pin -> (first level, changes); a vector in `split` is replaced by its bits."""
+    """Return, by pin, the first level and the changes; a vector in `split` is replaced by its bits."""
     pins: dict[str, tuple[int, Sequence[tuple[int, int]]]] = {}
     for name, level in levels.items():
         for index, single in enumerate(split.get(name, ())):
@@ -53,7 +53,7 @@ def single_pins(
 
 
 def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
-    """Return scope of each motor -> edges of its pulses or steps as recorded at the RTL."""
+    """Return, by scope of the motor, the edges of its pulses or steps as recorded at the RTL."""
     pins = single_pins(comparison.initial, comparison.actual, view.split)
     whole = comparison.actual
     return {
@@ -66,7 +66,7 @@ def write(path: Path, signals: Iterable[Signal], recording: Recording, comment: 
     """Write a VCD with these signals of a recorded run.
 
     Args:
-        comment: names part and parameters, so that `openppmc decode` can read the file (`core_comment`).
+        comment: names part and parameters for `openppmc decode`, which reads the file (`core_comment`).
     """
     period = round(1e12 / int(str(recording.params["CLK_HZ"])))
     rows: list[tuple[int, Any, Any]] = []

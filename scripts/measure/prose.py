@@ -63,7 +63,7 @@ class Row:
 
 @cache
 def rows() -> tuple[Row, ...]:
-    """Return the word list."""
+    """Return the rows of the word list."""
     found = []
     for line in WORDS.read_text(encoding="utf-8").splitlines():
         if line and not line.startswith("#"):
@@ -132,7 +132,7 @@ def hashed(file: str, text: str) -> Iterator[Item]:
 
 
 def _documented(tree: ast.AST) -> Iterator[ast.Constant]:
-    """Yield docstrings, also those of constants."""
+    """Yield docstrings, including the docstrings of constants."""
     for node in ast.walk(tree):
         if (
             isinstance(node, ast.Expr)
@@ -200,7 +200,7 @@ def all_items() -> list[Item]:
 
 
 def findings(item: Item) -> Iterator[tuple[str, str]]:
-    """Yield (level, line of text for the user) of a passage."""
+    """Yield the findings in a passage as (level, line of text for the user)."""
     for at, line in enumerate(item.lines):
         for row in rows():
             for match in row.pattern.finditer(line):
@@ -226,7 +226,7 @@ def commits() -> list[Item]:
 
 
 def sample(number: int, seed: int) -> list[Item]:
-    """Draw random passages, of each kind its share."""
+    """Draw random passages; SHARES defines the number of each kind."""
     rng = random.Random(seed)
     every = all_items() + commits()
     drawn = []

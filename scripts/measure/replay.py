@@ -1,7 +1,7 @@
 """`make replay FILE=…/recording.json`: repeat the recording of a failed test on RTL and golden model.
 
-RTL and golden model are reset and receive the pin changes in the file, and every output edge is compared. A
-difference is reported with exit code 1; the folder of the run then contains the waveforms.
+RTL and golden model are reset and receive the pin changes in the file, and every output edge is compared. If
+there is a difference, the exit code is 1, and the folder of the run contains the waveforms.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from scripts.measure.gate_suite import suites
 
 
 def items() -> Iterator[Item]:
-    """Yield the directed tests, and the random hosts with their seeds."""
+    """Yield the directed tests, and the tests with random hosts, each with its seed."""
     for part in suites():
         yield from part.items
         for make, seeds in part.sample.items():

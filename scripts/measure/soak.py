@@ -26,14 +26,14 @@ from scripts.measure.campaign.run import run
 
 ALL = "all"
 BLOCK, LARGE_BLOCK = 25, 250
-"""Seeds in a job, and in a job of a run with LARGE or more seeds, which stores fewer and longer jobs."""
+"""Number of seeds in a job: usually, and with LARGE or more seeds (fewer and longer jobs)."""
 LARGE = 10_000
 
 
 class Hosts(Protocol):
     """Entry of a part in the column `soak` of the table of parts: constrained-random hosts.
 
-    It is a `RandomItems`, or an object of a class that runs further checks with a seed.
+    The entry is a `RandomItems`, or an object of a class that runs further checks with a seed.
     """
 
     def some(self, seeds: Sequence[int]) -> Played:
@@ -69,7 +69,7 @@ def some(what: tuple[str, int, int]) -> Result:
 
 
 def blocks(first: int, count: int) -> Iterator[tuple[int, int]]:
-    """Yield (first seed, number) of each job; boundaries between jobs are multiples of the job size."""
+    """Yield (first seed, number of seeds) of each job. Boundaries are multiples of the job size."""
     size, end = (LARGE_BLOCK if count >= LARGE else BLOCK), first + count
     while first < end:
         last = min(end, (first // size + 1) * size)

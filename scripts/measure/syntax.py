@@ -8,9 +8,10 @@ from typing import Any
 
 
 def _hidden(text: str) -> str:
-    """Return the text with spaces in place of code that is not for synthesis; positions do not change.
+    """Return the text with spaces in place of code that is not for synthesis.
 
-    slang counts bytes, so each non-ASCII character is replaced by a character of one byte.
+    The positions of all other code do not change. slang counts bytes, so each non-ASCII character is replaced
+    by a character of one byte.
     """
 
     def blank(match: re.Match[str]) -> str:
@@ -22,7 +23,7 @@ def _hidden(text: str) -> str:
 
 
 def tree(text: str) -> Any:
-    """Return the syntax tree."""
+    """Return the syntax tree of a text."""
     from pyslang import syntax
 
     return syntax.SyntaxTree.fromText(_hidden(text)).root
@@ -51,7 +52,7 @@ def children(node: Any) -> Iterator[Any]:
 
 
 def found(node: Any, *kinds: str) -> Iterator[Any]:
-    """Yield the nodes of these kinds below and including a node, but none inside a node that was found."""
+    """Yield the nodes of these kinds from a node on; nodes inside a found one are not searched."""
     if kind(node) in kinds:
         yield node
         return

@@ -27,7 +27,7 @@ MEMORIES = {
     "pmc006_calc_rom": "rom",
     "ppmc_bank_interval_rom": "rom",
 }
-"""Module -> its table."""
+"""Name of the table, by module."""
 CLEARED = {"ppmc_ram", "ppmc_bank_window", "ppmc_bank_engine"}
 """Modules whose `initial` blocks write only zeros."""
 
@@ -54,7 +54,7 @@ def includes() -> list[str]:
 
 
 def run(*command: str) -> str:
-    """Return the output of a command; raise ProjectError with its end if the command fails."""
+    """Return the output of a command. If the command fails, raise ProjectError with the end of its output."""
     code, text = project.ran(command)
     if code:
         raise ProjectError("\n".join(text.strip().splitlines()[-4:]) or f"{command[0]} failed")
@@ -62,7 +62,7 @@ def run(*command: str) -> str:
 
 
 def differences(folder: Path) -> str:
-    """Return the words that differ between simulation and netlist, one on each line.
+    """Return the table words that differ between simulation and netlist, one on each line.
 
     Raises ProjectError if a tool fails.
 
@@ -81,7 +81,7 @@ def differences(folder: Path) -> str:
 
 
 def main() -> int:
-    """Write each module as Verilog after elaboration, with its table's words and the name net_<name>."""
+    """Write each module after elaboration as Verilog with the name net_<name> and the words of its table."""
     import pyosys.libyosys as ys
 
     for top in MEMORIES:

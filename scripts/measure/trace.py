@@ -61,7 +61,7 @@ class Trace:
         return "<br>".join(f"`{name}`{words}" for name, words in bound.items())
 
     def result(self, rule: str) -> str:
-        """Return the word for the column "Result": pass, FAIL or NO TEST."""
+        """Return the text for the column "Result": pass, FAIL or NO TEST."""
         groups = self.groups.get(rule, [])
         if not groups:
             return "NO TEST"
@@ -69,13 +69,13 @@ class Trace:
 
 
 def _part(record: Record) -> str:
-    """Return the part whose manual a record refers to, if the rules of the record do not name it."""
+    """Return the part to whose manual a record refers, if the rules of the record do not name the part."""
     row = PARTS.get(record["part"])
     return row.folder if row else str(record["part"])
 
 
 def load_records(path: Path, part_name: str) -> list[Record]:
-    """Return the records of one part, in order of test ID."""
+    """Return the test records of one part, in order of test ID."""
     if not path.is_file():
         raise ProjectError("no test results yet: run `make test` first")
     records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
@@ -88,7 +88,7 @@ def load_records(path: Path, part_name: str) -> list[Record]:
 
 
 def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Trace:
-    """Assign the records to the rules; each rule without a test and each failure becomes a problem."""
+    """Assign the test records to the rules. Each rule without a test and each failure is a problem."""
     found: dict[str, dict[str, Group]] = defaultdict(dict)
     failed, unknown = [], []
     for record in records:

@@ -40,7 +40,7 @@ def wanted() -> dict[Path, bytes]:
 
 
 def unused(files: dict[Path, bytes]) -> list[Path]:
-    """Return the pictures and pages of boards that are no longer generated."""
+    """Return the existing pictures and board pages that are no longer generated."""
     kept = [*sorted(DOCS.glob("**/img/*.svg")), *sorted(wiring.FOLDER.glob("*.md"))]
     return [path for path in kept if path not in files]
 

@@ -33,10 +33,10 @@ from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED
 from scripts.pages.pictures.recorded import Levels, Row, Samples, labels, thinned, wave
 
 SESSION_AXES = 32
-RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # 5 to 25 kpps within 100 pulses
+RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # initialisation bytes: 5 to 25 kpps within 100 pulses
 BITS = ((ERR, "ERR"), (BUSY, "BUSY"), (IBF, "IBF"), (OBF, "OBF"))
 Lines = list[tuple[str, int]]
-"""Explanations, each with the number of accesses up to its end."""
+"""Explanations of a session, each with the number of accesses from the session's start to its end."""
 
 
 def meaning(one: Access) -> str:
@@ -62,7 +62,7 @@ def flags(byte: int) -> str:
 
 
 def rows(accesses: list[Access], notes: Lines) -> list[list[str]]:
-    """Return one row for each access; consecutive equal polls are one row."""
+    """Return one row for each access. Consecutive equal polls are combined in one row."""
     found, at = list[list[str]](), 0
     for note, end in notes:
         first = True
@@ -183,7 +183,7 @@ def axis_cost() -> Figure:
     for title, comb in others.items():
         axes.axhline(comb, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
         near = any(0 < other - comb < 0.1 * comb for other in others.values())
-        # If two lines are close together, the name of the lower one is below its line.
+        # If two lines are close together, the name of the lower line is below this line.
         side = "top" if near else "bottom"
         axes.text(73, comb, f"{title}: {comb}", va=side, ha="right", size=7.5, color="#444444")
     axes.set(xscale="log", yscale="log", xlabel="axes", ylabel="COMB of an axis, ECP5")
@@ -201,7 +201,7 @@ def axis_cost() -> Figure:
 
 
 AXES, CLK_HZ = 8, 20_000_000
-"""A round has 8 cycles; with vsel = L, intervals are not a whole number of rounds."""
+"""A round of all axes has 8 cycles. With vsel = L, intervals are not whole numbers of rounds."""
 INIT = (0x0A, 99, 99, 4, 0)
 ONE, OTHER = 2, 5
 PINS = ("hold", "dir", "pout_n")
@@ -209,7 +209,7 @@ VISITS = {axis: VisitSchedule(axis, AXES, 0) for axis in (ONE, OTHER)}
 
 
 def ready() -> Session:
-    """Return a host that has initialised two axes with one speed and vsel = L."""
+    """Return a host that has initialised two axes with the same speed and vsel = L."""
     host = Session(AXES, CLK_HZ)
     for axis in (ONE, OTHER):
         host.write(axis, CONFIG, 0b01)
@@ -249,12 +249,12 @@ def words(columns: Sequence[int | None], names: Mapping[int, str]) -> list[str |
 
 
 def turn(edge: int) -> int:
-    """Return the axis that is visited at an edge (BANK-GEN-01)."""
+    """Return the axis that the bank processes at an edge (BANK-GEN-01)."""
     return (edge - 8) % AXES
 
 
 def visits() -> dict[str, Any]:
-    """Return the diagram of two pulses of two axes; a visit of each axis schedules its pulse."""
+    """Return the diagram of two pulses of two axes. An axis schedules a pulse when it is processed."""
     host = ready()
     for axis in (ONE, OTHER):
         host.send(axis, 0x45, 9 + axis)
@@ -295,7 +295,7 @@ def visits() -> dict[str, Any]:
 
 
 def group() -> dict[str, Any]:
-    """Return the diagram of a group of two axes: held, then GO."""
+    """Return the diagram of a group of two axes, which wait until the host writes GO."""
     host = ready()
     host.group(1 << ONE | 1 << OTHER)
     host.t += 20

@@ -54,7 +54,7 @@ async def _moved(count: int, settings: dict[str, int]) -> list[int]:
 
 
 def move(count: int, **settings: int) -> Train:
-    """Return a move, with settings by their letters."""
+    """Return a move; its settings are named by their letters."""
     return _train(on_model(_moved(count, settings)))
 
 
@@ -66,12 +66,12 @@ def moves(rows: Sequence[Sequence[int]]) -> str:
     """Return a table of moves with their times and highest speeds.
 
     Args:
-        rows: steps, the settings L, S, v, and the coefficient (u and o are equal).
+        rows: steps, the settings L, S and v, and the ramp coefficient, which is used for both u and o.
     """
     found = []
     for count, start, stop, top, coefficient in rows:
         gaps = move(count, L=start, S=stop, v=top, u=coefficient, o=coefficient).intervals
-        # The sum of two intervals, because a single interval is rounded to 1 µs.
+        # The speed is that of two intervals together, because a single interval is rounded to 1 µs.
         shortest = min(a + b for a, b in pairwise(gaps))
         fastest = _number(round(2 * CLK_HZ / shortest))
         limits, both = f"{start}, {stop}, {_number(top)}", f"{coefficient}, {coefficient}"
@@ -157,7 +157,7 @@ CASES: tuple[Callable[[], Awaitable[tuple[str, int]]], ...] = (_start, _first_st
 
 
 def times() -> str:
-    """Return a table of latencies of this core in cycles after the last stop-bit sample or after the pin."""
+    """Return a table of latencies in cycles, from the last stop-bit sample or from a pin's change."""
     head = f"This core, at {CLK_HZ // 1_000_000} MHz, in cycles (from the stop bit or the pin):"
     return f"{head}\n\n{table(['', 'cycles'], [on_model(case()) for case in CASES])}"
 
@@ -171,7 +171,7 @@ CURRENTS = (400, 1000, 1900)
 SLOW = tuple(
     Case(mstep=mstep, full=full, scomp=300, periods=1) for mstep in (16, 2, 0) for full in (40, 100, 200)
 )
-"""With factor P = 300, the lead is 0 units here, so that the angle includes the zeros of both references."""
+"""With factor P = 300, the lead angle is 0 units, so these angles include the zeros of both references."""
 RUNS = (
     *(Case(cur=cur, full=full, periods=1) for full in (500, 800, 1000) for cur in CURRENTS),
     *(Case(cur=cur, full=1000, emf=6.0, periods=1) for cur in CURRENTS),
@@ -194,7 +194,7 @@ def _currents(axes: Axes) -> None:
 
 
 def _rest(axes: Axes) -> None:
-    """Draw the ripple at standstill: the difference between currents and references."""
+    """Draw the ripple of the currents at standstill: the difference between currents and references."""
     for found, colour, name in zip(holding(SHOWN, REST_STEPS, REST_US), (BLUE, RED), "AB", strict=True):
         us = [1e6 * t for t in found.time]
         off = [1000 * (a - b) for a, b in zip(found.current, found.reference, strict=True)]
@@ -243,7 +243,7 @@ def _left(both: tuple[Waves, Waves]) -> str:
 
 
 def currents_table() -> str:
-    """Return a table: error and distortion in motion, remaining current at 0, ripple at standstill."""
+    """Return a table: error and distortion in motion, current left at reference 0, ripple at standstill."""
     heads = ["Microsteps", "Current / A", "Full steps/s", "Back EMF / V", "Error, sine / %"]
     heads += ["Error, steps / %"]
     rows = []

@@ -22,14 +22,14 @@ from scripts.pages.pictures.plots import BLUE, COLOURS, GREEN, GREY, RED
 from scripts.pages.pictures.recorded import Levels, Row, Schedule, Start, columns_of, record, wave
 
 F_HZ = 1_000_000
-CLK = 16  # cycles of a tick
+CLK = 16  # number of cycles in a tick
 ANSWERS = 0x10  # CSR: irq_n reports answers
 REGISTERS: dict[object, int] = {"CSR": CSR, "RAR": RAR, "DRR": DRR, "WCR": WCR, "WAR": WAR, "DWR": DWR}
 BUILDS = {"F16": F16, "F50": F50, "D16": D16}
 
 
 def _block(text: str) -> Sequence[str]:
-    """Return blocks for a set-up: the blocks with a name in `blocks`, or one block as a text of bytes."""
+    """Return the blocks of a set-up. The argument is a name in `blocks`, or one block as a text of bytes."""
     found = getattr(blocks, text, text)
     return (found,) if isinstance(found, str) else found
 
@@ -38,7 +38,7 @@ def _block(text: str) -> Sequence[str]:
 
 
 def _table(build_or_curve: Mapping[str, Any]) -> Table:
-    """Return a table from an entry, which has the arguments of `curve` or of `build` under that key."""
+    """Return the ramp table of an entry: `curve` or `build`, with the arguments of this function."""
     if "curve" in build_or_curve:
         return curve(*build_or_curve["curve"])
     rest = {name: value for name, value in build_or_curve.items() if name != "build"}
@@ -83,11 +83,11 @@ def moves(tables: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> str:
 
 
 def planned(table: Mapping[str, Any], rate: int, pulses: int) -> Train:
-    """Return a move as planned."""
+    """Return an undisturbed move as the golden model plans it."""
     return Train([step.rate for step in ramped(_table(table), rate, pulses).steps()], F_HZ)
 
 
-SHOWN = 46  # pulses of a continuous motion
+SHOWN = 46  # number of pulses of a continuous motion that are shown
 
 
 async def _changed(block: str, number: int, change: str) -> list[int]:
@@ -169,7 +169,7 @@ def zero_return() -> Figure:
 
 
 async def _to_answer(mode: Config, block: str, *setting: str) -> int:
-    """Return the cycles from a block's header to its answer; with `setting`, the block is sent at pulse 2."""
+    """Return the cycles from a block's header to its answer. With `setting`, it is sent at pulse 2."""
     host = await Host.start(OnModel(mode), *setting)
     await host.write(CSR, ANSWERS)
     if setting:
@@ -180,20 +180,20 @@ async def _to_answer(mode: Config, block: str, *setting: str) -> int:
 
 
 async def _to_pulse(mode: Config, block: str, *setting: str) -> int:
-    """Return the cycles from the header to pulse 1."""
+    """Return the number of cycles from the header of a block to pulse 1."""
     host = await Host.start(OnModel(mode), *setting)
     await host.issue(block)
     return await host.pulse(1) - host.header
 
 
 async def _to_out_oe(mode: Config) -> int:
-    """Return the cycles from the release of rst_n to out_oe."""
+    """Return the number of cycles from the release of rst_n to the rising edge of out_oe."""
     host = await Host.start(OnModel(mode))
     return host.bench.rises("out_oe")[0]
 
 
 async def _to_output(mode: Config, block: str) -> int:
-    """Return the cycles from the header to the auxiliary output."""
+    """Return the number of cycles from the header of a block to the change of the auxiliary output."""
     host = await Host.start(OnModel(mode))
     await host.issue(block)
     await host.wait()
@@ -204,11 +204,11 @@ MEASURES = {"answer": _to_answer, "pulse": _to_pulse, "out_oe": _to_out_oe, "out
 
 
 def times(modes: Mapping[str, str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table of events with their times in builds (`modes`: build -> head of its column).
+    """Return a table of events with their times in several builds of the part.
 
     Args:
         rows: name of the event, event that ends the time (a key of MEASURES), the measured block, then the
-            blocks that are sent before it.
+            blocks that are sent before the measured block.
     """
     found = []
     for text, end, *blocks_ in rows:
@@ -232,7 +232,7 @@ def flags(chip: Any) -> Levels:
 
 @dataclass(frozen=True)
 class BlockStart(Start):
-    """The model at the beginning of a diagram, with the action `block`, whose header ends at its edge."""
+    """The model at the start of a diagram; at the edge of its action `block`, a block's header ends."""
 
     def action(self, edge: int, what: str, *values: Any) -> Schedule:
         """Return the pin changes of an action, whose registers may be given by name."""
@@ -269,11 +269,11 @@ async def _ready(setting: str, build: str, then: Sequence[Sequence[Any]]) -> Hos
 def ready(
     setting: str = "", build: str = "F16", then: Sequence[Sequence[Any]] = (), ahead: int = 0
 ) -> BlockStart:
-    """Return the model after a set-up; irq_n reports answers.
+    """Return the model after a set-up in which irq_n reports answers.
 
     Args:
         then: methods of Host with their arguments, called after the set-up.
-        ahead: cycles from the end of the calls to the base.
+        ahead: number of cycles from the end of the calls to the base of the diagram.
     """
     host = on_model(_ready(setting, build, then))
     return _start(host, host.t + ahead)
@@ -295,7 +295,9 @@ async def _before(number: int, block: str, origin: int) -> tuple[Host, int]:
 
 
 def before(pulse: int, block: str, early: int = 0, origin: int = 0) -> BlockStart:
-    """Return the model shortly before a pulse of a motion; the base is `early` cycles before this pulse.
+    """Return the model shortly before a pulse of a motion.
+
+    The base of the diagram is `early` cycles before this pulse.
 
     Args:
         origin: the pulse after which the origin switch closes; it opens again five pulses later.

@@ -26,7 +26,7 @@ STANDARD = (20, 5, 8)
 
 @dataclass(frozen=True)
 class Outcome:
-    """Result of a motion: edges of its steps, gaps in ticks, finish status, remaining steps."""
+    """Result of a motion: edges of its steps, gaps between steps in ticks, finish status, remaining steps."""
 
     steps: list[int]
     gaps: list[int]
@@ -49,7 +49,7 @@ class Bench:
         self.mark = 0
 
     def pause(self, cycles: int) -> None:
-        """Let this number of cycles pass."""
+        """Advance the model by this number of cycles."""
         self.t += cycles
 
     def pins(self, **levels: int) -> None:
@@ -81,7 +81,7 @@ class Bench:
         return edge
 
     def init(self, code: int = 0x0A, ramp: Sequence[int] = STANDARD) -> int:
-        """Initialise; return the edge of the last byte."""
+        """Initialise the part; return the edge of the last byte."""
         slow, fast, steps = ramp
         return self.send(f"{code:02X} {slow:02X} {fast:02X} {steps.to_bytes(2, 'little').hex()}")
 
@@ -104,11 +104,11 @@ class Bench:
         return chip.now
 
     def steps(self) -> list[int]:
-        """Return the edges of the steps since `mark`; the chopper must be off."""
+        """Return the edges of the steps since the edge `mark`; the chopper must be off."""
         return [t for t, _ in self.chip.log.of("s", self.mark)]
 
     def in_gap(self, gap: int) -> None:
-        """Run to a point within gap i of the last motion."""
+        """Run to a point within gap i between two steps of the last motion."""
         self.until(lambda: len(self.steps()) > gap)
         self.t = self.chip.now + 300
 
@@ -133,10 +133,10 @@ class Bench:
 def play(
     command: str, ramp: Sequence[int] = STANDARD, gap: int | None = None, event: Sequence[Any] = ()
 ) -> Outcome:
-    """Run a move with the internal clock.
+    """Run a move with the internal clock; return its result.
 
     Args:
-        gap: gap in which `event` happens, a method of Bench with arguments; -1: before step 0.
+        gap: gap in which `event` (a method of Bench with arguments) happens; -1: before step 0.
     """
     bench = Bench()
     bench.init(ramp=ramp)
@@ -164,7 +164,7 @@ def move(command: str, cause: int | None = None, shown: int | None = None, **cas
     """Return a move for a plot.
 
     Args:
-        cause: gap with a Stop command, for which the plot shows a triangle.
+        cause: gap in which a Stop command was sent; the plot shows a triangle there.
         shown: number of gaps to show.
     """
     if cause is None:
@@ -174,7 +174,7 @@ def move(command: str, cause: int | None = None, shown: int | None = None, **cas
 
 
 def _gaps(gaps: Sequence[int], limit: int = 30) -> str:
-    """Return gaps as text: more than three equal gaps as 5×8, long lists without their middle."""
+    """Return gaps as text. More than three equal gaps are 5×8; long lists lack their middle."""
     words = []
     for value, group in groupby(gaps):
         count = len(list(group))
@@ -211,7 +211,7 @@ def moves(cases: Sequence[Sequence[Any]]) -> str:
 
 
 def ramps(ramps: Sequence[Sequence[int]], long: Sequence[int], some: Sequence[int]) -> str:
-    """Return a table of the divisors: of all levels for short ramps, of some levels for a long ramp."""
+    """Return a table of divisors: for short ramps at all levels, for a long ramp at some levels."""
     rows = []
     for ramp in (*ramps, long):
         values = [rate + 1 for rate in profile(*ramp).rates()]
@@ -263,7 +263,7 @@ def motion_time(timing: str, which: str, command: str, stop: bool = False) -> in
 
 
 def init_time(timing: str, which: str, ramp: Sequence[int]) -> int:
-    """Return how many cycles after an initialisation's last byte phases are on, or bytes are accepted."""
+    """Return the cycles from an initialisation's last byte until phases are on or bytes accepted."""
     bench = Bench(timing)
     sent = bench.init(ramp=ramp)
     if which == "phases":
@@ -307,7 +307,7 @@ def _ready(code: int, **parameters: object) -> Bench:
 
 
 def moved(command: str, code: int = 0x0A) -> Start:
-    """Return the model during a move; the base is the edge of the last step, which is in the future."""
+    """Return the model during a move; the base of the diagram is the edge of the last step, still to come."""
     ahead = _ready(code)
     ahead.start(command)
     last = ahead.end().steps[-1]

@@ -19,7 +19,7 @@ from scripts.release.state import Release, current_release
 DIST = project.ROOT / "dist"
 SCRATCH = project.BUILD / "release"
 SLOW = ("bitstreams", "site")
-"""Steps that SKIP may omit if the release is only a trial."""
+"""Steps that the variable SKIP may omit if the release is only a trial."""
 
 
 Job = Callable[[Release, Path, Path], None]
@@ -27,7 +27,7 @@ Job = Callable[[Release, Path, Path], None]
 
 
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:
-    """Return name -> function of each step; the fast steps are first, the notes last."""
+    """Return the function of each step, by its name. The fast steps are first, the release notes last."""
     from scripts.release import sbom
 
     return {
@@ -43,7 +43,7 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
 
 
 def build(release: Release, skip: set[str], dist: Path = DIST, scratch: Path = SCRATCH, made_by=jobs) -> None:
-    """Run all steps in a folder of `scratch`; when all are complete, it becomes `dist`."""
+    """Run all steps in a folder in `scratch`. When all steps are complete, this folder becomes `dist`."""
     shutil.rmtree(scratch, ignore_errors=True)
     out = scratch / "dist"
     out.mkdir(parents=True)

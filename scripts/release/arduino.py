@@ -17,11 +17,11 @@ from scripts.release.state import Release
 NAME = "OpenPPMC"
 OWN, DRIVERS = ROOT / "drivers" / "arduino", ROOT / "drivers" / "c"
 NOT_HERE = ("stmc_ports.h",)
-"""Files of the C drivers for a PC only."""
+"""Files of the C drivers that only a PC can use."""
 
 
 def files(version: str = __version__) -> dict[str, Path | bytes]:
-    """Return the files of the library: name below its folder -> file or content."""
+    """Return each file of the library, or its content, by the name below the folder of the library."""
     found: dict[str, Path | bytes] = {
         path.relative_to(OWN).as_posix(): path
         for pattern in ("src/*", "examples/*/*.ino")

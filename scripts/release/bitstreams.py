@@ -13,12 +13,12 @@ from scripts.release.state import Release
 
 
 def selected(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
-    """Return name -> board and host.
+    """Return board and host of each bitstream, by the name of the bitstream.
 
     Raises ProjectError for an unknown name.
 
     Args:
-        only: names of bitstreams, empty: all.
+        only: names of the bitstreams to return; all bitstreams if it is empty.
     """
     every = {
         on.stem(host): (on, host) for boards in BY_PART.values() for on in boards.values() for host in on.top

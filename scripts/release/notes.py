@@ -1,4 +1,4 @@
-"""Release notes (section of CHANGELOG.md, missing files, description of each file) and digests of files."""
+"""Release notes (section of CHANGELOG.md, missing files, descriptions of files), and digests of all files."""
 
 from __future__ import annotations
 

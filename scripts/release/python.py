@@ -1,4 +1,4 @@
-"""Wheel and sdist of the Python package, from the files in git, checked by twine."""
+"""Wheel and sdist of the Python package. They are built from the files in git, and checked by twine."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _run(*words: str, folder: Path) -> None:
 
 
 def set_version(tree: Path, version: str) -> None:
-    """Write a version into a copy of the package: the version of a trial is not that of the checkout."""
+    """Write a version into a copy of the package, because a trial has another version."""
     path = tree / "openppmc" / "__init__.py"
     line = f'__version__ = "{__version__}"'
     text = path.read_text(encoding="utf-8")

@@ -31,7 +31,7 @@ def pinned(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _packages() -> Iterator[Component]:
-    """Yield the packages for tools and tests; the Python package's metadata lists its own dependencies."""
+    """Yield the packages of requirements.lock; the package's own metadata lists its dependencies."""
     for name, version in pinned((ROOT / "requirements.lock").read_text(encoding="utf-8")):
         purl = PackageURL("pypi", name=name.lower().replace("_", "-"), version=version)
         yield Component(
@@ -59,7 +59,7 @@ def _sources(release: Release) -> Iterator[Component]:
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:
-    """Write the bill of materials to `out`. Tools are `excluded`: the release contains no part of them."""
+    """Write the bill of materials to `out`. Tools are `excluded`: they are not in the release."""
     bom = Bom(serial_number=uuid5(NAMESPACE_URL, f"openppmc:{release.version}:{release.commit}"))
     bom.metadata.timestamp = datetime.fromtimestamp(release.epoch, timezone.utc)
     bom.metadata.component = Component(

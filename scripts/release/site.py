@@ -21,13 +21,13 @@ NO_PDF = "No data sheets as PDF: there was no browser."
 
 
 def dated(pdf: bytes, epoch: int) -> bytes:
-    """Return a PDF in which the creation time is replaced by another one of the same length."""
+    """Return a PDF in which the creation time is replaced with another time of the same length."""
     when = time.strftime("%Y%m%d%H%M%S", time.gmtime(epoch)).encode()
     return _DATE.sub(lambda match: match[0][: -len(match[1])] + when, pdf)
 
 
 def check() -> None:
-    """Raise ProjectError if a tool of the site, except Python, is missing. Called before all steps."""
+    """Raise ProjectError if a tool of the site, except Python, is missing; called before all steps."""
     if shutil.which("npm") is None:
         raise ProjectError(
             "npm is not installed; install Node.js (Debian: apt-get install npm), or use SKIP=site"

@@ -20,10 +20,10 @@ class Release:
 
     Attributes:
         version: version number without the letter v.
-        commit: hexadecimal number of the commit.
+        commit: hexadecimal hash of the commit.
         epoch: time of the commit in s; every file of the release has this time.
         missing: one sentence for each missing part, for the notes.
-        only: names of the built bitstreams; empty: all.
+        only: names of the built bitstreams; all bitstreams if it is empty.
         trial: True if the release must not be published; its version ends in +trial.
     """
 
@@ -56,7 +56,7 @@ def section(changelog: str, version: str, trial: bool = False) -> str:
 
     The call raises ProjectError unless the heading is that of this version.
 
-    [Unreleased] may be above it, without text. In a trial, its text is returned if there is any.
+    A section [Unreleased] without text may be above it. In a trial, it may have a text, which is returned.
     """
     found = list(_HEADING.finditer(changelog))
     ends = [match.start() for match in found[1:]] + [len(changelog)] * bool(found)
@@ -79,7 +79,7 @@ def section(changelog: str, version: str, trial: bool = False) -> str:
 
 
 def check_tag(version: str, commit: str, tagged: str) -> None:
-    """Raise ProjectError if the tag of this version is on another commit.
+    """Raise ProjectError if the git tag of this version is on another commit.
 
     Args:
         tagged: commit that has the tag of this version, or "".

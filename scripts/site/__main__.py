@@ -53,9 +53,10 @@ if (window.Worker !== Own) window.Worker = function (url, options) {
 };
 })();
 """
-"""Shim of the search worker in pages opened from a file, which can start a worker only from a blob.
+"""Shim of the search worker in pages that are opened from a file.
 
-The worker of the playground is a blob, so the shim does not replace it.
+Such pages can start a worker only from a blob. The worker of the playground is already a blob, so the shim
+does not replace it.
 """
 APP = """---
 hide: [navigation, toc, footer]
@@ -120,7 +121,7 @@ def stage() -> None:
 
 
 def browser() -> bool:
-    """Return whether PDFs can be made; print the reason if not."""
+    """Return whether PDFs can be made; print the reason if they cannot be made."""
     try:
         packages(SITE / "browser")
         node("node", "pdf.mjs", str(HTML), folder=SITE / "browser")
@@ -155,7 +156,7 @@ def build(with_pdf: bool = True, out: Path = HTML) -> Path:
 
 
 def main() -> int:
-    """Build the site, print its path and return the exit code."""
+    """Build the site, print its path, and return the exit code."""
     try:
         folder = build()
     except (ProjectError, ValueError) as error:

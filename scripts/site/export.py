@@ -1,7 +1,4 @@
-"""Write the data of each part for the page: pins, texts, sessions, module.
-
-The data are scripts, which a page can also load from a file.
-"""
+"""Write the data of each part as scripts that a page can load from a file: pins, texts, sessions, module."""
 
 from __future__ import annotations
 
@@ -28,12 +25,12 @@ LENGTHS = {
     "window": {"lead": 1, "strobe": 2, "readStrobe": 6, "gap": 3},
     "block": {"lead": 0, "strobe": 3, "readStrobe": 5, "gap": 3},
 }
-"""Cycles of each phase of an access; the players of tests/common/web use the same."""
+"""Number of cycles in each phase of an access. The players of tests/common/web use the same number."""
 PLAYGROUND = wasm.OUT / "playground"
 
 
 def ports(part: WebPart, names: Sequence[str], levels: dict[str, int]) -> list[dict[str, object]]:
-    """Return the ports in the order in which the module numbers their words."""
+    """Return the ports in the order in which the WebAssembly module numbers their words."""
     found, word = [], 0
     for name in names:
         width = part.part.width(name)

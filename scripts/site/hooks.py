@@ -9,7 +9,7 @@ from typing import Any
 RUN = re.compile(r"^<!-- run: .*? -->$", re.M | re.S)
 CHAPTER = re.compile(r"^## (\d+) ", re.M)
 PDF = "OPENPPMC_PDF"
-"""Environment variable that is set if the site will have PDFs."""
+"""Environment variable that is set if the site will contain PDFs."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
 BASE = (
     '<script>document.write(\'<base href="\'+(location.protocol==="file:"?".":"/")+\'">\')</script>'
@@ -23,7 +23,7 @@ CONFIG = (
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 ADDRESSES = {"landing.md": "index.html", START: "overview.html"}
-"""Addresses of pages that differ from their names; MkDocs would use README.md as the first page."""
+"""Addresses of pages that differ from their names, so that MkDocs does not begin with README.md."""
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
 
 
@@ -40,10 +40,7 @@ def button(source: str, part: str, run: str, words: str) -> str:
 
 
 def run_links(source: str, markdown: str) -> str:
-    """Return a page in which links replace the comments of sessions.
-
-    Manuals and the overview get a link after the title.
-    """
+    """Return a page with links for session comments, and after the titles of manuals and overview."""
     if source == START:
         title, _, rest = markdown.partition("\n")
         return f"{title}\n\n{button(source, PARTS[0], '2', 'Try it in the browser')}\n{rest}"
@@ -73,7 +70,7 @@ def on_post_page(output: str, page: Any, **_: Any) -> str:
 def on_post_template(output_content: str, template_name: str, **_: Any) -> str:
     """Make 404.html work for an address at any depth and from a file; called by MkDocs for each template.
 
-    Its links are relative to the base: the root of the host, or the folder of the file.
+    The links in 404.html are relative to a base, which is the root of the host or the folder of the file.
     """
     if template_name != "404.html":
         return output_content
@@ -108,5 +105,5 @@ def on_page_context(context: Any, page: Any, nav: Any, **_: Any) -> Any:
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     """Add links and settings to a page; called by MkDocs for each page."""
     if page.file.src_uri == START:
-        page.meta["hide"] = ["navigation"]  # the navigation has only one page
+        page.meta["hide"] = ["navigation"]  # it would contain only this page
     return run_links(page.file.src_uri, markdown)

@@ -1,4 +1,4 @@
-"""The playground's folder: its script by esbuild, tables and modules of all parts."""
+"""The playground's folder: its script, bundled by esbuild, and the tables and modules of all parts."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def packages(folder: Path) -> None:
 
 @cache
 def playground() -> Path:
-    """Build all that has changed; return the folder. Several processes may do so at the same time."""
+    """Build all that has changed; return the folder. Several processes may call this function."""
     with locked(wasm.OUT / "playground.lock"):
         return _made()
 

@@ -4,8 +4,8 @@ A chapter of docs/<part>/examples.md that can be run has a comment after its tit
 
     <!-- run: after 1; @; until int_n 0; @ -->
 
-`@` is the next block of the chapter or the rest of it, `@2` its next two lines, `after N` the statements of
-chapter N; all other words are statements (`script`).
+`@` represents the next block of the chapter (or the lines of a block that were not used yet), `@2` its next
+two lines, and `after N` the statements of chapter N. All other words are statements (`script`).
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Session:
 
 
 def _line(line: str) -> str:
-    """Return a line of the manual as statements, with the explanation in it as a comment."""
+    """Return a line of the manual as statements. The explanation in the line becomes a comment."""
     if re.match(r"[wr] \d |[<>=] |(?:pin|at|ms) ", line):
         return _block_line(line)
     found = LINE.fullmatch(line.rstrip())
@@ -46,7 +46,7 @@ def _line(line: str) -> str:
 
 
 def _block_line(line: str) -> str:
-    """Return a line of the PPMC-312's page as statements; two spaces begin the explanation."""
+    """Return a line of the PPMC-312's page as statements. Two spaces in the line precede its explanation."""
     words, _, comment = line.strip().partition("  ")
     kind, _, rest = words.partition(" ")
     if kind == "pin":
@@ -87,7 +87,7 @@ def sessions(part: str) -> list[Session]:
 
 
 def own_sessions(part: str) -> list[Session]:
-    """Return the sessions in scripts/site/<part>.py, for a part whose manual has no sessions."""
+    """Return the sessions that scripts/site/<part>.py defines for a part whose manual has no sessions."""
     module = importlib.import_module(f"scripts.site.{part}")
     return [
         Session(str(number), f"{number} {title}", text.strip())

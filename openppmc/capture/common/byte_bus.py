@@ -1,4 +1,7 @@
-"""Shared capture code of the parts with the registers 0 (data) and 1 (command and status), selected by A0."""
+"""Shared capture code of the parts with two registers.
+
+The address pin A0 selects register 0 (data) or register 1 (command and status).
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from .pinmap import Pins
 from .registers import DecodedAccess, cycle, decoded_byte_lines
 
 SHORTEST = 250_000
-"""Shortest strobe of an old host in ps; the analyser must be able to sample it."""
+"""Shortest strobe of an old host in ps; the sample period of the analyser must not be longer."""
 STEADY = ("busc", "aen")
 """Strobe pins that may be missing in a capture, because their levels do not change."""
 

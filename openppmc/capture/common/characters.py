@@ -52,7 +52,7 @@ def characters(channel: Channel, rate: float) -> list[Character]:
 
 
 def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
-    """Return the rate at which the largest fraction of the characters is correctly framed.
+    """Return the line rate at which the largest fraction of the characters is correctly framed.
 
     Raises:
         CaptureError: no rate matches.
@@ -64,16 +64,16 @@ def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
         if not found:
             continue
         bit = SECOND / rate
-        # At the right rate, every change is near a boundary between two bits; at a wrong rate, few changes
-        # are.
+        # At the right rate, every change of the wire is near a boundary between two bits; at a wrong rate,
+        # only few changes are near such a boundary.
         begin, end = (np.array([one[side] for one in found]) for side in (0, 1))
         place = begin.searchsorted(channel.times, "right") - 1
         inside = (place >= 0) & (channel.times < end[place] - bit / 2)
         bits = (channel.times[inside] - begin[place[inside]]) / bit
         near = (np.abs(bits - np.rint(bits)) < 0.25).mean() if len(bits) else 0.0
         good = sum(one.byte is not None for one in found) / len(found) * near
-        # At a multiple of the right rate, all changes are near boundaries, too. Therefore, of two rates that
-        # match equally well, the lower one is used.
+        # At a multiple of the right rate, all changes are near boundaries as well. Therefore, of two rates
+        # that match equally well, the lower one is used.
         score = good if good > 0.95 else 0.0
         if score and (score > most + 0.02 or (score > most - 0.02 and rate < best)):
             best, most = rate, score

@@ -39,7 +39,7 @@ STEP = 1_000_000
 """Number of cycles for which one call runs the model."""
 CLK_HZ = 16_000_000
 WINDOW = 256
-"""Largest number of edges per side that are matched one by one after a difference."""
+"""Largest number of edges of the chip, and of the model, that are matched one by one after a difference."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,8 @@ class Difference:
 
     Attributes:
         t: time in ps from the beginning of the capture.
-        steady: True for a stable level, instead of an edge, that differs from the level of the model.
+        steady: False if the difference is an edge. True if it is a stable level that differs from that of the
+            model.
     """
 
     pin: str
@@ -77,7 +78,7 @@ class Differences(Sequence[Difference]):
         self._pins: list[str] = []
 
     def add(self, one: Difference) -> None:
-        """Append a difference."""
+        """Append a difference at time `t`."""
         if self._pins[-1:] != [one.pin]:
             self._pins.append(one.pin)
         self._times.append(one.t)
@@ -112,13 +113,13 @@ class Result:
 
     Attributes:
         compared: number of matched pairs of edges.
-        worst: largest distance of a pair in ps, on the pin `worst_pin`.
+        worst: largest distance between the two edges of a pair in ps; it occurred on the pin `worst_pin`.
         begin: time in ps from which edges are compared.
         ppm: difference of the chip's crystal from its nominal frequency, measured with the analyser's clock;
             positive if the crystal is faster.
         skipped: outputs that could not be compared, with the reason.
         pins: outputs that were compared.
-        total: sum of the distances of all pairs in ps.
+        total: sum of the distances between the edges of all pairs in ps.
     """
 
     compared: int = 0
@@ -133,14 +134,14 @@ class Result:
 
     @property
     def mean(self) -> float:
-        """Mean distance of a pair in ps."""
+        """Mean distance between the two edges of a pair in ps."""
         return self.total / max(1, self.compared)
 
     def add_pairs(self, pin: str, apart: Column) -> None:
         """Add matched pairs of edges to the sums.
 
         Args:
-            apart: distance of each pair in ps.
+            apart: distance between the two edges of each pair in ps.
         """
         self.compared += len(apart)
         self.total += int(apart.sum())
@@ -152,7 +153,7 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
     """Compare a capture with the golden model.
 
     Args:
-        tolerance: largest distance of a pair in ps.
+        tolerance: largest distance in ps at which two edges count as a pair.
 
     Raises:
         CaptureError: the capture contains neither a reset nor an initialisation.
@@ -170,7 +171,7 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
 
 
 def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
-    """Return a line that proposes the other value of TIMING, or an empty text.
+    """Return a line that proposes the other value of the parameter TIMING, or an empty text.
 
     The other value is proposed if most edges differ, and if it results in at most a tenth of these
     differences.
@@ -185,10 +186,10 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 
 
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
-    """Return the times at which a comparison begins, and a flag.
+    """Return two kinds of times at which a comparison begins, and whether there is a reset.
 
-    The model runs from the first time on. The second item maps each axis to the time from which its edges are
-    compared. The flag is True if the capture contains a reset.
+    The first item is the time from which the model runs. The second item maps each axis to the time from
+    which its edges are compared. The third item is True if the capture contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
@@ -284,7 +285,10 @@ class _Outputs:
                 self.take()
 
     def take(self, rest: int = 1000) -> None:
-        """Fetch the edges of the model, except the newest ones, which the model may still change."""
+        """Fetch the edges of the model.
+
+        The newest edges are not fetched, because the model may still change them.
+        """
         log = self.model.log
         ready = log.edges[: max(0, len(log.edges) - rest)]
         for one in ready:
@@ -299,7 +303,7 @@ class _Outputs:
         del log.edges[: len(ready)]
 
     def channels(self) -> dict[str, Channel]:
-        """Return all outputs."""
+        """Return the columns of all outputs."""
         np = numpy()
         self.take(0)
         return {
@@ -332,7 +336,7 @@ def _clk_hz(decoded: Decoded) -> int:
 
 
 def _inputs(decoded: Decoded) -> dict[str, Channel]:
-    """Return the captured inputs except those of the host.
+    """Return the captured inputs except those that the host drives.
 
     Bits that were not captured are inactive.
     """
@@ -357,7 +361,7 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
     theirs = decoded.decoder.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
-    # Each end of a move may be wrong by one sample, so a smaller difference is ignored.
+    # The captured time of each end of a move may be wrong by one sample, so a smaller difference is ignored.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
     for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
@@ -373,7 +377,7 @@ def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     The ratio is computed from the moves that both sides contain. It is 1 if it cannot be computed from them.
 
     Args:
-        alike: lengths of each such move in ps, in the capture and in the model.
+        alike: pairs of lengths in ps, one pair per common move: in the capture, in the model.
         slack: possible error of a length in ps.
     """
     if not alike:
@@ -456,7 +460,7 @@ def _same_place(
     starts: dict[int, int],
     decoder: PartDecoder,
 ) -> bool:
-    """Return True if chip and model have the same phases at the beginning of the comparison."""
+    """Return True if chip and model output the same phases at the beginning of the comparison."""
     start = starts.get(decoder.axis_of(port, 0), starts[0]) + SETTLED
     return all(
         level_at(channel, start) == level_at(played.outputs[port].bit(bit), start)
@@ -474,7 +478,7 @@ def match_edges(
     known: bool,
     result: Result,
 ) -> None:
-    """Match the edges of both sides, and add the pairs and the edges without a partner to `result`.
+    """Match the edges of chip and model, and add pairs and edges without a partner to `result`.
 
     Args:
         known: True if the levels at `start` must be equal. Otherwise, if they differ, edges are compared from
@@ -484,7 +488,8 @@ def match_edges(
     mine, levels = chip.since(start)
     other, theirs = model.since(start)
     if not known and level_at(chip, start) != level_at(model, start):
-        # The levels are equal after the earlier of the two first edges, so that edge is skipped.
+        # Chip and model have equal levels after the earlier of their two first edges, so that edge is
+        # skipped.
         if int(mine[0] if len(mine) else end + 1) < int(other[0] if len(other) else end + 1):
             mine, levels = mine[1:], levels[1:]
         else:
@@ -513,10 +518,10 @@ def _differs(
     tolerance: int,
     result: Result,
 ) -> tuple[int, int]:
-    """Match edges one by one where the sides differ; return the number of processed edges of each side.
+    """Match edges one by one; return how many edges of the chip and of the model were processed.
 
     Args:
-        more: True for a side that has further edges after these.
+        more: for chip and model, True if there are further edges after the given ones.
     """
     mine, levels, other, theirs = sides
     pairs: list[int] = []
@@ -545,7 +550,7 @@ def _differs(
 def _constant(
     name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int, result: Result
 ) -> None:
-    """Add a difference at the first of these times at which both sides are stable with different levels."""
+    """Add a difference at the first given time at which chip and model have different stable levels."""
     np = numpy()
     at = np.array(points, np.int64)
     steady = np.ones(len(at), bool)

@@ -27,7 +27,9 @@ _ISO = re.compile(
 _CLOCK = re.compile(r"(?P<second>\d+:\d\d:\d\d)(?:[.,](?P<part>\d+))?(?P<zone>)")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\W\d]*)", re.I)
 _SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
-"""Unit in which sigrok writes times: highest sample rate in Hz -> n, where the unit is 10**n ps.
+"""Unit in which sigrok writes times.
+
+A key is the highest sample rate in Hz at which sigrok uses the unit 10**n ps, its value is n.
 """
 
 
@@ -40,7 +42,7 @@ def text_of(data: bytes) -> str:
 
 
 def cells_of(line: str, separator: str) -> list[str]:
-    """Return the cells of a line; a line with a very long cell is returned as one cell."""
+    """Return the cells of a line. A line that contains a very long cell is returned as one cell."""
     try:
         return [cell.strip() for cell in next(csv.reader([line.rstrip("\r\n")], delimiter=separator), [])]
     except csv.Error:
@@ -125,7 +127,7 @@ def unit_of(head: str) -> Fraction | None:
 
 
 def sigrok_unit(rate: Fraction) -> int:
-    """Return n for a sample rate; sigrok then writes times in units of 10**n ps.
+    """Return n such that sigrok writes the times at this sample rate in units of 10**n ps.
 
     Other programs that write whole times use the same unit.
     """

@@ -140,7 +140,7 @@ class _Table:
         )
 
     def _explain(self, before: list[tuple[str, int]]) -> None:
-        """Raise a CaptureError with the reason why there is no table; return if the reason is unknown."""
+        """Raise a CaptureError that states why the file has no table; return if the reason is unknown."""
         for (head, _), (row, number) in zip(before, [*before[1:], ("", 0)], strict=True):
             for separator in "\t;,":
                 heads = cells_of(head, separator)
@@ -194,7 +194,7 @@ class _Table:
         return None
 
     def _names(self, count: int) -> list[str]:
-        """Return the names of the channels from the comment; without them, use numbers."""
+        """Return the channel names of the comment; without names, return numbers as names."""
         if len(self.column_names) in (count, count - 1):
             return [*self.column_names, "Trigger"][:count]
         return [f"logic{place}" for place in range(count)]
@@ -311,7 +311,7 @@ class _Table:
 
 
 class _Scale:
-    """Conversion of times of a table to ps from the first row.
+    """Conversion of the times in a table to ps, counted from the first row.
 
     Args:
         unit: length of one unit of the table in ps.
@@ -322,14 +322,14 @@ class _Scale:
         self.first, self.unit, self.period = first, unit, period
 
     def of(self, times: Column) -> Column:
-        """Return the times in ps."""
+        """Return these times of the table in ps."""
         found = _multiplied(times - self.first, self.unit)
         if self.period is not None:
             found = _multiplied(_multiplied(found, 1 / self.period), self.period)
         return found
 
     def column(self, times: array[int]) -> Column:
-        """Convert a whole column to ps in place, and return it."""
+        """Convert a whole column of times to ps in place, and return it."""
         found: Column = numpy().frombuffer(times, "i8")
         for at in range(0, len(found), BLOCK):
             found[at : at + BLOCK] = self.of(found[at : at + BLOCK])

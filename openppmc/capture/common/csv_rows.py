@@ -27,7 +27,7 @@ class Layout(NamedTuple):
     """Form of a table.
 
     Attributes:
-        first: number of the line of its first row.
+        first: line number of the first row of the table.
         counted: True if times are sample numbers.
         unit: unit of the times in ps, `None` if the header states no unit.
     """
@@ -42,7 +42,7 @@ class Layout(NamedTuple):
 
     @property
     def width(self) -> int:
-        """Number of bytes of the levels of a row with their separators."""
+        """Number of bytes that the levels of a row, with their separators, occupy."""
         return 2 * self.channels - (not self.timed)
 
 
@@ -50,8 +50,8 @@ class _Block:
     """Lines that are read together.
 
     Attributes:
-        changed: the levels differ from those of the previous line.
-        odd: the line does not consist of a time and levels of one character each.
+        changed: True for a line whose levels differ from those of the previous line.
+        odd: True for a line that does not consist of a time and levels of one character each.
         levels: levels of the lines that changed.
     """
 
@@ -125,7 +125,7 @@ class _Numbers(NamedTuple):
     """Columns of numbers; each number is value / 10**decimals.
 
     Attributes:
-        valid: the cell is a plain number.
+        valid: True for a cell that contains a plain number.
     """
 
     value: Column
@@ -140,7 +140,7 @@ class Rows:
         times: whole numbers, counted from `base`, in units of 10**-decimals of the file's unit. In a file
             without times, these are the numbers of the rows.
         levels: 0, 1, 2 (unknown).
-        count: rows so far.
+        count: number of rows that were read so far.
         whole: True if no time has decimals.
         absolute: True if the times have a unit or a date.
     """
@@ -161,7 +161,7 @@ class Rows:
         self._line = layout.first
         self._end: int | None = None
         self._last: tuple[int, str] | None = None
-        """Line number and time of the last line if no level changed in it, else `None`."""
+        """Line number and time of the last line if no level changed in that line, else `None`."""
         self._level = np.full(256, _NONE, np.uint8)
         for char in map(chr, range(33, 127)):
             level = level_of(char)
@@ -280,7 +280,7 @@ class Rows:
     def _agree(self, line: int, absolute: bool) -> None:
         if self.absolute is None:
             self.absolute = absolute
-            # These values are in ps.
+            # The times of such lines are in ps.
             self.decimals *= not absolute
         if self.absolute != absolute:
             raise self.fail(line, "times with and without a unit: write all of them alike")
@@ -385,7 +385,8 @@ class Rows:
         np = self.np
         size = ends - starts
         widest = max(1, min(int(size.max(initial=0)), _DIGITS + 6))
-        # One row per character position, so that all cells are processed together.
+        # The array has one row per character position, so that the same position of all cells is processed
+        # together.
         chars = np.ascontiguousarray(block.gather(ends, widest).view(np.uint8).reshape(-1, widest).T)
         value, decimals = np.zeros(len(size), np.int64), np.zeros(len(size), np.int64)
         points, signs = np.zeros(len(size), np.int64), np.zeros(len(size), bool)

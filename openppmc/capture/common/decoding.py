@@ -15,7 +15,7 @@ from .signals import US, Bits, Capture, Channel, joined, without_glitches
 GLITCH = 30_000
 """Shortest pulse in ps that is not ignored.
 
-No strobe, bit or pulse of these chips is that short.
+Every strobe, bit and pulse of these chips is longer.
 """
 
 
@@ -50,12 +50,12 @@ class Decoded:
 
     @property
     def invalid_lines(self) -> int:
-        """Number of lines of text that are invalid for this part."""
+        """Number of decoded lines that are invalid for this part."""
         return sum(line.invalid for line in self.lines)
 
     @property
     def complaint(self) -> str:
-        """Message if more than half of the lines are invalid for this part; otherwise empty."""
+        """Message if more than half of the decoded lines are invalid for this part; otherwise empty."""
         rows = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
         if len(rows) < 3 or 2 * self.invalid_lines <= len(rows):
             return ""
@@ -78,13 +78,15 @@ def part_decoder(part: str) -> PartDecoder:
 
 
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
-    """Return "; it has the pins of …" with the parts whose required pins the capture contains.
+    """Return the end of an error message, "; it has the pins of …".
+
+    It names the parts whose required pins the capture contains.
 
     The result is empty in three cases: a pin map names the channels, the capture has all required pins of
     `without`, or it matches no other part.
 
     Args:
-        without: the requested part, which is not named.
+        without: the requested part, which the message does not name.
     """
     if chosen.pins is not None or _has_pins(capture, chosen, without):
         return ""

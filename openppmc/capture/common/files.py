@@ -1,4 +1,4 @@
-"""Opening of a capture of any program."""
+"""Opening of a capture file in any supported format."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ MENUS = {
     ".kvdat": "in KingstVIS: File, Export, CSV",
     ".dwf3logic": "in WaveForms: File, Export, Acquisition, CSV",
 }
-"""Menu entries for the CSV export of programs that write other files."""
+"""Menu entries of the CSV export, for programs whose own file formats are not supported."""
 
 
 def read_capture(path: Path) -> Capture:
-    """Read a VCD, a CSV of Saleae or sigrok, or a .sr. Raises CaptureError."""
+    """Read a VCD file, a CSV file of Saleae or sigrok, or a .sr file. Raises CaptureError."""
     if not path.is_file():
         raise CaptureError(f"{path}: there is no such file")
     reader = READERS.get(path.suffix.lower())

@@ -1,4 +1,7 @@
-"""Bytes of a host as text: code that all parts share. The accesses are grouped into commands."""
+"""Bytes of a host as text: code that all parts share.
+
+The accesses of the host are grouped into commands.
+"""
 
 from __future__ import annotations
 
@@ -106,10 +109,10 @@ class CommandDecoder:
         return self.other(code | axis, data)
 
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
-        """Return the bytes after a read command as text.
+        """Return the bytes that the part returned after a read command as text.
 
         Args:
-            stopped: True if the last end status contained a cause.
+            stopped: True if the last end status contained a cause of a stop.
         """
         code = self.read_codes.get(code, code)
         if code == END_STATUS:
@@ -176,7 +179,7 @@ class Exchange:
 
     @property
     def read(self) -> int:
-        """Code without the bits of the axis; -1 if there is no code."""
+        """Command code without the bits that select the axis; -1 if there is no code."""
         return self.sent[0] & ~self.decoder.axis(self.sent[0]) if self.sent else -1
 
     @property

@@ -28,7 +28,10 @@ class Access(NamedTuple):
 
 
 class Accesses:
-    """Strobes in order of time, with a column for each field of `Access`. A numpy mask selects strobes."""
+    """Strobes in order of time, with a column for each field of `Access`.
+
+    An index that is a numpy mask selects strobes.
+    """
 
     __slots__ = ("begin", "byte", "end", "reg", "write")
 
@@ -61,11 +64,11 @@ class Line(NamedTuple):
     """Line of text of a capture.
 
     Attributes:
-        t: ps of its beginning.
-        data: bytes as they were on the bus or line.
+        t: time of its beginning in ps.
+        data: bytes in the order in which they were on the bus or line.
         invalid: True if the line is invalid for the part.
         initialises: True if the state of the part (or of the axis) is known after this line.
-        end: ps of the end of its last byte.
+        end: time of the end of its last byte in ps.
     """
 
     t: int
@@ -84,7 +87,7 @@ class Wires:
     Attributes:
         ports: ports whose bits were all captured, as numbers.
         bits: single bits, by port and bit.
-        end, sample: end and sample period of the capture, ps.
+        end, sample: time of the end of the capture, and its sample period, in ps.
     """
 
     ports: dict[str, Channel]
@@ -108,7 +111,7 @@ class PulseTrain(NamedTuple):
 
 
 class Needs(NamedTuple):
-    """Required pins, and the shortest strobe or bit on these pins in ps."""
+    """Pins that a part requires, and the shortest strobe or bit on these pins in ps."""
 
     pins: tuple[str, ...]
     shortest: int
@@ -135,8 +138,8 @@ class PartDecoder:
         axis_of: returns the axis of a bit of a port; 0 = all axes.
         reset_levels: levels of the outputs during a reset.
         initialised: True if a comparison requires a reset or an initialisation in the capture.
-        pause: shortest time between two moves in ps with a 16 MHz crystal; slower pulses extend it. The
-            longest interval of a rate byte is 2.05 ms.
+        pause: shortest time between two moves in ps with a 16 MHz crystal; it is longer for slower pulses.
+            The longest pulse interval that a rate byte can select is 2.05 ms.
     """
 
     title: str

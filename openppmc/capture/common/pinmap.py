@@ -29,7 +29,7 @@ from .errors import CaptureError
 from .signals import Bits, Capture, Channel
 
 NUMBERS = frozenset(("CLK_HZ", "XTAL_HZ", "BAUD", "ADR"))
-"""Parameters that are numbers."""
+"""Parameters of a map whose values are numbers."""
 WORDS = ("part", "crystal", "timing", "scope", "parameters", "pins")
 _PLACE = re.compile(r"(\w+)\[(\d+)\]")
 _INDEXED = re.compile(r"(.+?)\s*\[(-?\d+)\]")
@@ -51,7 +51,10 @@ class Pins:
     aliases: Mapping[str, str] = field(default_factory=dict)
 
     def place(self, pin: str) -> tuple[str, int]:
-        """Return port and bit of `s[1]` or `cs_n`. Raises ValueError for any other text."""
+        """Return port and bit of a text such as `s[1]` or `cs_n`.
+
+        Raises ValueError for any other text.
+        """
         pin = self.aliases.get(pin, pin)
         match = _PLACE.fullmatch(pin)
         port, number = (match[1], int(match[2])) if match else (pin, -1)
@@ -74,7 +77,7 @@ class Pins:
         return f"{port}[{bit + self.low(port)}]" if self.widths[port] > 1 else port
 
     def low(self, port: str) -> int:
-        """Return the number of the lowest bit as in the data sheet."""
+        """Return the number that the lowest bit of this port has in the data sheet."""
         return self.lowest.get(port, 0)
 
 
@@ -193,7 +196,7 @@ def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int
 
 
 def _scoped(capture: Capture, scope: str) -> Capture:
-    """Return the capture; the channels of this scope have names without the scope.
+    """Return the capture with the names of the channels of this scope without the scope.
 
     Raises:
         CaptureError: the capture has no such scope.

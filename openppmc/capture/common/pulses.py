@@ -23,9 +23,9 @@ class Move:
     """Move: pulses without a pause.
 
     Attributes:
-        way: direction; 1 = CW, -1 = CCW, 0 = unknown.
+        way: direction of the move; 1 = CW, -1 = CCW, 0 = unknown.
         begin, end: times in ps.
-        first, highest, last: speeds in pps.
+        first, highest, last: first, highest and last speed of the move in pps.
     """
 
     axis: int
@@ -48,8 +48,8 @@ def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
     split = gaps > pause
     if train.directions is not None:
         split |= train.directions[1:] != train.directions[:-1]
-    # The intervals of slow pulses may exceed the pause. An interval up to 2.5 times the previous one is no
-    # pause.
+    # The intervals between slow pulses may exceed `pause`. Therefore, an interval up to 2.5 times the
+    # previous one does not separate groups.
     last_split = -1
     for place in np.flatnonzero(split).tolist():
         turned = train.directions is not None and train.directions[place] != train.directions[place + 1]
@@ -138,10 +138,10 @@ def phase_train(wires: Wires, axis: int, port: str) -> PulseTrain | None:
 def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[int, Channel]:
     """Return phases without the off-times of a chopper.
 
-    During an off-time, all phases are off for a while; then the previous pattern returns.
+    During an off-time, all phases are off; after it, the phases have their previous pattern again.
 
-    Wires change one after the other within `window` ps. If a wire is missing, the phases are returned
-    unchanged.
+    The wires of a new pattern change one after the other within `window` ps. If the wire of a phase was not
+    captured, the phases are returned unchanged.
     """
     if len(bits) < width:
         return bits
@@ -164,7 +164,7 @@ def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[i
 
 
 def _settled(whole: Channel, window: int) -> Iterator[tuple[int, int]]:
-    """Yield the changes. All changes within `window` ps after a change are combined with it."""
+    """Yield the changes of the phases. All changes within `window` ps after a change are combined with it."""
     begin, last = None, 0
     for t, level in whole:
         if begin is not None and t - begin > window:

@@ -16,7 +16,7 @@ UNITS = {
     **{"ps": 1, "picosecond": 1, "picoseconds": 1},
 }
 FINE = {"fs": 3, "femtosecond": 3, "femtoseconds": 3, "as": 6, "attosecond": 6, "attoseconds": 6}
-"""Names of the units below 1 ps -> n, where the unit is 10**-n ps."""
+"""Units below 1 ps. A key is the name of the unit 10**-n ps, its value is n."""
 
 
 def unit(name: str) -> Fraction | None:

@@ -118,7 +118,10 @@ def _hex(data: Sequence[int]) -> str:
 
 
 def cycle(access: Access, levels: dict[str, int], data: str = "d_i") -> list[tuple[int, dict[str, int]]]:
-    """Return an access as a clean strobe for the golden model: the levels at its start and at its end."""
+    """Return an access as one strobe without glitches for the golden model.
+
+    The result contains the levels of the pins at the beginning and at the end of the strobe.
+    """
     begin = {**levels, data: access.byte} if access.write else levels
     idle = {pin: 1 for pin, level in levels.items() if pin.endswith("_n") and not level and pin != "rst_n"}
     return [(access.begin, begin), (access.end, idle)]

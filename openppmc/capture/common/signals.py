@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     Column = NDArray[Any]
 
 US = 1_000_000
-"""Picoseconds of a microsecond."""
+"""Number of picoseconds in a microsecond."""
 SECOND = 10**12
 BLOCK = 1 << 16
 """Number of rows of a column that are processed together. The limit keeps temporary columns short."""
@@ -156,7 +156,10 @@ class Channel:
         return Channel.of(1 - self.initial, self.times, flip, 1, self.unknown, self.unknown_first)
 
     def settled(self, idle: int, hold: bool) -> Channel:
-        """Return a channel with `idle` instead of unknown levels; with `hold`, with the last known level."""
+        """Return a channel without unknown levels.
+
+        Each unknown level is replaced with `idle`, or with the last known level if `hold` is set.
+        """
         if not self.doubtful:
             return self
         np = numpy()
@@ -223,8 +226,8 @@ class Capture:
     def finest(self) -> int:
         """Sample period in ps.
 
-        The value is the period that the file states, or else a divisor of the times of all changes.
-        It is 0 if there are no changes.
+        The value is the period that the file states. Otherwise, it is a common divisor of the times of all
+        changes, or 0 if there are no changes.
         """
         if self.sample:
             return self.sample
@@ -251,7 +254,7 @@ def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
     np = numpy()
     if len(channel) < 2 or not (short := np.diff(channel.times) < shortest).any():
         return channel, 0
-    # Only groups of short intervals are processed; all other changes are kept.
+    # Only groups of changes with short intervals between them are processed; all other changes are kept.
     keep = np.ones(len(channel), bool)
     times, dropped = channel.times, 0
     for place in np.flatnonzero(short & ~np.concatenate(([False], short[:-1]))).tolist():

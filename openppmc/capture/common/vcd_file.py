@@ -39,7 +39,7 @@ _MOST_PS = 1 << 62
 
 
 def core_comment(part: str, parameters: Mapping[str, object]) -> str:
-    """Return the comment of a VCD that states its core: part and parameters of the top module."""
+    """Return the comment of a VCD file that states its core: part and parameters of the top module."""
     return _MARK + json.dumps({"part": part, "parameters": dict(parameters)})
 
 
@@ -125,7 +125,7 @@ class _Head:
         self.notes: list[str] = []
         self.variables: dict[str, _Variable] = {}
         self.named: dict[str, str] = {}
-        """Code of each variable, by the names that the user may write."""
+        """Identifier code of each variable, by the names that the user may write."""
         self.doubled: set[str] = set()
         self._depths: dict[str, tuple[int, str, str]] = {}
         declared = self._sections(text)
@@ -356,7 +356,7 @@ class _Body:
         return CaptureError(f"{self.head.name}: cut off or damaged at line {line}: {what}; export it again")
 
     def _piece(self, data: bytes, final: bool) -> bytes:
-        """Process all complete tokens; return the rest, which belongs to the next piece."""
+        """Process all complete tokens of a piece; return the incomplete last token for the next piece."""
         np = self.np
         if any(word in data for word in _TEXTS):
             data = _SECTION.sub(lambda match: b"\n" * match[0].count(b"\n") + b" ", data)
@@ -398,7 +398,7 @@ class _Body:
         other = ~(stamp | plain | code_of | pair)
         self._words(data, starts[other], ends[other])
         times = self._times(data, buf, starts[stamp], ends[stamp])
-        # Number of time stamps before each token.
+        # Number of time stamps that precede each token.
         at = np.cumsum(stamp, dtype=np.int32)
         if self.start is None and (len(times) or plain.any() or pair.any()):
             early = plain | pair
@@ -422,11 +422,11 @@ class _Body:
     def _pairs(self, first: Any, size: Any) -> Any:
         """Return a mask of the tokens after which the code of the variable is a separate token.
 
-        These tokens are vectors, real numbers, texts, and levels that are separated from the code.
+        These tokens are vectors, real numbers, texts, and levels that a space separates from the code.
         """
         np = self.np
         pair = np.isin(first, np.frombuffer(b"bBrR", np.uint8)) & (size > 1)
-        # The value of a text may be empty, as in our own recordings.
+        # The value of a text variable may be empty, as in our own recordings.
         pair |= np.isin(first, np.frombuffer(b"sS", np.uint8))
         pair |= (self.level[first] != 255) & (size == 1)
         if not pair.any():
@@ -529,7 +529,7 @@ class _Body:
     def _vectors(
         self, data: bytes, buf: Any, starts: Any, ends: Any, which: Any, stamps: Any, at: Any
     ) -> None:
-        """Add changes of vectors; missing bits on the left are extended as the format requires."""
+        """Add changes of vectors. The missing leftmost bits are extended as the format requires."""
         np = self.np
         variables = self._lookup(data, buf, starts[which + 1], ends[which + 1])
         first = buf[starts[which]]
@@ -555,7 +555,7 @@ class _Body:
             for place in range(one.width):
                 live = place < size
                 value = self.level[buf[np.where(live, end - 1 - place, 0)]]
-                # Bits that are not written are 0; they are unknown if the leftmost written bit is unknown.
+                # Bits that the file omits are 0, or unknown if the leftmost bit that it contains is unknown.
                 value = np.where(live, value, left & 2)
                 if (value == 255).any():
                     bad = int(begin[np.flatnonzero(value == 255)[0]])

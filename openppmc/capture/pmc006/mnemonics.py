@@ -114,9 +114,10 @@ class Pmc006Decoder(CommandDecoder):
     unit, speed, rate = "step", "thousand pps", "pps"
 
     def exchanges(self, accesses: Iterable[Any]) -> list[Exchange006]:
-        """Return one row for each frame with its reply, as the script host records them.
+        """Return one row for each frame with its reply.
 
-        Consecutive polls of a moving motor are one row. The words of a program are also one row.
+        The accesses are those that the script host records. Consecutive polls of a moving motor are combined
+        in one row, and the words of a program in another.
         """
         rows: list[Exchange006] = []
         for access in accesses:

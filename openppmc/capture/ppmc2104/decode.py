@@ -1,4 +1,7 @@
-"""Bus and pins of a PPMC-2104 as text. In ports that both axes share, bit 1 belongs to axis 1."""
+"""Bus and pins of a PPMC-2104 as text.
+
+In a port that both axes share, the bit with the index 1 belongs to axis 1.
+"""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class Ppmc2104Decoder(CommandDecoder):
         return 0 if code & 0xCF == 0xC1 or code == 0xC2 else code & 0x20
 
     def status(self, byte: int) -> str:
-        """Return the set flags as text."""
+        """Return the names of the flags that are set in the status register as text."""
         flags = [name for bit, name in FLAGS if byte & bit]
         if byte & 0x80:
             flags.append("ERROR")

@@ -1,4 +1,7 @@
-"""Parallel bus and pins of a PPMC-312 as text: the blocks that pass through its bus registers."""
+"""Parallel bus and pins of a PPMC-312 as text.
+
+The text consists of the blocks that the host transfers through the bus registers.
+"""
 
 from __future__ import annotations
 

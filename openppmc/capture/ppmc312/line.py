@@ -1,4 +1,4 @@
-"""Serial line of PPMC-312 stations as text, and comparison of one station with the model."""
+"""Serial line with PPMC-312 stations as text, and comparison of one station with the model."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ KINDS = {serial.BUSY: "busy", serial.READY: "ready", serial.DATA: "data", serial
 
 
 def _rate(wires: Wires) -> float:
-    """Return the line rate in bit/s, from the straps or measured from the bits."""
+    """Return the line rate in bit/s, which the straps set or which is measured from the bits."""
     crystal = float(str(wires.params.get("XTAL_HZ", 16_000_000))) / 16e6
     if (mod := wires.ports.get("mod")) is not None:
         for rate, level in SPEEDS.items():

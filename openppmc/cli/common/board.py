@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from ...host.capabilities import Capabilities
 
 USUAL = "ppmc104"
-"""Part of a plan or of a virtual board if the user names no part."""
+"""Part that is assumed for a plan or a virtual board if the user names no part."""
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
-"""All words of --line. Each kind of line supports some of them."""
+"""All option names that --line may contain. Each kind of line supports some of them."""
 
 
 class PartName(str, Enum):
@@ -35,7 +35,7 @@ class Board:
     """The board, from the options before the command.
 
     Attributes:
-        baud: line rate in bit/s; None: the default.
+        baud: line rate in bit/s; None for the default rate.
         part: name of the part in the table; None without --part.
         line: options of a serial line.
     """
@@ -62,7 +62,7 @@ class Board:
 
     @property
     def planned(self) -> Capabilities:
-        """Part of a plan, for which no board is opened: from --part, else from a virtual port, else USUAL."""
+        """Part for a plan, which needs no board: from --part, else from a virtual port, else USUAL."""
         from ...host.capabilities import capabilities_of
 
         if self.part is not None:

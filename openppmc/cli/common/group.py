@@ -49,7 +49,7 @@ def write(command: Any, ctx: Any, formatter: Any) -> None:
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
 BRIDGE = ""
-"""Represents all parts with the UART bridge, which have the same commands."""
+"""Represents all parts that are accessed through the UART bridge, which have the same commands."""
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,10 @@ class HalGuard(Guard):
 
 
 def serve(name: str, open_device: Callable[[], Any], machine_of: Callable[[Any], Machine]) -> None:
-    """Run the component until a signal ends it. A lost port is opened again at `reset`."""
+    """Run the component until a signal ends it.
+
+    If the port is lost, it is opened again when the pin `reset` requests it.
+    """
     try:
         import hal
     except ImportError as error:
@@ -84,7 +87,7 @@ def serve(name: str, open_device: Callable[[], Any], machine_of: Callable[[Any],
 def _reconnect(
     controller: Controller, connect: Callable[[], Machine], report: Callable[[str], None]
 ) -> Machine:
-    """Wait for `reset` and open the device again."""
+    """Wait until the pin `reset` requests it, and open the device again."""
     while True:
         controller.cycle()
         if controller.reopen:

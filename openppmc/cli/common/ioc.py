@@ -42,7 +42,7 @@ with_units = with_options("units", _OPTIONS, dict)
 def _each(
     name: str, texts: Mapping[str, str], count: int, default: T, parse: Callable[[str], T]
 ) -> Sequence[T]:
-    """Return the values of an option for all axes. Raise BadParameter."""
+    """Return the values of an option for all axes. Raise BadParameter if a value is invalid."""
     if name not in texts:
         return [default] * count
     try:
@@ -70,7 +70,10 @@ def _limits(text: str) -> tuple[float, float]:
 
 
 def check_prefix(prefix: str) -> None:
-    """Check the beginning of PV names. Raise BadParameter, or MissingExtraError without caproto."""
+    """Check the prefix of PV names.
+
+    Raise BadParameter if it is invalid, or MissingExtraError if caproto is not installed.
+    """
     if not re.fullmatch(r"[A-Za-z0-9_:;<>\[\]-]{1,50}", prefix):
         raise typer.BadParameter(f"--prefix {prefix!r}: use 1 to 50 letters, digits or _ - : ; < > [ ]")
     from ... import epics  # noqa: F401 - checks the extra before a port is opened
@@ -86,7 +89,7 @@ def serve(
     """Serve records until a signal arrives.
 
     Args:
-        requests: set-ups of the axes, which are initialised, by their numbers.
+        requests: by axis number, the set-up with which each axis is initialised.
     """
     from ...epics import Units, serve
     from ...positioner import Positioner

@@ -24,7 +24,7 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
 
     Args:
         known: the allowed numbers.
-        span: text about the allowed numbers for messages. Its first word is the name of the numbered objects.
+        span: text about the allowed numbers for messages. It begins with the name of the numbered objects.
     """
     numbers: list[int] = []
     for piece in text.split(","):
@@ -50,7 +50,7 @@ def line_options(text: str, known: str) -> dict[str, Any]:
     `sum_mode` is returned as text.
 
     Args:
-        known: words that the line supports.
+        known: option names that this kind of line supports.
     """
     options: dict[str, Any] = {}
     for item in filter(None, (piece.strip().lower() for piece in text.split(","))):
@@ -83,10 +83,12 @@ def _number(word: str, value: str) -> float | int:
 def ending_after(
     seconds: float | None, bus: LineBus[Any, Any], guard: Guard, stations: Sequence[Stoppable]
 ) -> Callable[[Progress], None]:
-    """Return a progress callback. It shows a bar, and decelerates the stations after a time.
+    """Return a progress callback.
+
+    The callback shows a bar, and decelerates the stations when the time limit has passed.
 
     Args:
-        seconds: time on the clock of the line; None: no limit.
+        seconds: time limit, measured with the clock of the line; None for no limit.
     """
     clock = bus.line.clock
     end_at = None if seconds is None else clock() + seconds
@@ -105,7 +107,7 @@ def ending_after(
 
 @contextmanager
 def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
-    """Open a line with `make`; a signal n stops the motors, and the exit status is 128 + n.
+    """Open a line with `make`. A signal n stops the motors, and the exit status is then 128 + n.
 
     The motors are also stopped if stdout is lost.
     """

@@ -43,7 +43,7 @@ class Direction(str, Enum):
 
     @property
     def code(self) -> int:
-        """0 for CW, 1 for CCW."""
+        """Number of the direction: 0 for CW, 1 for CCW."""
         return int(self is Direction.CCW)
 
 
@@ -171,10 +171,10 @@ def _setup_values(typed: dict[str, Any]) -> dict[str, Any]:
 def with_options(
     parameter: str, options: dict[str, Any], finish: Callable[[dict[str, Any]], Any]
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return a decorator that adds options to a command; those that were typed become one parameter.
+    """Return a decorator that adds options to a command; the typed options become one parameter.
 
     Args:
-        options: annotation of each option, by its name; the default is None.
+        options: annotation of each option, by its name. The default value of each option is None.
         finish: returns the value of the parameter for the typed options.
     """
 

@@ -1,8 +1,9 @@
 """Output of a device on the command line, and functions that only some devices support.
 
-The column `presenter` of the table of parts names the presenter of a part; other parts use `RampPresenter`,
-that of the PPMC-104. A forecast is computed from the ramp of the golden model before the move. `--at
-POSITION:WHAT` sets an override: an action that the device executes when it passes a position.
+The column `presenter` of the table of parts names the presenter of a part. Parts without an entry use
+`RampPresenter`, the presenter of the PPMC-104. A forecast is computed from the ramp of the golden model
+before the move. `--at POSITION:WHAT` sets an override: an action that the device executes when it passes a
+position.
 """
 
 from __future__ import annotations
@@ -33,10 +34,10 @@ FARTHEST = 1 << 31
 
 @dataclass(frozen=True)
 class Override:
-    """Action at a position: a change with a ramp to a speed in pps, or a stop.
+    """Action at a position: a change to a speed in pps with a ramp, or a stop.
 
     Attributes:
-        now: stop without a ramp.
+        now: True for a stop without a ramp.
     """
 
     at: int
@@ -100,7 +101,7 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Move to draw: times of the pulses in s, and speed of each interval in pps."""
+    """Move that is drawn: time of each pulse in s, and speed in each interval in pps."""
 
     seconds: list[float]
     speeds: list[float]
@@ -127,8 +128,8 @@ class Trajectory:
 def plot_move(trajectory: Callable[[int], Trajectory], pulses: int, path: Path) -> None:
     """Write a plot of the speed over time as PNG, SVG or PDF.
 
-    Raises OutOfRange if the move is too long to draw, or if the plotter does not support the suffix of the
-    file.
+    Raises OutOfRange if the move is too long to draw, or if the plotter does not support the file format that
+    the suffix of the file name requests.
 
     Args:
         trajectory: function that computes the trajectory of a number of pulses.
@@ -144,7 +145,7 @@ def plot_move(trajectory: Callable[[int], Trajectory], pulses: int, path: Path) 
 
 
 class Status(Protocol):
-    """Status of a part; each part defines its bits."""
+    """Status register of a part; each part defines the bits."""
 
     @property
     def raw(self) -> int:
@@ -203,7 +204,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
         return tuple(axis for axis in axes if self.status_values(part, axis)["moving"])
 
     def reports(self, part: PartT, print_line: Callable[[str], None]) -> None:
-        """Pass each new report to `print_line` as a line; then raise the first error among them."""
+        """Pass each new report to `print_line` as a line; then raise the first error among the reports."""
 
     # ------------------------------------------------------------------ plans
 
@@ -234,7 +235,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
     # ------------------------------------------------------------------ functions of some parts only
 
     def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
-        """Set the overrides of the next move and the permitted deviation of the encoder in pulses."""
+        """Set the overrides of the next move, and the deviation in pulses that the encoder may have."""
         if encoder is not None:
             raise OutOfRange(f"encoder: a {part.kind} does not have that")
         if overrides:
@@ -259,7 +260,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
         """Start moves of several axes with ramps in the same cycle, and return the motions.
 
         Args:
-            pulses: by axis number.
+            pulses: number of pulses of each axis, by axis number.
         """
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
 
@@ -310,7 +311,7 @@ class RampPresenter(Presenter[PartT, speeds.Setup]):
         }
 
     def moving(self, status: Any, number: int) -> tuple[bool, int | str | None]:
-        """Return two values from a status: True if the axis moves, and the error code."""
+        """Return whether the axis moves, and the error code, from a status."""
         return status.busy, None if status.error is None else int(status.error)
 
     def setup_rows(self, setup: speeds.Setup) -> dict[str, str]:

@@ -35,7 +35,7 @@ def positions(axes: Iterable[AnyAxis]) -> str:
 
 
 class ScriptTarget(Protocol):
-    """Open board or line: the members that a script uses."""
+    """Members of an open board or an open line that a script uses."""
 
     guard: Guard
 
@@ -52,7 +52,7 @@ class ScriptTarget(Protocol):
 
 
 def number_of(step: Step) -> int:
-    """Return the axis of a line; 1 if the line names no axis."""
+    """Return the axis that a line names; 1 if the line names no axis."""
     return 1 if step.axis is None else step.axis
 
 
@@ -138,7 +138,7 @@ class ScriptRunner:
         return tuple(self._session.axis(number) for number in numbers)
 
     def _move(self, step: Step, axis: AnyAxis) -> None:
-        """Execute move or goto for one axis or for both."""
+        """Execute the command `move` or `goto` for one axis or for both axes."""
         values, progress = step.values, self._guard.progress
         absolute, speed = step.word == "goto", values.get("speed")
         first, second = values["position" if absolute else "pulses"], values["second"]
@@ -213,7 +213,7 @@ class Step:
     """One line of a script.
 
     Attributes:
-        body: steps of a repeat.
+        body: steps that a `repeat` executes several times.
         axis: number as written in the line; None if the line names no axis.
     """
 
@@ -254,9 +254,9 @@ def read_program(
     """Return all steps of a script file. Raise ScriptError for the first invalid line.
 
     Args:
-        readers: known words with their parsers; None: those of parts with the UART bridge.
-        of_axes: words that may end with axis=N.
-        numbered: name and range of the number at the end of a line.
+        readers: parser of each known command; None for the commands of parts with the UART bridge.
+        of_axes: commands that may end with axis=N.
+        numbered: name and range of the number that a line may end with, such as `axis=2`.
     """
     if readers is None:
         readers = READERS | {word: own.parse for word, own in part_commands().items()}

@@ -17,8 +17,8 @@ class PartCommand:
     """Command of script files that only some parts support.
 
     Attributes:
-        unsupported_reason: returns the reason why a part does not support the word with these values; empty
-            if it supports the word.
+        unsupported_reason: returns the reason why a part does not support the command with these operands;
+            empty if it supports the command.
         execute: executes the command; it is called only if `unsupported_reason` returns an empty text.
     """
 
@@ -81,7 +81,7 @@ _SOME = {
 
 @cache
 def part_commands() -> dict[str, PartCommand]:
-    """Return the words that only some parts support, including those of column `script_commands`."""
+    """Return the commands that only some parts support, including those of column `script_commands`."""
     own = dict(_SOME)
     for row in parts.folders():
         if row.script_commands:
@@ -93,7 +93,7 @@ def part_commands() -> dict[str, PartCommand]:
 
 MOST_TURNS = 1_000_000
 Values = dict[str, Any]
-"""Operands of a line, with the names that `ScriptRunner` uses."""
+"""Operands of a script line, by the names that `ScriptRunner` uses."""
 Reader = Callable[[list[str]], Values]
 """Parses and removes the words after the first one. Raises ValueError if a word is invalid."""
 
@@ -275,4 +275,4 @@ READERS: dict[str, Reader] = {
     "off": _plain,
     "position": _plain,
 }
-"""Words of all parts."""
+"""Commands that all parts support."""

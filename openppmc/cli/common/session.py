@@ -51,7 +51,7 @@ def state_folder() -> Path:
 
 
 def stores_setup(port: str) -> bool:
-    """Return True if set-ups are stored for this port. A virtual board is new each time."""
+    """Return True if set-ups may be stored for this port. A virtual board starts in reset each time."""
     return bool(port) and not f"{port}:".startswith((MODEL, SIM))
 
 
@@ -143,7 +143,7 @@ class Guard:
         sys.stdout.flush()
 
     def progress(self, now: Progress) -> None:
-        """Check for signals and show the bar. This is the progress callback of motions."""
+        """Check for signals and update the progress bar. This is the progress callback of motions."""
         self.check()
         self.bar(now)
 
@@ -165,7 +165,7 @@ class Guard:
         self._draw("moving", "position {task.fields[at]}", now.requested, now.done, at=now.position)
 
     def count_bar(self, what: str, done: int, of: int) -> None:
-        """Show or update a bar with a count; only on a terminal."""
+        """Show or update a bar with a count if stderr is a terminal."""
         if sys.stderr.isatty():
             self._draw(what, "{task.completed}/{task.total}", of, done)
 
@@ -207,7 +207,7 @@ class Guard:
 
     @property
     def status(self) -> int:
-        """Exit status after a signal."""
+        """Exit status of the program after a signal."""
         return 128 + self.number
 
     def stop_motors(self, part: Device) -> str:
@@ -225,7 +225,7 @@ def mismatch(build: Build | None, number: int) -> str:
     The result is empty if they match, or if this cannot be checked.
 
     Args:
-        number: number of the part in IDENT.
+        number: part number in the answer to IDENT.
     """
     if build is None:
         return ""
@@ -308,7 +308,7 @@ def note_mismatch(part: Part) -> None:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the board; a signal n stops the motors, and the exit status is 128 + n.
+    """Open the board. A signal n stops the motors, and the exit status is then 128 + n.
 
     The motors are also stopped if stdout is lost.
     """
@@ -326,7 +326,7 @@ def ready(typed: dict[str, Any], axes: Iterable[int]) -> Iterator[Session]:
 
 
 def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
-    """Make the plans of all axes, then initialise the axes; return the reached set-ups."""
+    """Make the plans of all axes, then initialise the axes; return the set-ups that are reached."""
     plans = {
         axis: table.plan(session.xtal_hz, session.kind, session.kind.check_axis(axis))
         for axis, table in values.items()

@@ -49,7 +49,7 @@ class Direction(str, Enum):
 
     @property
     def sign(self) -> int:
-        """1 for forward, -1 for backward."""
+        """Sign of the direction: 1 for forward, -1 for backward."""
         return FORWARD if self is Direction.FORWARD else BACKWARD
 
 

@@ -60,7 +60,10 @@ class Session:
         return parts
 
     def one(self, text: str | None) -> Pmc006:
-        """Return the controller. Raise BadParameter if --address names several."""
+        """Return the controller of a command for one controller.
+
+        Raise BadParameter if --address names several controllers.
+        """
         if text is not None and len(parse_addresses(text)) > 1:
             raise typer.BadParameter(f"--address {text!r}: the command is for one controller; name only one")
         return self.selected_axes(text)[0]
@@ -76,7 +79,7 @@ class Session:
         self.guard.count_bar("looking for controllers", ADDRESSES.index(address), len(ADDRESSES))
 
     def on_word_progress(self, done: int, of: int) -> None:
-        """Check for signals and show the bar. This is the progress callback of a download."""
+        """Check for signals and update the bar. This is the progress callback of a download."""
         self.guard.check()
         self.guard.count_bar("words of the program", done, of)
 
@@ -91,7 +94,7 @@ def open_bus() -> Pmc006Bus:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
+    """Open the line. A signal n stops the motors, and the exit status is then 128 + n."""
     with guarded(open_bus) as (bus, guard):
         yield Session(bus, guard)
 
@@ -100,7 +103,7 @@ _HEADS = ("address", "version", "state", "position", "line faults")
 
 
 def state(flags: Flags | None, modes: Modes | None) -> str:
-    """Return the state of the motor, and each condition that prevents a start, as text."""
+    """Return a text with the state of the motor and each condition that prevents a start."""
     if flags is None or modes is None:
         return "-"
     words = ["running" if modes.running else "moving"] if flags.busy else []
@@ -221,7 +224,10 @@ def settings_rows(values: dict[str, int]) -> list[tuple[str, ...]]:
 
 
 def _meaning(name: str, value: int, text: str) -> str:
-    """Return the meaning of a setting; for some settings, with a value that follows from it."""
+    """Return the meaning of a setting.
+
+    For some settings, the text includes a value that results from the setting.
+    """
     if name == "current":
         return f"{text}: drives {drive_current(value)} mA"
     if name in ("acceleration", "deceleration"):

@@ -1,7 +1,7 @@
-"""Forecasts, overrides, output and script words of the PPMC-312 on the command line.
+"""Forecasts, overrides, output and script commands of the PPMC-312 on the command line.
 
-A forecast is computed from the tables of the golden model. Only a PPMC-312 has the script words at, event,
-pulse and watch.
+A forecast is computed from the tables of the golden model. Only a PPMC-312 has the script commands `at`,
+`event`, `pulse` and `watch`.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, 
     rates = {number: plan.step(number).rate for number in sloped}
     plateau = n - len(sloped)
     ticks = sum(rates.values()) + plateau * plan.rate
-    ticks -= rates.get(n, plan.rate)  # nothing follows the last pulse
+    ticks -= rates.get(n, plan.rate)  # no interval follows the last pulse
     fastest = min([*rates.values(), *([plan.rate] if plateau else [])])
     period = setup.clock.period
     values: dict[str, Any] = {
@@ -130,7 +130,7 @@ def axis_values(part: Axis[Any]) -> dict[str, Any]:
 
 
 def state_rows(values: dict[str, Any]) -> dict[str, str]:
-    """Return additional rows, which other parts do not have."""
+    """Return the additional rows of values that other parts do not have."""
     return {
         "encoder": str(values["encoder"]),
         "state": values["state"],
@@ -264,7 +264,7 @@ def _count(words: list[str], expected: int) -> None:
 
 
 def _unsupported_reason(kind: Capabilities, values: Values) -> str:
-    """Return the reason why another part does not support the word; empty for a PPMC-312."""
+    """Return the reason why another part does not support the command; empty for a PPMC-312."""
     return "" if kind is CAPABILITIES else f"a {kind} has neither overrides nor events"
 
 

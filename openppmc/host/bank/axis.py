@@ -61,7 +61,7 @@ class BankMotion(Motion):
 class BankAxis(Axis):
     """Axis of a bank. Axis 1 is axis 0 of the window. See `axis.Axis` for the motions.
 
-    `initialise` accepts the values of the PPMC-104, without external_clock. The bank itself counts the
+    `initialise` accepts the arguments of the PPMC-104 except external_clock. The bank itself counts the
     position; a reset sets it to 0. `zero` and `home` only store an offset in this object, because the counter
     is read-only (BANK-WIN-07).
     """
@@ -96,7 +96,7 @@ class BankAxis(Axis):
         return self._motion
 
     def _foreign_result(self) -> MotionResult:
-        """Return the result of a motion of another program. The interrupt of its end is pending."""
+        """Return the result of a motion of another program, whose interrupt is pending."""
         motion = Motion(self, MotionRequest(CONTINUOUS, CW), 0, ours=False)
         motion._on_status(0)
         if not motion.over:
@@ -139,7 +139,7 @@ class BankAxis(Axis):
         return Config.parse(self.link.execute(Script().read(CONFIG)).byte(0))
 
     def configure(self, csel: int = 1, vsel: int = 1) -> None:
-        """Write CONFIG; csel and vsel are 0 or 1. The next operation uses it (BANK-GEN-04).
+        """Write CONFIG; csel and vsel are 0 or 1. The next operation uses the new values (BANK-GEN-04).
 
         `initialise`, and motions with a known speed, write the values that they require.
         """

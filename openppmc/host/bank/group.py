@@ -18,7 +18,7 @@ from .registers import BUSY, ERR, GO, MASK, STATUS, GroupRefused, bit_bytes, go_
 from .window import visit
 
 _GO_READS = 8
-"""Number of read accesses before MASK changes.
+"""Number of read accesses that the host makes before it changes MASK.
 
 One access takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
 """
@@ -72,8 +72,8 @@ class Group(Checked):
 
     Raises:
         AxisBusy: an axis moves at the start of the block.
-        GroupRefused: an axis did not start at the end of the block. This does not include a motion that a
-            switch ended while it was waiting; its result holds the cause.
+        GroupRefused: an axis did not start at the end of the block. A motion that a switch ended while it was
+            waiting does not raise this error; its result holds the cause.
     """
 
     numbers: tuple[int, ...]
@@ -145,7 +145,10 @@ class Group(Checked):
         return motion.over and not (motion.result and motion.result.complete)
 
     def _cancel(self) -> None:
-        """Cancel all motions of this group, whose axes were all stopped when the group was opened."""
+        """Cancel all motions of this group.
+
+        All its axes were stopped when the group was opened.
+        """
         link, kind = self._bank.link, self._bank.kind
         try:
             for number in self.numbers:

@@ -1,4 +1,4 @@
-"""Driver of a bank on a UART bridge: many axes, each a PPMC-104."""
+"""Driver of a bank on a UART bridge. Each axis of the bank works like a PPMC-104."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Axes(dict[int, BankAxis]):
 
 
 class PpmcBank(Part):
-    """Bank of axes, which is a context manager; see `part.Part`.
+    """Bank of axes. A bank is a context manager; see `part.Part`.
 
     `axis[1]` to `axis[N]` are axes 0 to N − 1 of the window. Opening the bank reads and checks INFO
     (WrongDevice), reads finish statuses that other programs left unread, and clears MASK. Running motions

@@ -70,14 +70,14 @@ POSITION_BYTES = 4
 
 
 class Info(NamedTuple):
-    """INFO: version of the window, number of axes."""
+    """Content of INFO: version of the window, number of axes."""
 
     version: int
     axes: int
 
 
 class Config(NamedTuple):
-    """CONFIG of an axis.
+    """Content of the register CONFIG of an axis.
 
     Attributes:
         csel: base clock XTAL / 32 (1) or XTAL / 128 (0).
@@ -111,7 +111,7 @@ class BankStatus:
     """Status registers of all axes, axis 1 first.
 
     Attributes:
-        raw: all of them as one number, axis 1 in the low byte.
+        raw: all status registers as one number, axis 1 in the lowest byte.
     """
 
     raw: int
@@ -166,4 +166,4 @@ CAPABILITIES = BankCapabilities(
     has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER)),
     outputs=0,
 )
-"""Capabilities of the largest bank; a driver has those of its own bank."""
+"""Capabilities of the largest bank; a driver uses those of its own bank."""

@@ -61,7 +61,7 @@ class AxisLink:
         self._link.forget_events()
 
     def execute(self, script: Script) -> Answer:
-        """Execute a script completely at this axis."""
+        """Execute a script completely at this axis, and return its answer."""
         return self.check_answer(self.attempt(script))
 
     def attempt(self, script: Script) -> Answer:
@@ -69,7 +69,7 @@ class AxisLink:
         return self._link.attempt(Script().write(SELECT, self._number - 1).extend(script))
 
     def check_answer(self, answer: Answer) -> Answer:
-        """Return the answer if all operations were executed, else raise its error.
+        """Return the answer if all operations were executed, else raise the error that it reports.
 
         The error of a rejected command names the axis.
         """

@@ -79,8 +79,8 @@ class Axis(Settings):
     def stop(self, wait: bool = True) -> MotionResult | None:
         """Stop with a ramp; return the result, or `None` if wait is False.
 
-        A free run receives a stop instruction. For moves, the part has no stop with a ramp. The driver
-        therefore lowers the maximum speed of a move of 256 steps or more, and aborts the move when it has
+        A free run receives a stop instruction. The part cannot stop a move with a ramp. In a move of 256
+        steps or more, the driver therefore lowers the maximum speed, and aborts the move when the motor has
         decelerated to this speed.
 
         Raises:
@@ -116,7 +116,7 @@ class Axis(Settings):
         self.stops = int(ext1) | int(ext2) << 1
 
     def clear_stops(self, numbers: Iterable[int] = (1, 2)) -> None:
-        """Clear EXT flags, so that the motor may be started again.
+        """Clear the flags of EXT stops, so that the motor may be started again.
 
         The call itself does not start the motor.
         """
@@ -160,7 +160,7 @@ class Axis(Settings):
         self.direction = int(direction == FORWARD)
         begin = self.position
         if begin < 0 < direction:
-            self.remember("max_speed")  # detects a reset during a motion to position 0
+            self.remember("max_speed")  # to detect a reset during a motion to position 0
         motion = Motion(self, data if code is Code.STEP else None, direction, begin)
         got = self.execute(
             code,
@@ -175,9 +175,10 @@ class Axis(Settings):
         return motion
 
     def _start_executed(self, begin: int, reply: int) -> int | None:
-        """After the reply to a start was lost, return this reply if the start was executed, else `None`.
+        """Return the lost reply to a start if the start was executed, else `None`.
 
-        Before the start, the motor was stopped. The start was executed if the motor moves or has moved.
+        Before the start, the motor was stopped. The start was therefore executed if the motor moves or has
+        moved.
         """
         try:
             return reply if self.flags().busy or self.position != begin else None
@@ -296,7 +297,7 @@ class Homing:
         before = {name: getattr(axis, name) for name in HOMING_SETTINGS}
         try:
             axis.clear_stops()
-            axis.stops = 3  # also the other switch, because the direction may be wrong
+            axis.stops = 3  # the other switch stops the motor, too, because the direction may be wrong
             if axis.on_switch(self._switch):
                 self._leave()
             else:

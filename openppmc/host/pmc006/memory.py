@@ -11,11 +11,11 @@ from .axis import Axis
 from .wire import Code, ProgramRuns, ProgramVerifyFailed, Storage, StorageBusy, StorageFailed
 
 OnCount = Callable[[int, int], None]
-"""Called with the number of words done and the total number."""
+"""Function that is called with the number of transferred words and the total number of words."""
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
-"""Time in s for which the EEPROM is busy, with some reserve."""
+"""Time in s for which the EEPROM is busy after a save or a burn, with some reserve."""
 _LOOKS = 10
-"""Longest wait as a multiple of these times; it allows for a slow I2C clock."""
+"""Factor between these times and the longest wait. It allows for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
@@ -61,7 +61,7 @@ class Memory(Axis):
         """Read words of the buffer.
 
         Args:
-            total: number of words of the whole operation, for `progress`.
+            total: number of words in the whole operation, for `progress`.
         """
         words: dict[int, int] = {}
         self._here = None
@@ -75,7 +75,7 @@ class Memory(Axis):
     # ------------------------------------------------------------------ EEPROM
 
     def save(self) -> None:
-        """Save the settings for the next power-up, and wait until that is done.
+        """Save the settings for the next power-up, and wait until they are stored.
 
         Raises:
             StorageBusy: the EEPROM is being written.
@@ -84,7 +84,7 @@ class Memory(Axis):
         self._store(Code.SAVE, SAVE_SECONDS)
 
     def burn_program(self) -> None:
-        """Save the program for the next power-up, and wait until that is done.
+        """Save the program for the next power-up, and wait until it is stored.
 
         Raises:
             StorageBusy: the EEPROM is being written.
@@ -97,7 +97,7 @@ class Memory(Axis):
         got = self.execute(code, good=_yes_or_no)
         if not got and self.counters.repeated == repeated:
             raise StorageBusy(0, f"{self._message_prefix}{StorageBusy.text}")
-        # If the reply was lost, a rejection of the repetition means that the first instruction is being
+        # If the first reply was lost and the repeated instruction is rejected, the first instruction is being
         # executed.
         for _ in range(_LOOKS):
             self.line.pause(seconds)
@@ -132,7 +132,7 @@ class Memory(Axis):
     def halt_program(self) -> None:
         """Halt the program; a motion continues.
 
-        Afterwards the key functions are off; `offline` is unchanged.
+        After it, the functions of the keys are off, and `offline` is unchanged.
         """
         offline = self.offline
         self.offline = 0

@@ -49,7 +49,7 @@ class Motion(Handle):
         requested: steps, `None` for free runs.
         direction: 1 = forward, -1 = backward.
         begin: position before the motion.
-        stop_ordered: a stop was sent.
+        stop_ordered: True if a stop was sent.
     """
 
     result: MotionResult | None = None
@@ -119,7 +119,7 @@ class Motion(Handle):
         return Cause.STOP if self.stop_ordered else None
 
     def _current_progress(self) -> Progress:
-        """Return the progress now, or at the end of the motion."""
+        """Return the current progress; after the end of the motion, the progress at its end."""
         position = self._part.position if self.result is None else self.result.position or 0
         done = 0 if self.begin is None else abs(_signed(position - self.begin))
         return Progress(position, done, self.requested, self.line.clock() - self._started)

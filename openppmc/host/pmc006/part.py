@@ -50,7 +50,7 @@ class Pmc006(Memory, Device):
     Settings are properties (listed in `settings.SETTINGS`). After a lost reply, an instruction is repeated
     only if the repetition has no side effect. After a lost reply to a start, the driver reads status and
     position, so that no motion is executed twice. It raises LostReply if it cannot determine whether the
-    instruction was executed. If a `with` block is left by an exception, a motion that this object started is
+    instruction was executed. If an exception leaves a `with` block, a motion that this object started is
     stopped.
     """
 
@@ -69,7 +69,8 @@ class Pmc006(Memory, Device):
         """Open a port; the other arguments are those of `Line`.
 
         Args:
-            address: address of the controller, `None` to search for one: 255, then 1 to 120.
+            address: address of the controller. For `None`, the first address that replies is used; the search
+                begins with 255 and continues with 1 to 120.
 
         Raises:
             StationNotResponding: no controller replies.
@@ -126,7 +127,7 @@ class Pmc006(Memory, Device):
     def outputs(self) -> int:
         """Levels of GPO5 to GPO1 (bits 4 to 0).
 
-        The value includes a level set by a stall. An assignment writes all of them.
+        The value includes a level that a stall has set. An assignment writes all five levels.
         """
         return self.ports().outputs
 
@@ -185,7 +186,9 @@ class Pmc006(Memory, Device):
 
 
 def find(line: Line, progress: Callable[[int], None] | None = None) -> int:
-    """Return the first address that replies: 255, then 1 to 120.
+    """Return the first address that replies.
+
+    The search begins with 255 and continues with 1 to 120.
 
     Raises StationNotResponding if no controller replies.
     """
@@ -220,7 +223,7 @@ class ScanResult:
 
     Attributes:
         version, flags, modes, position: `None` if the replies are corrupt.
-        problem: the problem if the replies are corrupt.
+        problem: description of the problem if the replies are corrupt.
         counters: counters of the master.
     """
 
@@ -235,9 +238,9 @@ class ScanResult:
 
 
 class Pmc006Bus(LineBus[Line, Pmc006]):
-    """Line (`Line`) with controllers; see `host.line.LineBus`.
+    """Line with controllers; see `host.line.LineBus`.
 
-    `axis(5)` is the `Pmc006` with address 5; it does not have to be connected.
+    `axis(5)` is the `Pmc006` with address 5. The controller does not have to be connected.
     """
 
     kind = CAPABILITIES
@@ -282,6 +285,6 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
         return ScanResult(axis.address, *seen, axis.counters)
 
     def check(self, addresses: Iterable[int]) -> None:
-        """Check that all these addresses reply. Raises StationNotResponding, CorruptReply."""
+        """Check that all these addresses reply. Raises StationNotResponding or CorruptReply."""
         for address in addresses:
             self.axis(address).flags()

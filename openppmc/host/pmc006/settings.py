@@ -1,6 +1,6 @@
-"""Settings of a PMC006B4 with codes, ranges, units and storage.
+"""Settings of a PMC006B4: instruction codes, ranges, units, and whether `save` stores them.
 
-Each is a property of `Settings`.
+Each setting is a property of `Settings`.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Setting:
 
     Attributes:
         write: instruction that writes the setting.
-        read: instruction that reads the setting; `None` if a rejected write reads it.
+        read: instruction that reads the setting; `None` if a write with an invalid value is used to read it.
         accepts: valid values, as users specify them.
         span: valid values as text.
         text: purpose of the setting.
@@ -128,7 +128,7 @@ class Setting:
 
 
 class FullSteps(Setting):
-    """Number of microsteps; full step is 0 in the part and 1 for users."""
+    """Number of microsteps. Full step is 0 in the part, but 1 for users."""
 
     hint = "; 1 is the full step"
 
@@ -161,7 +161,7 @@ class Settings(StationLink):
     def was_reset(self) -> bool:
         """Return True if a setting that a reset changes differs from its recorded value.
 
-        A reset is not detected if these settings had their factory values before.
+        The method cannot detect a reset if these settings had their factory values before it.
         """
         return any(getattr(self, name) != value for name, value in self.unsaved.items())
 

@@ -1,6 +1,6 @@
 """Communication with one PMC006B4: instructions and their replies.
 
-An instruction whose reply is lost is repeated only if that has no side effect.
+An instruction whose reply is lost is repeated only if the repetition has no side effect.
 """
 
 from __future__ import annotations
@@ -43,8 +43,9 @@ class Line(Master[Reply]):
             `model:…`.
         baud: line rate of the controllers, 1200 to 115200; 9600 unless they were built with another rate.
         rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
-        patience: time in s, beyond the line time, that the master waits for a reply.
-        unsynchronised: addresses that did not reply to a frame. Their reply may still arrive.
+        patience: time in s that the master waits for a reply in addition to the transmission time on the
+            line.
+        unsynchronised: addresses that did not reply to a frame, and whose reply may still arrive.
 
     Raises:
         PortError: the port cannot be opened.
@@ -70,7 +71,7 @@ class Line(Master[Reply]):
         """Send a frame and return its reply. Raises Disconnected.
 
         Args:
-            answers: address in the reply, `None` if it is that of the frame.
+            answers: address in the reply, `None` if it is the address in the frame.
         """
         sent = command(address_number(address), code, data)
         got = self.request(address, sent, Receiver(address if answers is None else answers, sent))
@@ -122,7 +123,7 @@ class StationLink(Checked):
 
     @property
     def _location(self) -> str:
-        """Line and address, for messages."""
+        """Names of line and address, for messages."""
         return f"{self.line.name}: controller {self.address}"
 
     @property
@@ -153,7 +154,7 @@ class StationLink(Checked):
 
         Raises:
             StationNotResponding, CorruptReply: no valid reply was received.
-            LostReply: no reply was received to a risky instruction.
+            LostReply: no reply to an instruction with `risky` was received.
         """
         misses: list[MissingReply] = []
         odd: list[int] = []

@@ -133,7 +133,7 @@ class Modes:
 
 @dataclass(frozen=True)
 class Ports:
-    """Port word.
+    """Word with the levels of all inputs and outputs.
 
     Attributes:
         inputs, outputs: levels of the pins; GPI1 and GPO1 are bit 0.
@@ -172,14 +172,14 @@ class Storage(IntEnum):
 
 
 STATUS_1_BITS, STATUS_2_BITS, PORT_BITS = 5, 6, 12
-"""Numbers of bits of these read-outs; a reply with other bits set is invalid."""
+"""Number of bits that each of these read-outs uses; a reply with other bits set is invalid."""
 
 
 # Errors of a PMC006B4. `status` is the data of the reply.
 
 
 class SettingRefused(CommandRefused):
-    """The part rejected a value of a setting; `status` is the active value, which is unchanged."""
+    """The part rejected the value for a setting; `status` is the active value, which is unchanged."""
 
 
 class ExtStopActive(CommandRefused):
@@ -296,7 +296,7 @@ class Receiver:
 
     @property
     def fault(self) -> Fault | None:
-        """Fault received instead of the reply, `None` if no byte was received."""
+        """Fault that the received bytes contain instead of the reply, `None` if no byte was received."""
         if self._broken or self._open:
             return Fault.BROKEN
         if self._foreign:

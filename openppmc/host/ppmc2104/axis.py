@@ -21,7 +21,7 @@ from .registers import CAPABILITIES, IncompleteCommand, Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
-"""Time limit of an initialisation in s at a 16 MHz crystal.
+"""Time limit of an initialisation in s with a 16 MHz crystal.
 
 A part needs 0.15 s for both axes, but a virtual board may be slow.
 """
@@ -51,10 +51,10 @@ class Axis2104(Axis):
 
     `part` has the functions that concern both axes.
 
-    Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, its rate at
-    least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz. positive_logic
-    and long_intervals are not supported. On an initialised axis, phases, half_step, chop and the choice of an
-    external clock are unchanged until `excitation_off` or `reset` (P2104-INI-05).
+    Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, with a rate
+    byte at least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz.
+    positive_logic and long_intervals are not supported. On an initialised axis, phases, half_step, chop and
+    the choice of an external clock are unchanged until `excitation_off` or `reset` (P2104-INI-05).
     """
 
     kind = CAPABILITIES
@@ -69,7 +69,7 @@ class Axis2104(Axis):
         self._zero_mask = 0x40
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
-        """Initialise the axis with a set-up planned earlier for it, and wait until the ramp is ready."""
+        """Initialise the axis with a set-up planned earlier for this axis, and wait for its ramp."""
         self.link.execute(Script().call(setup.code, *setup.data))
         clock = self.link.clock
         end = clock() + _SETUP_SECONDS * 16e6 / self.link.identity.xtal_hz
@@ -139,15 +139,15 @@ class Axis2104(Axis):
                 error.status, f"{self._message_prefix}nothing to stop: it is not initialised"
             ) from None
         except IncompleteCommand:
-            # An unfinished command waited for data, and the stop has ended it. The stop itself is effective
-            # (P2104-STP-07).
+            # The error means that the stop has ended a command that was waiting for data. The stop itself has
+            # taken effect (P2104-STP-07).
             pass
 
     def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
         In a motion at constant speed, and while the part waits for RUN, it rejects a stop with a ramp
-        (P2104-STP-03). In both cases, it accepts an immediate stop.
+        (P2104-STP-03). In both cases, the part accepts an immediate stop.
         """
         motion = self._motion
         try:

@@ -22,7 +22,7 @@ from .registers import BY_NUMBER, CAPABILITIES, Status, command_error
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 ALL_HIGH = 0xFF
 CSEL, RUN, PINS_OF_1 = (0x01, 0x02), (0x04, 0x08), 0x80
-"""Bits of the straps: csel and run of each axis; the axis whose pins PINS returns."""
+"""Bits of the straps: csel and run of each axis; the bit that selects the axis for PINS."""
 
 
 class Axes(dict[int, Axis2104]):
@@ -33,7 +33,7 @@ class Axes(dict[int, Axis2104]):
 
 
 class Ppmc2104(Part):
-    """PPMC-2104, which is a context manager; see `part.Part`.
+    """PPMC-2104 on a bridge. An object is a context manager; see `part.Part`.
 
     `x` is axis 1, `y` axis 2; `axis[1]` and `axis[2]` are the same objects. Opening the part reads and clears
     the errors that other programs caused, and ends their unfinished commands. A running motion continues.
@@ -54,8 +54,8 @@ class Ppmc2104(Part):
         self._levels = ALL_HIGH
         self._clear_errors()
         busy = self.status().busy
-        # Motions of another program. If that program was aborted, such an axis may still wait for RUN. It
-        # must not start now.
+        # These motions were started by another program. If that program was aborted, such an axis may still
+        # wait for RUN, and it must not start now.
         self._foreign = {number for number in self.axis if busy[number - 1]}
         self._run_held = set(self._foreign)
         for number in set(self.axis) - self._foreign:
@@ -66,7 +66,7 @@ class Ppmc2104(Part):
         return (self.x, self.y)
 
     def _other_axis(self, number: int) -> Axis2104:
-        """Return the axis that does not have this number."""
+        """Return the axis other than the one with this number."""
         return self.axis[3 - number]
 
     # ------------------------------------------------------------------ both axes
@@ -82,7 +82,7 @@ class Ppmc2104(Part):
     ) -> tuple[MotionResult, MotionResult]:
         """Start moves of both axes in the same cycle, and wait for both.
 
-        If one axis ends early, the other is stopped with a ramp.
+        If the motion of one axis ends early, the other axis is stopped with a ramp.
 
         Args:
             x: pulses of axis 1, as in `Axis.move`.
@@ -126,7 +126,7 @@ class Ppmc2104(Part):
         """
         requests = (self.x._move_request(x, x_pps, pulse_only), self.y._move_request(y, y_pps, pulse_only))
         for number in self.axis:
-            self._read_finish(number)  # while this axis moves, the part rejects it
+            self._read_finish(number)  # while this axis moves, the part rejects the command
         script = Script()
         waiting = self._levels & ~(RUN[0] | RUN[1])
         for axis, request in zip(self.axis.values(), requests, strict=True):
@@ -214,7 +214,7 @@ class Ppmc2104(Part):
         self._foreign.discard(number)
 
     def _resolve_foreign(self, number: int) -> None:
-        """Read the end status of a motion of another program, once, because int_n stays low until then.
+        """Read the end status of a motion of another program once; int_n stays low until this read.
 
         The motion on this axis has ended.
         """
@@ -226,11 +226,11 @@ class Ppmc2104(Part):
         self.link.execute(Script().call(READ_FINISH | self.axis[number]._code_bits).get(1))
 
     def _run_low(self, axes: set[int]) -> int:
-        """Return the straps with RUN of these axes low."""
+        """Return the straps in which RUN of these axes is low."""
         return self._levels & ~sum(RUN[axis - 1] for axis in axes)
 
     def _select_pins(self, number: int) -> Script:
-        """Return a script that selects this axis for the next PINS operation."""
+        """Return a script that selects the axis whose pins the next PINS operation returns."""
         self._levels = self._levels | PINS_OF_1 if number == 1 else self._levels & ~PINS_OF_1
         return Script().straps(self._run_low(self._run_held))
 

@@ -1,9 +1,9 @@
-"""Capabilities, errors, status register and times of a PPMC-2104. Pure.
+"""Capabilities, errors, status register, and chopper and hold times of a PPMC-2104. Pure.
 
 Rules: P2104-ERR-01, P2104-STA-01.
 
-The PPMC-2104 has its own table of errors. Times in microseconds are converted exactly to parameter bytes and
-back.
+The error numbers of the PPMC-2104 differ from those of the other parts. Times in microseconds are converted
+exactly to parameter bytes and back.
 """
 
 # ruff: noqa: N818

@@ -31,7 +31,7 @@ class Status:
         encoder_watched, position_watched: True if this monitor is on.
         encoder_outside, position_outside: True if this monitor reports a deviation.
         overrides: number of registered overrides, 0 to 8.
-        override_events: event inputs (1, 2) for which at least one override waits.
+        override_events: numbers (1, 2) of the event inputs for which at least one override waits.
         events: numbers (1, 2) of the event buffers that are not empty.
     """
 
@@ -78,7 +78,7 @@ class Status:
 
     @property
     def in_alarm(self) -> bool:
-        """True in state ABN."""
+        """True if the part is in the state ABN."""
         return self.state is State.ABN
 
 
@@ -136,7 +136,7 @@ class EventBuffer:
     """Response to instruction 47: content of an event buffer.
 
     Attributes:
-        following: number of the instruction that the next event executes, 0 to 3.
+        following: index in `codes` of the instruction that the next event executes, 0 to 3.
         codes: codes of the instructions in the buffer.
     """
 
@@ -145,7 +145,7 @@ class EventBuffer:
 
     @classmethod
     def parse(cls, data: bytes) -> EventBuffer:
-        """Decode count, next instruction and four codes."""
+        """Decode the data of the response: count, index of the next instruction, four codes."""
         return cls(data[1], tuple(data[2 : 2 + data[0]]))
 
 
@@ -188,7 +188,7 @@ class HoldExecuted:
 
 @dataclass(frozen=True)
 class EncoderChange:
-    """Report E3: the encoder has left the permitted range (outside is True) or has returned to it."""
+    """Report E3: the encoder position has left its permitted range (outside is True) or returned to it."""
 
     outside: bool
 

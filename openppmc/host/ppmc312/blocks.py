@@ -1,7 +1,7 @@
 """Instruction blocks of the PPMC-312 in logical order: header, length, code, parameters. Pure.
 
 Numbers are big-endian. Every function raises OutOfRange for a value that does not fit its field. Whether the
-part accepts the values depends on its table and state.
+part accepts a block also depends on the table that it holds and on its state.
 
 >>> acceleration(CW, 5000).hex(" ")
 '03 08 82 00 00 00 00 00 13 88'
@@ -23,8 +23,8 @@ CW, CCW = 0, 1
 WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02
 """Headers of blocks.
 
-In this order: complete instruction; last data block; data block that is followed by others; code block that
-is followed by data blocks.
+Their order: complete instruction; last data block; data block before further data blocks; code block before
+data blocks.
 """
 LONGEST = 32
 WINDOW = 0x20
@@ -33,7 +33,10 @@ _DIRECTION, _OVERRIDE, _INDEX, _SEPARATE, _SIGMOID = 0x40, 0x04, 0x10, 0x10, 0x0
 
 
 class Trigger(Enum):
-    """Condition that starts a registered instruction. The value is that of OV and TRG in the flag byte."""
+    """Condition that starts a registered instruction.
+
+    The value is that of the fields OV and TRG in the flag byte.
+    """
 
     NOW = 0x00
     POSITION = _OVERRIDE
@@ -74,9 +77,9 @@ def number(value: int, width: int, what: str, least: int = 0) -> bytes:
 
 
 def position_bytes(position: int) -> bytes:
-    """Return the bytes of a position.
+    """Return the four bytes of a position.
 
-    The position is -2^31 to 2^31 - 1, or 0 to 2^32 - 1 as the part counts it.
+    The position is signed, -2^31 to 2^31 - 1, or unsigned as in the part, 0 to 2^32 - 1.
 
     >>> position_bytes(-7).hex(" ")
     'ff ff ff f9'
@@ -118,7 +121,9 @@ def initial_setting(
 
 
 def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None = None) -> list[bytes]:
-    """Return the blocks of instruction 01, which loads a free curve. The lists begin with the fastest stage.
+    """Return the blocks of instruction 01, which loads a free curve.
+
+    The lists begin with the fastest stage.
 
     `down` is required only if the deceleration is not the reversed acceleration.
 
@@ -142,8 +147,8 @@ def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None
 def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = False) -> bytes:
     """Return instruction 02: report when the deviation of the encoder enters or leaves a range.
 
-    The part reports only while the motor is stopped. Within the range, encoder and pulses differ by at most
-    `distance`, which is 1 to 65 535 pulses.
+    The part reports only while the motor is stopped. The deviation is within the range if encoder and pulse
+    position differ by at most `distance`, which is 1 to 65 535 pulses.
 
     >>> in_position(True, 10).hex(" ")
     '03 04 02 03 00 0a'
@@ -153,7 +158,7 @@ def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = F
 
 
 def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
-    """Return instruction 03: report as instruction 02 does, but also while the motor is moving.
+    """Return instruction 03: report the deviation as with instruction 02, but also during motions.
 
     >>> encoder_watch(True, 20).hex(" ")
     '03 04 03 03 00 14'
@@ -254,7 +259,9 @@ def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = 
 
 
 def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
-    """Return instruction 10: run at constant speed to the origin, or to the first index pulse on it.
+    """Return instruction 10: run at constant speed to the origin switch or its first index pulse.
+
+    The encoder outputs the index pulse while the switch is active.
 
     >>> origin_search(CCW, 500, index=True).hex(" ")
     '03 04 10 50 01 f4'
@@ -263,7 +270,7 @@ def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
 
 
 def zero_return(direction: int, rate: int = 0, index: bool = False) -> bytes:
-    """Return instruction 11: run at high speed past the origin, then back to it at the start speed."""
+    """Return instruction 11: run at high speed past the origin switch, then return at start speed."""
     return block(Code.ZERO_RETURN, bytes([_side(direction) | index * _INDEX]) + number(rate, 2, "rate"))
 
 
@@ -329,7 +336,7 @@ def event_read(buffer: int) -> bytes:
 
 
 def buffer_number(buffer: int) -> int:
-    """Return event 1 or 2 as the number in the part, 0 or 1. Raises OutOfRange."""
+    """Return the number that the part uses for event 1 or 2: 0 or 1. Raises OutOfRange."""
     buffer = whole(buffer, "event")
     if buffer not in (1, 2):
         raise OutOfRange(f"event {buffer}: there are events 1 and 2")

@@ -43,9 +43,9 @@ class Instructions(Protocol):
         """Prepare the transport after a reset of the part."""
 
     def execute(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
-        """Execute an instruction block and return the response.
+        """Execute an instruction block and return its response.
 
-        Raises the error of the part and LinkErrors.
+        Raises the error that the part reports, or a LinkError.
         """
 
     def next_block(self) -> Response:
@@ -59,10 +59,10 @@ class Core(Checked, Generic[MotionT]):
     """Registers, positions, terminals and reports; see `ppmc312.Ppmc312`.
 
     Attributes:
-        setup: last table of this object, `None` before it.
-        reports: unsolicited reports that the caller has not fetched yet, oldest first. Ends of motions that
-            this object started are in their `result` instead. If there are more than 1000 reports, the oldest
-            are dropped.
+        setup: table that this object has loaded last, `None` before the first.
+        reports: unsolicited reports that the caller has not fetched yet, oldest first. The ends of motions
+            that this object started are not in this list, but in the `result` of each motion. If there are
+            more than 1000 reports, the oldest are dropped.
     """
 
     kind: TableCapabilities
@@ -121,7 +121,7 @@ class Core(Checked, Generic[MotionT]):
         )
 
     def _plain(self, code: int, gives: int = 0) -> bytes:
-        """Execute an instruction without parameters.
+        """Execute an instruction without parameters, and return the parameters of its response.
 
         Args:
             gives: number of parameters of its response.
@@ -198,7 +198,10 @@ class Core(Checked, Generic[MotionT]):
         return signed(int.from_bytes(data[1:5], "big"))
 
     def _position_of(self, count: int) -> int | None:
-        """Return a position unchanged. On other parts, the result may be `None`."""
+        """Return a position unchanged.
+
+        The drivers of other parts may return `None` here.
+        """
         return count
 
     def set_position(self, position: int, encoder: bool = False) -> None:

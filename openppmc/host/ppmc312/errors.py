@@ -36,7 +36,7 @@ class TableRefused(ParameterRefused):
 
 
 class CurveRefused(ParameterRefused):
-    """Errors F0 10 to 1A: a free curve is invalid. The part has no table afterwards."""
+    """Errors F0 10 to 1A: a free curve is invalid. After this error, the part has no table."""
 
 
 class UnexpectedInstruction(CommandRefused):

@@ -1,4 +1,4 @@
-"""Motion of a PPMC-312. The part reports the end without a request."""
+"""Motion of a PPMC-312. The part reports the end of a motion without a request."""
 
 from __future__ import annotations
 
@@ -64,11 +64,11 @@ class Motion(Handle):
     Attributes:
         requested: pulses, `None` for endless motions.
         direction: 0 = CW, 1 = CCW.
-        begin: position before the motion, `None` if another program started it.
-        waited_for_run: the motion waited for RUN when it was started.
+        begin: position before the motion, `None` if another program started the motion.
+        waited_for_run: True if the motion waited for RUN when it was started.
         shape: shape that the part reported for a move with ramps.
-        stop_ordered: a stop was sent. Then this stop, not a slow-down limit, is the cause if the part reports
-            the end of a deceleration.
+        stop_ordered: True if a stop was sent. If the part then reports the end of a deceleration, the cause
+            is this stop, not a slow-down limit.
     """
 
     requested: int | None
@@ -90,7 +90,7 @@ class Motion(Handle):
         """Process the response to the start.
 
         Args:
-            status: its status byte, `None` if the response contains none.
+            status: status byte of the response, `None` if the response contains no status byte.
         """
         if status is not None:
             self.waited_for_run, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
@@ -124,7 +124,7 @@ class Motion(Handle):
         )
 
     def _not_confirmed(self, reason: str, report: Stopped | None = None) -> None:
-        """Record that the motion is over, but its report is wrong or missing."""
+        """Record that the motion is over, but that the report of its end is wrong or missing."""
         position = self._part.position if report is None else report.position
         done = None if self.begin is None else signed((position - self.begin) % COUNTS)
         where = f"{self._link.name}: {self._part._message_prefix}"
@@ -157,7 +157,7 @@ class Motion(Handle):
     def wait(
         self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
     ) -> MotionResult:
-        """Wait for the end of the motion and return the result, also if it ended early.
+        """Wait for the end of the motion and return the result, also if the motion ended early.
 
         Args:
             timeout: longest wait in s, `None` for no limit.
@@ -185,8 +185,8 @@ class Motion(Handle):
         return end
 
 
-# Homing with a PPMC-312: an optional zero return, and then a search that always approaches the same edge from
-# the same side.
+# Homing with a PPMC-312: an optional zero return, and then a search. The search always approaches the same
+# edge of the switch from the same side.
 
 
 class HomingAxis(homing.HomingAxis, Protocol):
@@ -200,7 +200,7 @@ class Homing(homing.Homing):
     """Homing run; see `Axis.home`.
 
     Args:
-        index: True if searches end at an index of the encoder.
+        index: True if a search ends at an index pulse of the encoder.
     """
 
     def __init__(

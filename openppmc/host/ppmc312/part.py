@@ -33,11 +33,11 @@ REGISTERED, IN_USE, FULL, DELETED, EMPTY_NOW, NOTHING = range(6)
 class Overrides(Settings[MotionT]):
     """Overrides and event buffers; see `ppmc312.Ppmc312`.
 
-    Overrides are executed in the order of their registration, up to eight of them. Each waits for a position
-    (`at`) or for event input 1 or 2 (`event`). They remain registered after the end of a motion; the next
-    table clears them. A report contains the result of an override (`Executed`, `Failed`). Read this report
-    before the next override is executed; otherwise the part enters the alarm state. All methods may raise
-    RegistrationRefused.
+    Up to eight overrides can be registered; they are executed in the order of their registration. Each
+    override waits for a position (`at`) or for event input 1 or 2 (`event`). Overrides remain registered
+    after the end of a motion, until the next table is loaded. A report contains the result of an override
+    (`Executed`, `Failed`). Read this report before the next override is executed; otherwise the part enters
+    the alarm state. All methods may raise RegistrationRefused.
     """
 
     # ------------------------------------------------------------------ overrides
@@ -62,7 +62,7 @@ class Overrides(Settings[MotionT]):
         self._register(blocks.change(self.rate_of(pps), ramped, _trigger(at, event), at))
 
     def override_move(self, pulses: int, event: int, pps: speeds.Number | None = None) -> None:
-        """Register a move on an event.
+        """Register a move that an event starts.
 
         Args:
             pps: constant speed, `None` for a move with ramps.
@@ -70,10 +70,10 @@ class Overrides(Settings[MotionT]):
         self._register(self.move_block(pulses, pps, _trigger(None, event)))
 
     def override_run(self, direction: int, event: int, pps: speeds.Number | None = None) -> None:
-        """Register an endless motion on an event.
+        """Register an endless motion that an event starts.
 
         Args:
-            pps: constant speed, `None` for a ramp to the high speed.
+            pps: constant speed, `None` for an acceleration to the high speed.
         """
         rate = 0 if pps is None else self.rate_of(pps)
         self._register(blocks.run(direction, rate, pps is None, _trigger(None, event)))
@@ -128,7 +128,10 @@ class Overrides(Settings[MotionT]):
 
 
 def _trigger(at: int | None, event: int | None) -> Trigger:
-    """Return the trigger of an override. Raises OutOfRange unless exactly one argument is given."""
+    """Return the trigger of an override.
+
+    Raises OutOfRange unless exactly one of the arguments is given.
+    """
     if (at is None) == (event is None):
         raise OutOfRange("an override waits either for a position (at) or for an event")
     if event is None:
@@ -207,7 +210,7 @@ class Axis(Overrides[MotionT]):
 
         Args:
             speed: constant speed in pps, default: the start speed.
-            high: accelerate with a ramp to `speed`, default: the high speed.
+            high: True to accelerate with a ramp to `speed`. The default of `speed` is then the high speed.
         """
         if pulse_only:
             self.kind.need(PULSE_ONLY)
@@ -222,11 +225,13 @@ class Axis(Overrides[MotionT]):
         return self._start(blocks.single_step(direction), direction, 1).wait().check(1)
 
     def search(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at constant speed (default: start speed) to the origin, or to the first index on it."""
+        """Run at constant speed (default: start speed) to the origin switch, or its first index."""
         return self._start(blocks.origin_search(direction, self._search_rate(pps), index), direction)
 
     def zero_return(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at high speed (or `pps`) past the origin, decelerate, and return to it at the start speed.
+        """Run to the origin switch at high speed (or `pps`), and return to it at the start speed.
+
+        The motor decelerates after it has reached the switch, so it runs past the switch before it returns.
 
         The switch must be active only over a short distance.
         """
@@ -248,8 +253,9 @@ class Axis(Overrides[MotionT]):
         Args:
             direction: direction towards the switch.
             search_pps: speed of the search in pps, default: the start speed.
-            fast: first make a zero return at high speed.
-            to_limit: first run at high speed to the slow-down limit, and then continue to the hard limit.
+            fast: True to make a zero return at high speed first.
+            to_limit: True to run at high speed to the slow-down limit first, and then continue to the hard
+                limit.
             back_off: pulses of each move away from the switch if it is active at the start of the search.
             index: True if the origin is the first index of the encoder on the switch.
 
@@ -294,7 +300,7 @@ class Axis(Overrides[MotionT]):
     def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
-        The call is no error if the motion has ended.
+        If the motion has already ended, the call is no error.
         """
         try:
             self.instruct(blocks.immediate_stop() if now else blocks.slow_stop())
@@ -341,7 +347,7 @@ class Axis(Overrides[MotionT]):
         return motion
 
     def _search_rate(self, pps: speeds.Number | None) -> int:
-        """Return the rate of a constant speed; without a speed, that of the reached start speed."""
+        """Return the rate of a constant speed; without a speed, the rate of the reached start speed."""
         if pps is not None:
             return self.rate_of(pps)
         setup = self.known_setup()
@@ -370,10 +376,10 @@ RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
 class Ppmc312(Axis[Motion], Part):
     """One PPMC-312: part and axis in one object; see `part.Part`.
 
-    Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second; those of motions are within the table.
-    Pulses and positions are signed, CW positive. Any method may raise LinkErrors; instructions raise the
-    errors of the part (CommandRefused, `errors`). `Axis` has the motions, `core.Settings` the settings and
-    tables, `Overrides` the overrides and events, `core.Core` the registers and outputs.
+    Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second; the speeds of motions must be within
+    the table. Pulses and positions are signed, CW positive. Any method may raise LinkErrors; instructions
+    raise the errors of the part (CommandRefused, `errors`). `Axis` has the motions, `core.Settings` the
+    settings and tables, `Overrides` the overrides and events, `core.Core` the registers and outputs.
     """
 
     kind = CAPABILITIES
@@ -407,7 +413,7 @@ class Ppmc312(Axis[Motion], Part):
     def _execute_moves(
         self, moves: Sequence[int], pps: speeds.Number | None
     ) -> tuple[list[Motion], PpmcError | None]:
-        """Execute moves with one frame; return the motions that were started, and the error after them."""
+        """Execute moves with one frame; return the started motions, and the error that ended the frame."""
         motions: list[Motion] = []
         begin: int | None = None
         error: PpmcError | None = None
@@ -455,7 +461,7 @@ class Ppmc312(Axis[Motion], Part):
     def allow_run(self, on: bool) -> None:
         """Set the RUN input of the part with a strap of the board.
 
-        A switch at the pin can keep RUN inactive nevertheless.
+        A switch at the pin can keep RUN inactive even if the strap is set to active.
         """
         self._strap(RUN, on)
 

@@ -1,7 +1,7 @@
 """Acceleration tables of the PPMC-312 from speeds in pulses/s: linear and sigmoid. Pure.
 
-A speed is base clock / rate; a rate has 16 bits. A table has 127 stages, a free curve has 2 to 127. Only
-`read_stages` does I/O: it reads the file of a free curve.
+A speed is base clock / rate; a rate has 16 bits. A computed table has 127 stages, a free curve has 2 to 127.
+Only `read_stages` does I/O: it reads the file of a free curve.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Stage(NamedTuple):
 def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | None]]) -> Setup:
     """Return the set-up of a free curve.
 
-    If no stage has pulses down, the deceleration is the reversed acceleration.
+    If no stage states pulses for the deceleration, the deceleration is the reversed acceleration.
 
     Args:
         stages: (pps, pulses) or (pps, pulses up, pulses down), slowest first.
@@ -113,7 +113,7 @@ def plan_stages(
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
 ) -> Setup:
-    """Return `plan_curve` with a base clock that reaches the slowest stage."""
+    """Return the set-up of `plan_curve` with a base clock that reaches the speed of the slowest stage."""
     rows = [tuple(row) for row in stages]
     slowest = min((float(row[0] or 0) for row in rows), default=0.0)
     return plan_curve(choose_clock(xtal_hz, slowest, base_clock, external_clock), rows)
@@ -135,7 +135,7 @@ def _side(values: Sequence[int | None], name: str) -> list[int]:
 def read_stages(path: Path) -> list[Stage]:
     """Read stages from a CSV file: speed in pps, pulses up[, pulses down], slowest first.
 
-    A first line of names and lines that begin with # are ignored.
+    A heading in the first line, and lines that begin with #, are ignored.
 
     Raises:
         OutOfRange: the file is invalid; the message states file and line.
@@ -177,8 +177,8 @@ def _is_names(cells: Sequence[str]) -> bool:
 class TableCapabilities(Capabilities):
     """Capabilities of a part with 16-bit rates.
 
-    A speed is base clock / rate, and the base clock is a part of the table. The part has no phase outputs,
-    and no straps that select a function.
+    A speed is base clock / rate, and the table includes the selection of the base clock. The part has no
+    phase outputs, and no straps that select a function.
     """
 
     def plan(self, xtal_hz: int, request: SetupRequest) -> Setup:
@@ -250,8 +250,8 @@ def choose_clock(
 
     Args:
         slowest_pps: slowest speed of the table.
-        base_clock: frequency in Hz; `None`: the fastest clock that reaches the slowest speed. It has the
-            finest speed resolution.
+        base_clock: frequency in Hz. `None` selects the fastest clock that reaches the slowest speed, because
+            this clock has the finest speed resolution.
         external_clock: frequency at the pin extck in Hz, up to 2 MHz.
 
     Raises:
@@ -274,7 +274,7 @@ def choose_clock(
 
 @dataclass(frozen=True)
 class Setup:
-    """Table and its instruction blocks.
+    """Table of a set-up, and the instruction blocks that load it.
 
     Attributes:
         start, stop, high: speeds of the table, as requested and as reached.
@@ -314,7 +314,10 @@ class Setup:
         return self.table.na
 
     def seconds(self, pulses: Sequence[int]) -> float:
-        """Return the duration of a ramp in s: table.pa is the acceleration, table.pd the deceleration."""
+        """Return the duration of a ramp in s.
+
+        The argument is `table.pa` for the acceleration and `table.pd` for the deceleration.
+        """
         ticks = sum(n * rate for n, rate in zip(pulses, self.table.rates, strict=True))
         return float(ticks * self.clock.period)
 
@@ -380,7 +383,7 @@ pulses: 762 or more
 
 
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:
-    """Return the smallest numbers of pulses of acceleration and deceleration.
+    """Return the smallest permitted numbers of pulses for the acceleration and the deceleration.
 
     The slowest stage of a ramp has the fewest pulses, so it defines the limit: 127 * (1 + Rs / RH) pulses for
     all 127 stages (P312-TBL-04, P312-TBL-05).

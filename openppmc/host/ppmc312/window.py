@@ -3,9 +3,9 @@
 An instruction needs one message to the bridge and one from the bridge.
 
 The message to the bridge contains these steps: wait until an instruction may be written, write it, wait for a
-response, read it. WAIT on RAR returns how many bytes of a response are left. With a time limit of 0, WAIT
-ends the script if no byte is left. Therefore, no byte is read twice or lost, in any order of the response and
-a pending report.
+response, read it. The operation WAIT on RAR returns the number of unread bytes of a response. With a time
+limit of 0, WAIT ends the script if all bytes were read. Therefore, no byte is read twice or lost, whether a
+pending report arrives before or after the response.
 """
 
 from __future__ import annotations
@@ -32,18 +32,18 @@ MWEF = 0x08  # the write window is closed: an instruction is being processed
 MREF = 0x04  # no answer or report is in the read window
 # End of the registers.
 EMPTY = 0x40
-"""Value of RAR without a response.
+"""Value of RAR if no response is in the read window.
 
-With a response, RAR is this value minus the number of bytes left, 1 to 32.
+If a response is in the read window, RAR is this value minus the number of unread bytes, 1 to 32.
 """
 MASK, LEFT = 0x60, 0x20
-"""Mask of RAR, and the masked value that indicates that bytes are left."""
+"""Mask for the value of RAR, and the masked value that indicates unread bytes."""
 WAIT_READ = 0x70 | READ
-"""Op code of a wait that reads bytes of a response."""
+"""Operation code of a wait that reads bytes of a response."""
 SHORTEST, MOST_REPORTS = 3, 64
 ANSWER_MS, READY_MS = 250, 50
 POSITION_SIZE, START_SIZE, STOPPED_SIZE, POSITION_BYTES = 8, 4, 8, 4
-"""Sizes of the responses to a position read and to a start, of the report of an end, and of its position."""
+"""Sizes in bytes: responses to a position read and to a start; report of an end; its position."""
 
 
 class Window:
@@ -104,7 +104,7 @@ class Window:
     def execute_moves(
         self, first: bytes, moves: Sequence[bytes], milliseconds: int, on_answer: Callable[[Response], None]
     ) -> None:
-        """Execute a read of the position and then moves, with one frame.
+        """Execute a read of the position, and then moves, with one frame.
 
         The next move starts only if the part reports the normal end of the move before it, and no other
         report. Otherwise, the script ends.
@@ -140,7 +140,10 @@ class Window:
         return self._await(ANSWER_MS)
 
     def _await(self, milliseconds: int) -> Response:
-        """Wait for the response to the host and return it; other responses may arrive before it."""
+        """Wait for the response to the host's instruction and return it.
+
+        Other responses may arrive before it.
+        """
         for _ in range(MOST_REPORTS):
             if (found := self._exchange(self._append_read(Script().timeout(milliseconds), 8))) is not None:
                 return found
@@ -149,7 +152,7 @@ class Window:
     def collect(self) -> None:
         """Read the pending responses.
 
-        A response to the host is discarded, because no instruction waits for it.
+        A response to an instruction of the host is discarded, because no instruction waits for it.
         """
         if self._state_unknown:
             self.open()
@@ -176,7 +179,7 @@ class Window:
     def _append_read(script: Script, gives: int) -> Script:
         """Append the operations that read a response.
 
-        Each response has the first SHORTEST bytes. Each following byte is read only if a byte is left.
+        Each response has at least SHORTEST bytes. Each further byte is read only if a byte is unread.
         """
         script.wait(ADDRESS, MASK, LEFT).read_many(READ, SHORTEST).timeout(0)
         for _ in range(gives - SHORTEST):
@@ -184,13 +187,13 @@ class Window:
         return script
 
     def _exchange(self, script: Script, patient: bool = True) -> Response | None:
-        """Execute a script, and then read the bytes of the response that are left.
+        """Execute a script, then read the remaining bytes of its response; return the response.
 
         Args:
             patient: True if a missing response is an error.
 
         Returns:
-            The response to the host, if any.
+            The response to the instruction of the host, if any.
         """
         self._state_unknown = True
         answer = self._link.attempt(script)
@@ -214,7 +217,7 @@ class Window:
                 left = self._bytes_left
         failed = answer.failed
         if left and failed is not None and failed.code[0] == WAIT_READ and answer.result is Result.TIMED_OUT:
-            self._feed(left, [answer.last])  # the cause of an end that is not normal
+            self._feed(left, [answer.last])  # the cause of an abnormal end
         if answer.result is Result.TIMED_OUT and (received or not patient):
             return found
         if answer.result is Result.TIMED_OUT and answer.failed is not None:
@@ -233,7 +236,7 @@ class Window:
         """Process bytes of a response.
 
         Args:
-            left: number of bytes of the response that were left before these bytes were read.
+            left: number of unread bytes of the response before these bytes were read.
         """
         found = None
         for byte in data:

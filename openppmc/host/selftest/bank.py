@@ -12,7 +12,7 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire
 
 ONCE, AN_AXIS = 32, 14
-"""Number of levels in a record: those of the bus and the shared pins, and those of each axis."""
+"""Numbers of levels in a record: bus and shared pins together, each axis."""
 SHOWN = 3
 """Number of axes that are started together. More axes would require a large recorder."""
 

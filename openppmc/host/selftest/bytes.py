@@ -20,7 +20,10 @@ HALF = 0x04
 TABLE_S = 0.006
 """Longest build time of a ramp table in s, with FAST timing at 8 MHz."""
 RECORDS_A_CODE, RECORDS_A_SLOW_CODE = 96, 512
-"""Number of records that one code requires, with FAST and with DATASHEET timing (the chopper runs longer)."""
+"""Numbers of records that one command code requires: with FAST timing, and with DATASHEET timing.
+
+With DATASHEET timing, the chopper runs longer.
+"""
 MOST_LOOKS = 100
 LONGEST_MOVE_S = 2.0
 
@@ -34,7 +37,7 @@ class Rates:
         high: high rate.
         ramp: pulses of the ramp, two bytes.
         slow: rate of constant speeds.
-        table: time in s after which the table may be used with DATASHEET timing.
+        table: time in s after which the ramp table may be used with DATASHEET timing.
     """
 
     start: int = 249
@@ -56,9 +59,9 @@ class ByteBus:
     Attributes:
         before: script that precedes each access.
         axis: bits of the axis in its command codes.
-        building: status bits that are set while a table is built; 0 if the part does not report it.
-        positive, chopped: bits of the initialisation code for positive logic and for the chopper; 0 if it has
-            no such bit.
+        building: status bits that are set while a ramp table is built; 0 if the part has no such bits.
+        positive, chopped: bits of the initialisation code for positive logic and for the chopper; 0 if the
+            code has no such bit.
     """
 
     decode: Callable[[int], Command]
@@ -94,12 +97,12 @@ class ByteBus:
         return 2 | self.positive
 
     def initialise(self, access: PartAccess, code: int | None = None) -> None:
-        """Execute the default initialisation or another one; wait until its table is complete."""
+        """Execute the default initialisation or another one; wait until the ramp table is complete."""
         self.command(access, (self.setup if code is None else code) | self.axis, *self.rates.data)
         self._is_built(access)
 
     def _is_built(self, access: PartAccess) -> None:
-        """Wait until the table is complete."""
+        """Wait until the ramp table is complete."""
         access.pause(self.rates.table if access.slow else TABLE_S)
         self._until(access, self.building)
 
@@ -118,7 +121,10 @@ class ByteBus:
     # ------------------------------------------------------------------ every code
 
     def one(self, access: PartAccess, code: int) -> None:
-        """Play one code with its data; stop a motion that it starts, and restore a set-up that it changes."""
+        """Write one code with its data.
+
+        Afterwards, stop a motion that the code has started, and restore a set-up that it has changed.
+        """
         command = self.decode(code)
         kind, axis = command.kind, code & AXIS_2 if self.axis or command.axis else 0
         data = {
@@ -138,7 +144,7 @@ class ByteBus:
             self._is_built(access)
 
     def codes(self, identity: Identity, records: int, others: Sequence[ByteBus] = ()) -> list[Section]:
-        """Return sections with every code, once without an initialisation and once with one.
+        """Return sections with every code: first for the uninitialised part, then for the initialised part.
 
         Args:
             others: further axes to initialise as well.
@@ -198,10 +204,10 @@ class ByteBus:
         return play
 
     def moves(self, pulse_only: bool = True) -> list[Section]:
-        """Return sections with moves of each kind in both directions.
+        """Return sections that play moves of each kind in both directions.
 
         Args:
-            pulse_only: also play moves that output pulses without changing the phases.
+            pulse_only: True to play also moves that output pulses without changing the phases.
         """
         go, slow = self.go, self.rates.slow
         kinds: list[tuple[str, Callable[[PartAccess], None]]] = [

@@ -1,4 +1,4 @@
-"""Result page of a self-test, to be attached to an issue: as text and as values for JSON."""
+"""Result page of a self-test, which users attach to an issue: as text, and as values for JSON."""
 
 from __future__ import annotations
 
@@ -24,11 +24,14 @@ BOARDS = {
     "VIRT": "virtual board",
     "MODL": "golden model",
 }
-"""Names of boards by the letters in their bitstreams (`code` in constraints/*/board.yml)."""
+"""Names of boards.
+
+A key is the code with which a bitstream identifies its board (`code` in constraints/*/board.yml).
+"""
 
 
 def board_name(build: Build | None) -> str:
-    """Return the name of the board, "board" if the bitstream does not report it."""
+    """Return the name of the board, or "board" if the bitstream does not report the board."""
     letters = build.board if build is not None else ""
     return BOARDS.get(letters, letters or "board")
 

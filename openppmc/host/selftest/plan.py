@@ -16,11 +16,11 @@ from ..script import Identity, Script
 
 REGISTERS, COMMANDS, MOVES, SWITCHES = "registers", "commands", "moves", "switches"
 _GAP = 4
-"""NOPs between two bytes. With FAST timing, the part accepts the first byte within their time."""
+"""Number of NOPs between two bytes. With FAST timing, the part accepts the first byte during these NOPs."""
 _SLOW_BYTE = 0.003
 """Seconds between two bytes with DATASHEET timing.
 
-It exceeds all processing times, except that of a table.
+It exceeds all processing times, except the build time of a ramp table.
 """
 
 
@@ -76,7 +76,7 @@ class Section:
 
     Attributes:
         what: REGISTERS, COMMANDS, MOVES or SWITCHES.
-        play: function that plays it.
+        play: function that plays the section.
         straps: levels of the strap pins during the section.
     """
 
@@ -93,7 +93,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Wire:
-    """Jumper wire for the sections about switches.
+    """Jumper wire that the sections about switches require.
 
     Attributes:
         output, input: ports of the carrier with bit numbers.
@@ -117,7 +117,10 @@ def timed(identity: Identity) -> dict[str, Any]:
 def recorded(
     inputs: Iterable[str], outputs: Iterable[str], widths: Mapping[str, int]
 ) -> tuple[tuple[str, int], ...]:
-    """Return pins and widths of a record, lowest bit first, from the inputs and outputs of a golden model."""
+    """Return the pins in a record and their widths, lowest bit first.
+
+    They are the inputs and outputs of a golden model.
+    """
     return tuple((pin, widths.get(pin, 1)) for pin in (*inputs, *outputs))
 
 
@@ -130,7 +133,7 @@ class Plan(Protocol):
     """Wires that the sections about switches need."""
 
     def layout(self, width: int) -> Sequence[tuple[str, int]]:
-        """Return pins and widths of the golden model in a record of `width` levels, lowest bit first."""
+        """Return the pins in a record of `width` levels, and their widths, lowest bit first."""
 
     def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
         """Return parameters of the golden model that match the levels of the outputs in reset.
@@ -147,4 +150,4 @@ class Plan(Protocol):
         """
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
-        """Return the sections that need the wires."""
+        """Return the sections that need the jumper wires."""

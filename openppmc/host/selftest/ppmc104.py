@@ -48,7 +48,7 @@ class Plan104:
             access.pause(0.005)
             BUS.command(access, AUX_ON)
             BUS.read_end(access)
-            BUS.go(RAMP, 9, 0, 0)(access)  # towards the active limit, so the part outputs no pulse
+            BUS.go(RAMP, 9, 0, 0)(access)  # towards the active limit, so the move outputs no pulse
             BUS.go(RAMP | CCW, 9, 0, 0)(access)
 
         def origin(access: PartAccess) -> None:

@@ -38,7 +38,7 @@ class Plan2104:
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
         def errors(access: PartAccess) -> None:
             for bus in (FIRST, SECOND):
-                bus.command(access, 0x43 | bus.axis)  # rejected, because the axis is not initialised yet
+                bus.command(access, 0x43 | bus.axis)  # rejected: the axis is not initialised yet
                 bus.command(access, 0x86 | bus.axis)
                 access.read(DATA)
 

@@ -31,7 +31,7 @@ CODES_A_SECTION = 32
 
 
 def execute(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> None:
-    """Write an instruction and read all responses that arrive within this time."""
+    """Write an instruction, and read all responses that arrive within the given time."""
     access.link.forget_events()
     access.write(CONTROL, [WINDOW])
     access.write(ADDRESS, [start_address(instruction)])
@@ -40,7 +40,7 @@ def execute(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> No
 
 
 def read_responses(access: PartAccess, seconds: float) -> None:
-    """Wait for a response; read it and all that follow."""
+    """Wait for a response; read this response and all later responses."""
     access.until_interrupt(seconds)
     for _ in range(MOST_RESPONSES):
         access.read(CSR)
@@ -67,7 +67,7 @@ def play_motions(
 
     Args:
         stop: instruction that stops each motion.
-        after: seconds from the start to the stop.
+        after: seconds from the start of a motion to its stop.
     """
 
     def play(access: PartAccess) -> None:

@@ -19,12 +19,12 @@ class Recorded:
     """Answer to RECORDED.
 
     Attributes:
-        record_bytes: bytes of one record.
-        time_bits: bits of a record that count cycles.
-        most: number of records that fit.
+        record_bytes: number of bytes of one record.
+        time_bits: number of bits of a record that count cycles.
+        most: number of records that fit into the recorder.
         running: True if the recorder is recording.
         full: True if a record was dropped because the recorder was full.
-        count: records so far.
+        count: number of records so far.
     """
 
     record_bytes: int
@@ -41,7 +41,7 @@ class Recorded:
 
     @classmethod
     def parse(cls, data: bytes) -> Recorded:
-        """Decode the 16 bytes. Raises BadAnswer if they are invalid."""
+        """Decode the 16 bytes of the answer. Raises BadAnswer if they are invalid."""
         if len(data) != RECORDED_BYTES or not 0 < data[1] < 8 * data[0] or data[2] > 24:
             raise BadAnswer(f"RECORDED {data.hex()}")
         count = int.from_bytes(data[4:8], "little")
@@ -58,7 +58,7 @@ class Recorded:
 
 Layout = Sequence[tuple[str, int]]
 SETTLE = 2
-"""Cycles from the fall of rst_n until the outputs have their reset levels."""
+"""Number of cycles from the falling edge of rst_n until the outputs have their reset levels."""
 
 
 class NoReset(ValueError):  # noqa: N818 - names the missing object
@@ -85,7 +85,7 @@ def reset_levels(samples: Sequence[tuple[int, int]], layout: Layout) -> dict[str
 def _in_reset(samples: Sequence[tuple[int, int]], layout: Layout) -> Iterator[tuple[int, dict[str, int]]]:
     """Yield (cycles since rst_n fell, levels of the pins) during the first reset.
 
-    The generator yields each record, and also the state one cycle before the next record.
+    The generator yields each record, and also the levels one cycle before the next record.
     """
     fell, pins = None, dict[str, int]()
     for t, levels in samples:
@@ -142,7 +142,10 @@ def recording_of(
 
 
 def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, int]]:
-    """Yield the records from the reset on, and the state when outputs must have their reset levels."""
+    """Yield the records from the reset on.
+
+    At the time at which the outputs must have their reset levels, the levels are yielded as well.
+    """
     looked = False
     before = samples[0][1]
     for t, levels in samples:
@@ -158,7 +161,7 @@ def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, 
 def _accesses(stimulus: Iterable[Change], edges: Iterable[Edge], pins: Mapping[str, int]) -> Iterator[Access]:
     """Yield writes and reads of the host, for reports.
 
-    A write has the time of the end of its write strobe, a read that of the end of its read strobe.
+    The time of a write is the end of its write strobe, the time of a read the end of its read strobe.
     """
     names = [next((n for n in group if n in pins), "") for group in (("wr_n", "we_n", "ds_wrs_n"),)]
     reads = next((n for n in ("rd_n", "oe_n", "rw_rds_n") if n in pins), "")

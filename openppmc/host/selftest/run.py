@@ -34,13 +34,13 @@ class NoRecorder(PpmcError):  # noqa: N818 - names the missing object
 
 @dataclass(frozen=True)
 class SectionResult:
-    """Result of a section.
+    """Result of one section.
 
     Attributes:
-        edges: output edges that were compared.
+        edges: number of output edges that were compared.
         wrong: difference in one line, "" if there is none.
-        report: difference as text.
-        skipped: reason why there is no result, "" if there is one.
+        report: the difference as a text of several lines.
+        skipped: reason why the section has no result, "" if it has a result.
         full: True if not all records fitted into the recorder.
     """
 
@@ -86,7 +86,7 @@ class SelfTest:
 
     Args:
         folder: folder of the pictures of differences.
-        tell: called with one line of text for each step.
+        tell: called with one line of text for each step of the self-test.
     """
 
     def __init__(self, link: Link, plan: Plan, folder: Path, tell: PrintLine = lambda line: None) -> None:
@@ -97,7 +97,7 @@ class SelfTest:
     # ------------------------------------------------------------------ link
 
     def rates(self) -> None:
-        """Test every rate of bridge and adapter with long answers."""
+        """Test every line rate that bridge and adapter support with long answers."""
         work = self.link.baud
         for code, baud in enumerate(RATES[: self.link.identity.best_rate + 1]):
             before = self.link.repeats
@@ -158,7 +158,7 @@ class SelfTest:
     def play(self, section: Section) -> SectionResult:
         """Record a section and compare it; reset the part afterwards, so that its outputs are off.
 
-        If the recorder was full, the section is played again, because the PC may have been busy.
+        If the recorder was full, the section is played again, because a busy PC may be the cause.
         """
         for left in reversed(range(TRIES)):
             outcome = self._record(section)
@@ -204,7 +204,8 @@ class SelfTest:
         count, pulses = comparison.edges_compared, comparison.pulses
         if comparison.mismatch is not None:
             return SectionResult(section, records, end, count, pulses, *self._difference(section, comparison))
-        # Without the wire, a motion does not end, and the recorder may be full. So check the wire first.
+        # Without the wire, a motion does not end, and the recorder may be full. Therefore, check the wire
+        # first.
         if section.what == SWITCHES and not self._has_switched(comparison.recording):
             skipped = "no switch has moved: is the wire there?"
             return SectionResult(section, records, end, count, pulses, skipped=skipped)
@@ -269,5 +270,5 @@ class SelfTest:
 
 
 SWITCH_PINS = frozenset("l1_n l2_n l3_n l4_n cnp_n alm_n mon fl_n bl_n fhl_n bhl_n org_n".split())
-"""Limits, origin and alarm of all parts."""
+"""Names of the limit, origin and alarm inputs of all parts."""
 MOTOR_PINS = frozenset({"pout_n", "pout", "s", "s1_n", "s2_n"})

@@ -1,6 +1,7 @@
 """Self-test of a board with an STMC (`host.selftest`).
 
-A host cannot set any output of the part directly, so the switches are wired to a winding and to HOLD.
+A host cannot set any output of the part directly. Therefore, the wires for the sections about switches
+connect a phase output and HOLD to the switch inputs.
 """
 
 from __future__ import annotations

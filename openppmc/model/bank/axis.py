@@ -1,4 +1,7 @@
-"""Axis of the bank: the blocks of a PPMC-104, which are processed at the visits of the axis."""
+"""Axis of the bank: the blocks of a PPMC-104, processed at the visits of the axis.
+
+The bank processes its axes in turn. A visit is an edge of `clk` at which it processes this axis.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +44,7 @@ class AxisScheduler(Scheduler):
 
 @dataclass
 class AxisContext(Context):
-    """Context of one axis. Its interrupt is a bit of the interrupt map."""
+    """Context of one axis. The interrupt of the axis is a bit of the interrupt map."""
 
     interrupt: bool = False
 
@@ -56,7 +59,7 @@ class Axis:
 
     Args:
         number: number of the axis.
-        shared: services of the bank.
+        shared: services of the bank that all its axes use.
         changed_axes: set of the axes in which something may have changed.
 
     Attributes:
@@ -123,7 +126,7 @@ class Axis:
         return edge if t < edge else None
 
     def go(self, t: int, go: int) -> None:
-        """Process the GO of edge `go` at visit t (BANK-GRP-02)."""
+        """Process at visit t the GO that was written at edge `go` (BANK-GRP-02)."""
         motion, commands = self.motion, self.commands
         if not motion.in_group:
             return
@@ -143,7 +146,7 @@ class Axis:
     # ------------------------------------------------------------------ inputs
 
     def write_config(self, t: int, byte: int) -> None:
-        """Process write event t of CONFIG (BANK-WIN-02, BANK-GEN-04)."""
+        """Process a write event of CONFIG at edge t (BANK-WIN-02, BANK-GEN-04)."""
         self.config = config = byte & CONFIG_RESET
         levels = {"csel": config & 1, "vsel": config >> 1}
         self.context.queue.at(t + CONFIG_LEAD, Phase.LEVELS, lambda now: self.context.levels.update(levels))

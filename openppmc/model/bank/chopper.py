@@ -1,4 +1,7 @@
-"""Chopper of an axis of the bank. A visit schedules each of its edges (BANK-CHP-01)."""
+"""Chopper of an axis of the bank. A visit of the axis schedules each edge (BANK-CHP-01).
+
+The bank processes its axes in turn. A visit is an edge of `clk` at which it processes this axis.
+"""
 
 from __future__ import annotations
 
@@ -36,12 +39,16 @@ SWITCH_LEAD = 4
 
 
 def round_clk(axes: int) -> int:
-    """Return R, the length of a round in cycles."""
+    """Return R, the number of cycles in which the bank processes all axes once."""
     return max(axes, SHORTEST_ROUND)
 
 
 class VisitSchedule:
-    """Visits of an axis: edges axis + 8 + n R after `released`, for n = 1, 2 and so on."""
+    """Visits of an axis.
+
+    They are the edges axis + 8 + n R after `released`, for n = 1, 2 and so on. R is the length of a round,
+    see `round_clk`.
+    """
 
     def __init__(self, axis: int, axes: int, released: int) -> None:
         self.round = round_clk(axes)
@@ -57,9 +64,9 @@ class VisitSchedule:
 
 
 class Chopper(excitation.Chopper):
-    """Chopper of the PPMC-104 whose phases are scheduled at visits.
+    """Chopper of the PPMC-104 whose on- and off-times are scheduled at visits.
 
-    The visit that schedules the first edge of a phase determines the length of the phase.
+    The visit that schedules the beginning of an on-time or off-time determines its length.
     """
 
     def __init__(self, context: Context, times: ChopperTimes, visits: VisitSchedule) -> None:
@@ -90,7 +97,10 @@ class Chopper(excitation.Chopper):
         )
 
     def _latch_length(self, t: int) -> None:
-        """Latch the length of the next phase, with vsel and the parameters of this visit (BANK-GEN-04)."""
+        """Latch the length of the next on-time or off-time (BANK-GEN-04).
+
+        The length depends on vsel and the parameters at this visit.
+        """
         self._latched_length = self._times.quanta(not self.on)
 
     def _length(self) -> int:

@@ -1,7 +1,8 @@
 """Commands of an axis of the bank, and the builder of ramp tables, which all axes share.
 
 The commands are those of the PPMC-104 without auxiliary pins and external clock (BANK-GEN-03). Rules of the
-builder: BANK-HSK-05, BANK-INI-01, -02.
+builder: BANK-HSK-05, BANK-INI-01, -02. The bank processes its axes in turn; a visit is an edge of `clk` at
+which it processes an axis.
 """
 
 from __future__ import annotations
@@ -59,9 +60,9 @@ class Mailbox:
         return bool(self._written)
 
     def store(self, t: int, byte: int, command: bool) -> None:
-        """Process write event t.
+        """Process a write event at edge t.
 
-        A visit before this write is effective may still accept the byte that the write replaces.
+        A visit at which this write is not effective yet may still accept the byte that the write replaces.
         """
         self._written.append((t, byte, command))
         if self._planned is None or self._visits.first(t + BYTE_LEAD) < self._next:
@@ -72,7 +73,7 @@ class Mailbox:
         self._closed_until = t
 
     def retry(self, t: int) -> None:
-        """Check the waiting byte again at the next visit, because it may be acceptable then."""
+        """Check the waiting byte again at the next visit, because the axis may now accept it."""
         if self._planned:
             self._plan(t + 1)
 
@@ -139,7 +140,7 @@ class Builder:
 
 
 class CommandUnit(ppmc104.CommandUnit):
-    """Commands of axis `axis`.
+    """Commands of the axis with the number `axis`.
 
     Attributes:
         completed: visit that completed the last initialisation; -1 before the first.
@@ -180,7 +181,7 @@ class CommandUnit(ppmc104.CommandUnit):
         return self._before if t == self.completed else self.initialised
 
     def reject(self, error: Error) -> None:
-        """Store the error of a GO that came while no motion was waiting (BANK-GRP-02)."""
+        """Store the error of a GO that was written while no motion was waiting (BANK-GRP-02)."""
         self._pending, self._data = None, []
         self.error = error
 

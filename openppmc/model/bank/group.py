@@ -46,7 +46,7 @@ class Member(Protocol):
     visits: VisitSchedule
 
     def go(self, t: int, go: int) -> None:
-        """Process the GO of edge `go` at visit t."""
+        """Process at visit t the GO that was written at edge `go`."""
 
     def halt(self, t: int) -> None:
         """Process STOP at edge t."""
@@ -70,7 +70,7 @@ class Group:
         self.members: Sequence[Member] = ()
 
     def write_mask(self, t: int, k: int, byte: int) -> None:
-        """Process write event t of byte k of MASK."""
+        """Process a write event of byte k of MASK at edge t."""
         self.mask = mask = (self.mask & ~(0xFF << 8 * k) | byte << 8 * k) & self._all
         self._queue.at(t + GROUP_LEAD, Phase.LEVELS, lambda now: self._update_visible_mask(mask))
 
@@ -82,9 +82,10 @@ class Group:
         return bool(self._visible_mask >> axis & 1)
 
     def go(self, t: int) -> None:
-        """Process write event t of GO.
+        """Process a write event of GO at edge t.
 
-        The GO is effective from edge t on, or, if a GO is still active, after its end (BANK-GRP-03).
+        This GO is effective from edge t on. If an earlier GO is still active, this GO is effective after the
+        end of the earlier GO (BANK-GRP-03).
         """
         if self._go > t:
             return
@@ -98,7 +99,7 @@ class Group:
         return lambda now: member.go(now, go)
 
     def stop(self, t: int) -> None:
-        """Process write event t of STOP."""
+        """Process a write event of STOP at edge t."""
         self._stopped = t
         for member in self.members:
             self._queue.at(t + 1, Phase.COMMAND, member.halt)

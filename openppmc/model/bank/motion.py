@@ -1,9 +1,10 @@
 """Motion of an axis of the bank, where it differs from the PPMC-104 (BANK-MOT, BANK-GRP).
 
-Decisions are made, and events are detected, at visits. Pins change at the edges of their events. A motion is
-*cut* at the edge that ends it; the first visit after END_LEAD cycles detects the cut. Until this visit, the
-engine continues unchanged (BANK-MOT-03). A pulse that is scheduled in this time is *cancelled*: it is never
-output, but the engine counts it until this visit.
+The bank processes its axes in turn; a visit is an edge of `clk` at which it processes an axis. Decisions are
+made, and events are detected, at visits. Pins change at the edges of their events. A motion is *cut* at the
+edge that ends it; the first visit after END_LEAD cycles detects the cut. Until this visit, the pulse engine
+continues unchanged (BANK-MOT-03). A pulse that is scheduled in this time is *cancelled*: it is never output,
+but the engine counts it until this visit.
 """
 
 from __future__ import annotations
@@ -22,10 +23,11 @@ from .group import Group
 
 
 class Motion(ppmc104.Motion):
-    """Motion of axis `axis`.
+    """Motion of the axis with the number `axis`.
 
     Args:
-        switches: current levels of the switches; context.levels holds those that are effective at a visit.
+        switches: current levels of the switches; context.levels holds the levels that are effective at a
+            visit.
 
     Attributes:
         waits_for_go: True if the motion is waiting for GO (BANK-GRP-01).

@@ -1,5 +1,6 @@
 """Golden model of the bank at pin level: N axes of a PPMC-104, which are processed at visits.
 
+The bank processes its axes in turn; a visit of an axis is an edge of `clk` at which it processes this axis.
 The model is event driven and cycle-accurate.
 
 `chip` and `clock` define pins and time. Rules by module: this module BANK-GEN-01, -02, -05; `window`
@@ -30,13 +31,13 @@ class PpmcBank(Chip):
     The model starts just after the release of reset, before edge 0.
 
     Args:
-        axes: 4, 8, 16, 32 or 64.
+        axes: number of axes: 4, 8, 16, 32 or 64.
         clk_hz: 8e6..200e6.
         xtal_hz: 1e6..16e6.
         phase_idle: 0 or 1.
 
     Raises:
-        ValueError: another value, or clocks that BANK-GEN-02 forbids.
+        ValueError: an argument has another value, or BANK-GEN-02 forbids this pair of clocks.
     """
 
     HOST_PINS = HOST_PINS
@@ -133,7 +134,10 @@ class PpmcBank(Chip):
         return {"cs_n": 0, "wr_n" if write else "rd_n": 0, "a": reg}
 
     def read(self, t: int, reg: int, strobe: int = 6) -> int:
-        """Read the register at address `reg`; the next access may begin at edge t + strobe + 3."""
+        """Read the register at address `reg`.
+
+        The next access may begin at edge t + strobe + 3.
+        """
         return super().read(t, reg, strobe)
 
     # ------------------------------------------------------------------ observable state

@@ -75,7 +75,7 @@ class Window:
             (self._begin_read if reading else self._end_read)(t, pins["a"])
 
     def _begin_read(self, t: int, address: int) -> None:
-        """Latch the snapshot after edge 2 of a read, and output it at edge 4 (BANK-WIN-05)."""
+        """Latch the data of a read after its edge 2, and output them at its edge 4 (BANK-WIN-05)."""
         self._address = address
 
         def take_snapshot(now: int) -> None:
@@ -110,7 +110,7 @@ class Window:
         return after >= self._ready
 
     def _write(self, t: int, address: int, byte: int) -> None:
-        """Process write event t."""
+        """Process a write event at edge t."""
         axis, register = self._axis(address), address & 0xF
         if axis is None or not self._is_ready(t - 1):
             return

@@ -35,7 +35,7 @@ def crc(data: bytes) -> int:
 
 
 def frame(payload: bytes) -> bytes:
-    """Return the line bytes of a frame as the bridge sends it: only 7D and 7E are escaped."""
+    """Return the line bytes of a frame from the bridge, in which only 7D and 7E are escaped."""
     line = bytearray([FLAG])
     for byte in payload + crc(payload).to_bytes(2, "big"):
         line += bytes([ESCAPE, byte ^ 0x20]) if byte in (FLAG, ESCAPE) else bytes([byte])
@@ -64,7 +64,7 @@ class Receiver:
 
     @property
     def inside(self) -> bool:
-        """True if an incomplete frame has been received, which an idle line would invalidate.
+        """True if an incomplete frame has been received. If the line becomes idle, this frame is invalid.
 
         A single 7D is also an incomplete frame.
         """
@@ -72,7 +72,7 @@ class Receiver:
 
     @property
     def hunting(self) -> bool:
-        """True before the first flag."""
+        """True until the first flag has been received."""
         return self._hunting
 
     def drop(self, nak: int) -> int | None:
@@ -125,9 +125,9 @@ class Bridge:
 
     Args:
         bus: see `bridge_ops.Bus`.
-        part: number in IDENT.
+        part: part number in the answer to IDENT.
         clk_hz: 1..2^32-1; it determines the available line rates.
-        xtal_hz, datasheet, counter: values in IDENT only.
+        xtal_hz, datasheet, counter: values that only the answer to IDENT contains.
         axes: number of pulse counters, 1 or 2.
         build: answer to VERSION, 16 bytes.
         recorder: True if the bus has a recorder.
@@ -193,7 +193,7 @@ class Bridge:
         return b"" if nak is None else self._nak(nak)
 
     def idle(self, milliseconds: float) -> bytes:
-        """Process an idle line (UB-FRM-06 fault 5, UB-LIN-07)."""
+        """Process the detection of an idle line (UB-FRM-06 fault 5, UB-LIN-07)."""
         self._silent_ms += milliseconds
         nak = None
         if self._silent_ms >= SILENCE_MS and self._receiver.inside:
@@ -248,7 +248,7 @@ class Bridge:
         return b"" if self._running else self._flush_event()
 
     def _set_events(self, on: bool) -> None:
-        """Execute the op EVENTS (UB-MSG-02)."""
+        """Execute the operation EVENTS (UB-MSG-02)."""
         was, self._engine.events = self._engine.events, on
         if not on:
             self._event = False

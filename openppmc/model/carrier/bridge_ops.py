@@ -1,6 +1,6 @@
 """Script engine of the bridge's golden model.
 
-Rules: UB-ANS-02..05, UB-OPS, UB-WAIT and the table of ops.
+Rules: UB-ANS-02..05, UB-OPS, UB-WAIT and the table of operations ("Ops").
 
 Before an operation begins, its number, its operands, its length and the free space for its data are checked
 (UB-ANS-05).
@@ -43,7 +43,8 @@ class Bus(Protocol):
         skip(limit_ms)      nothing happens
 
     The result of `count` is signed. With two axes, `count(2)` and `zero(2)` are called for axis 2. `skip` is
-    called during a wait. It lets time pass until a register may read differently, but at most limit_ms.
+    called during a wait. It advances the time until the value of a register may have changed, but by at most
+    limit_ms.
 
     A bus with a recorder also has: `record(what)` (0 = end, 1 = begin, 2 = rewind); `recorded() -> bytes`
     (answer to RECORDED); `fetch() -> int` (next byte of the records).
@@ -68,13 +69,13 @@ class Engine:
     """Interpreter of scripts.
 
     Args:
-        set_events: called by op EVENTS; the owner of the engine handles pending events.
+        set_events: called by the operation EVENTS; the owner of the engine handles pending events.
         build: answer to VERSION.
         recorder: True if the bus has a recorder.
 
     Attributes:
-        events: True if events are enabled (op EVENTS).
-        rate: rate code requested by op RATE, or `None`.
+        events: True if the operation EVENTS has enabled events.
+        rate: rate code that the operation RATE has requested, or `None`.
     """
 
     def __init__(
@@ -113,7 +114,7 @@ class Engine:
         return default if method is None else method(*arguments)
 
     def run(self, script: bytes, interrupted: Callable[[], bool]) -> tuple[int, int, int, bytes]:
-        """Execute a script; return RESULT, POS, LAST and the data."""
+        """Execute a script; return the fields RESULT, POS and LAST of its answer, and the data."""
         self._data = bytearray()
         self._last = 0
         self._reads = 0
@@ -245,7 +246,7 @@ class Engine:
     def _append(self, make: Callable[[], int]) -> None:
         """Append one byte to the answer.
 
-        If the answer is full, the operation ends before it reads the byte.
+        If the answer is full, the operation ends before it reads a further byte.
         """
         if len(self._data) >= MAX_DATA:
             raise Stop(4)

@@ -19,7 +19,11 @@ FARTHEST = 1 << 31
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "origin", "alarm")
 """Switches in the order of the bridge's PINS byte."""
 INDEX_AT = -20
-"""A position of the encoder's index. It is on the cam, but not at an edge of the cam."""
+"""A position of the encoder's index.
+
+The position is within the range in which the cam activates the origin switch, but not at an edge of this
+range.
+"""
 
 
 @dataclass(frozen=True)
@@ -30,8 +34,9 @@ class Plant:
         start: position of the motor at the beginning.
         cw, ccw: hard limits, active at positions >= cw and <= ccw.
         slow_cw, slow_ccw: slow-down limits, active at positions >= slow_cw and <= slow_ccw.
-        origin: active at positions <= origin; with a cam, only at positions >= origin_from.
-        alarm: active from the first to the second of these positions.
+        origin: the origin switch is active at positions <= origin; with a cam, only at positions from
+            origin_from to origin.
+        alarm: the alarm is active from the first to the second of these positions.
         index: period of the encoder's index in pulses, with an index at position -20; 0: no index.
         block: position that the shaft cannot pass in direction CW, `None` if there is none. At this position
             the encoder stops while pulses continue.
@@ -88,10 +93,12 @@ class SwitchPositions(Protocol):
 
 
 class Carrier(ABC, Generic[P_co]):
-    """Carrier of a part. The motors follow `pout_n` and `dir`; each axis has a plant.
+    """Carrier of a part.
+
+    Each axis has a plant model, whose motor follows `pout_n` and `dir`.
 
     Attributes:
-        t: next edge of `clk` that was not run yet.
+        t: first edge of `clk` that was not simulated yet.
         positions: positions of the motors.
         counts: values of the pulse counters.
         on_interrupt: called at a falling edge of the pin INTERRUPT.
@@ -149,7 +156,7 @@ class Carrier(ABC, Generic[P_co]):
     # ------------------------------------------------------------------ time
 
     def run_until(self, t: int, stop: Callable[[], bool] = lambda: False) -> None:
-        """Run to edge t, or to the first event at which `stop()` is true."""
+        """Simulate up to edge t, or up to the first event after which `stop()` is true."""
         part = self.part
         while (edge := self._next_event()) is not None and edge < t:
             part.run_until(edge)
@@ -223,7 +230,7 @@ class Carrier(ABC, Generic[P_co]):
         self.t += WRITE_STROBE + PAUSE
 
     def reset(self) -> None:
-        """Reset the part; motors and counters are unchanged."""
+        """Reset the part; the positions of the motors and the pulse counters are unchanged."""
         self._run_pending()
         self.part.pins(self.t, rst_n=0)
         self._follow_outputs()
@@ -258,8 +265,8 @@ class Carrier(ABC, Generic[P_co]):
         return self.t * 1000 / self.clk_hz
 
     def skip(self, limit_ms: float) -> None:
-        """Run to the next event that changes the polled register, at most for this time."""
-        before = self._polled_value  # before the last read, because the register may have changed during it
+        """Simulate up to the next event that changes the polled register, but at most for this time."""
+        before = self._polled_value  # before the last read, during which the register may have changed
         limit = self.t + max(1, round(limit_ms * self.clk_hz / 1000))
         if self.watched_register() == before:
             self.run_until(limit, stop=lambda: self.watched_register() != before)

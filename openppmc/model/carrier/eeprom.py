@@ -3,8 +3,8 @@
 The EEPROM has 4096 bytes, pages of 32 bytes, a write time and acknowledge polling.
 
 The device samples both lines at edges of `clk`. A line that it pulls low or releases changes at the same
-edge. Call `on_lines` at every edge at which a level differs from the previous edge, and at edge `due`. The
-state does not change at other edges.
+edge. The user calls `on_lines` at every edge at which a level differs from the previous edge, and at edge
+`due`. The state does not change at other edges.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ class Written(NamedTuple):
 
 
 class Eeprom24C32:
-    """Device. Its initial state is that after power-up.
+    """EEPROM. Its initial state is the state after power-up.
 
     Args:
         clk_hz: cycles per second.
-        content: at most 4096 bytes from address 0; all other bytes are FF.
+        content: at most 4096 bytes from address 0 on; all other bytes of the memory are FF.
         device: 7-bit address.
         write_us: duration of a write cycle, 0 or more.
         stretch_us: time for which the device holds SCL low after each acknowledge.

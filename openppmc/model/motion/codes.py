@@ -30,7 +30,7 @@ FINISH_NEW, FINISH_STOP, FINISH_ALARM, FINISH_LIMIT, FINISH_SLOW = 0x80, 0x40, 0
 
 
 class Kind(Enum):
-    """Meaning of a command code."""
+    """Kind of a command code."""
 
     UNDEFINED = "undefined"
     INITIALISE = "initialisation"
@@ -89,7 +89,7 @@ def operation_command(code: int, axis: int = 0) -> Command:
 
 
 class GuardPins(NamedTuple):
-    """Pin names of the active-low switches; pairs are (CW, CCW)."""
+    """Pin names of the active-low switches; a pair contains the switches for CW and CCW."""
 
     limits: tuple[str, str]
     slow_limits: tuple[str, str]
@@ -106,8 +106,8 @@ class ActiveCauses(NamedTuple):
     """Causes that are active at an edge.
 
     Attributes:
-        bits: end-status bits of limit and alarm.
-        origin: True if the origin is active; it counts for origin searches only.
+        bits: end-status bits of the active limits and of the alarm.
+        origin: True if the origin is active; only origin searches use this cause.
         slow: True if a slow-down limit is active.
     """
 
@@ -137,5 +137,8 @@ def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, directio
 
 
 def input_register(levels: Mapping[str, int], bits: Mapping[int, str]) -> int:
-    """Return the byte that a read of the control inputs returns, from the pin levels by bit number."""
+    """Return the byte that a read of the control inputs returns.
+
+    `bits` maps each bit number to its pin.
+    """
     return sum(levels[pin] << bit for bit, pin in bits.items())

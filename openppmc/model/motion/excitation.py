@@ -1,4 +1,6 @@
-"""Phase excitation: energised phases at each index, derived from the definition of the drive.
+"""Phase excitation: the energised phases at each index, and the chopper.
+
+The patterns are derived from the definition of the drive.
 
 P104-PHS-01..06 (docs/ppmc104/README.md, 10.1 Patterns): the phases form a ring of 3, 4 or 5, and neighbours
 are energised. A full step always energises two phases. Half steps alternately energise two phases and one
@@ -38,8 +40,8 @@ def step_list(phases: int, half: bool) -> tuple[int, ...]:
 def step_directions() -> dict[tuple[int, int], int]:
     """Return the direction of each step, by the pin levels (before, after): 1 = CW, -1 = CCW.
 
-    One table is valid for all motors and both logics: if a pair of successive levels occurs with several
-    motors, its direction is the same with all of them.
+    One table is valid for all motors and both logics. If a pair of successive levels occurs with several
+    motors, it has the same direction with all of them.
     """
     found: dict[tuple[int, int], int] = {}
     for phases, half, off in product((3, 4, 5), (False, True), (0, ALL_PHASES)):
@@ -65,7 +67,9 @@ class Excitation:
         self._steps: tuple[int, ...] = (0,)
 
     def configure(self, phases: int, half: bool, positive: bool) -> None:
-        """Process the first accepted initialisation, which fixes type, method and logic, and sets index 0.
+        """Process the first accepted initialisation.
+
+        It fixes motor type, excitation method and logic, and sets the index to 0.
 
         Rule: P104-PHS-03.
         """
@@ -86,12 +90,12 @@ class Excitation:
 
     @property
     def off_level(self) -> int:
-        """Level of all five pins when they are off, in the active logic (P104-PHS-01)."""
+        """Level of all five pins in the active logic when all phases are off (P104-PHS-01)."""
         return 0 if self.positive else ALL_PHASES
 
     @property
     def pattern(self) -> int:
-        """Pin levels without chopping."""
+        """Pin levels of the current pattern without chopping."""
         if not self.energised:
             return self._idle_level
         return self._steps[self.index] ^ self.off_level

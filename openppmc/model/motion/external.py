@@ -9,7 +9,7 @@ from ..clock import Timebase
 
 
 class ExternalInterval:
-    """Counter of effective base edges from pulse to pulse; times are edges of `clk`.
+    """Counter of effective edges of the base clock between pulses; times are edges of `clk`.
 
     Args:
         plain: level of vsel during the operation. If it is 1, the next pulse occurs at base edge number rate
@@ -42,10 +42,10 @@ class ExternalInterval:
         An edge at which a pulse would occur while pout_n is still low is not counted.
 
         Args:
-            gap: cycles since the previous base edge, `None` for the first base edge after a reset.
+            gap: number of cycles since the previous base edge, `None` for the first base edge after a reset.
 
         Returns:
-            Cycles from this edge to the next pulse, `None` if this edge does not cause a pulse.
+            Number of cycles from this edge to the next pulse, `None` if this edge does not cause a pulse.
         """
         if self._delayed:
             return None

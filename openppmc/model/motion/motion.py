@@ -134,7 +134,10 @@ class Motion:
         self._context.queue.at(t + 1, Phase.GUARD, self.check_stops)
 
     def _arm(self, first: int) -> None:
-        """Schedule pulse 1 at edge `first`, or, with the external clock, at the next base edge from it on."""
+        """Schedule pulse 1 at edge `first`.
+
+        With the external clock, pulse 1 is scheduled at the first base edge at or after `first`.
+        """
         if self._external:
             self._armed_from = first
         else:
@@ -155,7 +158,7 @@ class Motion:
 
     @property
     def external(self) -> bool:
-        """True while an operation that counts the external clock is running."""
+        """True while an operation that counts edges of the external clock is running."""
         return self.busy and self._external is not None
 
     @property
@@ -165,7 +168,7 @@ class Motion:
 
     @property
     def high(self) -> bool:
-        """State HIGH: the running interval has index PA and no flag is set (P104-PRO-06)."""
+        """State HIGH: the running interval has index PA, and no deceleration is flagged (P104-PRO-06)."""
         return self.is_ramp and self.index == self._setup.ramp.pa and not self.decelerating
 
     # ------------------------------------------------------------------ stop commands and inputs
@@ -177,7 +180,10 @@ class Motion:
             self._context.queue.at(t, Phase.GUARD, self.check_stops)
 
     def check_stops(self, t: int) -> None:
-        """Check the stop causes at edge t: immediate ends, then the slow-down limit (P104-LIM-01..09)."""
+        """Check the stop causes at edge t (P104-LIM-01..09).
+
+        Causes of an immediate end are checked first, then the slow-down limit.
+        """
         if not self.busy or self.finishing or t <= self._began:
             return
         causes = self._active_causes(t)
@@ -191,7 +197,7 @@ class Motion:
         return inspect(self._guard, self._context.levels, self.operation, self.direction)
 
     def _slow_limit_effective(self) -> bool:
-        """Return True if an active slow-down limit sets the flag."""
+        """Return True if an active slow-down limit sets the forced-deceleration flag."""
         return self._flag_edge is None and "slow" not in self._events
 
     def _slow_limit_edge(self, t: int) -> int:
@@ -205,7 +211,7 @@ class Motion:
     def _flag(self, t: int, bit: int) -> None:
         """Set the forced-deceleration flag.
 
-        Two requests at the same edge both set their bit (P104-LIM-09).
+        Two requests at the same edge both set their bits in the finish status (P104-LIM-09).
         """
         # Another request at this edge was processed first, and it may have ended the motion.
         if self._flag_edge == t:
@@ -232,7 +238,10 @@ class Motion:
         self._end_decided(t)
 
     def _end_decided(self, t: int) -> None:
-        """Schedule the end of a motion that was cut at edge t; with FAST timing, after the low time."""
+        """Schedule the end of a motion that was cut at edge t.
+
+        With FAST timing, the motion ends after the low time of the pulse.
+        """
         self._end_after = t + self._context.latency.imm_end
         if not self.low:
             self._plan_end(self._low_ended)
@@ -246,7 +255,7 @@ class Motion:
         external = self._external
         if not self.busy or external is None:
             return
-        if self.finishing:  # a low time that has begun keeps its length (P104-TIM-05)
+        if self.finishing:  # a low time that has already begun keeps its length (P104-TIM-05)
             if self.low and self._cut_at:
                 external.rise(t, gap, self.low)
                 if external.edges == self._cut_at:
@@ -301,7 +310,7 @@ class Motion:
         self._begin_low(t, rate, gap)
 
     def _interval_begun(self, t: int) -> None:
-        """Process the beginning of an interval at the pulse event of edge t."""
+        """Process the beginning of an interval; its pulse event is at edge t."""
 
     def _next_rate(self, t: int) -> int | None:
         """Return the rate of the interval that begins with pulse `done`, `None` after the last pulse."""

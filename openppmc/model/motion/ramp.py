@@ -1,11 +1,11 @@
 """Exact linear ramp: the square of the speed grows linearly with the pulse index.
 
-The PPMC family uses it.
+The parts of the PPMC family use this ramp.
 
-P104-RMP-01: the interval of index k has the period x(k) = 1/sqrt(1/A + (1/B - 1/A) k/PA) in base clocks,
-rounded half up. A and B are the squares of the start and high-speed periods. All values are calculated from
-the closed formula with exact integer square roots. `period` is generic: it is the number of base clocks of an
-interval (rate + 1 for parts with rates, the divisor itself for parts with divisors).
+P104-RMP-01: the interval of index k lasts x(k) = 1/sqrt(1/A + (1/B - 1/A) k/PA) base clock periods, rounded
+half up. A and B are the squares of the start and high-speed periods. All values are calculated from the
+closed formula with exact integer square roots. `period` is the number of base clock periods of an interval:
+rate + 1 for parts with rates, the divisor itself for parts with divisors.
 
 P104-PRO-01..06 and P104-FDC-02: index of each interval of a move, interval by interval or by a closed
 formula.
@@ -20,10 +20,10 @@ from math import isqrt
 
 
 def ramp_period(start: int, high: int, pa: int, k: int) -> int:
-    """Return the base clocks of the interval with index k, 0 <= k <= pa.
+    """Return the number of base clock periods of the interval with index k, 0 <= k <= pa.
 
     Args:
-        start, high: periods of index 0 and pa, 1 <= high <= start.
+        start, high: results for index 0 and for index pa, 1 <= high <= start.
         pa: number of ramp pulses; 0 is a flat ramp, start = high.
 
     Raises:
@@ -61,7 +61,7 @@ def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
 
 
 def natural_deceleration(kp: int, m: int, pa: int) -> bool:
-    """Return True at the pulse event that begins the natural deceleration of a move (P104-PRO-05)."""
+    """Return True if a pulse event begins the natural deceleration of a move (P104-PRO-05)."""
     return 0 < m and m - 1 < min(kp + 1, pa)
 
 

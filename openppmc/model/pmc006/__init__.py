@@ -1,7 +1,7 @@
 """Golden model of the PMC006B4. `Pmc006` is the part at pin level.
 
-Layers from the bottom up: line, motion, memory, drive, instructions. `bench` contains a model of the motor,
-and `program` the text form of user programs.
+Its layers are, from the bottom up: line, motion, memory, drive, instructions. `bench` contains a model of the
+motor, and `program` converts user programs to text and back.
 """
 
 from .part import Pmc006

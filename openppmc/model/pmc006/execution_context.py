@@ -16,7 +16,7 @@ from .settings import LEGAL, Settings
 
 
 class Motion(Protocol):
-    """Motion control: members that other blocks use."""
+    """Members of the motion control that other blocks use."""
 
     @property
     def busy(self) -> bool:
@@ -128,7 +128,7 @@ class ExecutionContext(Protocol):
         """Data of the answer to instruction x."""
 
     def stop(self, t: int) -> None:
-        """Process a cause that stops a motion at edge t."""
+        """Process at edge t a cause that stops a motion."""
 
     def load_position(self, position: int) -> None:
         """Execute instruction i."""
@@ -171,7 +171,7 @@ class Effect(NamedTuple):
 
 
 class Instruction:
-    """Instruction. The base class is an unknown instruction, which has no effect."""
+    """Instruction. An object of this base class is an unknown instruction, which has no effect."""
 
     def __call__(self, context: ExecutionContext, data: int) -> Effect:
         """Return the effect of `data`."""
@@ -183,7 +183,7 @@ class Setting(Instruction):
     """Instruction that writes a register if the data are legal. Its answer is the value of the register.
 
     Attributes:
-        also: further registers that the instruction writes, with their values.
+        also: further registers that the instruction writes, with the values that it writes.
     """
 
     name: str
@@ -191,7 +191,7 @@ class Setting(Instruction):
     also: dict[str, int] | None = None
 
     def __call__(self, context: ExecutionContext, data: int) -> Effect:
-        """Return the effect. Illegal data change nothing; the answer is the active value."""
+        """Return the effect. Illegal data change no register; the answer is the active value."""
         if data in (LEGAL[self.name] if self.legal is None else self.legal):
             return Effect(self.now, {self.name: data, **(self.also or {})})
         return Effect(self.now)

@@ -22,7 +22,7 @@ HEAD, ANSWER, SIZE = 0xA5, 0x7A, 8
 
 
 class Command(NamedTuple):
-    """Frame with a valid checksum: address, instruction code, and data as a signed 32-bit number."""
+    """Frame with a valid checksum. Its data are a signed 32-bit number."""
 
     address: int
     code: int
@@ -80,15 +80,18 @@ class Assembler:
 STOP = Fraction(163, 2)
 """Bit times from the last stop-bit sample of a frame to the middle of the last stop bit of its reply.
 
-From then on, a host may send."""
+From this time on, a host may send."""
 SYNC = 2
-"""Cycles from the sampling of a level to its effect."""
+"""Number of cycles from the edge that samples a level to its effect."""
 SILENCE = 192
 """Bit times without a start bit after which an incomplete frame is dropped."""
 
 
 def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
-    """Return (bit times after the last stop-bit sample of the frame, pin, level) for a reply."""
+    """Return the changes of the pins during a reply as (time, pin, level).
+
+    A time is in bit times after the sample of the last stop bit of the frame.
+    """
     levels = [1]
     for byte in frame:
         levels += [0, *(byte >> place & 1 for place in range(8)), 1]
@@ -136,7 +139,10 @@ class Line:
             self._on_receiver_level(t + SYNC, level)
 
     def _on_level(self, t: int, level: int) -> None:
-        """Process the synchronised level from edge t on; a high level opens an enabled receiver."""
+        """Process a synchronised level that is present from edge t on.
+
+        A high level opens an enabled receiver.
+        """
         self._level = level
         if level and not self._muted and not self._open:
             self._services.queue.at(t, Phase.BUS, self._open_up)

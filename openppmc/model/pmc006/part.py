@@ -22,7 +22,7 @@ from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, CoreTiming, Services, T
 from .settings import Settings
 
 MS, RESTORE_MS = 1000, 20
-"""Number of µs ticks in a millisecond; time in ms for which FSET must be low for a restore."""
+"""Number of µs ticks in a millisecond, and time in ms for which FSET must be low for a restore."""
 _LINES = {"scl_i", "sda_i"}
 
 
@@ -34,7 +34,7 @@ class Pmc006(Chip):
 
     Args:
         clk_hz: 8e6..200e6.
-        xtal_hz: no effect; accepted because all parts have this argument.
+        xtal_hz: accepted because all parts have this argument, but without effect.
         timing: "FAST" or "DATASHEET"; both behave identically.
         step_ack: "MANUAL" or "ECHO".
         baud: 1200..115200.
@@ -170,7 +170,7 @@ class Pmc006(Chip):
         self.line.answer(reply(self.context.settings.addr, data))
 
     def on_char(self, t: int, byte: int | None) -> None:
-        """Process a whole byte on the line; the levels of rxd are not modelled.
+        """Process a whole byte on the line, without modelling the levels of rxd.
 
         Args:
             t: edge that samples the stop bit.

@@ -1,4 +1,7 @@
-"""Pins of the PMC006B4 with idle and reset levels (docs/pmc006/README.md, 2 Wiring), and services."""
+"""Pins of the PMC006B4 with idle and reset levels (docs/pmc006/README.md, 2 Wiring).
+
+The module also contains the latencies, the base clock and the services of the blocks.
+"""
 
 from __future__ import annotations
 
@@ -19,19 +22,20 @@ class CoreTiming:
         answer: from e, the edge that samples the last stop bit of a frame, to the origin of the bit times of
             the reply (<= 8).
         frame: from e to the first edge at which the executor may accept the frame.
-        effect: from that edge to the effect.
-        after: from the effect to the first edge that may accept another instruction (frame + effect + after
-            <= 64).
+        effect: from the edge at which the executor accepts the frame to the effect of the instruction.
+        after: from the effect of an instruction to the first edge that may accept another instruction (frame
+            + effect + after <= 64).
         fetch: from the start of a program instruction to its effect.
-        slot: from the start of a program instruction to that of the next one (<= 64).
+        slot: from the start of a program instruction to the start of the next one (<= 64).
         key_ticks: µs ticks that the filter of a key takes in addition to its time.
         job: from the last tick to the end of a job of the EEPROM engine.
         fact: from the FSET event to the first edge whose tick may begin a restore.
         program_cleared, program_kept: in the boot, from one cycle after the last tick until the program is
-            cleared, or kept.
-        fields: check of the parameter fields. Storing the parameters takes the same time again.
-        trigm: from the start of storing to the store of TRIGM.
-        gpo: from the register of the outputs to the pins.
+            cleared, and until it is kept.
+        fields: duration of the check of the parameter fields. Storing the parameters takes the same time
+            again.
+        trigm: from the start of storing the parameters to the edge that stores TRIGM.
+        gpo: from a change of the output register to the pins.
         plan: from the rising edge of BUSY to the end of planning.
         step: from a us tick to mon_step.
         move_end: from mon_step of the last step to the falling edge of BUSY (<= 2).
@@ -39,7 +43,7 @@ class CoreTiming:
         grid: between two evaluations of the current references.
         grid_from: from the first internal edge to the first evaluation.
         refs: from an evaluation to the four reference outputs (grid + refs <= 64).
-        enable: from the end of BOOT, or a change of FREE, to the bridges.
+        enable: from the end of BOOT, or a change of FREE, to the change of the bridge outputs.
         idle: from a us tick to the end of the idle time.
         force: from a change of a reference to the state OFF.
         cmp: from the sampling of a comparator level to its effect (<= 4).

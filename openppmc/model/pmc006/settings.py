@@ -1,4 +1,6 @@
-"""Registers of the PMC006B4 with legal values and factory values, and the EEPROM page of some of them.
+"""Registers of the PMC006B4 with legal values and factory values.
+
+Some registers are saved in a page of the EEPROM.
 
 Rules: P006-CMD (legal values), P006-EEP-10, -20.
 """
@@ -37,7 +39,7 @@ LEGAL: dict[str, Container[int]] = {
 }
 """Values that an instruction or the EEPROM may write.
 
-Only other sources can set `vmax` to 0 and `pp` to 200.
+Neither can set `vmax` to 0 or `pp` to 200; only other sources in the part can.
 """
 
 
@@ -95,7 +97,7 @@ PLACES: dict[str, tuple[int, int]] = {
 
 
 def page_of(settings: Settings) -> bytes:
-    """Return the parameter block as `t` writes it."""
+    """Return the parameter block as instruction `t` writes it."""
     page = bytearray(MAGIC + bytes(PAGE - 1 - len(MAGIC)))
     for name, (place, size) in PLACES.items():
         page[place : place + size] = int(getattr(settings, name)).to_bytes(size, "little")
@@ -106,14 +108,14 @@ FACTORY_PAGE = page_of(Settings())
 
 
 def framed(page: bytes) -> bool:
-    """Return True if header and sum of a block are valid."""
+    """Return True if the header and the checksum of a block are valid."""
     return page[: len(MAGIC)] == MAGIC and sum(page[:-1]) % 256 == page[-1]
 
 
 def values_of(page: bytes) -> dict[str, int] | None:
     """Return the registers of a block read from the EEPROM.
 
-    The result is `None` if any of them is not valid (docs/pmc006/README.md, 14 EEPROM).
+    The result is `None` if any register value is invalid (docs/pmc006/README.md, 14 EEPROM).
     """
     if not framed(page):
         return None

@@ -68,7 +68,7 @@ def window_us(command: Command, triangle: bool = False) -> int:
 
 
 class Windows:
-    """Processing window that is open, if any, and the poll ticks that it delays.
+    """The open processing window, if any, and the poll ticks, which a window delays.
 
     This class is used only with DATASHEET timing.
 
@@ -103,7 +103,7 @@ class Windows:
         self.axis = None
 
     def _origin(self, t: int) -> int:
-        """Return the edge from which poll ticks are counted at edge t.
+        """Return the edge from which the poll ticks at edge t are counted.
 
         At the edge that opens a window, ticks are still counted from the old origin.
         """
@@ -159,7 +159,7 @@ class Motion(motion.Motion):
     # ------------------------------------------------------------------ start
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, run_sampled_from: int) -> None:
-        """Process the C-event of an operation's last byte.
+        """Process the C-event of the last byte of an operation.
 
         Args:
             run_sampled_from: first edge at which RUN is sampled.
@@ -204,7 +204,7 @@ class Motion(motion.Motion):
     def stop_until(self, t: int, end: int) -> None:
         """Process an immediate stop with DATASHEET timing (P2104-DS-02).
 
-        No pulse is output from edge t on; all other effects occur at edge `end`.
+        No pulse is output from edge t on; all other effects of the stop occur at edge `end`.
         """
         if not self.finishing:
             self._end_delayed_until = end
@@ -263,7 +263,7 @@ class Axis:
     Attributes:
         setup: `None` in state INITIAL.
         table_ready: edge at which the table build ends.
-        building: True in state INITP.
+        building: True in state INITP, in which the ramp table is built.
     """
 
     def __init__(self, number: int, shared: Context, windows: Windows, interrupt: Interrupt) -> None:
@@ -287,7 +287,10 @@ class Axis:
             self._interrupt.raise_(Cause.END, self.number)
 
     def _set_pin(self, t: int, signal: str, value: int) -> None:
-        """Set a pin of the part. The phases have a port per axis; other pins are a bit of a common port."""
+        """Set a pin of the part.
+
+        The phases of each axis are a separate port; any other pin is a bit of a port of both axes.
+        """
         log = self.context.log
         if signal == "s":
             log.set(t, f"s{self.number + 1}_n", value)
@@ -347,5 +350,5 @@ class Axis:
         return list(motion.remaining.to_bytes(3, "little"))
 
     def pin(self, signal: str) -> int:
-        """Return the current level of the bit of this axis in a common port."""
+        """Return the current level of the bit of this axis in a port of both axes."""
         return self.context.log.levels[signal] >> self.number & 1

@@ -104,7 +104,7 @@ def decode(code: int) -> Command:
 
 # Rate limits with DATASHEET timing: P2104-DS-30..35.
 
-# Smallest accepted rates, by csel, if one axis operates, and if both axes operate.
+# Smallest accepted rates by csel: if only one axis operates, and if both axes operate.
 _PULSES = {1: (0x0C, 0x19), 0: (0x03, 0x06)}
 _PHASES = {1: (0x12, 0x23), 0: (0x04, 0x08)}
 _ORIGIN = {1: (0x14, 0x25), 0: (0x05, 0x09)}
@@ -196,7 +196,7 @@ class Cause(Enum):
 
 
 class Interrupt:
-    """Interrupt latches. The register of the pin is loaded with `level(t)` after edge t."""
+    """Interrupt latches. After edge t, the register of the pin int_n is loaded with `level(t)`."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -208,12 +208,15 @@ class Interrupt:
         self._set.add((cause, axis))
 
     def release(self, t: int, cause: Cause, axis: int) -> None:
-        """Clear a latch when it is read at edge t. If it was set, INT* is high for W (P2104-INT-03, -04)."""
+        """Clear a latch when it is read at edge t.
+
+        If the latch was set, INT* is high for the time W (P2104-INT-03, -04).
+        """
         if (cause, axis) not in self._set:
             return
         self._set.remove((cause, axis))
         self._quiet_until = t + self._context.timebase.w
-        # An event at the end of W makes the model update the pins then.
+        # This event makes the model update the pins at the end of W.
         self._context.queue.at(self._quiet_until, Phase.END, lambda now: None)
 
     def level(self, t: int) -> int:

@@ -59,7 +59,7 @@ class CommandUnit:
         return bits
 
     def must_wait(self, t: int, byte: int, command: bool) -> bool:
-        """Return True if, at edge t, a byte must wait for the end of a table build (P2104-HSK-04)."""
+        """Return True if a byte must wait at edge t for the end of a table build (P2104-HSK-04)."""
         if not command or self._pending is not None:
             return False
         code = decode(byte)
@@ -178,7 +178,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ execution
 
     def _execute(self, t: int, command: Command, data: list[int]) -> None:
-        """Execute an instruction at edge t; with DATASHEET timing, during its processing window."""
+        """Execute an instruction at edge t or, with DATASHEET timing, during its processing window."""
         axis, kind = self._axes[command.axis], command.kind
         end = self._window(t, command, data) if self._context.datasheet else t
         if kind is Kind.INITIALISE:
@@ -204,7 +204,7 @@ class CommandUnit:
         return self._windows.open(t, window_us(command, triangle), None if no_axis else command.axis)
 
     def _at(self, t: int, end: int, action: Callable[[int], None]) -> None:
-        """Execute an action immediately, or, with DATASHEET timing, at the end of the window."""
+        """Execute an action with FAST timing immediately, with DATASHEET timing at the window's end."""
         if end > t:
             self._context.queue.at(end, Phase.BEGIN, action)
         else:

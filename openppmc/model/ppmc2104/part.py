@@ -53,8 +53,8 @@ class Ppmc2104(Chip):
             released: first edge after the reset.
         """
         counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
-        # After a reset, the synchronisers hold idle levels. Only that of extck holds the level of the pin, so
-        # that the part counts no clock edge that did not occur at the pin.
+        # After a reset, the synchronisers hold idle levels. Only the synchroniser of extck holds the level of
+        # its pin. Therefore, the part counts no clock edge that did not occur at the pin.
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context
@@ -103,7 +103,7 @@ class Ppmc2104(Chip):
     # ------------------------------------------------------------------ observable state
 
     def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
-        """Return the changes (t, level) of the bit of one axis in a common port.
+        """Return the changes (t, level) of the bit of one axis in a port of both axes.
 
         Args:
             axis: 1 or 2.
@@ -138,5 +138,8 @@ class Ppmc2104(Chip):
 
     @property
     def status(self) -> int:
-        """Status register; a byte that is being stored or cleared is not considered."""
+        """Status register.
+
+        A byte that is being stored in a buffer, or removed from it, at the moment is not considered.
+        """
         return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)

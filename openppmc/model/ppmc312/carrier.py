@@ -22,7 +22,7 @@ class Carrier(carrier.Carrier[Ppmc312]):
 
     Bit 0 of the straps is RUN; bits 1 and 2 are event inputs 1 and 2.
 
-    The encoder outputs a pulse for each pulse that the shaft follows. The drive asserts END immediately.
+    The encoder outputs a pulse for each pulse that the shaft follows. The drive always asserts END.
     `positions` holds the position of the shaft; the part itself counts pulses.
     """
 
@@ -101,7 +101,7 @@ class TableMove(Move):
     table, `None` at constant speed.
 
     Attributes:
-        kind: status bits of the response to the start instruction.
+        kind: status bits in the response to the start instruction.
     """
 
     divider: int

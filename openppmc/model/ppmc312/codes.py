@@ -119,7 +119,7 @@ IMMEDIATE = (Cause.ALARM, Cause.LIMIT, Cause.ORIGIN, Cause.STOP)
 
 
 class Alarm(IntEnum):
-    """Status byte of F4."""
+    """Status byte of the report F4 (alarm)."""
 
     PIN = 0
     HOST = 1
@@ -174,7 +174,8 @@ _NORMAL_ONLY = ".O...."
 _START = (_NORMAL_ONLY, ".OOO..")
 _STOP = ("..OO..", ".OOO..")
 
-# One letter for each state, in the order of `_STATES`; a pair is for OV = 0 and OV = 1 (P312-STA-01).
+# Accept table (P312-STA-01). A row has one letter for each state, in the order of `_STATES`. The first row of
+# a pair is for OV = 0, the second for OV = 1. "O" means that the instruction is accepted.
 _ACCEPT: dict[int, tuple[str, str]] = {
     **{code: (_AT_REST, _AT_REST) for code in (0x00, 0x01, 0x02, 0x03, 0x04, 0x06)},
     **{code: (_AT_REST, _AT_REST) for code in (0x20, 0x21, 0x22, 0x23, 0x28, 0x41, 0x43)},
@@ -265,7 +266,10 @@ SERIAL_PINS = ("rxd",)
 
 
 class _BlockEvent(Event):
-    """Event of a block. The queue contains such events of the current blocks only."""
+    """Event of a block.
+
+    The queue contains only the events of the current blocks.
+    """
 
     __slots__ = ()
 
@@ -279,7 +283,7 @@ class ResettableScheduler(Scheduler):
         self._alive = True
 
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = _BlockEvent) -> Event:
-        """Schedule `action(t)`, which is called unless the blocks are replaced before."""
+        """Schedule a call of `action(t)`. The call is cancelled if the blocks are replaced before edge t."""
         event = self._queue.at(t, phase, action, kind)
         if not self._alive:
             event.cancel()

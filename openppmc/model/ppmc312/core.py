@@ -78,7 +78,7 @@ class Core:
         self.host = make_host(self)
 
     def connect(self, host: HostSide, serial: bool) -> None:
-        """Connect the host side, which is determined just after a reset."""
+        """Connect the host side (parallel bus or line), which is determined just after a reset."""
         self.host, self.responses.serial = host, serial
 
     # ------------------------------------------------------------------ state
@@ -107,9 +107,9 @@ class Core:
             buffer.clear()
 
     def drop_overrides(self, t: int) -> None:
-        """Clear the FIFO after an override has failed.
+        """Clear the FIFO of overrides after an override has failed.
 
-        If a stop at a position has already ended the pulses, they do not resume.
+        If a stop at a position has already ended the pulses, the motion does not resume.
         """
         self.fifo.clear()
 
@@ -126,7 +126,7 @@ class Core:
         self.operation.stop(t, Cause.ALARM)
 
     def overrun(self, t: int, status: Alarm) -> None:
-        """Process a report that is lost at edge t. The alarm occurs one cycle later."""
+        """Process the loss of a report at edge t. The alarm occurs one cycle later."""
         self.context.queue.at(t + 1, Phase.LEVELS, lambda now: self.alarm(now, status))
 
     def clear_alarm(self, t: int) -> None:

@@ -21,7 +21,7 @@ from .timing import READY, CoreTiming
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
-"""Internal levels of the pins before they are first sampled."""
+"""Internal levels of the pins until the pins are first sampled."""
 
 
 class Ppmc312(Chip):
@@ -137,7 +137,7 @@ class Ppmc312(Chip):
     def _make_registers(self) -> list[tuple[tuple[str, ...], PinRegister]]:
         """Return the output registers.
 
-        Most outputs are registers of a block; some follow an internal level.
+        Most output pins are registers of a block; some pins follow an internal level.
         """
         late = {name: level for name, level in self._reset_levels_held.items() if name in _LATE}
         early = {name: level for name, level in self._reset_levels_held.items() if name not in _LATE}
@@ -174,8 +174,8 @@ class Ppmc312(Chip):
     def _software_reset(self, t: int, source: Source) -> None:
         """Execute instruction FF (P312-CMD-FF) and send its response.
 
-        Afterwards, the state is that after a reset, except the levels of the pins. A strobe on the bus
-        continues (P312-PAR-11), unless the pins select the serial mode now.
+        After it, the state is the same as after a reset, except for the levels of the pins. A strobe on the
+        bus continues (P312-PAR-11), unless the pins now select the serial mode.
         """
         self._block_queue.close()
         self._queue.at(t, Phase.PIN, self._reset_outputs)
@@ -206,7 +206,7 @@ class Ppmc312(Chip):
             self._host.ready(t)
 
     def _reset_outputs(self, t: int) -> None:
-        """Reset the pins that do not follow an internal level, and those that follow it one cycle later."""
+        """Reset the pins that follow no internal level, and the pins that follow one a cycle later."""
         for pin in ("wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
 

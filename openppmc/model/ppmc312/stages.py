@@ -1,8 +1,8 @@
 """Acceleration tables of the PPMC-312 from an initial setting: P312-TBL-01..06, P312-CMD-00.
 
-Rates are rounded from exact speeds. The pulses of the stages are differences of the rounded-down exact
-running sum. The raised cosine is calculated from its power series. Thus, the model does not use the stepwise
-divisions of the RTL.
+Rates are rounded from exact speeds. The pulses of a stage are the difference of two successive exact running
+sums, each rounded down. The raised cosine is calculated from its power series. Thus, the model does not use
+the stepwise divisions of the RTL.
 """
 
 from __future__ import annotations
@@ -24,7 +24,10 @@ LAST = STAGES - 1
 SLOWEST_START, FASTEST, SLOWEST = 0x0011, 0x0002, 0xFFEF
 LEAST_DIFFERENCE, LEAST_PULSES = 127, 2
 DIVIDERS = {0: 2, 1: 16, 2: 32, 3: 64, 4: 256, 5: 1024}
-"""CLK -> crystal cycles of a tick; with CLK 6 and 7, ticks are the edges of EXTCK."""
+"""Number of crystal cycles in a tick of the base clock, by CLK.
+
+With CLK 6 and 7, the ticks are the edges of EXTCK.
+"""
 
 
 class SettingError(ValueError):
@@ -46,12 +49,12 @@ class Table:
 
     It has 127 rates in ticks, the pulses of each stage for both ramps, and the first stage of each ramp.
 
-    Index 126 is the fastest stage. Stages below the first stage of a ramp have 0 pulses in this ramp; below
-    both first stages, the rates have no meaning.
+    Index 126 is the fastest stage. Stages below the first stage of a ramp have 0 pulses in this ramp. Below
+    the first stages of both ramps, the rates have no meaning.
 
     Attributes:
         clk: base clock 0..7.
-        separate: True if the deceleration has its own ramp (LE = 1).
+        separate: True if the deceleration ramp is not the reversed acceleration ramp (LE = 1).
     """
 
     rates: tuple[int, ...]
@@ -79,28 +82,28 @@ class Table:
 
     @property
     def na(self) -> int:
-        """Acceleration pulses."""
+        """Sum of the acceleration pulses of all stages."""
         return sum(self.pa)
 
     @property
     def nd(self) -> int:
-        """Deceleration pulses."""
+        """Sum of the deceleration pulses of all stages."""
         return sum(self.pd)
 
     @cached_property
     def sums_up(self) -> list[int]:
-        """Acceleration pulses of each stage and the slower ones."""
+        """For each stage, the sum of acceleration pulses of this stage and of all slower stages."""
         return list(accumulate(self.pa))
 
     @cached_property
     def sums_down(self) -> list[int]:
-        """Deceleration pulses of each stage and the slower ones."""
+        """For each stage, the sum of deceleration pulses of this stage and of all slower stages."""
         return list(accumulate(self.pd))
 
     def stage(self, rate: int) -> int:
         """Return t(rate), the fastest stage that is not faster than this rate.
 
-        If there is no such stage, the result is the first stage - 1.
+        If there is no such stage, the result is the number of the first stage minus 1.
         """
         for i in range(LAST, self.first - 1, -1):
             if self.rates[i] >= rate:
@@ -113,7 +116,7 @@ class Table:
 
 
 def _pi() -> Decimal:
-    """Return pi in the current precision, with Machin's formula."""
+    """Return pi in the current precision of `decimal`, calculated with Machin's formula."""
 
     def arccot(x: int) -> Decimal:
         term, n, total = Decimal(1) / x, 1, Decimal(0)
@@ -168,7 +171,7 @@ def side(total: int, speed: Sequence[Fraction], first: int) -> tuple[int, ...]:
 def first_stage(rates: Sequence[int], ordered: int) -> int:
     """Return the first stage of the ramp with this slowest rate (P312-TBL-03)."""
     if ordered == rates[0]:
-        return 0  # the slower ramp has all stages, however R[1] is rounded
+        return 0  # the slower ramp has all stages, whether R[1] is rounded up or down
     return max(i for i in range(STAGES) if rates[i] >= ordered)
 
 
@@ -246,7 +249,7 @@ class FreeCurve:
     """
 
     def __init__(self, header: int, parameters: bytes) -> None:
-        """Process the code block, which may have the errors 0x10 and 0x11.
+        """Process the code block; check for the errors 0x10 and 0x11.
 
         Args:
             parameters: bytes after the code.
@@ -334,7 +337,7 @@ TRAPEZOID, TRIANGLE, RIGHT_DOWN, RIGHT_UP = 0x00, 0x10, 0x20, 0x40
 
 
 class Step(NamedTuple):
-    """Pulse and the interval after it.
+    """Pulse, and the interval that follows the pulse.
 
     Attributes:
         rate: length of the interval in ticks.
@@ -352,11 +355,11 @@ class Plan:
     """Plan of an operation.
 
     Attributes:
-        n: pulses, `None` for an endless operation.
-        up: accelerating pulses at the beginning.
-        down: decelerating pulses at the end.
+        n: number of pulses, `None` for an endless operation.
+        up: number of accelerating pulses at the beginning.
+        down: number of decelerating pulses at the end.
         rate: constant rate between acceleration and deceleration.
-        kind: status bits of the response.
+        kind: status bits in the response to the start instruction.
     """
 
     table: Table

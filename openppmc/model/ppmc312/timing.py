@@ -11,7 +11,7 @@ from .stages import RIGHT_DOWN, TRIANGLE, Plan, Table
 from .stages import TRAPEZOID as TRAPEZOID_KIND
 
 US, WIDTH = 16, 80
-"""Crystal cycles in a microsecond at 16 MHz, and in TW."""
+"""Numbers of crystal cycles in a microsecond at 16 MHz, and in the pulse width TW."""
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,9 @@ class CoreTiming:
         answer: from the effect to the stored response, without its bytes (one cycle each).
         done: from the stored response to MWEF = 0.
         reset: from the start of processing to the reset by instruction FF.
-        reboot: from this reset to its effect.
-        reopen: from this reset to MWEF = 0.
-        alarm: from a multiple occurrence to its alarm.
+        reboot: from the reset by instruction FF to its effect.
+        reopen: from the reset by instruction FF to MWEF = 0.
+        alarm: from a multiple occurrence to the alarm that it causes.
         halt: from the effect of instruction 80 to the stop of the pulses.
         next_response: from the read of a response to the store of the response that waited for it
             (P312-RSP-20, <= 4).
@@ -47,9 +47,9 @@ class CoreTiming:
         count: from a pulse to the change of POS.
         compare: from a pulse to the actions that the position triggers (P312-MOT-05, P312-OVR-12).
         unlock: from a pulse to report E1.
-        lead, slow_lead, change_lead, ramp_lead, origin_lead: shortest time to a boundary that is affected,
-            from (in this order) the high-speed limit, the instructions 81, 88 and 87, and the level of the
-            origin.
+        lead, slow_lead, change_lead, ramp_lead, origin_lead: shortest time from an event to an interval
+            boundary that the event affects. The events are, in this order: a level of the high-speed limit,
+            instruction 81, instruction 88, instruction 87, a level of the origin.
         drop_lead: shortest time from a newer instruction 87 or 88 to a boundary at which it replaces a
             waiting change.
         const_rate_lead: time for which the rate must be constant before instruction 87 takes effect.
@@ -62,15 +62,15 @@ class CoreTiming:
         compare_lag: from a change of POS or ENC to the result of a monitor's comparison. The status bit
             follows one cycle later, the report two cycles later.
         standstill: from standstill to the first evaluation of the in-position monitor.
-        character: in serial mode, as for the next five entries: from the middle of the stop bit to the
-            character.
+        character: from the middle of the stop bit to the character. This entry and the next five apply to the
+            serial mode.
         frame: from the last character to the event that corresponds to the header write of the parallel mode.
         sampling: from the last character to the sampling of reports, state and counters.
-        reply: from that sampling, or from the stored response, to the rising edge of snd.
+        reply: from the sampling for a reply, or from the stored response, to the rising edge of snd.
         clear: shortest time from the middle of the stop bit to the rising edge of snd, minus one bit.
         silence: addition to the 20 ms without a character that end a frame.
         early: crystal cycles that are subtracted from a DATASHEET time, because this time has already passed.
-        proc_time: from the end of a DATASHEET time to the effect.
+        proc_time: from the end of a DATASHEET time to the effect of the instruction.
         pins: from an internal level to irq_n and intlk_n.
         wrq_fast: T_WRQ with FAST timing.
         ready: from the first edge after a reset to out_oe, with FAST timing.
@@ -129,7 +129,7 @@ class CoreTiming:
     start: int = 2
 
     def look_up(self) -> int:
-        """Return the cycles of one look-up in the table.
+        """Return the duration of one look-up in the table in cycles.
 
         This is the time from the effect of instruction 87 or 88 to the change, or, for a start without a
         plan, to t0.
@@ -137,10 +137,10 @@ class CoreTiming:
         return self.scan + 4
 
     def starting(self, plan: Plan, single: bool = False, ramped: bool = False) -> int:
-        """Return the cycles from the effect to t0.
+        """Return the number of cycles from the effect of a start to t0.
 
-        The look-up also adds up the pulses of the ramps. If the deceleration does not begin with a full
-        stage, another pass over the deceleration ramp is required. A triangular profile requires a
+        The look-up of the rate also adds up the pulses of the ramps. If the deceleration does not begin with
+        a full stage, another pass over the deceleration ramp is required. A triangular profile requires a
         multiplication and a division.
 
         Args:
@@ -163,10 +163,11 @@ class CoreTiming:
     def filling(self, table: Table) -> int:
         """Return the cycles from the effect of instruction 00 to the last word of the table.
 
-        An operation of n steps takes n + 4 cycles, a division takes one cycle more. The numbers of steps are
-        in parentheses. First, K RH and K Rs are calculated (24 each). Then, for each stage, the speed D (24),
-        D / 2 (1), C + D / 2 and C / D (16 each), and, for each ramp, S + D (24) are calculated. In a second
-        pass, D is calculated again, and P D and its share of S (24 each) for each ramp that uses the stage.
+        An arithmetic operation of n steps takes n + 4 cycles, a division one cycle more. The numbers of steps
+        are stated in parentheses. First, K RH and K Rs are calculated (24 each). Then, for each stage, the
+        speed D (24), D / 2 (1), C + D / 2 and C / D (16 each), and, for each ramp, S + D (24) are calculated.
+        In a second pass, D is calculated again, and P D and its share of S (24 each) for each ramp that uses
+        the stage.
         """
         stages, speed, separate = 127, 28, int(table.separate)
         sides = (table.sa, table.sd) if separate else (table.sa,)
@@ -177,7 +178,7 @@ class CoreTiming:
     def looking_up(self) -> int:
         """Return the cycles from the last word of a table to the valid table.
 
-        During this time, the start-up rate is looked up.
+        During these cycles, the start-up rate is looked up.
         """
         return self.scan + 3
 
@@ -194,7 +195,7 @@ class CoreTiming:
 READY = 1600 * US
 BUILD = {(False, False): 115_000 * US, (False, True): 200_000 * US}
 BUILD |= {(True, False): 175_000 * US, (True, True): 260_000 * US}
-"""Build time by (sigmoid, separate deceleration)."""
+"""Build time of a table, by (sigmoid, separate deceleration)."""
 TRAPEZOID, OTHER_SHAPE, TRAPEZOID_RATE, OTHER_SHAPE_RATE = 100 * US, 700 * US, 900 * US, 1400 * US
 CONSTANT, ENDLESS, ENDLESS_RATE, GENERAL = 400 * US, 60 * US, 400 * US, 500 * US
 STOP, OUTPUT = 350 * US, 300 * US

@@ -50,11 +50,14 @@ class TimedMotion(Motion):
     def slow_stop(self, t: int, reference: int) -> None:
         """Process a deceleration stop.
 
-        Edge t accepted the stop in state START, ACC or HIGH of operation 011 or 110.
+        The stop was accepted at edge t, in state START, ACC or HIGH of operation 011 or 110.
         """
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, reference: int) -> None:
-        """Process the C-event of an operation's last byte (P104-OPR-01, P104-BCK-02, P104-DS-03..06)."""
+        """Process the C-event of the last byte of an operation.
+
+        Rules: P104-OPR-01, P104-BCK-02, P104-DS-03..06.
+        """
         timebase = self._context.timebase
         self._latch_operation(command, data, setup)
         if not self._context.datasheet:
@@ -244,9 +247,9 @@ class ByteUnit(ABC):
         self._complete_after(done)
 
     def _complete_after(self, done: int) -> None:
-        """Schedule the end of the initialisation at edge `done`, when the table is ready.
+        """Schedule the end of the initialisation at edge `done`, at which the table is ready.
 
-        Until then, no byte is accepted.
+        Until edge `done`, no byte is accepted.
         """
         self._port.close_until(done)
         self._context.queue.at(done, Phase.BEGIN, self._complete)

@@ -16,7 +16,7 @@ from ..clock import Event
 from ..motion.codes import IBF, OBF
 from .codes import Kind, decode
 
-# Functions that only the PPMC-104 has: its strobes, and the gate at high speed.
+# Functions that only the PPMC-104 has: its strobes, and the gate that blocks bytes at high speed.
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
@@ -28,7 +28,7 @@ def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
 
 
 class SpeedGate:
-    """Gate for DATASHEET timing: above a speed, only stop commands pass (P104-DS-12).
+    """Gate for DATASHEET timing. Above a certain speed, only stop commands pass (P104-DS-12).
 
     Args:
         retry: retry(t) is called when the host port must check a waiting byte again.
@@ -63,7 +63,7 @@ READ_SYNC = 2
 
 
 class BytePort(Protocol):
-    """Members of the host side that commands and motion use."""
+    """Members of the host side that the commands and the motion use."""
 
     def answer(self, values: Iterable[int]) -> None:
         """Load the bytes of a read command."""
@@ -165,10 +165,10 @@ class HostPort:
                 self._context.queue.at(t + 1, Phase.BUS, self._load_again)
 
     def _load(self, t: int) -> None:
-        """Load d_o with the value of the selected register just before edge t."""
+        """Load d_o with the value that the selected register has just before edge t."""
         self._byte_was_read = False
         if self._pins["a0"]:
-            # While the synchroniser still samples a write strobe, its byte counts as waiting.
+            # While the synchroniser still samples a write strobe, the byte of this strobe counts as waiting.
             value = self.status | (IBF if self._writing and self._write_began < t else 0)
         else:
             value = self._output_byte

@@ -22,7 +22,7 @@ class Move(ABC):
     """Predicted move.
 
     Attributes:
-        clk: `clk[j]` is the time of pulse j + 1 in cycles after pulse 1.
+        clk: `clk[j]` is the time from pulse 1 to pulse j + 1 in cycles.
         indices: ramp index of the interval after each pulse; `None`, or an empty tuple, at constant speed.
         rates: rate of the interval after each pulse.
     """
@@ -85,7 +85,7 @@ def predict_move(
 
     Args:
         init: the four initialisation bytes RL, RH, PA low, PA high; for "ppmc312" the parameters of an
-            initial setting, see `ppmc312.carrier`, which also has free curves.
+            initial setting, see `ppmc312.carrier`, which also predicts moves with free curves.
         n: number of pulses, 1..2^24.
         rate: `None` for a move with ramps, otherwise the rate of a constant-speed move.
         csel: level of the pin csel.
@@ -105,9 +105,9 @@ class Limits:
     """Limits of a part.
 
     Attributes:
-        slower: smallest difference RL - RH.
-        least: smallest rate byte with the internal clock.
-        shortest, longest: range of PA.
+        slower: smallest permitted difference RL - RH.
+        least: smallest permitted rate byte with the internal clock.
+        shortest, longest: range of the ramp pulses PA.
     """
 
     slower: int
@@ -138,8 +138,8 @@ def run(
     """Return the pulses of a checked move.
 
     Args:
-        beyond: number of base clocks of an interval minus its rate. `rates` of the result include this
-            number.
+        beyond: number of base clock periods of an interval minus its rate. In the result, this number is
+            included in `rates`.
     """
     indices = tuple(profile_index(n, ramp.pa, j) for j in range(1, n)) if rate is None else ()
     rates = tuple(ramp.rate(k) + beyond for k in indices) if rate is None else (rate,) * (n - 1)

@@ -77,7 +77,10 @@ class SingleAxis(Chip):
         self._motor_pins = PinRegister(self._queue, self.latency.motor_pins, at_rest, self.log.set)
 
     def _take(self, t: int, byte: int, command: bool, stored_at: int) -> None:
-        """Process a C-event; DATASHEET times count from the write event, or from the end of a wait."""
+        """Process a C-event.
+
+        DATASHEET times count from the write event, or from the end of the wait if the byte had to wait.
+        """
         latency = self.latency
         waited = t > stored_at + latency.c_event
         reference = t + latency.ds_waited if waited else stored_at + latency.ds_host
@@ -126,7 +129,7 @@ class SingleAxis(Chip):
 
     @property
     def counts_clock(self) -> bool:
-        """True while an operation that counts the external clock is running."""
+        """True while an operation that counts edges of the external clock is running."""
         return self._motion.external
 
     @property
@@ -136,7 +139,10 @@ class SingleAxis(Chip):
 
     @property
     def status(self) -> int:
-        """Status register; a byte that is being stored or cleared is not considered."""
+        """Status register.
+
+        A byte that is being stored in a buffer, or removed from it, at the moment is not considered.
+        """
         return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)
 
     @property
@@ -159,7 +165,7 @@ class SingleAxis(Chip):
 
     @property
     def finish(self) -> int:
-        """Finish status as the next 0x80 would return it."""
+        """Finish status as the next read command 0x80 would return it."""
         return self._motion.finish
 
     @property

@@ -20,7 +20,7 @@ _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), str
 class Carrier(carrier.Carrier[Stmc]):
     """Carrier with the connections of stmc_carrier: no straps, and MON instead of the alarm.
 
-    The motor follows the phases. The step clock is modelled only while a motion counts it.
+    The motor follows the phases. The step clock is modelled only while a motion counts its edges.
     """
 
     _directions_of = step_directions()
@@ -69,7 +69,7 @@ class Carrier(carrier.Carrier[Stmc]):
         elif edge.value not in (
             0,
             ALL_PHASES,
-        ):  # the chopper, or no initialisation yet
+        ):  # off-time of the chopper, or no initialisation yet
             step = self._directions_of.get((self._phases, edge.value))
             self._phases = edge.value
             if step is not None:
@@ -90,5 +90,5 @@ def predict(
     """
     ramp = profile(*_LIMITS.check(init, n, rate))
     timebase = timebase or Timebase()
-    # A divisor is the number of base clocks of an interval, a rate is this number minus 1.
+    # A divisor is the number of base clock periods of an interval; a rate is this number minus 1.
     return run(timebase, BaseClock(TICK_XT // timebase.quantum), ramp, n, rate, beyond=1)

@@ -67,11 +67,14 @@ class Motion(TimedMotion):
     # ------------------------------------------------------------------ stops and inputs
 
     def slow_stop(self, t: int, reference: int) -> None:
-        """Process command 1 in state S or A of command 3 or 6 (STMC-STP-03, STMC-DS-11)."""
+        """Process command 1 (deceleration stop) in state S or A of command 3 or 6.
+
+        Rules: STMC-STP-03, STMC-DS-11.
+        """
         self._request(t, "flag", FINISH_STOP)
 
     def _active_causes(self, t: int) -> ActiveCauses:
-        """Return the active causes; command 7 also ends at its deceleration limit (STMC-IN-04)."""
+        """Return the active causes of an end. Command 7 also ends at its deceleration limit (STMC-IN-04)."""
         causes = super()._active_causes(t)
         if self.operation == ORIGIN and causes.slow:
             return ActiveCauses(causes.bits | FINISH_SLOW, causes.origin)

@@ -20,7 +20,7 @@ from .codes import READ_MAPS
 from .commands import CommandUnit, Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
-# The table of the STMC has 16-bit thresholds and takes longer to build than those of related parts.
+# The ramp table of the STMC has 16-bit thresholds. Therefore, its build takes longer than for related parts.
 LATENCY = Latency(build_base=2032, build_per_rate=144)
 
 
@@ -92,5 +92,5 @@ class Stmc(SingleAxis):
 
     @property
     def position(self) -> int:
-        """Position in the excitation table."""
+        """Current position in the excitation table."""
         return self._excitation.index

@@ -1,1 +1,4 @@
-"""Virtual boards of all parts: board, build, parser of the text after `sim:`, machine model, lines."""
+"""Virtual boards of all parts: board, build, parser of the port text, machine model, lines.
+
+The port text is the text after `sim:`.
+"""

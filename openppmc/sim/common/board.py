@@ -28,7 +28,7 @@ _KINDS: dict[str, Callable[[str], object]] = {
 class AxisStatus:
     """State of an axis.
 
-    Switches: True = active.
+    In the fields of switches, True means active.
 
     For an stmc, `pulses` counts steps, and `alm` is True while MON is low.
 
@@ -59,9 +59,9 @@ class Status(AxisStatus):
 
     Attributes:
         seconds, clk: time of the board in s, and in cycles.
-        factor: board time divided by wall time, over the last half second.
+        factor: board time divided by wall time, measured over the last half second.
         asleep: True if no state can change before the host sends, so that the simulation is paused.
-        open: True if a host has the port open, at `rate` bit/s.
+        open: True if a host has opened the port; the line rate is then `rate` bit/s.
         lost: bytes for the host that were discarded because the buffer was full.
         interrupt: True while int_n is low.
     """
@@ -80,7 +80,7 @@ class Status(AxisStatus):
 
     @classmethod
     def parse(cls, line: str) -> Status:
-        """Parse a status line of the program; names of axis 2 end in 2, and so on."""
+        """Parse a status line of the program. The names of values of axis 2 end in 2, and so on."""
         values = dict(word.partition("=")[::2] for word in line.split())
         values["interrupt"] = values.pop("int")
         axes = []
@@ -143,7 +143,10 @@ class Child:
         return self.process.poll() is None
 
     def _ask_status(self, word: str = "status") -> str:
-        """Send a word and return the status in the reply. Raise SimError if the program has ended."""
+        """Send a command of one word, and return the status in the reply.
+
+        Raise SimError if the program has ended.
+        """
         assert self.process.stdin is not None
         try:
             with self._lock:
@@ -157,7 +160,7 @@ class Child:
         return line.removeprefix("status ")
 
     def close(self) -> None:
-        """End the program; a second call does nothing."""
+        """End the program; a second call has no effect."""
         process = self.process
         for pipe in (process.stdin, process.stdout):
             try:
@@ -207,7 +210,8 @@ def start(spec: str = "", say: Callable[[str], None] | None = None, **options: o
 
     Args:
         spec: the text after `sim:`.
-        say: prints a line if a step takes long (default: on standard error).
+        say: function that prints a line if a step of the start takes long; by default, it prints on standard
+            error.
     """
     return SimBoard(parse_spec(spec, **options), say or to_stderr)
 

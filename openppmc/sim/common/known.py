@@ -3,4 +3,4 @@
 from .spec import known_words
 
 KNOWN = known_words()
-"""Words of the text of a board."""
+"""Names of the options that the text of a virtual board may contain (docs/virtual_board.md, Words)."""

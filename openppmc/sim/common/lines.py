@@ -1,4 +1,8 @@
-"""Virtual lines with stations: their text (`word=value`, for station N `wordN=value`) and process."""
+"""Virtual lines with stations: the parser of their text, and their process.
+
+The text consists of words such as `start=2000`; a word with a number (`start3=100`) applies to the station
+with this number.
+"""
 
 from __future__ import annotations
 
@@ -34,12 +38,13 @@ class Words:
 def split_words(
     text: str, stations: Sequence[str], options: Sequence[str], number: Callable[[str, str], int]
 ) -> Words:
-    """Parse the text of a line. Raise ValueError with the offending word.
+    """Parse the text of a line. Raise ValueError, which names the word that is wrong.
 
     Args:
         stations: words that may have the number of a station.
         options: words of the line.
-        number: function that returns the number of a station from the item and its digits.
+        number: function that returns the number of a station for an item of the text and the digits in its
+            word.
     """
     words = Words()
     numbered = re.compile(rf"({'|'.join(stations)})(\d+)$")
@@ -60,7 +65,7 @@ def split_words(
 
 
 def one_of(word: str, value: str, known: Sequence[str]) -> str:
-    """Return the value. Raise ValueError if it is unknown."""
+    """Return the value of a word. Raise ValueError if it is not one of the known values."""
     if value not in known:
         raise ValueError(f"{word}={value}: there are {', '.join(known)}")
     return value
@@ -91,10 +96,11 @@ def parse_speed(text: str) -> float | None:
 
 @dataclass(frozen=True)
 class StationStatus:
-    """State of a station: number, position of the motor, state.
+    """State of a station: its number, the position of its motor, and its state as text.
 
     Attributes:
-        inputs, outputs: levels, with number 1 last; empty if the station has no general inputs and outputs.
+        inputs, outputs: levels of the general inputs and outputs, with number 1 last; empty if the station
+            has none.
     """
 
     number: int
@@ -120,7 +126,7 @@ class LineStatus:
 
     Attributes:
         seconds: time of the line.
-        factor: recent time of the line divided by wall time.
+        factor: time of the line divided by wall time, measured recently.
         lost: characters for the host that were discarded because the buffer was full.
     """
 
@@ -154,7 +160,7 @@ class SimLine(Child):
 
     Args:
         part: part of the stations if the text names no part; by default, the first part with a line.
-        say: prints a line if a step takes long (default: on standard error).
+        say: function that prints a line if a step takes long; by default, it prints on standard error.
 
     Attributes:
         spec: the requested line.
@@ -178,7 +184,7 @@ class SimLine(Child):
                 False,
                 say or to_stderr,
             )
-            # When the program reports its port, it has already read its files.
+            # When the program reports its port, it has already read its files, so that they can be removed.
             super().__init__([program, *arguments, *self._common_arguments()])
 
     def _common_arguments(self) -> list[str]:
@@ -209,7 +215,7 @@ def start_line(text: str = "", part: str = "") -> SimLine:
 
 
 class StationState(Protocol):
-    """Station for a server.
+    """Members of a station that a server of a virtual line needs.
 
     Attributes:
         number: initial address of the station.
@@ -261,7 +267,7 @@ class LineSpec(LineOptions, Protocol):
 
     @property
     def speed(self) -> float | None:
-        """Speed as a multiple of real time; None: as fast as possible."""
+        """Speed as a multiple of real time; None for as fast as possible."""
 
     @property
     def unplug(self) -> float:
@@ -275,16 +281,16 @@ S = TypeVar("S", bound=LineSpec)
 class LineCapabilities(Generic[S]):
     """Functions and texts for the lines of a part.
 
-    For the RTL, `parameters` returns the parameters of the `line_node` of the part, including CLK_HZ.
-    `arguments` returns the arguments of the program in tb/line; it may write files into the folder, and
-    raises ValueError if a file is unusable.
+    For a line whose stations are RTL, `parameters` returns the parameters of the `line_node` of the part,
+    including CLK_HZ. `arguments` returns the arguments of the program in tb/line. It may write files into the
+    folder, and raises ValueError if a file is unusable.
 
     Attributes:
         parse: returns the spec of a text; raises ValueError if the text is invalid.
         at_rate: returns the text for a host with this line rate.
         known: text that lists the accepted words.
         make: returns the modelled line of a spec.
-        sources: sources of the node in addition to the carrier, relative to tb/.
+        sources: sources of the `line_node` in addition to the carrier, relative to tb/.
     """
 
     parse: Callable[[str], S]

@@ -1,7 +1,8 @@
 """Machine model of a motor controller as a text: `start=4000,cw=40000,alarm=100..200`.
 
-The virtual board and the golden model use the same text. Words of axis 2 end in 2 (`cw2=30000`), and so on.
-The column `machine` of the table of parts names a module that defines the differences of a part.
+The virtual board and the golden model use the same text. It consists of words with values
+(docs/virtual_board.md, Words). Words of axis 2 end in 2 (`cw2=30000`), and so on. The column `machine` of the
+table of parts names a module that defines the differences of a part.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from ...model.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")
-"""Words that only a machine with an encoder has."""
+"""Words that only a machine with an encoder supports."""
 _OF_AXIS = re.compile(r"([a-z_]+?)([2-9]|[1-9][0-9])")
 
 
@@ -27,7 +28,7 @@ class Setup:
     Attributes:
         clk_hz, xtal_hz: clock and crystal of the part in Hz.
         timing: FAST or DATASHEET.
-        own: values of the words that only this part has.
+        own: values of the options in the port text (docs/virtual_board.md, Words) that only this part has.
         on_interrupt: called when the interrupt begins.
     """
 
@@ -49,7 +50,7 @@ class MachineKind:
         axes: number of axes; the word `axes`, if the part has it, overrides this number.
         plant: default positions of the switches.
         encoder: True if the machine has an encoder.
-        own: words that only this part has, with their possible values; the default is first.
+        own: words that only this part supports, with their possible values; the default is first.
         xtal_max: highest crystal frequency in Hz.
         alarm: name of the alarm switch.
         check: function that raises ValueError for an impossible set-up.
@@ -71,7 +72,7 @@ class MachineKind:
 
 
 def machine_parts() -> tuple[str, ...]:
-    """Return the values of the word `part`."""
+    """Return the possible values of the word `part`."""
     return tuple(row.name for row in parts.having("number", "machine"))
 
 
@@ -82,7 +83,7 @@ def machine_kind(part: str) -> MachineKind:
 
 
 def own_words() -> tuple[str, ...]:
-    """Return the words that only one part has."""
+    """Return the words that only one part supports."""
     return tuple(word for part in machine_parts() for word in machine_kind(part).own)
 
 
@@ -92,8 +93,8 @@ class Machine:
 
     Attributes:
         part: name of the part.
-        plants: one for each axis.
-        own: values of words that only this part has.
+        plants: positions of the switches, one entry for each axis.
+        own: values of words that only this part supports.
         others: all other words.
     """
 
@@ -106,10 +107,10 @@ class Machine:
 def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     """Parse `word=value,word=value`; an empty text selects the defaults.
 
-    Raises ValueError with the offending word.
+    Raises ValueError, which names the word that is wrong.
 
     Args:
-        known: further words that the caller accepts, and that no part has.
+        known: further words, which the caller accepts and no part supports.
     """
     words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}
@@ -180,7 +181,7 @@ def _plant(plant: Plant, words: Mapping[str, int | tuple[int, int]]) -> Plant:
 
 
 def _plant_fields(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]:
-    """Return the fields of a plant that a word sets."""
+    """Return the fields of a plant that a word of the text sets."""
     if name == "alarm":
         return {name: _span(word, value)}
     if name == "origin":

@@ -1,6 +1,6 @@
-"""Text after `sim:`: words of the plant, and options of the virtual board.
+"""Text after `sim:`: words of the plant (machine model), and words of the virtual board itself.
 
-They are checked before a build.
+The words (docs/virtual_board.md, Words) are checked before a build.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
 
 
 def suffixes() -> Iterator[str]:
-    """Yield the suffix of the words of each axis."""
+    """Yield the suffix that the words of each axis have; it is empty for axis 1."""
     return ("" if number == 1 else str(number) for number in count(1))
 
 
 def known_words() -> str:
-    """Return all words as text for messages."""
+    """Return all known words as text for messages."""
     return ", ".join((*PLANT_WORDS, *OPTIONS, *own_words(), *FILES))
 
 
@@ -38,13 +38,13 @@ class Spec:
 
     Attributes:
         part: name of a part that is accessed through the UART bridge.
-        plants: one for each axis.
-        speed: multiple of real time; None: as fast as possible.
+        plants: positions of the switches, one entry for each axis.
+        speed: multiple of real time; None for as fast as possible.
         clk_hz: clock of the board, 8e6 … 200e6 Hz (real time is not possible far above 8e6).
         xtal_hz: crystal of the emulated chip, 1e6 Hz or more.
         timing: FAST or DATASHEET.
-        record: the recorder stores 2**record records of the pins; 0: no recorder.
-        own: values of words that only this part has. Each word sets a parameter of the top module.
+        record: the recorder stores 2**record records of the pins; 0 for no recorder.
+        own: values of words that only this part supports. Each word sets a parameter of the top module.
         vcd: waveform file or None; vcd_from and vcd_for are in ms of board time.
         log: file that receives a line for each pulse, or None.
     """

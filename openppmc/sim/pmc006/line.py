@@ -2,7 +2,7 @@
 
 The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end applies to the
 controller with that address; a word without a number applies to all. The EEPROM is modelled byte by byte,
-because a simulation of each bit would take most of the run time.
+because a simulation of each bit would need most of the run time.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ PART = "pmc006"
 FACTORY, LAST = 255, 120
 FARTHEST = 1 << 27
 UNIT = 16
-"""Number of units in a full step.
+"""Number of position units in a full step.
 
 Positions in the text are in 1/16 full steps, the steps of a factory-new controller.
 """
@@ -124,8 +124,8 @@ class MechanicalLoad:
     Attributes:
         start: initial position.
         gpi: levels of GPI5 to GPI1.
-        eeprom: file with the content of the EEPROM; None: the EEPROM is new each time, and contains only the
-            address.
+        eeprom: file with the content of the EEPROM. For None, the EEPROM is new each time and contains only
+            the address.
         no_eeprom: True if no EEPROM is connected.
         program: file with the text of a program that is stored in the EEPROM and starts after power-up, or
             None.
@@ -150,12 +150,12 @@ class LineSpec:
 
     Attributes:
         loads: one for each controller, by its address.
-        twin: address that two controllers have, or None.
+        twin: address that two controllers have, None if all addresses differ.
         baud: line rate in bit/s.
         step_ack: MANUAL or ECHO.
         echo: True if the master receives its own characters.
-        noise: average number of characters, in both directions, of which one is corrupted; 0: no noise.
-        speed: multiple of real time; None: as fast as possible.
+        noise: average number of characters, in both directions, of which one is corrupted; 0 for no noise.
+        speed: multiple of real time; None for as fast as possible.
         unplug: time in s after which the port disappears.
     """
 
@@ -186,7 +186,7 @@ def at_rate(text: str, rate: int) -> str:
 
 
 def parse_line(text: str) -> LineSpec:
-    """Parse `word=value,word=value`. Raise ValueError with the offending word."""
+    """Parse `word=value,word=value`. Raise ValueError, which names the word that is wrong."""
     words = split_words(text, OWN, OPTIONS, _address)
     options = words.options
     if options.get("part", PART) != PART:
@@ -316,8 +316,8 @@ class Part(Pmc006):
 class Node(Carrier[Part], LineStation[Part]):
     """Controller with its mechanical load, after boot.
 
-    `position` is that of the load in 1/16 full steps; the part itself counts steps. The switches do not
-    bounce.
+    `position` is the position of the load in 1/16 full steps; the part itself counts steps. The switches do
+    not bounce.
 
     Args:
         number: initial address of the controller.

@@ -1,4 +1,4 @@
-"""Up to sixteen PPMC-312 with their motors on one line: RTL, or models in virtual time.
+"""Up to sixteen PPMC-312 with their motors on one line, as RTL or as models in virtual time.
 
 The text is `stations=4,start=2000,alarm3=100..200,speed=max`. A word of the plant with a number at its end
 applies to the station with this number; a word without a number applies to all stations. The characters after
@@ -47,13 +47,13 @@ class LineSpec:
     """Requested virtual line.
 
     Attributes:
-        plants: one for each station, by its number.
+        plants: positions of the switches of each station, by its number.
         twin: (number, plant) of an additional station with the number of another station, or None.
         baud: line rate in bit/s with a 16 MHz crystal.
         sum_mode: BINARY or CHARS.
         echo: True if the master receives its own characters.
-        noise: average number of characters, in both directions, of which one is corrupted; 0: no noise.
-        speed: multiple of real time; None: as fast as possible.
+        noise: average number of characters, in both directions, of which one is corrupted; 0 for no noise.
+        speed: multiple of real time; None for as fast as possible.
         unplug: time in s after which the port disappears.
     """
 
@@ -77,7 +77,7 @@ class LineSpec:
 
 
 def at_rate(text: str, rate: int) -> str:
-    """Return the text with the speed for a host appended, unless it names a speed.
+    """Return the text with the line speed for a host appended, unless the text names a speed.
 
     Raises ValueError if no speed matches the rate.
 
@@ -95,7 +95,7 @@ def at_rate(text: str, rate: int) -> str:
 
 
 def parse_line(text: str) -> LineSpec:
-    """Parse `word=value,word=value`. Raise ValueError with the offending word."""
+    """Parse `word=value,word=value`. Raise ValueError, which names the word that is wrong."""
     words = split_words(text, PLANT_WORDS, (*OPTIONS, *LAST), _station)
     options = words.options
     numbers = _numbers(options.get("stations", str(STATIONS)))
@@ -143,7 +143,10 @@ def _twin(
 
 
 def _numbers(text: str) -> range:
-    """Parse `4` as 0 to 3, `3..5` as 3 to 5. Raise ValueError for any other text."""
+    """Parse station numbers: `4` means 0 to 3, `3..5` means 3 to 5.
+
+    Raise ValueError for any other text.
+    """
     first, dots, last = text.partition("..")
     try:
         numbers = range(int(first), int(last) + 1) if dots else range(int(first))
@@ -178,7 +181,10 @@ class Station(Carrier, LineStation[Ppmc312]):
 
 
 class StationLine(CharLine[Station]):
-    """Line. Only the station that was addressed last is simulated together with the line."""
+    """Line of PPMC-312.
+
+    Only the station that was addressed last is simulated together with the line.
+    """
 
     def __init__(self, spec: LineSpec) -> None:
         numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]

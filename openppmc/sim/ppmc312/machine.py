@@ -1,6 +1,7 @@
 """Machine model of a PPMC-312: the motor has an encoder.
 
-The origin is a cam at a distance from the limits, as the zero return of the PPMC-312 requires.
+A cam between the limits activates the origin switch, because the zero return of the PPMC-312 requires an
+origin at a distance from the limits.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ from scripts.fpga.flow import plain_sim
 
 NAME = "bank"
 FOLDER = BUILD / "demo"
-REST = 2000  # cycles that the demo records after the last access
+REST = 2000  # number of cycles that the demo records after the last access
 PINS = SimpleNamespace(INPUTS=group.inputs(AXES), OUTPUTS=group.outputs(AXES, 1), WIDTHS=group.widths(AXES))
 TABLE = Part.of_model(NAME, PINS, parameters=("AXES", "CLK_HZ"), clock="")
 
@@ -60,7 +60,7 @@ class Played:
 
     @property
     def first(self) -> int:
-        """Edge on which all axes output their first pulse (BANK-GRP-02)."""
+        """Edge at which all axes output their first pulse (BANK-GRP-02)."""
         model = self.session.model
         return self.go + 4 + model.round + model.timebase.w
 

@@ -8,7 +8,7 @@ from openppmc.model.clock import Timebase
 from openppmc.model.single.predict import Move, predict_move
 
 AXES, CLK_HZ = 32, 32_000_000
-"""Lowest clock frequency for 32 axes with a 16 MHz crystal (BANK-GEN-02)."""
+"""Lowest clock frequency that supports 32 axes with a 16 MHz crystal (BANK-GEN-02)."""
 BASE = 500_000  # Hz, base clock with csel = 1
 INIT = 0x0A  # 4-phase motor, full step, a high level switches a coil on
 RAMPED, CCW = 0x43, 0x08

@@ -144,7 +144,7 @@ def draw(comparison: Any, pulses: Sequence[Sequence[int]], first: int, path: Pat
     Raises IndexError if an axis has no pulses.
 
     Args:
-        first: edge on which all axes output their first pulse.
+        first: edge at which all axes output their first pulse.
     """
     plt.rcParams["font.family"] = "DejaVu Sans"
     figure = plt.figure(figsize=(16, 15), dpi=110, facecolor="white")

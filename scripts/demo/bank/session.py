@@ -1,4 +1,4 @@
-"""Host of a bank's register window; it runs on the golden model and records all pin changes for the RTL."""
+"""Host of a bank's register window: it runs on the golden model and records pin changes for the RTL."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ READ_FINISH = 0x80
 
 
 class Access(NamedTuple):
-    """One access.
+    """One access of the host.
 
     Attributes:
         t: first edge with the strobe.
@@ -34,7 +34,7 @@ class Recorder(PpmcBank):
     stimulus: list[Change]
 
     def pins(self, t: int, **levels: int) -> None:
-        """Record the levels, then set them like the base class."""
+        """Record the levels, then set them as the base class does."""
         super().pins(t, **levels)
         self.__dict__.setdefault("stimulus", []).extend(
             Change(t, pin, level) for pin, level in levels.items()
@@ -74,7 +74,7 @@ class Session:
         return end + 2
 
     def read(self, axis: int, register: int) -> int:
-        """Read a byte."""
+        """Read a byte of a register."""
         self._address(axis, register)
         byte = self.model.read(self.t, axis << 4 | register, READ)
         self.accesses.append(Access(self.t, False, axis, register, byte))
@@ -101,7 +101,7 @@ class Session:
         return sum(self.read(axis, DATA) << 8 * place for place in range(count))
 
     def group(self, members: int) -> None:
-        """Write all bytes of MASK; bit i is axis i."""
+        """Write all bytes of MASK; bit i of the argument is axis i."""
         for k in range((len(self.axes) + 7) // 8):
             self.write(k, MASK, members >> 8 * k & 0xFF)
 

@@ -39,7 +39,7 @@ def _signals(comparison: Any, pulses: Sequence[Sequence[int]]) -> Iterator[waves
 
 
 def views(vcd: Path, axes: int) -> None:
-    """Write the saved views of GTKWave and Surfer next to the VCD; they show the host, then all speeds."""
+    """Write saved views of the host and all speeds for GTKWave and Surfer next to the VCD."""
     names = [f"host.{name}{f'[{size - 1}:0]' if size > 1 else ''}" for name, size in (BUS | ANSWERS).items()]
     speeds = [f"axis{axis}.speed_pps" for axis in range(axes)]
     lines = [f'[dumpfile] "{vcd.name}"', "[timestart] 0", "[size] 1500 900"]

@@ -42,7 +42,7 @@ def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
 
 
 def left_over(expected: dict[Path, str]) -> list[Path]:
-    """Return the tops and constraint files that no description determines."""
+    """Return the existing tops and constraint files that no description determines."""
     there = [*(project.RTL / "boards").glob("*/board_*.sv"), *FOLDER.glob("*/*/*")]
     return sorted(path for path in there if path.is_file() and path not in expected)
 

@@ -20,7 +20,7 @@ PORT = re.compile(
 
 
 BY_PARAMETER = re.compile(r"(?:(?P<times>\d+)\*)?(?P<name>[A-Z]\w*)-1")
-"""Form of the highest bit of a vector whose width depends on a parameter."""
+"""Text form of the highest bit of a vector whose width depends on a parameter."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Port:
     """A port.
 
     Attributes:
-        group: comment line above the port and its neighbours.
+        group: comment line above the group of ports to which the port belongs.
         text: comment after the port.
     """
 
@@ -57,7 +57,7 @@ class Carrier:
     ports: dict[str, Port]
 
     def two_way(self) -> dict[str, str]:
-        """Return each pin that is not always driven, with its driving port ("" if it is only pulled low)."""
+        """Return each pin that is not always driven, with its driving port ("" if only pulled low)."""
         names = [name.removesuffix("_oe") for name in self.ports if name.endswith("_oe")]
         return {
             name: f"{name}_o" if f"{name}_o" in self.ports else ""
@@ -86,7 +86,7 @@ def _highest(text: str, values: Mapping[str, Any]) -> int:
 
 
 def read(path: Path, given: Mapping[str, Any] | None = None) -> Carrier:
-    """Return the header of the carrier in a file; parameters not in `given` have their defaults."""
+    """Return the header of the carrier in a file. A parameter not in `given` has its default value."""
     if not path.is_file():
         raise ProjectError(f"{project.relative(path)} is missing; a board needs the carrier of the part")
     ports, group = dict[str, Port](), ""

@@ -82,7 +82,7 @@ APART = ("cst", "qsf", "isf")
 
 
 def preamble(fitted: Fitted, language: str) -> list[str]:
-    """Return the lines before the pins: the board's own statements, and the device for Quartus."""
+    """Return the lines that precede the pins: the board's own statements, and the device for Quartus."""
     board, lines = fitted.board, list[str]()
     mark = COMMENT[language]
     if board.statements:
@@ -122,7 +122,7 @@ def clock(fitted: Fitted, language: str) -> list[str]:
 
 
 def files(fitted: Fitted) -> dict[str, str]:
-    """Return the constraint files of a board with a part: name below constraints/ -> text."""
+    """Return the texts of the constraint files of a board with a part, by name below constraints/."""
     return {
         name: text
         for language in LANGUAGES[fitted.board.family]
@@ -131,7 +131,7 @@ def files(fitted: Fitted) -> dict[str, str]:
 
 
 def files_in(fitted: Fitted, language: str) -> dict[str, str]:
-    """Return the pin file in one language, and the file of its clocks if they are apart."""
+    """Return the pin file in one format, and the file with the clocks if this format has one."""
     board, on, mark = fitted.board, fitted.on, COMMENT[language]
     about = f"{fitted.top}: {title(fitted)}. Wiring: docs/boards.md."
     lines = [*head(fitted, mark), *wrapped(mark, about, on.note)]

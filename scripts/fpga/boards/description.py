@@ -31,9 +31,9 @@ LANGUAGES = {
     "cyclone5": ("qsf",),
     "trion": ("isf",),
 }
-"""FPGA family -> suffixes of its pin files; the first is that of the tool in the table of boards."""
+"""Suffixes of the pin files, by FPGA family. The first suffix is that of the tool in the table of boards."""
 
-# Section -> (required keys, optional keys).
+# Required keys and optional keys, by section.
 KEYS = {
     "board": (
         "title place chip family clock reset leds uart pads headers parts",
@@ -74,14 +74,14 @@ class Carried:
     """A part on a board.
 
     Attributes:
-        name: name of its folder: the name of the part with or without the host.
+        name: name of the folder of the top: the name of the part, with or without the host.
         part: value of PART.
         mhz: frequency of `clk` in MHz.
         goal: minimum frequency in MHz that the project requires.
         pll, set: parameters of the clock module and of the carrier.
         omit: parameters of the carrier that have no effect on this board.
-        low: inputs without a pin that read as 0 (the others read as 1), each with its reason.
-        pins: group title -> signal -> header pins.
+        low: inputs without a pin that read as 0, each with its reason; others without a pin read as 1.
+        pins: header pins, by title of the group and by signal.
     """
 
     name: str
@@ -143,11 +143,11 @@ class Description:
 
     @property
     def language(self) -> str:
-        """Suffix of the first pin file."""
+        """Suffix of the first pin file of the family."""
         return LANGUAGES[self.family][0]
 
     def constraints(self, on: Carried, language: str = "") -> str:
-        """Return the path of a pin file with this part, below constraints/; default: the first one."""
+        """Return the path of a pin file with this part below constraints/; by default, the first one."""
         return f"{self.name}/{on.name}/pins.{language or self.language}"
 
 
@@ -166,7 +166,7 @@ def checked(where: str, section: str, found: Any) -> dict[str, Any]:
 
 
 def headers(where: str, found: Any) -> dict[str, str]:
-    """Return header pin -> package pin.
+    """Return the package pin of each header pin.
 
     If a header is a list, the numbers printed on it are those of the package pins.
     """

@@ -14,7 +14,7 @@ HOST_RESET = "host_rst_n"
 
 @dataclass(frozen=True)
 class Pad:
-    """One pin.
+    """One pad of the FPGA.
 
     Attributes:
         bit: name of the port, or of a bit of the port.
@@ -63,7 +63,7 @@ class Fitted:
         return [pad for group in self.groups for pad in group.pads]
 
     def bits(self, port: str) -> list[str]:
-        """Return the bits of a port that have a pad, from the lowest."""
+        """Return the bits of a port that have a pad, lowest first."""
         found = [pad.bit for pad in self.pads if pad.port == port]
         return sorted(found, key=lambda bit: int(bit.rstrip("]").rpartition("[")[2]) if "[" in bit else 0)
 
@@ -101,7 +101,7 @@ def _pad(board: Description, bit: str, pin: object, where: str, way: str, pull: 
 
 
 def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], str]:
-    """Return the bits of a signal of board.yml, lowest first, and its direction; or raise ProjectError."""
+    """Return a signal's bits, lowest first, and direction; raise ProjectError if it does not exist."""
     name = signal.split("[")[0]
     if name == HOST_RESET:
         return [signal], "in"
@@ -120,7 +120,7 @@ def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], s
 
 
 def fit(board: Description, on: Carried, carrier: Carrier) -> Fitted:
-    """Return a part fitted to a board; raise ProjectError for a wrong signal, header pin or package pin."""
+    """Return a part with its pads on a board; raise ProjectError for a wrong signal or pin."""
     where = f"{board.source}: parts: {on.name}"
     groups = own_pads(board, on)
     for title, signals in on.pins.items():

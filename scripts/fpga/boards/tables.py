@@ -67,10 +67,7 @@ def jumper_table(fitted: list[Fitted]) -> str:
 
 
 def recorder_table() -> str:
-    """Return the table of the pins in a recorder's record, from the lowest bit on, for each part.
-
-    A bank has 8 axes here.
-    """
+    """Return the table of the pins in a recorder's record for each part (bank: 8 axes), lowest bit first."""
     rows = []
     for row in parts.having("selftest"):
         plan: Plan = row.load("selftest")
@@ -82,10 +79,7 @@ def recorder_table() -> str:
 
 
 def record_width(row: parts.Row) -> int:
-    """Return the number of levels that the carrier of a part records, read from its source.
-
-    A bank has 8 axes here.
-    """
+    """Return the number of levels that a carrier records (for a bank: 8 axes), read from its source."""
     path = project.RTL / row.folder / f"{row.rtl}_carrier.sv"
     found = re.search(r"localparam int unsigned Watch = ([^;]*);", path.read_text(encoding="utf-8"))
     words = re.fullmatch(r"(\d+)(?: \+ (\d+) \* AXES)?", found[1]) if found else None
@@ -95,10 +89,7 @@ def record_width(row: parts.Row) -> int:
 
 
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
-    """Return `text` with `body` between the lines `begin` and `end`.
-
-    The call raises ProjectError if a line is missing.
-    """
+    """Return `text` with `body` between the lines `begin` and `end`; raise ProjectError without them."""
     head, found, rest = text.partition(f"{begin}\n")
     _, closed, tail = rest.partition(end)
     if not found or not closed:

@@ -1,4 +1,4 @@
-"""Texts that are in all files generated from a description."""
+"""Texts that all files generated from a board description contain."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def title(fitted: Fitted) -> str:
 
 
 def wrapped(mark: str, *texts: str) -> list[str]:
-    """Return texts as comment lines of a header; each text begins a new line."""
+    """Return texts as comment lines of a header; each text begins on a new line."""
     lines = [
         line
         for text in texts
@@ -35,7 +35,7 @@ def wrapped(mark: str, *texts: str) -> list[str]:
 
 
 def clk(fitted: Fitted) -> str:
-    """Return a text about the part's clock and its source."""
+    """Return a text about the clock of the part and the source of this clock."""
     osc = fitted.board.clock
     from_it = f" from the {osc['mhz']:g} MHz oscillator" if "module" in osc else " from the oscillator"
     return f"clk {fitted.on.mhz:g} MHz{from_it}"

@@ -15,7 +15,7 @@ OWN_LEDS = ("lock", "req_n", "lamps")
 
 
 class Top:
-    """Writer of one top; its methods are in the order of the file's sections."""
+    """Writer of one top; its methods are in the order of the sections in the file."""
 
     def __init__(self, fitted: Fitted) -> None:
         self.fitted = fitted
@@ -31,7 +31,7 @@ class Top:
         self.assigns: list[str] = []
 
     def parameters(self) -> list[Parameter]:
-        """Return the parameters of the top: those of the carrier with the defaults of this board."""
+        """Return the parameters of the top: those of the carrier, with the defaults for this board."""
         hidden = {"CLK_HZ", *self.fixed, *(self.on.omit or {})}
         return [parameter for parameter in self.carrier.parameters.values() if parameter.name not in hidden]
 
@@ -57,7 +57,7 @@ class Top:
         return [*start, *ports, ");", ""]
 
     def ports(self) -> list[str]:
-        """Return the ports: the board's, then the carrier's in its order, then LEDs and constants."""
+        """Return the ports in this order: of the board, of the carrier, LEDs, constant outputs."""
         reset = self.board.reset
         lines = [
             declaration("in", [self.board.clock["port"]], f"{self.board.clock['mhz']:g} MHz"),
@@ -116,7 +116,7 @@ class Top:
         return instance("ppmc_board_leds", {"ClkHz": "ClkHz"}, "u_leds", {**start, **leds})
 
     def own_connection(self, port: Port) -> tuple[bool, str | None]:
-        """Return whether a port of the carrier is for clock, reset or LEDs, and what it is connected to."""
+        """Return whether a port of the carrier is for clock, reset or LEDs, and its connection."""
         if port.name == "clk":
             return True, None if self.clk == "clk" else self.clk
         if self.own_leds and port.name in OWN_LEDS:
@@ -125,7 +125,7 @@ class Top:
         return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
 
     def connection(self, port: Port) -> str | None:
-        """Return what a port of the carrier is connected to; None means the signal with the same name."""
+        """Return the expression connected to a port of the carrier; None for the signal of the same name."""
         own, known = self.own_connection(port)
         if own:
             return known
@@ -162,7 +162,7 @@ class Top:
         return name
 
     def idle(self, port: Port, width: int) -> str:
-        """Return the constant for an input without a pin."""
+        """Return the constant to which an input without a pin is connected."""
         level = "0" if port.name in (self.on.low or {}) else "1"
         return f"'{level}" if width == port.width > 1 else f"{width}'b{level * width}"
 
@@ -220,7 +220,7 @@ class Top:
         return "\n".join(lines)
 
     def signals(self) -> list[str]:
-        """Return the declarations of the signals between the blocks; all single bits are on one line."""
+        """Return the declarations of the signals between the blocks; one line contains all single bits."""
         single = [wire for wire in self.wires if "[" not in wire]
         wide = ["[3:0] leds", *(wire for wire in self.wires if "[" in wire)]
         lines = [f"  logic {', '.join(single)};"] if single else []
@@ -228,5 +228,5 @@ class Top:
 
 
 def file(board: Description, fitted: Fitted) -> dict[str, str]:
-    """Return the top of a board with a part: name below rtl/ -> text."""
+    """Return the text of the top of a board with a part, by its name below rtl/."""
     return {f"boards/{board.name}/{fitted.top}.sv": Top(fitted).text()}

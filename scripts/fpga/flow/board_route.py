@@ -18,7 +18,7 @@ NEXTPNR = {
 }
 ROUTED = {"ice40": "routed.asc", "ecp5": "routed.config", "gowin": "routed.json"}
 LUT_NAME = {"ice40": "logic cells", "ecp5": "COMB", "gowin": "LUT4 and ALU"}
-# Cells that occupy LUTs, by nextpnr's names; on Gowin, an adder bit also occupies one.
+# Cells that occupy LUTs, by nextpnr's names; on Gowin, an adder bit also occupies a LUT.
 LUT_BELS = {"ice40": ("ICESTORM_LC",), "ecp5": ("TRELLIS_COMB",), "gowin": ("LUT4", "ALU")}
 RAM_BELS = {"ice40": "ICESTORM_RAM", "ecp5": "DP16KD", "gowin": "BSRAM"}
 
@@ -35,7 +35,7 @@ class Routed:
 def run(command: list[str], folder: Path, what: str) -> str:
     """Run one tool in `folder` and return its output.
 
-    Raises ProjectError with its error lines if it fails or is not installed.
+    Raises ProjectError with the error lines of the tool if the tool fails or is not installed.
     """
     try:
         done = subprocess.run(
@@ -56,10 +56,10 @@ def run(command: list[str], folder: Path, what: str) -> str:
 
 
 def options(on: Board, constraints: Path) -> list[str]:
-    """Return nextpnr's options for constraints, clock and output; file names are relative to its folder.
+    """Return nextpnr's options for constraints, clock and output.
 
-    For iCE40 and ECP5, nextpnr derives the PLL's output clock from the oscillator's constraint. For Gowin,
-    the clock is an option.
+    File names are relative to the folder in which nextpnr runs. For iCE40 and ECP5, nextpnr derives the PLL's
+    output clock from the oscillator's constraint. For Gowin, the clock is an option.
     """
     name, out = constraints.name, ROUTED[on.family]
     return {

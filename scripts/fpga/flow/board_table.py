@@ -13,7 +13,7 @@ from scripts.fpga.boards.description import HOSTS, Carried, Description, Device,
 
 @dataclass(frozen=True)
 class Board:
-    """One board: its FPGA, its clock, and for each host (HOSTS) the top module and its constraint file.
+    """One board: its FPGA, its clock, and for each host (HOSTS) the top module with its constraint file.
 
     Attributes:
         clk_hz: frequency of the part's `clk`.
@@ -21,7 +21,7 @@ class Board:
         oscillator: clock input with its frequency in MHz.
         loader: name of the board in openFPGALoader.
         part: the part on the board.
-        revisions: board revisions with these pins.
+        revisions: board revisions that have these pins.
     """
 
     name: str
@@ -40,7 +40,7 @@ class Board:
     part: str = "ppmc104"
     code: str = ""  # four letters in the build ID of its bitstreams
     chip: str = ""  # Gowin family name for nextpnr and the packer
-    recipe: str = ""  # recipe of yosys_job; "" is the best one of the family
+    recipe: str = ""  # recipe of yosys_job; "" is the best recipe of the family
 
     def folder(self, host: str) -> Path:
         """Return build/boards/<board> for the UART host, build/boards/<board>-<host> for another host."""
@@ -60,7 +60,7 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
     """Return a part on a board with one of its FPGAs.
 
     Args:
-        same: entries of this part in the description: one, or one for each host.
+        same: entries for this part in the description: one for all hosts, or one for each host.
     """
     on = same[0]
     return Board(
@@ -85,7 +85,7 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
 
 
 def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]]:
-    """Return part -> name -> board for boards built by the tools of `make setup`, in the order of parts."""
+    """Return the boards that the tools of `make setup` build, by part and by name, in order of parts."""
     found: dict[str, dict[str, Board]] = {}
     for part in table.PARTS:
         for of in descriptions:
@@ -97,20 +97,20 @@ def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]
 
 try:
     DESCRIPTIONS = load_all()
-except ProjectError as error:  # one line, in any script that imports this module
+except ProjectError as error:  # an error of one line in any script that imports this module
     raise SystemExit(project.fail(str(error))) from None
 BY_PART = by_part(DESCRIPTIONS)
 BOARDS = BY_PART["ppmc104"]
 PART_OF = {of.top(on): on.part for of in DESCRIPTIONS for on in of.parts}
-"""Top -> part."""
+"""Part, by top."""
 CARRIED = {f"{row.rtl}_carrier": row.name for row in table.having("carrier")}
-"""Carrier -> part."""
+"""Part, by carrier."""
 HOSTS_OF = {of.top(on): on.hosts for of in DESCRIPTIONS for on in of.parts}
-"""Top -> hosts."""
+"""Hosts, by top."""
 
 
 def board(name: str, part: str = "ppmc104") -> Board:
-    """Return the board `name` with a part; otherwise raise ProjectError, which lists the boards or parts."""
+    """Return the board `name` with a part, or raise ProjectError, which lists the boards or parts."""
     if part not in BY_PART:
         raise ProjectError(f"PART={part}: no board carries it (known: {', '.join(BY_PART)})")
     known = BY_PART[part]

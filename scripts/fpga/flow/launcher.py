@@ -24,8 +24,8 @@ BESIDE = {
     "ecppack": "yowasp-ecppack",
     "gowin_pack": "gowin_pack",
 }
-"""Program that edalize starts -> program in the folder of this Python."""
-OURS = {"procs": "proc", "renames": "rename"}  # name in Tcl -> yosys command whose name Tcl uses, too
+"""Programs in the folder of this Python, by the program that edalize starts."""
+OURS = {"procs": "proc", "renames": "rename"}  # names in Tcl of yosys commands whose own names Tcl uses
 
 
 def run_tcl(script: str) -> None:
@@ -58,7 +58,7 @@ def yosys(words: list[str]) -> int:
     verb, _, script = args.command.partition(" ")
     if verb != "tcl":
         return fail(f"yosys -p {args.command}: expected 'tcl SCRIPT'")
-    # This is a separate process, because yosys calls exit() on an error.
+    # yosys runs in a separate process, because it calls exit() on an error.
     again = [sys.executable, __file__, "tcl", script]
     with open(args.log, "w+", encoding="utf-8") as log:
         code = subprocess.run(again, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
@@ -71,7 +71,7 @@ def yosys(words: list[str]) -> int:
 
 
 def fail(text: str) -> int:
-    """Print an error as one line and return exit code 1."""
+    """Print an error as one line, and return exit code 1."""
     print(f"error: {text}", file=sys.stderr)
     return 1
 

@@ -20,9 +20,9 @@ from scripts.fpga.flow.plain_text import readable
 
 FAMILY = "plain"
 """Family name of plain Verilog in yosys jobs."""
-# Waived as in the sources: a reset that data logic also reads; dependences between fields of one packed
-# struct, which plain Verilog has as one vector; signals that a build does not use; selections by one-hot
-# words.
+# The waived warnings, which are also waived for the sources, are about: a reset that data logic also reads;
+# dependences between fields of one packed struct, which is one vector in plain Verilog; signals that a build
+# does not use; selections by one-hot words.
 RULES = ("SYNCASYNCNET", "UNOPTFLAT", "UNUSEDSIGNAL", "UNDRIVEN", "PINCONNECTEMPTY", "CASEOVERLAP")
 WAIVED = tuple((rule, "*") for rule in RULES)
 
@@ -33,13 +33,13 @@ BRIDGES = {
     "ppmc_isa": "ISA bus to the bus of a part",
     "ppmc_uart_bridge": "UART to the bus of a part",
 }
-"""Top module of the group `host` -> description."""
+"""Descriptions of the top modules of the group `host`, by top module."""
 
 Value = int | str
 
 
 def tops() -> dict[str, tuple[str, str]]:
-    """Return top module -> (group in rtl/files.yml, description); parts, then bridges."""
+    """Return, by top module, its group in rtl/files.yml and its description; parts precede bridges."""
     listed = project.listed()
     of_parts = {row.top: (row.rtl, listed[row.rtl].about) for row in parts.tops()}
     return of_parts | {name: ("host", about) for name, about in BRIDGES.items()}
@@ -82,9 +82,10 @@ def header(top: str, about: str, sources: Sequence[Path], params: Mapping[str, V
 
 
 def vendor_attributes(modules: Mapping[str, Any]) -> dict[str, dict[str, str]]:
-    """Return cell type -> attributes of vendor cells in a JSON netlist; the attributes define their function.
+    """Return the attributes of the vendor cells in a JSON netlist, by cell type.
 
-    Raise ProjectError if two cells of a type have different attributes.
+    The attributes define the function of a cell. Raise ProjectError if two cells of a type have different
+    attributes.
     """
     found: dict[str, dict[str, str]] = {}
     cells = [cell for module in modules.values() for cell in module["cells"].values()]

@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import ROOT, ProjectError, ran, relative
 from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain import RULES
 
-# Waived: instances that omit unused outputs; a counter whose initial value the FPGA's configuration sets.
+# Waived warnings: instances that omit unused outputs; a counter that the FPGA's configuration initialises.
 BOARD_RULES = ("PINMISSING", "PROCASSINIT")
 
 
@@ -43,7 +43,7 @@ def check(path: Path, top: str, cells: Path | None = None) -> None:
 
 
 def main() -> int:
-    """Read with yosys."""
+    """Read the files with yosys."""
     import pyosys.libyosys as ys
 
     top, *paths = sys.argv[1:]

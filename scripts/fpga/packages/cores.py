@@ -17,7 +17,7 @@ HEAD = """CAPI=2:
 # Written by `make packages` from rtl/files.yml; change that, not this.
 """
 SMOKE_PART = "ppmc104"  # the part whose core has a sim target
-# Vendor's tool -> options of its FuseSoC target; suffix of a constraint file -> file type in FuseSoC.
+# Options of the FuseSoC target, by vendor's tool; file type in FuseSoC, by suffix of a constraint file.
 FLOWS = {
     "vivado": "    flow: vivado\n    flow_options:\n      part: {device}\n",
     "quartus": "    default_tool: quartus\n    tools:\n      quartus:\n        family: {family}\n"
@@ -36,12 +36,12 @@ class Vendor:
 
 
 def vendor_boards() -> dict[str, Vendor]:
-    """Return FuseSoC target -> board; for the first part of a board, the target's name has no suffix."""
+    """Return the boards by FuseSoC target. The target of a board's first part has no suffix."""
     found = {}
     for board in load_all():
         for on in board.parts if "target" in board.vendor else ():
             name = board.vendor["target"] + ("" if on is board.parts[0] else f"-{on.name}")
-            files = sorted((FOLDER / board.name / on.name).iterdir(), reverse=True)  # pins, then clocks
+            files = sorted((FOLDER / board.name / on.name).iterdir(), reverse=True)  # pins before clocks
             found[name] = Vendor(
                 board.top(on),
                 {relative(path): TYPES[path.suffix] for path in files},
@@ -75,7 +75,7 @@ def fileset(
 
 
 def group_core(group: Group, part: Row | None) -> str:
-    """Return the core of one group, with `part` if it is a part; file names are relative to its folder."""
+    """Return the core of one group (`part`: row of the part), with file names relative to its folder."""
     folder = group.files[0].parent
     headers = tuple(path.name for path in sorted(folder.glob("*.svh")))
     text = f"{HEAD}name: {vlnv(group.name)}\ndescription: OpenPPMC, {group.about}\n\nfilesets:\n"
@@ -175,7 +175,7 @@ targets:
 
 
 def waivers() -> str:
-    """Return the waivers for a part: lint/verilator.vlt without the paragraphs about files of boards."""
+    """Return the waivers for a part: lint/verilator.vlt without the paragraphs about board files."""
     paragraphs = (ROOT / "lint" / "verilator.vlt").read_text().split("\n\n")
     return "\n\n".join(text for text in paragraphs if "boards/" not in text)
 
@@ -188,7 +188,7 @@ def board_groups() -> list[Group]:
 
 
 def boards_core() -> str:
-    """Return the core of the boards; its file is at the root, because constraints/ is not below rtl/."""
+    """Return the core of the boards. Its file is at the root, because constraints/ is not below rtl/."""
     files = [path for group in board_groups() for path in group.files]
     special = {path for path in files if path.name.startswith(("board_", "ppmc_clock_"))}
     text = f"{HEAD}name: {vlnv('boards', 'boards')}\n"
@@ -215,7 +215,7 @@ def boards_core() -> str:
 
 
 def core_files() -> dict[Path, str]:
-    """Return all core files: path -> text."""
+    """Return the texts of all core files, by path."""
     groups, parts = listed(), {row.rtl: row for row in tops()}
     cores = {
         groups[name].files[0].parent / f"openppmc_{name}.core": group_core(groups[name], parts.get(name))

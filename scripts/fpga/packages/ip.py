@@ -29,12 +29,12 @@ SPIRIT = "http://www.spiritconsortium.org/XMLSchema/SPIRIT/1685-2009"
 XILINX = "http://www.xilinx.com"
 FAMILIES = "artix7 artixuplus kintex7 kintexu kintexuplus spartan7 virtex7 virtexu virtexuplus zynq zynquplus"
 HIGH = ("csel", "vsel", "run", "mon", "rxd")
-"""Inputs that are high if they are not used, in addition to the active-low inputs."""
+"""Inputs that are tied high if they are not used, in addition to the active-low inputs."""
 
 
 @dataclass(frozen=True)
 class Fit:
-    """How the bridge is connected to the bus of a part.
+    """Connection of the bridge to the bus of a part.
 
     Attributes:
         file: SystemRDL file.
@@ -59,8 +59,8 @@ FITS = {
     "ppmc_bank": Fit("ppmc_bank", 10, "a", "rd_n", "wr_n", "int_n", {}),
 }
 NAMES = {f"{top}_axil": top for top in FITS}
-"""Package -> top module of its part."""
-# Signal of AXI4-Lite -> direction as seen from the package, highest bit ("": one bit, "a": of an address).
+"""Top module of the part, by package."""
+# AXI4-Lite signals: direction seen from the package, highest bit ("": a single bit, "a": an address).
 AXI = {
     **{"awaddr": "ia", "awvalid": "i", "awready": "o", "wdata": "i31", "wstrb": "i3", "wvalid": "i"},
     **{"wready": "o", "bresp": "o1", "bvalid": "o", "bready": "i", "araddr": "ia", "arvalid": "i"},
@@ -74,7 +74,7 @@ def row_of(top: str) -> Row:
 
 
 def part_ports(top: str, params: Mapping[str, Value]) -> dict[str, Port]:
-    """Return the ports of a part that are ports of its package, too."""
+    """Return the ports of a part that are also ports of its package."""
     fit, found = FITS[top], read(top_file(row_of(top)), params).ports
     bus = ("clk", "rst_n", "cs_n", "d_i", "d_o", "d_oe", fit.address, fit.read, fit.write, fit.interrupt)
     return {name: port for name, port in found.items() if name not in (*bus, *fit.ties)}
@@ -139,7 +139,7 @@ def vector(port: Port) -> str:
 
 
 def bridge(fit: Fit) -> str:
-    """Return the name of the bridge module; packages with the same number of address lines share it."""
+    """Return the name of the bridge module. Packages with equally many address lines share it."""
     return f"ppmc_axil_{fit.bits}"
 
 
@@ -147,7 +147,7 @@ def bridge(fit: Fit) -> str:
 
 
 def tag(name: str, /, *inner: ET.Element | str, **attributes: str) -> ET.Element:
-    """Return an element with these children, or with a text."""
+    """Return an XML element with these children, or with a text."""
     made = ET.Element(name, attributes)
     for one in inner:
         if isinstance(one, str):
@@ -215,7 +215,7 @@ def parameter(name: str, value: Value) -> ET.Element:
 
 
 def port_of(port: Port) -> ET.Element:
-    """Return a port; an input of the part has the level of an unused pin as default."""
+    """Return the description of a port. An input has the level of an unused pin as default value."""
     wire = tag("wire", tag("direction", "out" if port.output else "in"))
     if port.bits:
         wire.append(tag("vector", tag("left", str(port.bits[-1])), tag("right", str(port.bits[0]))))
@@ -259,7 +259,7 @@ def component(name: str, params: Mapping[str, Value]) -> str:
     values = {key: one.default for key, one in read(top_file(row), params).parameters.items()} | params
     sizes = {"baseAddress": 0, "range": 8 << fit.bits, "width": 32}
     block = [tag("name", "registers"), *(tag(key, str(value)) for key, value in sizes.items())]
-    # IEEE 1685-2009 requires that the registers precede the arrays.
+    # IEEE 1685-2009 requires that the registers precede the arrays of registers.
     block += sorted(memory(elaborated(fit.file, f"{top}_bus")), key=lambda one: one.tag)
     files = [f"{name}.v", f"{bridge(fit)}.v", f"{top}.v"]
     root = tag(

@@ -24,7 +24,7 @@ def part_files(part: Row) -> list[Path]:
 
 
 def bender() -> str:
-    """Return Bender.yml with a source group for each group of rtl/files.yml; carriers have a target."""
+    """Return Bender.yml with a source group per group of rtl/files.yml; carriers have a target."""
     text = f"# {FROM}\npackage:\n  name: openppmc\n  authors: [OpenPPMC]\n\n"
     text += "export_include_dirs: [rtl/common]\n\nsources:\n"
     carriers = carrier_groups()
@@ -50,7 +50,7 @@ def dot_f(part: Row) -> str:
 
 
 def list_files() -> dict[Path, str]:
-    """Return all lists: path -> text."""
+    """Return the texts of all lists, by path."""
     return {
         ROOT / "Bender.yml": bender(),
         **{FOLDER / f"{part.rtl}.f": dot_f(part) for part in tops()},

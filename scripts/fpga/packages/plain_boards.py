@@ -42,7 +42,7 @@ _FMAX = re.compile(r"Max frequency for clock .*: ([\d.]+) MHz \((PASS|FAIL) at (
 
 @dataclass(frozen=True)
 class Built:
-    """A bitstream, its clock rate in MHz, and the clock rate that is required."""
+    """A bitstream, its clock rate in MHz, and the required clock rate in MHz."""
 
     path: Path
     mhz: float
@@ -50,7 +50,7 @@ class Built:
 
 
 def constraints(on: Board) -> list[Path]:
-    """Return the constraint files: pins, and clocks if they have a separate file."""
+    """Return the constraint files: the pins, and the clocks if they are in a separate file."""
     pins = CONSTRAINTS / on.constraints[HOST]
     clocks = pins.with_name("clocks.sdc")
     return [pins, *([clocks] if clocks.is_file() else [])]
@@ -69,7 +69,7 @@ def options(on: Board) -> str:
         return flow("icestorm", nextpnr_options=on.route)
     if on.family == "ecp5":
         return flow("trellis", nextpnr_options=on.route, ecppack_options=("--compress",))
-    # edalize adds --device and the family.
+    # edalize adds the option --device and the family.
     device = on.route[on.route.index("--device") + 1]
     more = ("--vopt", "sspi_as_gpio", "--freq", f"{on.clk_hz / 1e6:g}")
     packing = ("--sspi_as_gpio",)
@@ -112,7 +112,7 @@ def write_library(names: Iterable[str] = (), folder: Path = LIBRARY) -> Path:
 def built_result(name: str, folder: Path) -> Built:
     """Return the result of a board from FuseSoC's folder.
 
-    Raises ProjectError if there is no bitstream, or if it was made for another clock.
+    Raises ProjectError if there is no bitstream, or if the bitstream was made for another clock.
     """
     on = BOARDS[name]
     found = [path for path in folder.glob(f"*{on.suffix}") if path.stat().st_size]
@@ -131,11 +131,11 @@ def built_result(name: str, folder: Path) -> Built:
 
 
 def build(name: str, library: Path, work: Path = WORK) -> Built:
-    """Build a board's bitstream with FuseSoC; raise ProjectError with its last lines if this fails."""
+    """Build a board's bitstream with FuseSoC; raise ProjectError with FuseSoC's last lines if it fails."""
     folder = work / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    # Relative paths, because a space ends a word in the shell of edalize's makefile.
+    # The paths are relative, because a space in a path would end a word in the shell of edalize's makefile.
     launcher = [os.path.relpath(path, folder) for path in (sys.executable, LAUNCHER)]
     words = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
     words += ["--cores-root", relative(library), "run", "--setup", "--build", f"--target={name}"]

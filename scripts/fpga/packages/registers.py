@@ -21,7 +21,7 @@ C_FILES = {
     "ppmc312.c": ("ppmc312", "ppmc312", "", ()),
     "ppmc_bank.h": ("ppmc_bank", "ppmc_bank", "PPMC_BANK_", ("data", "status", "command")),
 }
-"""File of drivers/c -> SystemRDL file, address map, prefix, registers that another header defines."""
+"""Headers in drivers/c: SystemRDL file, address map, prefix, and registers that another header defines."""
 PYTHON_FILES = {
     "model/motion/codes.py": ("mailbox", "ppmc104"),
     "model/ppmc2104/codes.py": ("ppmc2104", "ppmc2104"),
@@ -30,7 +30,7 @@ PYTHON_FILES = {
     "host/ppmc312/window.py": ("ppmc312", "ppmc312"),
     "host/bank/registers.py": ("ppmc_bank", "ppmc_bank"),
 }
-"""File of openppmc -> SystemRDL file, address map."""
+"""Files in openppmc: SystemRDL file and address map."""
 MANUALS = (
     ("ppmc104", "mailbox", "ppmc104"),
     ("stmc", "mailbox", "stmc"),
@@ -38,7 +38,7 @@ MANUALS = (
     ("ppmc312", "ppmc312", "ppmc312"),
     ("bank", "ppmc_bank", "ppmc_bank"),
 )
-"""Folder of a manual, SystemRDL file, address map."""
+"""Manuals: folder, SystemRDL file, address map."""
 WIDTH = 110
 
 
@@ -53,7 +53,7 @@ def elaborated(file: str, top: str) -> AddrmapNode:
 
 
 def registers(file: str, top: str, without: Iterable[str] = ()) -> list[RegNode]:
-    """Return the registers of an address map, those of an array once."""
+    """Return the registers of an address map. An array of registers is returned once."""
     found = [node for node in elaborated(file, top).descendants() if isinstance(node, RegNode)]
     return [reg for reg in found if reg.inst_name not in without]
 
@@ -79,7 +79,7 @@ def values(reg: RegNode) -> list[tuple[str, int, str]]:
 
 
 def noted(line: str, note: str, marks: Sequence[str]) -> str:
-    """Return a line with its comment at the end, or above it if it is too long; marks surround comments."""
+    """Return a line with its comment (between `marks`) at the end, or above it if the line is too long."""
     after, above, end = marks
     if len(f"{line}{after}{note}{end}") <= WIDTH:
         return f"{line}{after}{note}{end}\n"
@@ -88,7 +88,7 @@ def noted(line: str, note: str, marks: Sequence[str]) -> str:
 
 
 def c_block(file: str, top: str, prefix: str, without: Sequence[str]) -> str:
-    """Return the macros of an address map."""
+    """Return the C macros of an address map."""
     marks, lines = (" /**< ", "/** ", " */"), ""
     found = registers(file, top, without)
     for reg in found:
@@ -172,7 +172,7 @@ def replaced(path: Path, block: str) -> tuple[Path, str]:
 
 
 def register_files() -> dict[Path, str]:
-    """Return all files with constants or tables of registers: path -> text."""
+    """Return the texts of all files with constants or tables of registers, by path."""
     return dict(
         [
             *(replaced(ROOT / "drivers" / "c" / name, c_block(*row)) for name, row in C_FILES.items()),

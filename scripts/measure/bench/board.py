@@ -23,11 +23,11 @@ class Figures:
     """Figures of one virtual board.
 
     Attributes:
-        accesses: register reads/s in blocks of 255, at BAUD.
-        commands: round trips/s of a command with its response.
-        initialise: ms of wall time of an initialisation with its table.
-        factor: board time / wall time in a move.
-        clk: cycles/s of processor time, at full speed with the motor in motion.
+        accesses: register reads per second in blocks of 255, at the line rate BAUD.
+        commands: number of commands with their responses per second.
+        initialise: wall time of an initialisation with its ramp table in ms.
+        factor: board time divided by wall time during a move.
+        clk: cycles per second of processor time, at full speed with the motor in motion.
     """
 
     accesses: float
@@ -48,7 +48,7 @@ class Figures:
 
 
 def rate(work: Callable[[], object], count: int) -> float:
-    """Return how often per second `work` can be done; each call counts `count` times."""
+    """Return how often per second `work` can be called; each call counts `count` times."""
     begin, done = time.perf_counter(), 0
     while (passed := time.perf_counter() - begin) < SECONDS:
         work()

@@ -1,7 +1,4 @@
-"""Speed and memory of decoding a large capture.
-
-Part of `make bench`; alone: `python -m scripts.measure.bench.captures`.
-"""
+"""`make bench`, or `python -m scripts.measure.bench.captures`: speed, memory of decoding a large capture."""
 
 from __future__ import annotations
 
@@ -29,7 +26,7 @@ HEADS = [
     "bytes per edge at the peak",
 ]
 CLK_HZ = 20_000_000
-"""Clock rate of the chip in a capture that is compared with the golden model."""
+"""Clock rate of the chip in the capture that is compared with the golden model."""
 NS = 10**9 // CLK_HZ
 COMPARED = "compared.vcd"
 FILES = {
@@ -78,7 +75,7 @@ class _Writer:
             self.flush()
 
     def access(self, t: int, strobe: str, register: int, byte: int) -> int:
-        """Make a register access at a time; return when the next access may begin."""
+        """Make a register access at a time; return the time at which the next access may begin."""
         self.put(t, a0=register, **{f"d[{bit}]": byte >> bit & 1 for bit in range(8)})
         self.put(t + 100, cs_n=0, **{strobe: 0})
         self.put(t + 600, cs_n=1, **{strobe: 1})
@@ -222,8 +219,8 @@ class Figures(NamedTuple):
     """Figures of a file.
 
     Attributes:
-        rate: edges/s of processor time.
-        plain: processor time divided by that of a plain numpy pass over the file.
+        rate: edges per second of processor time.
+        plain: processor time divided by the processor time of a plain numpy pass over the file.
         size: peak memory in bytes per edge.
     """
 
@@ -259,7 +256,7 @@ def bench() -> None:
     """Measure, print and write docs/benchmarks.md."""
     rows = []
     for name, text in FILES.items():
-        # Most of the time of a comparison is used by the golden model.
+        # In a comparison, most of the time is used by the golden model.
         found = measure(project.BUILD / "bench", name, runs=1 if name == COMPARED else 3)
         figures = (f"{found.rate / 1e6:.2f}", f"{found.plain:.1f}", f"{found.size:.1f}")
         rows.append([text, f"{found.edges:,}", *figures])

@@ -1,7 +1,4 @@
-"""Cycles of a table build, and of a command with its response, at the pins of the RTL.
-
-The time of the host is not included.
-"""
+"""Cycles of a table build, and of a command with its response, at the pins of the RTL, without the host."""
 
 from __future__ import annotations
 

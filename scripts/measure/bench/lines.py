@@ -36,7 +36,7 @@ class Case:
 
     Attributes:
         stations: number of stations, which all move.
-        text: all other settings of the line.
+        text: all other settings in the text of the line.
     """
 
     what: str
@@ -94,7 +94,7 @@ def _now(line: SimLine) -> tuple[float, float, float]:
 
 
 def measure(case: Case) -> list[str]:
-    """Measure a case and return its row of the table."""
+    """Measure a line and return its row of the table."""
     with start_line(case.text + ",speed=max") as line, case.opened(line.port) as bus:
         case.poll(bus, 0)
         polls, begin = 0, time.perf_counter()

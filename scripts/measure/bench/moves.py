@@ -26,7 +26,7 @@ CLK_HZ = 10_000_000
 BANK_CLK_HZ = 12_000_000
 COMPUTED = (1_000_000, 3_000_000)
 ADAPTER_MS = 1.0
-"""Assumed time of a USB adapter for a frame and its answer."""
+"""Time in ms that a USB adapter is assumed to add to a frame and its answer."""
 SETUPS: dict[str, tuple[int, int, int]] = {
     "ppmc104": (100_000, 200_000, 4),
     "ppmc2104": (100_000, 200_000, 4),
@@ -34,7 +34,7 @@ SETUPS: dict[str, tuple[int, int, int]] = {
     "bank": (100_000, 200_000, 4),
     "ppmc312": (40_000, 400_000, 1_400),
 }
-"""Start speed, high speed and ramp of each part."""
+"""Start speed, high speed and ramp length for each part."""
 HEADS = [
     "part",
     "way",
@@ -72,14 +72,14 @@ class Traffic:
 
 
 def computed(traffic: Traffic) -> list[str]:
-    """Return frames and bytes of a move, and the moves per second that they allow at two line rates."""
+    """Return frames and bytes of a move, and the moves per second that are possible at two line rates."""
     frames, size = traffic.frames / MOVES, traffic.size / MOVES
     rates = [1 / (10 * size / baud + ADAPTER_MS / 1000 * frames) for baud in COMPUTED]
     return [f"{frames:.2f}", f"{size:.0f}", *(f"{rate:,.0f}" for rate in rates)]
 
 
 def measure(part: str) -> list[list[str]]:
-    """Return the rows of a part: one by one, and several per frame."""
+    """Return the rows of a part: moves one by one, and several moves per frame."""
     pulses = [PULSES[n % len(PULSES)] for n in range(MOVES)]
     seconds: dict[str, list[float]] = {"move": [], "moves": []}
     traffic = {}

@@ -51,7 +51,7 @@ def on_models() -> int:
 
 
 def measure() -> list[tuple[str, int, float, float]]:
-    """Return (way to run, cycles of the line, seconds of wall time, of processor time), as medians."""
+    """Return rows: way to run, cycles of the line, median wall time in s, median processor time in s."""
     console.print("building …")
     made = design(F8L, FAST_ARGS)
     build(made)

@@ -1,6 +1,6 @@
-"""Run times of a demo on three sides (programs): RTL under cocotb, RTL alone in Verilator, golden model.
+"""Run times of a demo in three programs ("sides"): RTL with cocotb, RTL in Verilator alone, golden model.
 
-In each turn, every side runs once, so that a ratio of one turn is meaningful on a machine with other load.
+In each turn, every side runs once. Thus, other load affects a ratio of one turn only little.
 """
 
 from __future__ import annotations
@@ -48,10 +48,7 @@ class Times:
 
 
 def turns(demo: Demo, count: int) -> Iterator[Times]:
-    """Run `count` turns and yield all times so far after each turn.
-
-    Raises SimError or ProjectError if a run fails.
-    """
+    """Run `count` turns; yield all times so far after each turn. Raises SimError or ProjectError."""
     designs = {main: replace(part_design(demo.part, demo.config), main=main) for main in MAINS}
     for design in designs.values():
         build(design)

@@ -1,4 +1,4 @@
-"""Output of a measurement: the console and a block of docs/benchmarks.md."""
+"""Output of a measurement to the console and into a block of docs/benchmarks.md."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """`make scheduler` and `make worker SCHEDULER=tcp://host:port`: workers of a campaign on many machines.
 
 `make worker` makes an environment in a checkout (or a shared folder) of the same commit and starts a worker
-in it. With the same SCHEDULER=…, a campaign uses all these workers; if a worker has other sources, an error
-is raised.
+in it. A campaign that is started with the same SCHEDULER=… uses all these workers. If a worker has other
+sources, an error is raised.
 """
 
 from __future__ import annotations

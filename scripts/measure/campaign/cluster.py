@@ -16,11 +16,11 @@ from typing import Any
 from cocotb_tests.harness.project import ProjectError
 
 SETTINGS = {
-    # A worker that responds slowly is not lost: simulators use all processors, so it may have to wait.
+    # A slow worker must not count as lost: it may have to wait for simulators, which use all processors.
     "distributed.scheduler.worker-ttl": "15 minutes",
     "distributed.comm.timeouts.connect": "60s",
-    # A job counts as failed when it has lost its worker more often than this. Dask counts a lost worker for
-    # all jobs at this worker, so no job may wait at a worker.
+    # A job counts as failed when it has lost its worker more often than this number. Dask counts a lost
+    # worker for all jobs that are assigned to it. Therefore, no job may wait at a worker.
     "distributed.scheduler.allowed-failures": 3,
     "distributed.scheduler.worker-saturation": 1.0,
     "distributed.admin.system-monitor.gil.enabled": False,
@@ -29,7 +29,7 @@ SETTINGS = {
 
 @dataclass(frozen=True)
 class Workers:
-    """Where the jobs run: `count` processes of this machine, or all workers of `scheduler` (tcp://host:port)."""
+    """Workers: `count` processes of this machine, or all those of `scheduler` (tcp://host:port)."""
 
     count: int = 2
     scheduler: str = ""
@@ -55,7 +55,7 @@ def workers_of(arguments: argparse.Namespace) -> Workers:
 
 @contextmanager
 def client(workers: Workers) -> Iterator[Any]:
-    """Provide a Dask client; workers of this machine end with it.
+    """Provide a Dask client. Workers on this machine end together with the client.
 
     The call raises ProjectError if there is no scheduler.
     """

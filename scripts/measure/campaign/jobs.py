@@ -12,7 +12,7 @@ class Job:
     """One piece of work; its `key` is unique in a campaign, and its `what` is sent to the worker by pickle.
 
     Attributes:
-        stamp: digest of all that the result depends on, except the key; "" means the digest of the tree.
+        stamp: digest of everything except the key on which the result depends; "" = digest of the tree.
     """
 
     key: str
@@ -22,7 +22,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a job; a later run reuses it only if it is `good`. `data` can be written as JSON."""
+    """Result of a job. A later run reuses the result only if it is `good`. `data` can be written as JSON."""
 
     good: bool
     data: Mapping[str, Any] = field(default_factory=dict)
@@ -30,7 +30,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Done:
-    """A completed job: it ran on a worker in `seconds`, or in an earlier run (`old`)."""
+    """A completed job. It ran on a worker in `seconds`, or, if `old` is set, in an earlier run."""
 
     key: str
     good: bool
@@ -41,7 +41,7 @@ class Done:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A campaign calls `work(job.what)` for each of `count` jobs; name and key identify a stored result."""
+    """A campaign calls `work(job.what)` for `count` jobs; its name and their keys identify results."""
 
     name: str
     work: Callable[[Any], Result]

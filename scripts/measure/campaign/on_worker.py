@@ -17,7 +17,7 @@ from scripts.measure.campaign.tree import tree
 
 @cache
 def _own_tree() -> str:
-    """Return the digest of the sources when this process started; it does not import later changes."""
+    """Return the digest of the sources at the start of this process, which imports no later changes."""
     return tree()
 
 
@@ -27,7 +27,7 @@ class OwnSession(WorkerPlugin):  # type: ignore[misc]
     name = "openppmc-own-session"
 
     def setup(self, worker: Any) -> None:
-        """Set up a worker process, also one that replaces a lost worker."""
+        """Set up a worker process, including a process that replaces a lost worker."""
         _own_tree()
         if os.getsid(0) != os.getpid() and os.getpgid(0) != os.getpid():
             os.setsid()

@@ -18,17 +18,19 @@ from scripts.measure.campaign.store import RESULTS, Store
 from scripts.measure.campaign.tree import tree
 
 AHEAD = 3
-"""Submitted jobs for each worker: enough to keep it busy, but not more, because Ctrl-C drops them."""
+"""Number of submitted jobs per worker: enough to keep it busy, few because Ctrl-C discards them."""
 LOST = "its workers were lost"
 
 
 def run(
     campaign: Campaign, workers: Workers, fresh: bool = False, store: Store | None = None
 ) -> Iterator[Done]:
-    """Yield each job's result in order of completion, stored results first. Exceptions of a job are raised.
+    """Yield the result of each job in order of completion, stored results first.
+
+    An exception of a job is raised.
 
     Args:
-        fresh: True if stored results are ignored.
+        fresh: True to ignore stored results.
         store: file of results; default: the file of the project.
     """
     with store or Store(RESULTS) as file, Show(campaign.title or campaign.name, campaign.count) as show:
@@ -60,7 +62,7 @@ def run(
 
 
 def _mixed(fresh: Iterator[Done], olds: list[Done]) -> Iterator[Done]:
-    """Yield the completed jobs, and the stored results that have been found so far."""
+    """Yield the completed jobs, and the stored results that were found before each of them."""
     while olds:
         yield olds.pop(0)
     for done in fresh:
@@ -114,7 +116,7 @@ def _ended(future: Any, key: str) -> Done:
 
 
 def _quietly(act: Callable[[], object]) -> None:
-    """Call `act`; ignore its exceptions, because the campaign ends."""
+    """Call `act`; ignore its exceptions, because the campaign is ending."""
     try:
         act()
     except Exception:  # noqa: BLE001

@@ -21,7 +21,7 @@ EVERY = 60.0
 
 
 class Show:
-    """Progress display for `total` jobs; `bad` is the number of failed jobs."""
+    """Progress display for `total` jobs; `bad` counts the failed jobs."""
 
     def __init__(self, title: str, total: int) -> None:
         self._title, self._total = title, total

@@ -27,7 +27,7 @@ NAME = "coverage"
 
 
 def on_file(jobs: Iterable[Job]) -> list[Done]:
-    """Return the last good result of each job, even if it is from other sources."""
+    """Return the last good result of each job, even if the result is from other sources."""
     keys = {job.key for job in jobs}
     with Store() as store:
         return list(
@@ -48,7 +48,7 @@ def main() -> int:
     every = groups(words)
     whole = sum(map(len, every if not words and not args.so_far else groups()))
     stamp = tree(SIMULATED)
-    # Large groups run first: they cover most of the RTL, which helps if the run is interrupted.
+    # Large groups cover most of the RTL. They run first, in case the run is interrupted.
     every.sort(key=len, reverse=True)
     jobs = [Job(f"{tests[0]} {len(tests)}", tests, stamp) for tests in every]
     points, crosses, failed, tests = Points(), Counter[str](), 0, 0

@@ -18,6 +18,6 @@ OUT = "OPENPPMC_GROUPS"
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
-    """Write the names of the tests, one list for each group."""
+    """Write the names of the collected tests, one list for each group."""
     groups = [[test.nodeid for test in tests] for tests in groups_of(session.items, group_key)]
     Path(os.environ[OUT]).write_text(json.dumps(groups), encoding="utf-8")

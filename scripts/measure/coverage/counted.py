@@ -1,9 +1,9 @@
 """Copies of the RTL with the same lines, in which Verilator counts correctly.
 
-Verilator puts a block's counter after its last statement, where it counts nothing if this is a `return`.
-Before its pull request 8425, it also loses the counters of a package that contains only functions. Therefore,
-in the copy, a `return x;` that ends its function becomes `<function> = x;`, the statements after an
-`if (c) return x;` move into its else branch, and a package begins with a variable.
+Verilator puts the counter of a block after its last statement. If this statement is a `return`, the counter
+is never reached. Before its pull request 8425, Verilator also loses the counters of a package that contains
+only functions. Therefore, in the copy, a `return x;` that ends its function becomes `<function> = x;`, the
+statements after an `if (c) return x;` move into its else branch, and a package begins with a variable.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ KEPT = " int unsigned openppmc_counted /*verilator public_flat_rw*/;"
 
 
 class Copy:
-    """A text with changes: each one replaces the range [start, end)."""
+    """A text with changes, each of which replaces the range [start, end)."""
 
     def __init__(self, text: str) -> None:
         self._changes: list[tuple[int, int, str]] = []
@@ -40,7 +40,7 @@ class Copy:
         self._changes.append((at, at, new))
 
     def _list(self, statements: Sequence[Any], name: str) -> None:
-        """Change the statements that end a function, and those that end a branch at its end."""
+        """Change the statements that end a function, and the statements that end a branch at its end."""
         for number, node in enumerate(statements):
             if node is statements[-1]:
                 self._last(node, name)
@@ -75,7 +75,7 @@ def _returns(node: Any) -> bool:
 
 
 def copies() -> Path:
-    """Return the folder with a copy of rtl/, made if needed; its files keep their paths in the project."""
+    """Return the folder with a copy of rtl/, made if needed; files keep their project paths."""
     files = sorted(RTL.rglob("*.sv"))
     sha = hashlib.sha256(Path(__file__).read_bytes())
     for file in files:

@@ -1,6 +1,6 @@
 """Functions that only elaboration calls: no simulation runs them, so their lines and branches do not count.
 
-A function is one of these if each call of its name in rtl/ satisfies one of these conditions:
+A function is called only by elaboration if each call of its name in rtl/ satisfies one of these conditions:
 
 - it is in a parameter, a dimension, the head of a generate block or the parameter values of an instance;
 - its arguments contain only parameters, genvars and numbers;
@@ -23,7 +23,7 @@ CONSTANT = (
     *("ParameterDeclaration", "ParameterDeclarationStatement", "ParameterValueAssignment"),
     *("VariableDimension", "LoopGenerate"),
 )
-"""Kinds of nodes that contain only constants; of a LoopGenerate, only the head does."""
+"""Kinds of nodes that contain only constants. In a LoopGenerate, this applies only to the head."""
 NAMES = ("IdentifierName", "IdentifierSelectName", "ScopedName")
 
 
@@ -59,7 +59,7 @@ def _last(node: Any) -> str:
 
 
 def _constants(root: Any) -> set[str]:
-    """Return the names of the parameters and genvars."""
+    """Return the names of the parameters and genvars in a file."""
     names = set()
     for node in found(root, "ParameterDeclaration", "LoopGenerate"):
         if kind(node) == "LoopGenerate":

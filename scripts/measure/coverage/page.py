@@ -90,7 +90,7 @@ def elaborated() -> str:
 
 
 def cross(of: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
-    """Yield the table of a cross; **0** means not seen, – impossible."""
+    """Yield the table of a cross. In a cell, **0** means not seen, – means impossible."""
     reasons: dict[str, None] = {}
     rows = []
     for name in of.rows:
@@ -129,7 +129,7 @@ def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool
     """Return the whole page; its figures are from `tests` of all tests.
 
     Args:
-        old: True if some results may be from earlier states of the sources.
+        old: True if some results may be from earlier versions of the sources.
     """
     much = f"{tests} tests." if tests == all_tests else f"**A sample: {tests} of {all_tests} tests.**"
     much += " They ran at different times, some possibly with earlier sources." if old else ""

@@ -1,8 +1,8 @@
 """Points of the RTL that Verilator counts, from its coverage.dat (lines `C '<fields>' <count>`).
 
-A point has the name "<file> <line> <column> <kind> <what>", with the file relative to the project's root. If
-a place occurs in several instances, parameter sets and simulations, it is one point. The point is covered if
-at least one of them covers it.
+A point has the name "<file> <line> <column> <kind> <what>", with the file relative to the project's root. A
+place that occurs in several instances, parameter sets and simulations is one point. The point is covered if
+at least one of these occurrences is covered.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ class Points:
     """Points of a run.
 
     Attributes:
-        reached: point -> whether it was covered.
-        spans: point -> its source lines, such as "108-109,155".
+        reached: for each point, whether it was covered.
+        spans: for each point, its source lines, such as "108-109,155".
     """
 
     reached: dict[str, bool] = field(default_factory=dict)
     spans: dict[str, str] = field(default_factory=dict)
 
     def add(self, other: Points) -> None:
-        """Add the points of `other`."""
+        """Add the points of another run."""
         for name, was in other.reached.items():
             self.reached[name] = was or self.reached.get(name, False)
         self.spans.update(other.spans)

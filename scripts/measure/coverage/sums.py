@@ -33,7 +33,7 @@ class Figure:
 
     @property
     def left(self) -> float:
-        """Percentage if explained points do not count; 100 if there are no other points."""
+        """Percentage of covered points among all points without explained holes; 100 if there are none."""
         others = self.all - self.known
         return 100 * self.reached / others if others else 100.0
 
@@ -48,7 +48,7 @@ class Hole:
     """A point that no test covers.
 
     Attributes:
-        why: explanation, "" if there is no explanation.
+        why: explanation of the hole, "" if there is no explanation.
     """
 
     file: str
@@ -70,10 +70,7 @@ def source(file: str) -> list[str]:
 
 
 def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
-    """Yield an entry for each line of a function.
-
-    The call raises ProjectError if its file has no function of that name.
-    """
+    """Yield an explained hole for each line of a function; raise ProjectError without such a function."""
     inside = False
     name = entry["function"]
     for line in source(entry["file"]):
@@ -86,10 +83,7 @@ def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
 
 
 def explained() -> list[Mapping[str, str]]:
-    """Return the entries of holes.yml, one for each line.
-
-    The call raises ProjectError if a line is no longer in its file.
-    """
+    """Return the explained holes of holes.yml; raise ProjectError if one of the lines no longer exists."""
     entries: list[Mapping[str, str]] = []
     for entry in yaml.safe_load(HOLES.read_text(encoding="utf-8")) or []:
         entries += _of_function(entry) if "function" in entry else [entry]

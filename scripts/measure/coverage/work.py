@@ -19,7 +19,10 @@ from scripts.measure.coverage.collecting import OUT
 from scripts.measure.coverage.counted import copies
 
 WALL_S = {"OPENPPMC_WALL_S": "1200"}
-"""Wall-clock limit of a test in s; it is high, because a counting simulation takes several times as long."""
+"""Wall-clock limit of a test in s.
+
+It is high, because a simulation with coverage counters takes several times as long as one without them.
+"""
 
 
 def pytest(variables: Mapping[str, str], *words: str) -> tuple[int, str]:
@@ -44,7 +47,7 @@ def groups(words: Sequence[str] = ()) -> list[list[str]]:
 
 
 def run_group(tests: Sequence[str]) -> Result:
-    """Run these tests; return the packed covered points and the crosses."""
+    """Run these tests; return the covered points in packed form, and the crosses."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
         variables = {**WALL_S, COVERAGE: folder, COVERAGE_COPIES: str(copies())}
         code, text = pytest(variables, "-p", "no:cacheprovider", *tests)

@@ -1,9 +1,9 @@
 """`make fuzz COUNT=n SEED=n`: send valid and invalid frames to the deframers of RTL and golden models.
 
-RTL and golden model must report the same requests, instructions and faults at the same characters.
+Both deframers must report the same requests, instructions and faults at the same characters.
 
-A seed is a block of characters for each line, with silences and characters without a stop bit. A later run on
-the same sources reuses passed blocks. The exit code is 1 if there is a difference.
+A seed defines a block of characters for each line, with silences and characters without a stop bit. A later
+run on the same sources reuses passed blocks. The exit code is 1 if there is a difference.
 """
 
 from __future__ import annotations

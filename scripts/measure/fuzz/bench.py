@@ -1,4 +1,4 @@
-"""Build the program of a line from tb/fuzz, send words to it, compare the result with the golden model."""
+"""Build the program of a line from tb/fuzz, send characters, compare with the golden model."""
 
 from __future__ import annotations
 
@@ -27,10 +27,7 @@ SHOWN = 24
 
 @cache
 def program(name: str) -> Path:
-    """Return the program of a line, built if its sources changed.
-
-    The call raises ProjectError with the end of the log.
-    """
+    """Return the program of a line, built if its sources changed; raise ProjectError if the build fails."""
     line = LINES[name]
     sources = [*files(line.group), FOLDER / f"{line.top}.sv", FOLDER / "main.cpp"]
     words = [*ARGS.split(), "--prefix", "Vfuzz", "--top-module", line.top, "-o", "fuzz"]
@@ -64,7 +61,7 @@ def rtl_events(name: str, words: array[int]) -> Iterator[tuple[int, int]]:
 
 
 def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | None:
-    """Return the first word whose events in RTL and golden model differ, with these events; else None."""
+    """Return the first word whose events in RTL and golden model differ, with both events; else None."""
     for real, ideal in zip_longest(rtl_events(name, words), line.expected(words)):
         if real != ideal:
             place = min(event[0] for event in (real, ideal) if event)
@@ -74,7 +71,7 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
 
 
 def shrink_report(name: str, line: Line, words: array[int]) -> str:
-    """Return a difference as text, with the words up to it; first words that it does not need are omitted."""
+    """Return a difference as text, with the words up to it, but without unneeded first words."""
     found = difference(name, line, words)
     assert found is not None
     words = words[: found[0] + 1]

@@ -1,6 +1,6 @@
 """The serial lines: generators of valid frames, and the events of the golden models for received words.
 
-The functions of the models are not used to make frames, so that mistakes in them are detected.
+The frames are made without functions of the models, so that mistakes in these functions are detected.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from openppmc.model.ppmc312.front.serial import LENGTHS, Outcome, Parser
 from scripts.measure.fuzz.words import BROKEN, SILENCE, Frame, digest
 
 Events = Iterator[tuple[int, int]]
-"""(number of the word, event in the format of `what_o` of tb/fuzz)."""
+"""Event: (number of the word, event in the format of the output `what_o` in tb/fuzz)."""
 PMC006_ADDRESS, PPMC312_ADDRESS = 3, 5
 
 
@@ -29,7 +29,7 @@ class Line:
     Attributes:
         top: name of the top module in tb/fuzz.
         group: name of the group in rtl/files.yml.
-        good, special: see `words.stream`.
+        good, special: arguments of `words.stream`.
         params: parameters of the top module.
         expected: function that returns the events of the golden model.
     """
@@ -46,7 +46,7 @@ class Line:
 
 
 def bridge_frame(rng: random.Random) -> bytes:
-    """Return a frame of UB-FRM-01 … 04; the length of some is near the limit."""
+    """Return a frame of UB-FRM-01 … 04; some frames have a length near the limit."""
     size = rng.choice((0, 1, 2, 5, 12, 30)) if rng.random() < 0.98 else rng.randint(250, 256)
     content = bytes([rng.randrange(256)]) + bytes(rng.choices((0x7D, 0x7E, 0x5E, 0, 0x80, 0x20), k=size))
     content += crc_hqx(content, 0xFFFF).to_bytes(2, "big")

@@ -1,4 +1,4 @@
-"""Characters of a line in the format of tb/fuzz/main.cpp, words of 16 bits."""
+"""Characters of a line in the format of tb/fuzz/main.cpp: a word of 16 bits for each character."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def stream(rng: random.Random, size: int, good: Frame, special: Sequence[int]) -
 
 
 def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
-    """Return some characters."""
+    """Return some characters without a frame."""
     kind = rng.random()
     if kind < 0.35:
         return good(rng)

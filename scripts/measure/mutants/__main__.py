@@ -1,8 +1,8 @@
 """Show which directed test kills each hand-made mutant: `python -m scripts.measure.mutants [WORD...]`.
 
 The changed file is written to build/mutants/, never to rtl/. The output has a line for each mutant: the test
-that fails, and the kind of the failure (`table`). The exit code is 1 if the result of a mutant differs from
-its entry.
+that fails, and the kind of the failure (see `table`). The exit code is 1 if the result of a mutant differs
+from its entry.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from scripts.measure.mutants.table import Mutant, mutants
 
 CHECK, COMPARISON, ASSERTION, HANGS = "check", "comparison", "assertion", "no end"
 BATCH = 8
-"""Number of tests in one process; after the first process with a failing test, no further one is started."""
+"""Number of tests in one process. No further process starts after one in which a test fails."""
 
 
 def cause(outcome: Outcome) -> str:
@@ -49,7 +49,11 @@ def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
 
 
 def find_tests(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
-    """Return the tests that must find the mutant: the listed one, or else the first that its words select."""
+    """Return the tests that fail with the mutant.
+
+    The test that the entry lists runs first. If it does not fail, the tests that the words of the entry
+    select run, and then, with `wide`, all tests of the build.
+    """
     items, every = mutant.items(), mutant.items(wide=True)
     listed = [item for item in every if item.test == mutant.caught]
     return failing(mutant, listed) or failing(mutant, items) or (failing(mutant, every) if wide else {})

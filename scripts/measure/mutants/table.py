@@ -59,7 +59,10 @@ class Mutant:
         return text.replace(self.old, self.new)
 
     def items(self, wide: bool = False) -> list[Item]:
-        """Return the tests of the mutant's build: those next to `caught`, or that its words select, or all.
+        """Return tests of the mutant's build.
+
+        These are the tests in the module of `caught`, or the tests that the words of the entry select, or all
+        tests.
 
         Args:
             wide: True for all tests of the build.

@@ -1,9 +1,9 @@
 """Prove properties of the RTL blocks: `python -m scripts.measure.prove [NAME,...]`.
 
-Without a name, it runs the quick proofs whose RTL or properties have changed since they held
-(docs/proved.json); with `--fresh`, all quick proofs; with `--night`, all proofs. `--break` breaks the RTL of
-each proof as its entry states and expects the proof to fail. The exit code is 1 if a result differs from the
-expected one.
+Without a name, it runs the quick proofs whose RTL or properties have changed since the proof last held
+(docs/proved.json). With `--fresh`, it runs all quick proofs, with `--night` all proofs. `--break` changes the
+RTL of each proof as the entry `breaks` states, and expects the proof to fail. The exit code is 1 if a result
+differs from the expected one.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from scripts.measure.prove.table import chosen
 
 
 def line(outcome: Outcome, breaking: bool) -> str:
-    """Return the printed line of an outcome."""
+    """Return the line that is printed for the outcome of a proof."""
     took = f"{outcome.seconds:.1f} s"
     if breaking:
         found_text = "found     " if outcome.refuted else "NOT FOUND "
@@ -54,7 +54,7 @@ def main() -> int:
     abc()
     bad = 0
     shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
-    # Threads are sufficient, because each waits for another program.
+    # Threads are sufficient, because each thread waits for another program.
     with (
         ThreadPoolExecutor(args.n) as pool,
         Progress(*shown, console=console, disable=not console.is_terminal) as progress,

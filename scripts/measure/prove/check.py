@@ -1,4 +1,4 @@
-"""Run one proof from the sources to its outcome, and write the trace of a counterexample."""
+"""Run one proof, from the sources to the outcome, and write the trace of a counterexample."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Outcome:
     """Result of a proof.
 
     Attributes:
-        trouble: reason of a failure, empty if the proof holds.
-        reached: cycle in which each cover was reached.
+        trouble: reason why the proof fails, empty if the proof holds.
+        reached: for each cover, the cycle in which it was reached.
         refuted: True if a property has a counterexample.
     """
 
@@ -43,7 +43,7 @@ class Outcome:
 
 
 def yosys(folder: Path, *command: str) -> str:
-    """Run yosys in a separate process with its log in the folder; return the reason if it fails."""
+    """Run yosys in a separate process, with its log in the folder; return why yosys failed, or ""."""
     code, text = ran([sys.executable, *command])
     (folder / "yosys.log").write_text(text, encoding="utf-8")
     if not code:
@@ -55,7 +55,7 @@ def yosys(folder: Path, *command: str) -> str:
 
 
 def model(proof: Proof, folder: Path, changed: Mapping[Path, Path]) -> str:
-    """Make the graphs of a proof; return the reason if this fails, else ""."""
+    """Make the graphs of a proof; return the reason if they cannot be made, else ""."""
     job = {
         "top": proof.file.stem,
         "only": proof.only,
@@ -78,7 +78,7 @@ def trace(folder: Path) -> str:
 
 
 def place(proof: Proof, change: Change | None = None) -> Path:
-    """Return the folder of a run; it is not removed after the run."""
+    """Return the folder of a run. The folder is not removed after the run."""
     return BUILD / "prove" / (f"{proof.name}.{change.name}" if change else proof.name)
 
 

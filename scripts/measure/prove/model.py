@@ -1,4 +1,4 @@
-"""Convert wrapper and RTL to two and-inverter graphs: assertions as bad states, and covers.
+"""Convert wrapper and RTL to two and-inverter graphs: of the assertions (as bad states), of the covers.
 
 The module is started as ``python -m scripts.measure.prove.model JOB.json`` in a separate process, because
 yosys calls exit() on an error and writes its log to stdout. The job names the sources, the include folders,
@@ -16,8 +16,10 @@ from pathlib import Path
 from typing import Any
 
 ANY = ("proc", "setundef -anyseq t:$buf")
-"""An undriven signal (an output of a stub) becomes one free input for all its readers. If it stayed X, each
-reader would replace it by the simplest value."""
+"""An undriven signal (an output of a stub) becomes one free input for all readers of the signal.
+
+If the signal stayed X, each reader would replace it by the simplest value.
+"""
 LOWER = ("async2sync", "chformal -lower")
 SHAPE = ("opt_clean", "memory_map -formal", "formalff -clk2ff -ff2anyinit -hierarchy")
 GATES = ("setundef -undriven -anyseq", "opt -full", "techmap", "opt -full", "dffunmap", "aigmap", "opt_clean")
@@ -37,7 +39,7 @@ def labels(design: Any) -> list[str]:
 
 
 def narrow(design: Any, only: list[str]) -> list[str]:
-    """Return commands that delete the assertions whose labels begin with no word of `only`."""
+    """Return commands that delete each assertion whose label begins with none of the words in `only`."""
     return [f"delete c:{label}" for label in labels(design) if only and not label.startswith(tuple(only))]
 
 

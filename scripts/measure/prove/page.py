@@ -11,18 +11,18 @@ from scripts.measure.prove.table import Proof, proofs
 
 PAGE = DOCS / "proofs.md"
 MARK = "<!-- proofs -->"
-"""Text between two marks is generated; the rest of the page is written by hand."""
+"""Text between two of these marks is generated; all other text of the page is written by hand."""
 
 
 ROOMS = ("common", "host", "motion", "single", "bank")
 """Folders of rtl/ in which each block should have a proof."""
 HEADS = ("Proof", "Properties", "Holds for", "Cover in", "Assumes: guarded by", "Rules")
 SHOWN = 6
-"""Maximum number of proofs listed for a package; further ones are only counted."""
+"""Maximum number of proofs that are listed for a package; further proofs are only counted."""
 
 
 def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
-    """Return each shared file that has no separate proof, with the proofs whose blocks use it."""
+    """Return each shared file without a separate proof, with the proofs whose blocks use the file."""
     proved = {one.block for one in every}
     paths = [path for room in ROOMS for path in sorted((RTL / room).glob("*.sv")) if path.stem not in proved]
     sources = {path: path.read_text(encoding="utf-8") for one in every for path in one.sources()}
@@ -42,7 +42,7 @@ def without(every: Sequence[Proof]) -> str:
 
 
 def method(proof: Proof) -> str:
-    """Return text about the method of a proof."""
+    """Return the text in the table about the method of a proof."""
     if proof.induct:
         return f"unbounded, by induction over {proof.induct} cycles"
     return f"the first {proof.bound} cycles" if proof.bound else "unbounded"

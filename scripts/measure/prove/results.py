@@ -25,7 +25,7 @@ PROVED = DOCS / "proved.json"
 
 
 def digest(proof: Proof) -> str:
-    """Return the digest of all that decides the result of a proof; comments of the RTL do not change it."""
+    """Return the digest of all that determines the result of a proof, without comments of the RTL."""
     headers = [path for folder in (*include_dirs(), FORMAL) for path in sorted(folder.glob("*.svh"))]
     version = next(
         line for line in LOCK.read_text(encoding="utf-8").splitlines() if line.startswith("pyosys==")
@@ -76,7 +76,7 @@ def failed() -> list[str]:
 
 
 def by_rule() -> dict[str, list[Proof]]:
-    """Return rule ID -> its proofs, in the order of the tables."""
+    """Return the proofs of each rule, by rule ID, in the order of the tables."""
     found: dict[str, list[Proof]] = defaultdict(list)
     for one in proofs():
         for rule in one.rules:

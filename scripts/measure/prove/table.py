@@ -35,7 +35,7 @@ class Change:
     """An RTL file whose text is replaced for a run.
 
     Attributes:
-        name: part of the name of the run's folder; it distinguishes this run from others of the proof.
+        name: text in the name of the run's folder, which distinguishes the run from others of the proof.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Proof:
-    """One entry of the tables; `name` is unique."""
+    """One entry of the tables, which describes a proof; `name` is unique."""
 
     folder: str
     name: str
@@ -73,14 +73,14 @@ class Proof:
         """Return RTL and wrapper in compile order.
 
         Args:
-            changed: RTL file -> its replacement.
+            changed: for each changed RTL file, its replacement.
         """
         stubs = {Path(stub).name: FORMAL / stub for stub in self.stubs}
         place = {path: stubs[path.name] for path in files(self.group) if path.name in stubs} | dict(changed)
         return [*(place.get(path, path) for path in files(self.group)), self.file]
 
     def broken(self) -> Change:
-        """Return the change of `breaks`; raise ProjectError unless the old text occurs once."""
+        """Return the change of `breaks`; raise ProjectError unless the old text occurs exactly once."""
         text = (ROOT / self.breaks["file"]).read_text(encoding="utf-8")
         if (times := text.count(self.breaks["old"])) != 1:
             raise ProjectError(f"{self.name}: {self.breaks['file']} has {times} times {self.breaks['old']!r}")
@@ -98,7 +98,9 @@ def proofs() -> Iterator[Proof]:
 
 
 def chosen(words: Sequence[str], night: bool) -> list[Proof]:
-    """Return proofs whose name contains one of these words; without words all (`night`) or all quick ones.
+    """Return the proofs whose names contain one of these words.
+
+    Without words, return all quick proofs or, with `night`, all proofs.
 
     Raises ProjectError if a word matches no proof.
     """

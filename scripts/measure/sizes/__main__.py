@@ -30,7 +30,7 @@ Work = tuple[str, Callable[[], T]]
 
 
 def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
-    """Run all works, two at a time, with a progress display; call `keep` with index and result of each."""
+    """Run all works, two at a time, with a progress display; call keep(index, result) for each."""
     columns = (TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with (
         Progress(*columns, console=console, disable=not console.is_terminal) as progress,
@@ -94,8 +94,8 @@ def measure(selected: list[Design], rates: bool) -> None:
 def check(selected: Iterable[Design], fresh: bool) -> int:
     """Compare with the committed sizes; return the exit code.
 
-    A design whose digest is the stored one has the stored size; it is synthesised again only if `fresh` is
-    true.
+    If the digest of a design is the stored one, its size is the stored size; the design is synthesised again
+    only if `fresh` is true.
     """
     held = figures.read()
     counted = [design for design in selected if design.recipe == "tuned" and not design.board]

@@ -28,11 +28,11 @@ from scripts.measure.sizes import scan_wrapper
 from scripts.measure.sizes.peers import Peer
 
 RECIPES = ("plain", "tuned")
-"""Recipes of the parts on an ECP5: `synth_ecp5` without options, and the recipe of the bitstreams."""
+"""Recipes for parts on an ECP5: `synth_ecp5` without options, and the recipe of the bitstreams."""
 TURNS, SEEDS = 3, 5
 """A clock rate is measured with TURNS perturbations of the synthesis × SEEDS seeds of place and route."""
 AXES = {"ppmc2104": 2, "isa_4axis": 4}
-"""Number of axes of parts with more than one axis; the name of a bank contains its number."""
+"""Number of axes of parts with more than one axis. For a bank, the number is in the name of the design."""
 BANKS = (4, 8, 16, 32, 64)
 BANK_CLK_HZ = 100_000_000
 BRIDGES: tuple[tuple[str, str, dict[str, int], tuple[str, ...]], ...] = (
@@ -51,9 +51,9 @@ BRIDGES: tuple[tuple[str, str, dict[str, int], tuple[str, ...]], ...] = (
 )
 """Module, description, parameters and FPGA families of a design."""
 HOST = "uart"
-"""Host of the bitstreams that are measured."""
+"""Host interface of the bitstreams that are measured."""
 FOLDER = project.BUILD / "sizes"
-# Seeds of one perturbation share its netlist, and two seeds may run at the same time.
+# The seeds of one perturbation share its netlist, and two seeds may run at the same time.
 _LOCKS: dict[tuple[str, int], threading.Lock] = defaultdict(threading.Lock)
 
 
@@ -66,7 +66,7 @@ class Design:
         part: part that the design contains, "" for a bridge or a peer.
         job: the yosys job without family and recipe.
         wiring: how `scan_wrapper.source` connects the pins.
-        rated: True if its clock rate is measured.
+        rated: True if the clock rate of the design is measured.
     """
 
     name: str
@@ -112,7 +112,7 @@ class Design:
         return seen.hexdigest()[:16]
 
     def netlist(self, turn: int = 0) -> Path:
-        """Synthesise with a perturbation; number 0 is the unchanged recipe."""
+        """Synthesise the design with a perturbation; number 0 is the unchanged recipe."""
         return run_yosys(self.folder / f"turn-{turn}", self._job(turn))
 
     def size(self) -> dict[str, int]:
@@ -158,7 +158,7 @@ class Design:
 
 
 def code(path: Path) -> str:
-    """Return a source without comments and with single spaces; constraints have comments from # on."""
+    """Return a source without comments and with single spaces. In constraints, comments begin with #."""
     comment = r"/\*.*?\*/|//[^\n]*" if path.suffix in (".sv", ".svh", ".v") else r"(#|//)[^\n]*"
     text = re.sub(comment, " ", path.read_text(encoding="utf-8", errors="replace"), flags=re.DOTALL)
     return " ".join(text.split())
@@ -217,7 +217,7 @@ def of_bridges() -> list[Design]:
 
 
 def of_boards() -> list[Design]:
-    """Return the bitstream of each board with each part, UART host."""
+    """Return the bitstream of each board with each part and the UART host."""
     found = []
     for part, known in boards.BY_PART.items():
         for on in known.values():

@@ -24,12 +24,12 @@ LIMIT = 5
 """Growth of a count in per cent that `make size` accepts."""
 RUNS = TURNS * SEEDS
 PEER = "peer "
-"""Start of the keys of designs whose sources are not in this tree."""
+"""Beginning of the keys of designs whose sources are not in this tree."""
 
 
 @dataclass
 class Comparison:
-    """Result of a comparison; a line of `wrong` makes the check fail, a line of `smaller` does not."""
+    """Result of a comparison. A line in `wrong` makes the check fail, a line in `smaller` does not."""
 
     wrong: list[str] = field(default_factory=list)
     smaller: list[str] = field(default_factory=list)
@@ -68,7 +68,7 @@ def write(figures: Figures, path: Path = FILE) -> None:
 
 
 def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
-    """Compare counts; growth by more than `limit` per cent is wrong, and so is a design without figures."""
+    """Compare counts. A growth above `limit` per cent is wrong, and so is a design without figures."""
     found = Comparison()
     for key, new in sorted(now.items()):
         old = committed.get(key)
@@ -88,7 +88,7 @@ def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
 
 
 def stale(figures: Figures, designs: Iterable[Design] | None = None) -> list[str]:
-    """Return a line for each design without figures, with figures of other RTL, or that no longer exists."""
+    """Return a line per design without figures, with figures of other RTL, or that no longer exists."""
     where, remedy = relative(FILE), "run `make report` and `make docs`"
     lines, keys = [], set()
     for design in all_designs() if designs is None else designs:
@@ -109,6 +109,6 @@ def rate(entry: dict[str, Any] | None) -> tuple[float, float] | None:
 
 
 def rate_text(entry: dict[str, Any] | None) -> str:
-    """Return "median (lowest)", or a dash if the clock rate was not measured."""
+    """Return the clock rate as "median (lowest)", or a dash if it was not measured."""
     found = rate(entry)
     return f"{found[0]:.0f} ({found[1]:.0f})" if found else "–"

@@ -1,13 +1,14 @@
-"""Other open designs with step outputs: their addresses, and the measured designs of a source folder.
+"""Other open designs with step outputs, for comparison.
 
-This project contains no part of these designs and does not describe how to build them. The user stores their
-sources in a separate folder, with a file peers.json that describes the designs to measure, a list of objects:
+The module contains their addresses, and reads the designs of a source folder that are measured. This project
+contains no part of these designs and does not describe how to build them. The user stores their sources in a
+separate folder, with a file peers.json that describes the designs to measure, a list of objects:
 
     {"title": "…", "what": "…", "url": "https://…", "top": "module", "sources": ["below/the/folder.v", …],
      "params": {"NAME": 1}, "reset": "name of the active-low reset", "pins": "regular expression"}
 
-`params`, `reset` and `pins` are optional. The name of the clock is `clk`. `pins`: prefix of the names of the
-ports that one axis uses; other ports are idle.
+`params`, `reset` and `pins` are optional. The name of the clock is `clk`. `pins` matches the beginning of the
+names of the ports that one axis uses; all other ports are idle.
 """
 
 from __future__ import annotations
@@ -33,12 +34,12 @@ OLDER = (
     ("scurvegen", "7-phase S-curve; the host computes the phases", 661, 229, 0),
     ("RAPcores, one axis", "DDA, H-bridges, SPI", 2279, 1410, 1),
 )
-"""Sizes measured earlier with plain `synth_ecp5`: title, description, COMB, FF, block RAM."""
+"""Sizes that were measured earlier with plain `synth_ecp5`: title, description, COMB, FF, block RAM."""
 
 
 @dataclass(frozen=True)
 class Peer:
-    """One design of peers.json."""
+    """One design that peers.json describes."""
 
     title: str
     what: str

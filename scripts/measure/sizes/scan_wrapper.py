@@ -14,7 +14,7 @@ NAME = "scan_wrapper"
 
 
 def ports(netlist: Path, top: str) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
-    """Return input and output ports of a mapped netlist with their bit ranges [msb, lsb]."""
+    """Return the input ports and the output ports of a mapped netlist with their bit ranges [msb, lsb]."""
     module = json.loads(netlist.read_text())["modules"][top]
     inputs: dict[str, list[int]] = {}
     outputs: dict[str, list[int]] = {}
@@ -29,7 +29,7 @@ def source(
 ) -> str:
     """Return the wrapper of `top` with these parameters as SystemVerilog; its clock is `clk`.
 
-    `reset` is the name of its active-low reset, "" if it has no reset. `pins_like` is a regular expression.
+    `reset` is the name of its active-low reset, "" without a reset. `pins_like` is a regular expression.
     Inputs whose name does not begin with a match are tied to 0; outputs with such a name are open.
     """
     given = ", ".join(

@@ -28,7 +28,7 @@ LAYERS = (
 SHARED = "#eef2f6"
 OWN = "#fdeecb"
 IGNORED = {"__pycache__", "img", "wavedrom", "include"}
-"""Folders that are not shown: build results, and the pictures of a page."""
+"""Folders that are not shown: build results, and pictures of pages."""
 
 
 def modules(folder: str) -> list[str]:
@@ -51,7 +51,7 @@ def _lines(names: Sequence[str], width: int) -> str:
 
 
 def folders() -> Figure:
-    """Draw layers as rows and parts as columns; a cell has folders, and in the package also modules."""
+    """Draw layers as rows and parts as columns. A cell lists folders, in the package also modules."""
     columns = [row.name for row in parts.folders()]
     widths = [1.95, 2.7, *(1.15 if name in ("ppmc104", "ppmc2104", "stmc") else 1.75 for name in columns)]
     lefts = [sum(widths[:n]) for n in range(len(widths))]

@@ -32,7 +32,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Arrow:
-    """An arrow between two boxes, which are named.
+    """An arrow between two boxes, which it refers to by name.
 
     Attributes:
         via: corners of the arrow between the boxes.
@@ -111,9 +111,9 @@ def drawing(
     """Return the drawing of an entry of figures.yml; raise KeyError for an unknown box.
 
     Args:
-        size: width and height, which the grid fills.
-        boxes: name -> values of Box in order.
-        arrows: "start -> end", or <-> for heads at both ends -> further values of Arrow.
+        size: width and height of the drawing; the grid fills the drawing.
+        boxes: for each name of a box, the values of Box in order.
+        arrows: for each "start -> end", or "start <-> end" (two heads), further values of Arrow.
     """
     named = {name: Box(*values) for name, values in boxes.items()}
     figure = plt.figure(figsize=size)

@@ -1,4 +1,4 @@
-"""Move the texts of a timing diagram away from its break marks; if a text cannot move, remove the mark."""
+"""Move texts of a timing diagram away from its break marks, or remove a mark if that fails."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from scripts.pages.pictures.diagram_width import boxes, lanes, text_width
 SVG = "http://www.w3.org/2000/svg"
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 LANE, TOP = 30, 5
-"""Distance of two lines, and height above the first line, in px."""
+"""Distance between two lines, and height above the first line, in px."""
 MARK = (7, -2, 22)
-"""Size of a break mark in px: to each side, and above and below the top of its line."""
+"""Size of a break mark in px: on each side of its centre, and above and below the top of its line."""
 ROOM = 5
 SMALL = 11 / 13
-"""Size of the text of an arrow, relative to that in a box."""
+"""Size of the text of an arrow, relative to the size of a text in a box."""
 
 
 @dataclass(frozen=True)
 class Area:
-    """An occupied rectangle in px, from the first column on; `node` in `parent` is the element to remove."""
+    """An occupied rectangle in px, from the first column on; `node` in `parent` can be removed."""
 
     left: float
     right: float

@@ -1,4 +1,4 @@
-"""Fit timing diagrams into the width of a page: with narrower columns, or in rows that are cut at breaks."""
+"""Fit timing diagrams into the width of a page, with narrower columns or several rows."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ import matplotlib
 from fontTools.ttLib import TTFont
 
 COLUMN = 688
-"""Width of the text on a page of the site in px; larger in windows above 1220 px and on GitHub."""
+"""Width of the text on a page of the site in px. It is larger in windows above 1220 px and on GitHub."""
 MOST = COLUMN * 11 // 10
 """Maximum width of a drawing in px; on the page, its smallest text of 11 px then has 10 px."""
 STEPS = ({"hscale": 2}, {"hscale": 3, "skin": "narrow"}, {"hscale": 1}, {"hscale": 1, "skin": "narrow"})
 """WaveDrom's `hscale` and skin for columns of 80, 60, 40 and 20 px."""
 WIDTHS = (80, 60, 40, 20)
 NAMES, GROUP, EDGE = 16, 33, 8
-"""Space in px around names of lines, for the name of a group, and right of the lines and of a title."""
+"""Spaces in px: around names of lines, for the name of a group, to the right of lines and titles."""
 TEXT = 13
 """Text size in a box in px."""
 FRAME = 9
@@ -29,7 +29,7 @@ TRIES = sorted(
     ((rows, *step) for rows in range(1, 5) for step in zip(WIDTHS, STEPS, strict=True)),
     key=lambda found: (found[0] + 1.5 * (found[1] < 40), -found[1]),
 )
-"""Rows and columns in order of preference: few rows, wide columns; columns below 40 px count as 1.5 rows."""
+"""Rows and column widths, best first: few rows, wide columns. Columns below 40 px count as 1.5 rows."""
 
 Lane = dict[str, Any]
 
@@ -42,14 +42,14 @@ def text_width(text: str) -> float:
 
 @cache
 def _advances() -> tuple[dict[str, float], dict[int, str]]:
-    """Return the width of each glyph in em, and the glyph of each character code."""
+    """Return the width of each glyph in em, and the name of the glyph for each character code."""
     font = TTFont(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")
     unit = font["head"].unitsPerEm
     return {name: font["hmtx"][name][0] / unit for name in font.getGlyphOrder()}, font.getBestCmap()
 
 
 def lanes(signal: Sequence[Any]) -> Iterator[Lane]:
-    """Yield the lines of a drawing, also those in groups."""
+    """Yield the lines of a drawing, including lines in groups."""
     for entry in signal:
         if isinstance(entry, list):
             yield from lanes(entry[1:])
@@ -70,7 +70,7 @@ def step_of(drawing: dict[str, Any]) -> int:
 
 
 def _columns(lane: Lane) -> int:
-    """Return the columns of a line; a line that is half a cycle early has one more column."""
+    """Return the columns of a line, without the additional one of a line that is half a cycle early."""
     return len(lane.get("wave", "")) - bool(lane.get("phase"))
 
 
@@ -104,7 +104,10 @@ def readable(drawing: dict[str, Any], step: int) -> bool:
 
 
 def _cut(lane: Lane, first: int, end: int) -> Lane:
-    """Return the columns of a line from `first` on; the first one has the level that the line has there."""
+    """Return columns `first` to `end` - 1 of a line.
+
+    The first of them states its level, even if the line only continues an earlier level in that column.
+    """
     if "wave" not in lane:
         return {**lane, "node": lane["node"][first:end]} if "node" in lane else lane
     wave, tail = lane["wave"], "." if lane.get("phase") else ""
@@ -147,7 +150,7 @@ def _breaks(drawing: dict[str, Any]) -> list[int]:
 
 
 def _rows(drawing: dict[str, Any], step: int, count: int) -> dict[str, Any] | None:
-    """Return the drawing in `count` rows of about equal length, or None if it does not fit."""
+    """Return the drawing in `count` rows of about equal length, or None if it is too wide for them."""
     if count == 1:
         return drawing if width(drawing, step) <= MOST else None
 

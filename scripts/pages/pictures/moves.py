@@ -20,12 +20,12 @@ Entry = dict[str, Any]
 
 @dataclass(frozen=True)
 class Train:
-    """Pulses of a move: the ticks of each interval, and ticks per second.
+    """Pulses of a move: the number of ticks in each interval, and the ticks per second.
 
     Attributes:
         first: number of the first pulse.
-        cause: interval in which the move was changed, counted from 0; its speed gets a triangle.
-        slowest: ticks of the interval at start-up speed. If it is given, a square shows the last pulse.
+        cause: interval in which the move was changed, counted from 0. A triangle marks its speed.
+        slowest: ticks of an interval at start-up speed. If it is given, a square marks the last pulse.
     """
 
     intervals: Sequence[int]
@@ -38,10 +38,10 @@ class Train:
 def ramped(
     ramp: Sequence[int], hz: int, pulses: int, flagged_in: int | None = None, shown: int | None = None
 ) -> Train:
-    """Return a move with the rates RL, RH, PA of a base clock, and with a forced deceleration.
+    """Return a move with a ramp (RL, RH, PA) of a base clock, and with a forced deceleration.
 
     Args:
-        flagged_in: interval of the flag, counted from 1.
+        flagged_in: interval in which the deceleration is flagged, counted from 1.
         shown: number of intervals to show.
     """
     of = Ramp(*ramp)
@@ -76,8 +76,8 @@ def moves(
     Args:
         panels: each with `axes` and `legend` (arguments of matplotlib), `over` (time or pulses), and `moves`.
             A move has `colour`, `label`, a `kind` that returns its Train, and the arguments of the kind.
-            A move of one pulse has `mark` instead of `label`, and only its triangle is drawn.
-        unit: pulses per second of the vertical axis.
+            A move of one pulse has `mark` instead of `label`; of such a move, only the triangle is drawn.
+        unit: number of pulses per second that is one unit of the vertical axis.
         line: True to draw a line through the middles of the intervals instead of stairs.
     """
     figure, (row,) = plt.subplots(
@@ -98,9 +98,9 @@ def ramps(small: Entry, large: Entry, offset: int = 1, unit: int = 1000) -> Figu
 
     Args:
         small: `ramp` (RL, RH, PA), `labels` of the two curves, `axes`, `legend` (arguments of matplotlib).
-        large: the same, and the base clock `hz`.
-        offset: 1 to show rates, 0 to show periods in base clocks.
-        unit: pulses per second of the right vertical axis.
+        large: the same entries as `small`, and the base clock `hz`.
+        offset: 1 to show intervals as rates, 0 to show them in periods of the base clock.
+        unit: number of pulses per second that is one unit of the right vertical axis.
     """
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained")
     of = Ramp(*small["ramp"])

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from openppmc.model.motion.ramp import Ramp
 
-# All properties that differ between runs are fixed: ids, date, fonts as outlines.
+# Properties that would differ between runs are fixed: ids, the date, fonts (drawn as outlines).
 STYLE = {
     "svg.hashsalt": "openppmc",
     "svg.fonttype": "path",
@@ -34,7 +34,7 @@ COLOURS = {"blue": BLUE, "red": RED, "green": GREEN, "grey": GREY}
 
 
 def exact_period(of: Ramp, k: float) -> float:
-    """Return x(k) of the ramp formula in base clocks, without rounding."""
+    """Return x(k) of the ramp formula in periods of the base clock, without rounding."""
     a, b = (of.rl + 1) ** 2, (of.rh + 1) ** 2
     return 1 / sqrt(1 / a + (1 / b - 1 / a) * k / of.pa)
 
@@ -48,5 +48,5 @@ def svg(figure: Figure) -> bytes:
 
 
 def style() -> AbstractContextManager[None]:
-    """Return a context with the common style."""
+    """Return a context manager that applies the common style."""
     return matplotlib.rc_context(STYLE)

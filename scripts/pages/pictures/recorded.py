@@ -10,13 +10,13 @@ from typing import Any
 from scripts.pages.pictures.kinds import made
 
 Levels = Mapping[str, int]
-Schedule = Sequence[tuple[int, Levels]]  # (first edge that samples them, pin levels), in time order
-Samples = Sequence[Levels | None]  # one for each column; None for cycles that are not shown
+Schedule = Sequence[tuple[int, Levels]]  # in order of time: first edge that samples the levels, levels
+Samples = Sequence[Levels | None]  # one sample for each column; None represents cycles that are not shown
 
 LEVEL = re.compile(r"(\w+)(?: while (\w+) = (\w+))?")
 LONG = 10_000
 LETTERS = "nmk"
-COLOURS = "345"  # codes of WaveDrom's filled boxes, which are used in turn
+COLOURS = "345"  # codes of WaveDrom's filled boxes; successive boxes use them in turn
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Row:
     Attributes:
         host: True if the host drives the line, which then changes half a cycle before the edge that samples
             it.
-        nodes: column -> letter for arrows.
+        nodes: letter at each column where an arrow begins or ends.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Row:
     nodes: Mapping[int, str] = field(default_factory=dict)
 
     def of(self, levels: Levels) -> int | None:
-        """Return the level in a sample."""
+        """Return the level of this line in a sample."""
         return levels[self.level] if isinstance(self.level, str) else self.level(levels)
 
 
@@ -55,7 +55,9 @@ def record(
     columns: Sequence[int | None],
     flags: Callable[[Any], Levels] = mailbox_flags,
 ) -> Samples:
-    """Drive a model with the schedule and sample it at the edges of the columns, which must be ascending.
+    """Drive a model with the schedule, and return its samples at the edges of the columns.
+
+    The edges must be ascending.
 
     Args:
         flags: function that returns further signals in addition to the pins.
@@ -107,7 +109,7 @@ def wave(row: Row, samples: Samples) -> dict[str, Any]:
 
 
 def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]) -> list[int | None]:
-    """Return the columns; columns in which no line changes are replaced by a gap."""
+    """Return the columns, in which a gap replaces columns without a change of any line."""
     levels = [None if found is None else tuple(row.of(found) for row in rows) for found in samples]
     last = len(columns) - 1
     while last > 1 and levels[last] == levels[last - 1] == levels[last - 2]:
@@ -124,10 +126,7 @@ def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]
 
 
 def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
-    """Return the texts of the edges, and a line below them.
-
-    In the texts, letters replace long numbers; the line explains the letters.
-    """
+    """Return the texts of the edges with letters for long numbers, and a line that explains them."""
     words: list[str | None] = []
     told: dict[int, str] = {}
     for edge in edges:
@@ -142,13 +141,13 @@ def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
 
 
 def _zeros(number: int) -> int:
-    """Return the number of zeros at the end of a number."""
+    """Return the number of zeros at the end of a decimal number."""
     text = str(number)
     return len(text) - len(text.rstrip("0"))
 
 
 def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
-    """Return a line with a word in each column, a gap for None; a word covers the empty columns after it."""
+    """Return a line with a word in each column, a gap for None. A word covers empty columns after it."""
     drawn, data = "", list[str]()
     for word, before in zip(words, (None, *words), strict=False):
         begins = word is not None and (word or not before)
@@ -160,11 +159,11 @@ def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Start:
-    """A golden model at the beginning of a diagram.
+    """Start of a diagram: a golden model, and the edge from which the diagram counts.
 
     Attributes:
         base: edge from which columns and actions are counted.
-        inputs: levels of its input pins.
+        inputs: levels of the input pins of the model.
         write, read, register: pins of the bus: write strobe, read strobe, register select.
     """
 
@@ -178,7 +177,7 @@ class Start:
     flags: Callable[[Any], Levels] = mailbox_flags
 
     def action(self, edge: int, what: str, *values: Any) -> Schedule:
-        """Return the pin changes of an action, as described for `do` of `diagram`."""
+        """Return the pin changes of an action; see the argument `do` of `diagram`."""
         at = self.base + edge
         if what == "pins":
             return [(at, values[0])]
@@ -191,7 +190,7 @@ class Start:
 
 
 def level(text: str) -> Callable[[Levels], int | None]:
-    """Return the function for "pin", or for "pin while other = value" (it returns None at other values)."""
+    """Return the function for "pin", or "pin while other = value" (None at other values of `other`)."""
     found = LEVEL.fullmatch(text)
     if found is None:
         raise ValueError(f"{text}: write `pin` or `pin while other = value`")
@@ -222,7 +221,7 @@ def lane(entry: Mapping[str, Any], samples: Samples, host: bool = False) -> dict
 
 
 def columns_of(text: str) -> list[int | None]:
-    """Return the columns of a text that contains edges, ranges of edges (first..last), and | for a gap."""
+    """Return the columns in a text of edges, ranges of edges (first..last), and | for a gap."""
     found: list[int | None] = []
     for word in text.split():
         first, _, last = word.partition("..")
@@ -246,15 +245,15 @@ def diagram(
 
     Args:
         begin: `kind` that returns the Start, and its arguments.
-        columns: edges to show, for `columns_of`.
+        columns: edges to show, in the form that `columns_of` reads.
         rows: entries with `level` (see `level`), `name`, `text` (format of a vector's value), `host` (see
             Row), and `letters` at its changes or `nodes` (column -> letter); or name of a group -> entries.
-        do: actions: edge, then write with register, byte and cycles of the strobe; read with register and
-            cycles; or pins with levels.
+        do: actions, each with its edge. An action is a write with register, byte and cycles of the strobe, a
+            read with register and cycles of the strobe, or pins with levels.
         time: first line: "clk edge" or "us" for numbers, "clk" for the clock.
         tick: number of the first edge, if edges are numbered above the columns.
         foot: text below a diagram with time = clk.
-        hides: True if lines may change in a gap.
+        hides: True if lines may change in a gap, which hides these changes.
 
     Raises:
         ValueError: a line changes in a gap.
@@ -263,7 +262,7 @@ def diagram(
     shown = columns_of(columns)
     schedule = [change for action in do for change in start.action(*action)]
     groups = rows if isinstance(rows, dict) else {"": rows}
-    # A gap is replaced by the edge before the next column, to find changes that the gap would hide.
+    # Instead of a gap, the edge before the next column is sampled, to find changes that the gap would hide.
     at = [start.base + (shown[n + 1] - 1 if edge is None else edge) for n, edge in enumerate(shown)]
     found = record(start.model, start.inputs, schedule, at, start.flags)
     gaps = [] if hides else [n for n, edge in enumerate(shown) if edge is None]

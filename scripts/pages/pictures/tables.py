@@ -18,7 +18,7 @@ def spaced(value: float, digits: int = 0) -> str:
 
 
 def _cell(rate: int, us: Fraction, column: Entry) -> list[str]:
-    """Return the cells of a rate: its speed, marked if the interval is short; the moves that permit it."""
+    """Return the cells of a rate: its speed (marked for a short interval), moves that permit it."""
     speed = 1_000_000 / us
     text = spaced(float(speed), column.get("digits", 0 if speed >= 10_000 else 1))
     text = next((mark.format(text) for limit, mark in column.get("marks", {}).items() if us < limit), text)
@@ -31,11 +31,11 @@ def _cell(rate: int, us: Fraction, column: Entry) -> list[str]:
 def speeds(heads: Sequence[str], rates: Sequence[int], columns: Sequence[Entry], offset: int = 1) -> str:
     """Return a table of rates or divisors with the pulses per second at several clocks.
 
-    An interval is rate + `offset` periods of `us` µs, and `extra` µs.
+    The length of an interval is (rate + `offset`) * `us` + `extra` µs.
 
     Args:
-        columns: each with `us`, `extra`, `digits`, `marks` (interval in µs -> format of the speed of shorter
-            intervals) and `limits` (name of a kind of move -> smallest rate).
+        columns: each with `us`, `extra`, `digits`, `marks` (for an interval in µs, the format of speeds with
+            shorter intervals) and `limits` (for the name of a kind of move, its smallest rate).
     """
     rows = []
     for rate in rates:

@@ -18,7 +18,7 @@ from scripts.pages.pictures.diagram_width import width as lines
 
 XLINK = "http://www.w3.org/1999/xlink"
 FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
-# The styles have sizes in px, not points (some viewers do not know the dpi), larger labels, darker numbers.
+# Sizes in px, not points, because some viewers do not know the dpi; larger labels; darker numbers.
 STYLES = (
     ("font-family:Helvetica", f"font-family:{FONTS}"),
     ('font-family="sans-serif"', f'font-family="{FONTS}"'),
@@ -27,7 +27,7 @@ STYLES = (
     (".muted{fill:#aaa}", ".muted{fill:#444;font-size:12px}"),
 )
 REF = re.compile(r"url\(#([^)]+)\)")
-LABEL_GROWTH = 1.5  # WaveDrom's white area below a label fits its size before STYLES
+LABEL_GROWTH = 1.5  # WaveDrom's white area below a label fits the size that the label has without STYLES
 
 
 def _referenced(root: ET.Element) -> set[str]:
@@ -42,7 +42,7 @@ def _referenced(root: ET.Element) -> set[str]:
 
 
 def _style(root: ET.Element) -> None:
-    """Set the colours of the default skin; the bricks of the narrow skin have the same numbers."""
+    """Set the colours of the default skin; the waveform pieces of the narrow skin have equal numbers."""
     for style in root.iter(f"{{{SVG}}}style"):
         style.text = WaveSkin["default"][2][2]
 

@@ -14,9 +14,9 @@ from scripts.fpga.boards.pads import Fitted, Pad
 
 WEAK, STRONG = "2.2 kΩ", "1 kΩ"
 STRONG_FPGA = ("artix7", "cyclone5")
-"""Families with stronger internal pull-ups, which need the resistor STRONG."""
+"""FPGA families with stronger internal pull-ups, which need the resistor STRONG."""
 Choice = str | Mapping[str, str]
-"""One text for all ports, or patterns of ports -> text."""
+"""One text for all ports, or a text for each pattern of port names."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Circuit:
 
     Attributes:
         chip: name of the chip in the drawing; it has `channels` channels.
-        level: signal level on the far side.
+        level: signal level on the side of the circuit that faces the machine or the old host.
         note: text below the drawing.
     """
 
@@ -70,7 +70,7 @@ CIRCUITS = [
 
 
 def text(choice: Choice, pad: Pad) -> str:
-    """Return the text of a pin from `far` or `pull` of its circuit; "" if no pattern fits."""
+    """Return the text for a pin from `far` or `pull` of its circuit; "" if no pattern fits."""
     texts = {"*": choice} if isinstance(choice, str) else choice
     found = next((value for pattern, value in texts.items() if fnmatch(pad.port, pattern)), "")
     return found.format(old=_old(pad), pin=pad.port.removesuffix("_n").upper(), idle=_idle(pad))
@@ -78,7 +78,7 @@ def text(choice: Choice, pad: Pad) -> str:
 
 @dataclass(frozen=True)
 class Use:
-    """A circuit with the pins that use it."""
+    """A circuit with all pins that use it."""
 
     circuit: Circuit
     pads: tuple[Pad, ...]
@@ -90,7 +90,7 @@ class Use:
         return STRONG if self.strong else WEAK
 
     def number(self, of: int | str) -> int:
-        """Return a quantity of circuits.yml as a number; a word means the pins, the chips or a port."""
+        """Return a quantity of circuits.yml as a number; words mean the number of pins or chips."""
         pins = sum(pad.port != "d_oe" for pad in self.pads)
         counts = {"pin": pins, "chip": -(-pins // self.circuit.channels)}
         return of if isinstance(of, int) else counts.get(of, sum(pad.port == of for pad in self.pads))
@@ -132,7 +132,7 @@ def uses(fitted: Fitted) -> list[Use]:
 
 
 def order(found: list[Use]) -> list[tuple[int, str, str]]:
-    """Return quantity, description and order number; equal items of several circuits are added."""
+    """Return quantity, description and order number of each item, added up over all circuits."""
     lines = Counter[tuple[str, str]]()
     for use in found:
         value = "2K2" if not use.strong else "1K"

@@ -25,11 +25,11 @@ BEHIND = {
     "power stage": ("windings A and B, motor supply", FIVE),
     "DRV8825 carrier": ("A1, A2, B1, B2: motor; VMOT: supply", FIVE),
 }
-"""Module at the end of a drawing -> text about its connections, and colour of the wire to this text."""
+"""Text about the connections of each module at the end of a drawing, and colour of the wire to this text."""
 
 
 def draw(fitted: Fitted) -> bytes:
-    """Return the SVG."""
+    """Return the drawing as SVG."""
     schemdraw.use("svg")
     with schemdraw.Drawing(
         show=False, unit=1.6, inches_per_unit=0.42, fontsize=TEXT, color=INK, lw=1.2, margin=0.4
@@ -46,7 +46,7 @@ def draw(fitted: Fitted) -> bytes:
 
 
 def _use(sheet: Any, use: Use, y: float) -> float:
-    """Draw one circuit; return the y below it."""
+    """Draw one circuit; return the y coordinate below it."""
     _text(sheet, BOARD, y, use.circuit.title, TITLE)
     y -= HEAD
     if use.circuit.chip.startswith("opto"):
@@ -58,7 +58,7 @@ def _use(sheet: Any, use: Use, y: float) -> float:
 
 
 def _chips(use: Use) -> list[tuple[Pad, ...]]:
-    """Return the pins of each chip; more than DRAWN motors share one box."""
+    """Return the pins of each chip. With more than DRAWN motors, all drivers share one box."""
     size = use.circuit.channels if use.circuit.channels > 1 else len(use.pads)
     if use.circuit.key == "steps":
         motors = sum(pad.port == "pout_n" for pad in use.pads)
@@ -67,7 +67,7 @@ def _chips(use: Use) -> list[tuple[Pad, ...]]:
 
 
 def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) -> float:
-    """Draw a chip with its pins on both sides; return the y below it."""
+    """Draw a chip with its pins on both sides; return the y coordinate below it."""
     height = ROW * len(pads) + 0.35
     name = use.circuit.chip + (f" {number + 1}" if number >= 0 else "")
     plain = use.circuit.chip in ("jumper", "header", "microcontroller")
@@ -91,7 +91,7 @@ def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) ->
 
 
 def _last(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, height: float, name: str) -> float:
-    """Draw a module at the end of the wiring; return the y below it."""
+    """Draw a module at the end of the wiring; return the y coordinate below it."""
     _box(sheet, BOARD, y, WIRE - BOARD, height, LOW)
     _box(sheet, CHIP, y, FAR + 0.6 - CHIP, height, INK)
     _text(sheet, CHIP + 0.2, y + 0.32, name, TEXT)
@@ -134,7 +134,7 @@ def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
 
 
 def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
-    """Write the resistor on the FPGA's side as text on its wire, because there are many."""
+    """Write the many resistors on the FPGA's side as text on their wires, instead of symbols."""
     to = text(use.circuit.pull, pad)
     if to:
         x = (WIRE + CHIP) / 2

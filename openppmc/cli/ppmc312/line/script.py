@@ -1,4 +1,7 @@
-"""Script files on a line of PPMC-312: the commands are those of a board, and each names its station."""
+"""Script files for a line of PPMC-312.
+
+The commands are those of a board, and each command names its station.
+"""
 
 from __future__ import annotations
 
@@ -31,14 +34,14 @@ from .session import Session, opened
 
 
 class LinePresenter:
-    """Methods of a presenter that a script uses, for stations."""
+    """Methods of a presenter that a script uses, for the stations of a line."""
 
     def busy(self, part: Ppmc312Bus, axes: Sequence[Station312]) -> tuple[Station312, ...]:
         """Return the stations that are moving."""
         return tuple(axis for axis in axes if axis.busy_now())
 
     def reports(self, part: Ppmc312Bus, tell: Callable[[str], None]) -> None:
-        """Print the reports of the stations. Raise the first error among them."""
+        """Print the reports of the stations. Raise the first error among the reports."""
         show.reports(part.axes, tell)
 
 
@@ -73,7 +76,7 @@ class LineSession:
 def check_line(steps: Iterable[Step], name: str) -> None:
     """Raise ScriptError for steps that a line does not support.
 
-    These are motions that name no station, moves of two axes, and words of other parts.
+    These are motions that name no station, moves of two axes, and commands of other parts.
     """
     for step in steps:
         where = f"{name}:{step.line}: "

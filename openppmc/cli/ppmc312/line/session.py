@@ -38,7 +38,7 @@ class Session:
     guard: Guard
 
     def selected_axes(self, text: str | None) -> list[Station312]:
-        """Return the stations that --axis names, which must reply; without --axis, all that reply."""
+        """Return the stations that --axis names, which must all reply; else all that reply."""
         if text is not None:
             numbers = parse_stations(text)
             self.bus.check(numbers)
@@ -67,6 +67,6 @@ def open_bus() -> Ppmc312Bus:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """Open the line; a signal n stops the motors, and the exit status is 128 + n."""
+    """Open the line. A signal n stops the motors, and the exit status is then 128 + n."""
     with guarded(open_bus) as (bus, guard):
         yield Session(bus, guard)

@@ -105,7 +105,7 @@ def report_line(number: int, report: Report) -> str:
 
 
 def reports(axes: Iterable[Station312], print_line: Callable[[str], None] = output.print_line) -> None:
-    """Pass each new report to `print_line` as a line; then raise the first error among them."""
+    """Pass each new report to `print_line` as a line; then raise the first error among the reports."""
     first_error: PpmcError | None = None
     for axis in axes:
         for report in axis.poll():

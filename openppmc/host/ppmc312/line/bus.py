@@ -52,7 +52,7 @@ class ScanResult:
 
 
 class Ppmc312Bus(LineBus[Line, Station312]):
-    """Line (`line.Line`) with stations 0 to 15; see `host.line.LineBus`."""
+    """Line with the stations 0 to 15; see `host.line.LineBus`."""
 
     kind = CAPABILITIES
 
@@ -121,9 +121,10 @@ class Ppmc312Bus(LineBus[Line, Station312]):
         return ScanResult(axis.number, version, status, position, errors, counters, problem)
 
     def check(self, stations: Iterable[int]) -> None:
-        """Check that all these stations reply.
+        """Check that all these stations reply to a poll.
 
-        Raises StationNotResponding without a reply, and DuplicateAddress if all replies are corrupt.
+        Raises StationNotResponding if a station does not reply, and DuplicateAddress if all its replies are
+        corrupt.
         """
         for number in stations:
             one = self._probe(self.axis(number))

@@ -71,7 +71,7 @@ CAPABILITIES = LineCapabilities(
 
 
 class Error(IntEnum):
-    """Error codes of replies."""
+    """Error codes in replies."""
 
     CHECKSUM = 0x41
     PARAMETER = 0x42
@@ -109,7 +109,7 @@ def serial_command_error(prefix: str, code: int, error: int, state: int | None =
     Args:
         prefix: prefix of the message.
         code: code that the instruction has on the parallel bus.
-        state: condition of the part, read after error 43.
+        state: condition byte of the part, which the driver reads after error 43.
 
     >>> str(serial_command_error("station 3: ", 0x82, 0x43, 0x10))
     'station 3: the part is in alarm: remove the cause, then clear the alarm (or reset)'
@@ -163,7 +163,8 @@ class Line(Master[Reply]):
         echo: True if the master receives its own bytes, as with two-wire adapters that do not switch their
             receiver off.
         rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
-        patience: time in s, beyond the line time, that the master waits for a reply.
+        patience: time in s that the master waits for a reply in addition to the transmission time on the
+            line.
         xtal_hz: crystal frequency of the stations in Hz; the line rates are proportional to it.
 
     Raises:

@@ -20,11 +20,11 @@ from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 _MOST_PPS = 4_000_000
 """Speed in pulses/s that no table exceeds: rate 2 at 8 MHz."""
 _ENCODER_SLACK = 64
-"""Largest accepted difference of two reads of the encoder: half the value of bit 7 of the lowest byte."""
+"""Largest difference at which two reads of the encoder agree: half the value of bit 7 of its lowest byte."""
 
 
 class ErrorCounts(NamedTuple):
-    """Errors that a station has counted since the last read, up to 255 each."""
+    """Numbers of errors that a station has counted since the last read, each at most 255."""
 
     framing: int
     overrun: int
@@ -47,7 +47,7 @@ class SerialMotion(Motion):
         return self._part.number
 
     def _current_progress(self) -> Progress:
-        """Return the progress now, or at the end of the motion."""
+        """Return the current progress; after the end of the motion, the progress at its end."""
         position = self._part.position if self.result is None else self.result.position or 0
         done = 0 if self.begin is None else abs(signed((position - self.begin) % (1 << 32)))
         return Progress(position, done, self.requested, self._link.clock() - self._started)
@@ -55,8 +55,8 @@ class SerialMotion(Motion):
     def _on_stop_report(self, report: Stopped) -> None:
         """Process the report that the motion has ended, and compare it with the request.
 
-        A damaged request or position may appear valid. Therefore, the position is read again if the report
-        does not match the request.
+        The line may damage the request or the reported position such that it still appears valid. Therefore,
+        the position is read again if the report does not match the request.
         """
         super()._on_stop_report(report)
         if self.result_error is not None:
@@ -126,7 +126,7 @@ class Station312(Axis[SerialMotion]):
     def poll(self) -> list[Report]:
         """Poll the station until no report is pending; return the new reports, oldest first.
 
-        Ends of motions that this object started are in their `result` instead.
+        The ends of motions that this object started are not returned, but set in the `result` of each motion.
         """
         self.window.collect()
         taken = list(self.reports)
@@ -164,14 +164,14 @@ class Station312(Axis[SerialMotion]):
     def error_code(self) -> int:
         """Return the last error code (42 to 49) that the station has sent in a reply, 0 for no error.
 
-        Reading clears it. Raises AxisBusy while the motor is moving.
+        The read clears the code. Raises AxisBusy while the motor is moving.
         """
         return self.window.read(ERROR_CODE)[0]
 
     def error_counts(self) -> ErrorCounts:
         """Return the counters of framing errors, overruns and checksum errors of the station.
 
-        Reading clears them. Raises AxisBusy while the motor is moving.
+        The read clears the counters. Raises AxisBusy while the motor is moving.
         """
         return ErrorCounts(*self.window.read(ERROR_COUNTS))
 
@@ -227,11 +227,14 @@ class Station312(Axis[SerialMotion]):
         return self.window.read_consistently(read, agree)
 
     def _register(self, block: bytes) -> None:
-        """Register an override; the reply only confirms that the station has accepted it."""
+        """Register an override.
+
+        The reply only confirms that the station has accepted the registration.
+        """
         self.instruct(block)
         self._slow_override |= block[2] == Code.SLOW_STOP
 
     def _start(self, block: bytes, direction: int, requested: int | None = None) -> SerialMotion:
-        # Pending reports are older than this motion.
+        # Reports that are still pending now are older than this motion.
         self.window.collect()
         return super()._start(block, direction, requested)

@@ -47,8 +47,8 @@ from .wire import (
 
 # After a lost reply, the driver determines whether the instruction was executed, so that no motion is
 # executed twice. A repetition has no side effect if the instruction reads, sets a value or stops the motor. A
-# start is checked with the state and the position. A toggle and a registration are checked with the status
-# before and after the instruction. In all other cases, LostReply is raised.
+# start is checked with the state and the position. An instruction that toggles a state, and a registration,
+# are checked with the status before and after the instruction. In all other cases, LostReply is raised.
 
 _TOGGLES = {Code.INTERLOCK: "interlock", Code.RUN_MONITOR: "run_monitored"}
 _REGISTERED = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
@@ -127,14 +127,17 @@ class LostReplyResolver:
     def error_for(self, refusal: CommandRefused) -> Exception:
         """Return the exception to raise for a rejection.
 
-        If a repeated change of speed is rejected, it is unknown whether the first one was executed.
+        If a repeated change of speed is rejected, it is unknown whether its first transmission was executed.
         """
         if self.repeated and self._block[2] == Code.RAMP_CHANGE:
             return self._lost_reply(f"its repetition was rejected ({refusal})")
         return refusal
 
     def _started(self) -> bool:
-        """Return True if the motion was started: from the state, the report of its end, or the position."""
+        """Return True if the motion was started.
+
+        The state, the report of its end, or the position shows this.
+        """
         station, motion = self._station, self._motion
         if motion is None or self._was_busy:
             raise self._lost_reply("it is unknown what the motor did before")
@@ -150,7 +153,7 @@ class LostReplyResolver:
         if added == 1:
             return True
         if added == 0 and not now.busy and not now.override_events:
-            return False  # the motor is stopped and no override waits for an event, so none was executed
+            return False  # the motor is stopped and no override waits for an event: none was executed
         raise self._lost_reply("overrides may have been executed since")
 
     def _buffered(self, now: Status) -> bool:
@@ -222,7 +225,7 @@ class StationLink:
         return self._station.number
 
     def open(self) -> None:
-        """Clear the record of the alarm. A station that was reset needs no other preparation."""
+        """Clear the record of the alarm. After a reset, a station needs no other preparation."""
         self._alarmed = False
 
     def next_block(self) -> Response:
@@ -232,7 +235,7 @@ class StationLink:
     # ------------------------------------------------------------------ instructions
 
     def execute(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
-        """Execute an instruction; return its response in the form of the parallel bus.
+        """Execute an instruction; return its response in the form that it has on the parallel bus.
 
         Args:
             milliseconds: longest execution time on the parallel bus.
@@ -257,7 +260,7 @@ class StationLink:
         raise resolver.error_for(serial_command_error(self._station._message_prefix, block[2], error, state))
 
     def read(self, code: int) -> bytes:
-        """Execute a read instruction that only the line has. Raises the error of the station."""
+        """Execute a read instruction that only the serial mode has. Raises the error of the station."""
         reply = self.request(bytes([code]))
         if reply.error is None:
             return reply.data

@@ -1,7 +1,7 @@
-"""Serial mode of the PPMC-312: frames, and conversion of bus blocks and back. Pure.
+"""Serial mode of the PPMC-312: frames, and their conversion from and to bus blocks. Pure.
 
-A frame consists of control code, hexadecimal characters and checksum. In most instructions, only the code
-differs from the block: it includes the flag byte.
+A frame consists of control code, hexadecimal characters and checksum. The content of most instructions
+differs from the bus block only in the code, which includes the flag byte.
 
 >>> line_data(blocks.acceleration(blocks.CW, 5000)).hex(" ")
 '83 00 00 00 00 13 88'
@@ -99,7 +99,7 @@ class Reply(NamedTuple):
 
 
 class Receiver:
-    """Receiver for the bytes of one reply of a station.
+    """Receiver for the bytes of one reply from a station.
 
     Args:
         gives: number of data bytes of a data reply. The instruction defines it; a reply does not contain its
@@ -152,7 +152,7 @@ DATA_BYTES = {
     ERROR_CODE: 1,
     ERROR_COUNTS: 3,
 }
-"""Codes of read instructions, and the number of bytes that they return."""
+"""Code of each read instruction, and the number of bytes that it returns."""
 LONGEST_EVENT = 10
 _MOTIONS = {
     Code.RAMP: 0x83,
@@ -221,7 +221,10 @@ def _motion(code: Code, data: bytes) -> bytes:
 
 
 def _event(flags: int, embedded: bytes) -> bytes:
-    """Return code and data of a registration, which has ten bytes for an instruction of any length."""
+    """Return code and data of a registration.
+
+    The data have ten bytes for a registered instruction of any length.
+    """
     code = 0x49 | (flags & 1) << 4 | (flags & 2) << 4
     if flags & 2:
         return bytes([code])

@@ -1,6 +1,7 @@
 """Phase currents that a PMC006B4 regulates.
 
-Set-ups of measurements on the golden model; ripple, error and distortion of the currents.
+The module sets up measurements on the golden model, and calculates ripple, error and distortion of the
+currents.
 """
 
 from __future__ import annotations
@@ -27,11 +28,11 @@ class Case:
 
     Attributes:
         cur: requested current in mA.
-        mstep, full: microsteps per full step (0: full steps), and speed in full steps/s; their product is at
-            most 16000.
-        emf: back EMF in V, 90 degrees ahead of the reference.
+        mstep, full: microsteps per full step (0 for full steps), and speed in full steps/s. The product of
+            both is at most 16000.
+        emf: amplitude of the back EMF in V; its phase is 90 degrees ahead of the reference.
         scomp: speed compensation P.
-        periods: electrical cycles that are measured.
+        periods: number of electrical cycles that are measured.
     """
 
     cur: int = 1000
@@ -76,7 +77,7 @@ class WaveMetrics(NamedTuple):
 
 
 class BootedMotor:
-    """Part after its boot, with its motor."""
+    """Golden model after its boot, with a motor."""
 
     def __init__(self, case: Case) -> None:
         self.case = case
@@ -199,7 +200,7 @@ def wave_metrics(measured: Waves, periods: int) -> WaveMetrics:
 def residual_current(measured: Waves) -> tuple[float, float]:
     """Return the largest and smallest mean current of steps whose reference is 0, in A.
 
-    The mean is calculated over the second half of each step. Without such a step, the result is 0.
+    The mean is calculated over the second half of each step. If there is no such step, the result is 0.
     """
     means = [0.0]
     for zero, span in groupby(zip(measured.reference, measured.current, strict=True), lambda one: not one[0]):

@@ -1,7 +1,8 @@
 """Motor and comparators on a PMC006B4: two windings between the half bridges.
 
-Currents are exact between two changes of the bridges: resistance, inductance, supply and a sinusoidal back
-EMF. Switches and diodes are ideal. Times are edges of `clk` in the interface and seconds inside.
+Between two changes of the bridges, the currents are calculated exactly from resistance, inductance, supply
+and a sinusoidal back EMF. Switches and diodes are ideal. Times are edges of `clk` in the public methods, and
+seconds in the other code.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ BRIDGES = {
     "b": ("bridge_b_en", "m20", "m21", "phase_b_ref", "phase_b_sign", "cmp_b"),
 }
 QUARTER = {"a": pi / 2, "b": 0.0}
-"""Phase A is the cosine of the angle."""
+"""Offset in rad between the angle and the argument of the sine: phase A is the cosine of the angle."""
 
 
 class Part(Protocol):
@@ -47,7 +48,7 @@ class Part(Protocol):
 
 @dataclass(frozen=True)
 class Motor:
-    """Winding, ohm > 0 and henry > 0, and supply of the bridges."""
+    """Winding and supply of the bridges; `ohm` and `henry` are greater than 0."""
 
     ohm: float = 1.0
     henry: float = 2e-3
@@ -99,7 +100,10 @@ class CurrentSegment:
 
 
 class ReferenceSegment:
-    """Reference in A from `begin` on, after a first-order low-pass filter; tau 0: no filter."""
+    """Reference in A from `begin` on, after a first-order low-pass filter.
+
+    For `tau` = 0, there is no filter.
+    """
 
     __slots__ = ("_from", "_tau", "begin", "sign", "to")
 
@@ -117,7 +121,7 @@ Piece = TypeVar("Piece", CurrentSegment, ReferenceSegment)
 
 
 class Winding:
-    """One phase: its current segment and comparator level, and all earlier ones."""
+    """One phase: its current segment and comparator level, and all earlier segments."""
 
     def __init__(self, motor: Motor, name: str, begin: float, tau: float) -> None:
         self._motor, self._tau = motor, tau
@@ -181,12 +185,14 @@ def _of(pieces: list[Piece], t: float) -> Piece:
 
 
 class Plant:
-    """Motor that replaces `model.run_until`; it sets comparator pins through `model.pins`.
+    """Motor on a golden model.
+
+    The motor replaces `model.run_until`, and sets the comparator pins with `model.pins`.
 
     Attributes:
         clk_hz: frequency of the model.
-        tau: time constant of the reference's low-pass filter in s; 0: an ideal reference.
-        windings: "a", "b".
+        tau: time constant of the reference's low-pass filter in s; 0 for an ideal reference.
+        windings: the phases, by their names "a" and "b".
     """
 
     def __init__(self, model: Part, clk_hz: int, motor: Motor | None = None, tau: float = 0.0) -> None:
@@ -195,7 +201,7 @@ class Plant:
         now = self.seconds(model.now)
         self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
         self._update_windings()
-        # Any caller that runs the model, for example a host, also advances the currents.
+        # Therefore, any caller that runs the model, for example a host, also advances the currents.
         model.run_until = self.run_until  # type: ignore[method-assign]
 
     def seconds(self, t: int) -> float:
@@ -220,7 +226,7 @@ class Plant:
         self._update_windings(emf_changed=True)
 
     def detach(self) -> None:
-        """Remove the motor, so that the model runs without it again."""
+        """Remove the motor; afterwards, the model runs without a motor again."""
         self._model.run_until = self._run  # type: ignore[method-assign] # restored
 
     # ------------------------------------------------------------------ time
@@ -233,7 +239,7 @@ class Plant:
                 self._model.pins(edge + 1, **levels)
 
     def pieces(self, t: int) -> Iterator[tuple[int, dict[str, int]]]:
-        """Yield the time up to edge t in pieces.
+        """Yield the time up to edge t in pieces in which no comparator level changes.
 
         A piece consists of its last edge and the comparator levels after this edge. Before the next piece,
         the caller runs the part to this edge and sets the levels.

@@ -14,7 +14,11 @@ SCALE = 256
 
 
 class Phase(NamedTuple):
-    """Reference of a phase: magnitude (0..255 of 4000 mA), and sign (1: M11 to M10 or M21 to M20)."""
+    """Current reference of a phase.
+
+    The magnitude is 0..255, where 255 means 4000 mA. The sign is 1 for a current from M11 to M10, or from M21
+    to M20.
+    """
 
     ref: int
     sign: int
@@ -53,7 +57,7 @@ def reference(unit: int, peak: int) -> Phase:
 def references(angle: int, peak: int) -> References:
     """Return the references of both phases at an angle (P006-EXC-12, -14).
 
-    The angle includes the advance.
+    The angle includes the lead angle.
     """
     return References(reference(angle + QUARTER, peak), reference(angle, peak))
 
@@ -62,7 +66,7 @@ def peak_code(base: int, added: int, busy: bool, decayed: bool, att: int) -> int
     """Return the peak code RI (P006-EXC-30).
 
     Args:
-        base: base code.
+        base: peak code without compensation.
         added: code that the current compensation adds.
         busy: level of BUSY.
         decayed: True if the current has decayed by 2^att.

@@ -1,6 +1,6 @@
 """Chopper of one phase of the PMC006B4 (P006-CHP-02..06).
 
-A fixed off time is followed by on or fast decay.
+After each fixed off time, the bridge is on or in fast decay.
 
 The model is driven by events: timers, and changes of the comparator, the reference and the enable. In this
 module, an edge is the edge at which the half-bridge commands change.
@@ -17,7 +17,11 @@ from ...clock import Event, Scheduler
 
 
 class State(Enum):
-    """OFF: both low sides on. ON: supply in the direction of the sign. FAST: supply against it."""
+    """States of the bridge.
+
+    OFF: both low sides are on. ON: the supply is connected in the direction of the sign. FAST: the supply is
+    connected against the sign.
+    """
 
     OFF = "off"
     ON = "on"
@@ -26,7 +30,11 @@ class State(Enum):
 
 @dataclass(frozen=True)
 class Times:
-    """Numbers of cycles: off time, blanking, longest fast decay, from a change of the sign to OFF."""
+    """Times of a chopper in cycles.
+
+    They are the off time, the blanking time, the longest fast decay, and the delay from a change of the sign
+    to the state OFF.
+    """
 
     off: int
     blank: int
@@ -111,7 +119,10 @@ class Chopper:
             self._at(t + self._times.off, self._decide)
 
     def _decide(self, t: int) -> None:
-        """Select on or fast decay after the off time; if the reference is 0, the current must not rise."""
+        """Select on or fast decay after the off time.
+
+        If the reference is 0, the current must not rise.
+        """
         if self._cmp:
             self._enter(t, State.FAST)
         else:

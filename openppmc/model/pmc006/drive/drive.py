@@ -27,7 +27,7 @@ class Stream:
 
     Rule: P006-EXC-40.
 
-    The level is calculated on demand.
+    The level is calculated only when it is requested.
     """
 
     def __init__(self, t: int) -> None:
@@ -53,7 +53,9 @@ class Stream:
 
 
 class Drive:
-    """Drive. The log contains the outputs phase_*, bridge_* and m10 .. m21; `level` returns pwm_*.
+    """Drive of both phases.
+
+    The log contains the outputs phase_*, bridge_* and m10 .. m21. `level` returns pwm_*.
 
     Args:
         t_off_ns, t_blank_ns: off time and blanking time of the chopper.

@@ -82,7 +82,7 @@ class ExecutionContext:
     # ------------------------------------------------------------------ effects and events
 
     def execute(self, t: int, effect: Effect) -> None:
-        """Apply the effects that precede the processing of the motion at edge t."""
+        """Apply the effects of an instruction that precede the processing of the motion at edge t."""
         if effect.halt:
             self.services.queue.at(t, Phase.GUARD, self._halt)
         if effect.early_action:
@@ -90,7 +90,7 @@ class ExecutionContext:
             self.services.queue.at(t, Phase.GUARD, lambda now: early_action(self, now))
 
     def commit(self, t: int, effect: Effect) -> None:
-        """Apply the effects that follow the processing of the motion at edge t."""
+        """Apply the effects of an instruction that follow the processing of the motion at edge t."""
         self.settings.load(effect.registers or {})
         if effect.action:
             effect.action(self, t)
@@ -98,7 +98,7 @@ class ExecutionContext:
             self._changed(t)
 
     def stop(self, t: int) -> None:
-        """Process a cause that stops a motion at edge t (P006-STA-10).
+        """Process at edge t a cause that stops a motion (P006-STA-10).
 
         A start at this edge is rejected.
         """
@@ -144,8 +144,8 @@ class ExecutionContext:
 class Executor:
     """Executor of instructions.
 
-    An instruction begins at an edge if its source (a frame or a running program) is present in the cycle
-    before.
+    An instruction begins at an edge if its source (a frame or a running program) was present in the previous
+    cycle.
 
     Args:
         answered: answered(t, data) is called with the data of the reply, which are sampled at edge t.

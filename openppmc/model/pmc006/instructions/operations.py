@@ -44,7 +44,7 @@ class KeyFilter:
         self._pending: Event | None = None
 
     def on_level(self, t: int, level: int) -> None:
-        """Process the synchronised level from edge t on."""
+        """Process a synchronised level that is present from edge t on."""
         if level == self._level:
             return
         self._level = level
@@ -84,7 +84,7 @@ class NextAction(Enum):
 
 
 class Outcome(NamedTuple):
-    """Effect on the part, and the next action.
+    """Effect of a program instruction on the part, and the next action of the processor.
 
     Attributes:
         target: target of a jump.
@@ -108,7 +108,7 @@ class Operation:
     single = True
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome for these fields; `operand` is signed."""
+        """Return the outcome of the instruction with these fields; `operand` is signed."""
         return Outcome(next_action=NextAction.HALT)
 
 
@@ -120,9 +120,9 @@ class End(Operation):
 
 @dataclass
 class HostInstruction(Operation):
-    """Host instruction of this letter.
+    """Host instruction as an instruction of the program.
 
-    The data of the instruction are the operand, or the entry of `data` for this operand.
+    The data of the host instruction are the operand, or the entry of `data` for this operand.
     """
 
     letter: str
@@ -164,7 +164,7 @@ class Jump(Operation):
     """Instructions JMP, JNE and JEQ.
 
     Attributes:
-        on: values of FLAG for which it jumps.
+        on: values of FLAG for which the instruction jumps.
     """
 
     on: Container[int]
@@ -194,7 +194,7 @@ class Out(Operation):
     """Instruction OUT."""
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome, one bit of GPO."""
+        """Return the outcome, which sets one bit of GPO."""
         if option not in range(1, 6):
             return NOTHING
         mask = 1 << option - 1

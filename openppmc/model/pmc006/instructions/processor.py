@@ -1,4 +1,4 @@
-"""Processor of the PMC006B4's user program: states, keys (P006-PRG)."""
+"""Processor of the PMC006B4's user program: its states, and the keys (P006-PRG)."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ class Processor:
             self._context.services.queue.at(t, Phase.END, self._hold)
 
     def _hold(self, t: int) -> None:
-        """Change to the state HELD after all other events of this edge."""
+        """Change to the state HELD after all other events of this edge are processed."""
         if self.state is not State.HALT:
             self.pc, self.state, self.paused = self.target, State.HELD, False
 
@@ -155,7 +155,7 @@ class Processor:
             self._context.services.queue.at(t, Phase.END, self._pause)
 
     def _pause(self, t: int) -> None:
-        """Toggle PAUSED after all other events of this edge."""
+        """Toggle PAUSED after all other events of this edge are processed."""
         if self.state in (State.RUN, State.WAIT):
             self.paused = not self.paused
             self._executor.resume(t)

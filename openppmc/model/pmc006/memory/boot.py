@@ -1,4 +1,7 @@
-"""Power-up of the PMC006B4: restore key, bus, parameters, program (docs/pmc006/README.md, 14 EEPROM)."""
+"""Power-up of the PMC006B4 (docs/pmc006/README.md, 14 EEPROM).
+
+The sequence checks the restore key, releases the bus, and reads the parameters and the program.
+"""
 
 from __future__ import annotations
 
@@ -61,14 +64,14 @@ class Boot:
         self._whole = True
 
     def _copy_read_sequence(self) -> BusSequence[None]:
-        """Page 0 is invalid: read its copy into the same buffer."""
+        """Page 0 is invalid, so read its copy into the same buffer."""
         yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
         self._whole = True
 
     # ------------------------------------------------------------------ processing of the data
 
     def _process_program(self, t: int) -> None:
-        """Process the program; the bus has been idle for one cycle."""
+        """Process the program that was read. The bus has been idle for one cycle."""
         words = program_of(bytes(self._rest)) if self._whole else None
         self._valid = words is not None
         self._context.program.words[:] = words or [0] * (SIZE // 4)

@@ -12,14 +12,14 @@ from ..execution_context import ExecutionContext
 from ..pins import Services, Ticks
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 
-# I2C master of the PMC006B4 with a resolution of quarter bits (docs/pmc006/README.md, 14). The actions of a
-# master are generators: each `yield` waits for the next quarter tick, and the code after it runs at the edge
-# of this tick.
+# I2C master of the PMC006B4, modelled with a resolution of quarter bits (docs/pmc006/README.md, 14). The
+# actions of a master are generators: each `yield` waits for the next quarter tick, and the code after it runs
+# at the edge of this tick.
 
 R = TypeVar("R")
 BusSequence = Generator[None, None, R]
 LOW = Fraction(55, 100)
-"""Fraction of a period for which SCL is low: slightly more than two quarters."""
+"""Fraction of an SCL period for which SCL is low: slightly more than two quarters."""
 
 
 class BusError(Exception):
@@ -33,7 +33,7 @@ class Bus:
         levels: synchronised levels of the lines.
         hz: frequency of SCL.
         tick: number of the current quarter tick.
-        per_ms: quarter ticks of a millisecond.
+        per_ms: number of quarter ticks in a millisecond.
     """
 
     def __init__(self, services: Services, levels: Mapping[str, int], hz: int) -> None:
@@ -45,7 +45,7 @@ class Bus:
 
     @property
     def per_ms(self) -> int:
-        """Quarter ticks of a millisecond."""
+        """Number of quarter ticks in a millisecond."""
         return 4 * self.hz // 1000
 
     # ------------------------------------------------------------------ time
@@ -83,7 +83,7 @@ class Bus:
         self._services.log.set(self._now, f"{line}_oe", int(not level))
 
     def _release_scl(self) -> None:
-        """Release SCL when it was low for the required time."""
+        """Release SCL when SCL was low for the required time."""
         at = self._now + self._scl_low_cycles
         self._services.queue.at(at, Phase.PIN, lambda now: self._services.log.set(now, "scl_oe", 0))
 
@@ -132,7 +132,7 @@ class Bus:
         return received
 
     def _bit_now(self, level: int) -> BusSequence[int]:
-        """Send or receive a bit, from its first tick to the tick that samples it."""
+        """Send or receive a bit; the generator ends at the tick that samples the bit."""
         self._drive("scl", 0)
         self._drive("sda", level)
         yield
@@ -201,7 +201,7 @@ class Engine:
         device: address of the device.
 
     Attributes:
-        failed: True if the last job except BOOT ended without a response of the device.
+        failed: True if the last job other than BOOT ended because the device did not respond.
     """
 
     def __init__(self, context: ExecutionContext, bus: Bus, device: int) -> None:
@@ -266,7 +266,7 @@ class Engine:
             self.begin(t + 1, "fact")
 
     def restore(self, t: int) -> None:
-        """Process FSET after all other events of edge t (P006-EEP-22)."""
+        """Process FSET after all other events of edge t are processed (P006-EEP-22)."""
         if self._kind is None:
             self.begin(t + self._context.services.core_timing.fact, "fact")
         else:
@@ -305,7 +305,7 @@ class Engine:
                 raise BusError
 
     def poll(self) -> BusSequence[None]:
-        """Address the device repeatedly until it responds, for at most 10 ms."""
+        """Address the device repeatedly for at most 10 ms, until it responds."""
         first: int | None = None
         while first is None or self._bus.tick + 1 - first < POLL_MS * self._bus.per_ms:
             first = self._bus.tick + 1 if first is None else first

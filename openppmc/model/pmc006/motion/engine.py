@@ -17,14 +17,14 @@ from typing import NamedTuple
 # of 1 us. All results are exact.
 
 WHOLE = 1 << 32
-"""Value of the progress at the end of a ramp."""
+"""Value that the progress of a ramp has at its end."""
 UPDATES_HZ = 10_000
 STEEPEST = 5
-"""Largest coefficient."""
+"""Largest ramp coefficient."""
 SHORT = 256
 """Displacements below this number of steps have no S-curve (P006-MOT-23)."""
 SPARE = 3
-"""Number of steps that a fitted ramp leaves for CREEP (P006-MOT-11)."""
+"""Number of steps that remain for the stage CREEP after a fitted ramp (P006-MOT-11)."""
 
 
 def acceleration(n: int) -> int:
@@ -90,7 +90,7 @@ class Ramp(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Goal of the first ramp, and the coefficients to use."""
+    """Plan of a motion: goal of the first ramp, and the coefficients of the ramps."""
 
     goal: int
     acc: int
@@ -116,7 +116,7 @@ UPDATE = 100
 
 
 class Stage(Enum):
-    """States of the speed."""
+    """Stages of a motion."""
 
     CRUISE = "cruise"
     RAMP = "ramp"
@@ -167,14 +167,14 @@ class LiveRegisters(NamedTuple):
 class Engine:
     """One motion.
 
-    At t = 0, call `advance` and then `segment(99)`. At each update, call `load` and `segment`, and then,
-    unless `finished`, `advance`.
+    At t = 0, the user calls `advance` and then `segment(99)`. At each update, the user calls `load` and
+    `segment`, and then, unless `finished` is set, `advance`.
 
     Attributes:
-        speed: current V.
-        next_speed: V of the next update.
+        speed: current speed V.
+        next_speed: speed V from the next update on.
         steps_left: remaining steps, `None` in speed mode.
-        decel_start: (steps_left, speed) at which the last deceleration began, `None` before it.
+        decel_start: (steps_left, speed) at the beginning of the last deceleration, `None` before the first.
     """
 
     def __init__(self, request: MotionStart) -> None:
@@ -220,7 +220,9 @@ class Engine:
         self.speed = self.next_speed
 
     def segment(self, ticks: int = UPDATE) -> Sequence[int]:
-        """Return the times of the steps in the next `ticks` us at the current speed, each 1 .. ticks.
+        """Return the times of the steps in the next `ticks` us at the current speed.
+
+        Each time is 1 .. ticks.
 
         The last step of the motion sets `finished`.
         """
@@ -243,7 +245,8 @@ class Engine:
     def advance(self, live: LiveRegisters) -> None:
         """Calculate `next_speed` (docs/pmc006/README.md, 6.1 Exact arithmetic).
 
-        During an update interval, call it after the first us and before the second us is processed.
+        In each interval between updates, it must be called after the first us and before the second us is
+        processed.
         """
         if self.stage in (Stage.STOP, Stage.END) and not live.stop:
             self.stage, self._target = Stage.CRUISE, self.speed
@@ -279,7 +282,7 @@ class Engine:
             self.stage = Stage.CRUISE
 
     def _begin_final_decel(self) -> None:
-        """Begin the final deceleration of a displacement if it is required."""
+        """Begin the final deceleration of a displacement if the remaining steps require it."""
         slow, steps_left = self.request.ve, self._before
         if (
             steps_left is not None

@@ -53,7 +53,7 @@ class StopMonitor:
     # ------------------------------------------------------------------ emergency inputs
 
     def on_levels(self, t: int, levels: Mapping[str, int]) -> None:
-        """Process synchronised levels at edge t; a change may set a flag (P006-EXT-04)."""
+        """Process synchronised levels at edge t; a change may set a stop flag (P006-EXT-04)."""
         for place, ext in enumerate(EXTS):
             before, self._level[ext] = self._level[ext], levels[ext]
             active_level = self._regs.trigm >> place & 1
@@ -104,7 +104,7 @@ class StopMonitor:
         self.stall, self.stpos, self._set_at["stall"] = True, position, t
 
     def evaluate(self, t: int) -> None:
-        """Process the state after edge t."""
+        """Evaluate the state of the inputs and the motion after edge t."""
         if self._valid and self._sampled < t and self._is_monitoring:
             self._sample(t)
         if self.stall and self._regs.stcfg & 2 and self._context.motion.busy:
@@ -148,16 +148,16 @@ def base_code(cur: int) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def compensation(speed: int, mstep: int, cur: int, ccomp: int, scomp: int) -> tuple[int, int]:
-    """Return B and W at a speed (P006-EXC-21..23).
+    """Return the compensation B and the lead angle W at a speed (P006-EXC-21..23).
 
-    B is added to the peak code; W is the lead angle.
+    B is added to the peak code.
     """
     full = speed // max(1, mstep)
     return base_code(cur) * ccomp * full // (1 << 22), min(64, scomp * full // (1 << 16))
 
 
 class Listener(Protocol):
-    """Object that receives the events of a motion."""
+    """Members of the object that receives the events of a motion."""
 
     def moved(self, t: int, forward: bool, increment: int) -> None:
         """Process a step at edge t."""
@@ -210,12 +210,13 @@ class Motion:
     def speed_mode(self, t: int, on: int) -> None:
         """Change the register SPEED_MODE at edge t. In speed mode, 0 requests the end of the motion.
 
-        An update at edge t uses a 1 that is set before Phase.RUN. A 0 must be set after this phase.
+        A 1 that is set before Phase.RUN is effective for an update at the same edge. A 0 must be set after
+        Phase.RUN.
         """
         self._speed_mode = bool(on)
 
     def adc(self, t: int, data: int) -> None:
-        """Process a strobe of the analogue value, 0..1023, that edge t samples."""
+        """Process a strobe, sampled at edge t, of the analogue value, 0..1023."""
         self._adc_before, self._adc, self._adc_at = self._adc_read(t), data, t
 
     def halt(self, t: int) -> None:

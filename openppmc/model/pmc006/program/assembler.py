@@ -60,7 +60,7 @@ class _Assembler:
         self._lines: list[_Line] = []
 
     def run(self, text: str) -> Program:
-        """Process all names first, then the instructions."""
+        """Assembly of one text: all names are processed first, then the instructions."""
         number = 0
         for number, line in enumerate(text.splitlines(), 1):
             self._read(number, re.split("[;#]", line, maxsplit=1)[0].strip())
@@ -115,7 +115,7 @@ class _Assembler:
         return Instruction(kind.opcode, values[Place.OPTION], values[Place.OPERAND] & MASK)
 
     def _texts(self, line: _Line, kind: Kind) -> list[str | None]:
-        """Return the texts of all operands, `None` for an omitted one."""
+        """Return the texts of all operands, `None` for an omitted operand."""
         most = len(kind.operands)
         least = sum(one.default is None for one in kind.operands)
         if not least <= len(line.operands) <= most or "" in line.operands:

@@ -21,7 +21,7 @@ _INPUTS = {**{f"gpi{number}": number for number in range(1, 6)}, "ext1": 6, "ext
 
 
 class Place(Enum):
-    """Field of an operand."""
+    """Field of the instruction words that holds an operand."""
 
     OPTION = "option"
     OPERAND = "operand"
@@ -34,7 +34,8 @@ class Operand:
     Attributes:
         accepts: valid values.
         span: valid values as text.
-        names: words for values; if a value has several words, the first one is printed.
+        names: value of each word that a text may contain in place of a number. If a value has several words,
+            the first word is printed.
         target: True if the operand may be a label.
         default: value if the operand is omitted; `None` if it must not be omitted.
     """

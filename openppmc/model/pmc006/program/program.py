@@ -51,7 +51,10 @@ class Program:
 
     @property
     def used(self) -> tuple[Instruction, ...]:
-        """Instructions up to the first END after the last other instruction; at least one instruction."""
+        """Instructions up to and including the END that follows the last other instruction.
+
+        The result contains at least one instruction.
+        """
         last = max((place for place, word in enumerate(self.words) if word), default=-1) // 2
         return self.instructions[: last + 2]
 

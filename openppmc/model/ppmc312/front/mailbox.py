@@ -20,12 +20,12 @@ from .responses import Responses
 # a software reset replaces the registers, but a strobe in progress continues.
 
 SYNC = 2
-"""Cycles from the sampling of a pin to the decision that uses its level."""
+"""Number of cycles from the edge that samples a pin to the decision that uses its level."""
 IDLE = {"cs_n": 1, "we_n": 1, "oe_n": 1, "rs": 0, "d_i": 0}
 
 
 class Registers(Protocol):
-    """Registers that are read and written."""
+    """Members of the registers that the strobes use."""
 
     def store(self, t: int, reg: int, byte: int) -> None:
         """Process the end of a write strobe."""
@@ -37,14 +37,14 @@ class Registers(Protocol):
         """Process the end of a read strobe."""
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """Process the register of the strobe that is sampled at edge t, `None` without a strobe."""
+        """Process the strobe that is sampled at edge t: its register, or `None` without a strobe."""
 
 
 class Strobes:
     """Strobes of the bus.
 
     Args:
-        registers: the current registers, which are in reset up to and including edge `closed`.
+        registers: the current registers. They are in reset up to and including edge `closed`.
     """
 
     def __init__(self, queue: Scheduler, log: EdgeLog, registers: Registers) -> None:
@@ -69,7 +69,7 @@ class Strobes:
         self.registers.access(t, reg, self._writing)
 
     def _on_levels(self, t: int, pins: Mapping[str, int]) -> None:
-        """Process levels that decisions use from edge t on."""
+        """Process bus levels that decisions use from edge t on."""
         is_selected = not pins["cs_n"] and pins["we_n"] != pins["oe_n"]
         writing, reading = bool(is_selected and not pins["we_n"]), bool(is_selected and not pins["oe_n"])
         is_open, old, wrote, was_reading = t > self._closed, self._pins, self._writing, self._reading
@@ -162,7 +162,7 @@ class Mailbox:
         self._loading = self._context.queue.at(at, Phase.PINS, self._load)
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
-        """Do nothing, because the store of responses holds the response."""
+        """Do nothing, because on the parallel bus the store of responses holds the response."""
 
     def levels(self) -> dict[str, int]:
         """Return the internal level of irq_n."""
@@ -180,7 +180,10 @@ class Mailbox:
         return self._busy or not self._is_ready
 
     def _load(self, t: int) -> None:
-        """Select the response to load. The host can read it after its bytes have been loaded."""
+        """Select the response to load.
+
+        The host can read the response after its bytes have been loaded.
+        """
         self._loading = None
         selected = self._responses.select()
         if selected is not None:
@@ -234,7 +237,7 @@ class Mailbox:
     def after_read(self, t: int, reg: int) -> None:
         """Process the end of a read strobe.
 
-        A strobe that began before the response was loaded has not read a byte of it.
+        A strobe that began before the response was loaded has read no byte of the response.
         """
         if not self._response_was_read:
             return

@@ -31,7 +31,7 @@ class Report:
     """Report or response: its blocks that the host has not read yet, in logical order.
 
     Attributes:
-        source: source of the instruction of a response.
+        source: source of the instruction to which this is the response.
     """
 
     kind: int
@@ -67,7 +67,7 @@ class Responses:
         self.loaded: Report | None = None
 
     def waiting(self, kind: int) -> list[Report]:
-        """Return the reports of a class that are not loaded, oldest first."""
+        """Return the reports of a class that are not loaded yet, oldest first."""
         return [report for report in self._stores[kind] if report is not self.loaded]
 
     def occupied(self, kind: int) -> bool:
@@ -94,7 +94,9 @@ class Responses:
         return self.post(t, kind, [block(SPONTANEOUS, code, *content)])
 
     def input_change(self, t: int, data: int) -> None:
-        """Store report E9. If two are waiting already, the new data replace those of the second.
+        """Store report E9.
+
+        If two reports E9 are waiting already, the new data replace those of the second one.
 
         Rule: P312-RSP-21.
         """
@@ -102,7 +104,7 @@ class Responses:
             self._stores[INPUT][1].blocks = [block(SPONTANEOUS, Answer.INPUT_CHANGE, 1, data)]
 
     def discard(self, kind: int) -> None:
-        """Discard the reports of a class that are not loaded."""
+        """Discard the reports of a class that are not loaded yet."""
         self._stores[kind] = [report for report in self._stores[kind] if report is self.loaded]
 
     # ------------------------------------------------------------------ methods that the host side calls
@@ -110,8 +112,8 @@ class Responses:
     def select(self) -> bytes | None:
         """Return the next block for the host (P312-RSP-11).
 
-        Of the classes with reports, the one with the lowest number is first. While a response is about to be
-        stored, reports of classes 3 to 8 wait.
+        The block belongs to the class with the lowest number that holds a report. While a response is about
+        to be stored, reports of classes 3 to 8 wait.
         """
         for kind in CLASSES:
             if self._stores[kind] and (kind <= ANSWER or self.serial or not self._response_pending()):

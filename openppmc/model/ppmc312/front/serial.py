@@ -32,7 +32,7 @@ class Outcome(Enum):
 
 
 class Frame(NamedTuple):
-    """Complete frame; for an instruction, with its code and data."""
+    """Complete frame. The frame of an instruction has a code and data."""
 
     outcome: Outcome
     code: int = 0
@@ -138,11 +138,11 @@ def _bytes(characters: bytes) -> bytes | None:
 
 
 _CYCLES = {5: Fraction(2500, 3), 6: Fraction(2500, 6), 7: Fraction(192)}
-"""Crystal cycles of a bit, by mod[2:0]."""
+"""Number of crystal cycles of a bit, by the level of mod[2:0]."""
 
 
 def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
-    """Return the cycles of a bit.
+    """Return the number of cycles of a bit.
 
     The result is `None` if mod selects no documented speed; then the station does not send.
     """
@@ -177,7 +177,7 @@ class ReportCode(IntEnum):
 
 @unique
 class Local(IntEnum):
-    """Instructions to which the station itself replies, without the instruction unit."""
+    """Codes of instructions to which the station itself replies, without the instruction unit."""
 
     END_STATUS = 0x40
     ERROR_CODE = 0x4E
@@ -205,10 +205,16 @@ ERRORS = {
     Answer.REGISTRATION: ReportCode.REGISTRATION,
 }
 _TRIGGERS = {0x00: (0x00, 0), 0x10: (OV, 4), 0x20: (OV | 1, 0), 0x30: (OV | 3, 0)}
-"""Flag byte and number of further bytes, by bits 5:4 of the codes 80, 81, 89, 8A (P312-SER-40)."""
+"""Flag byte and number of further bytes (P312-SER-40).
+
+A key is the value of bits 5:4 in the codes 80, 81, 89 and 8A.
+"""
 _AUTO = 0x02
 _REJECTED = (1, 2, 5)
-"""Status bytes of instruction 49: trigger in use, buffer full, nothing to delete (P312-SER-43)."""
+"""Status bytes with which instruction 49 is rejected (P312-SER-43).
+
+They mean: trigger in use, buffer full, nothing to delete.
+"""
 
 
 class SerialInstruction(NamedTuple):

@@ -46,7 +46,7 @@ class HostSide(Protocol):
         """Return the internal levels of the pins of this side."""
 
     def notify_response(self, t: int) -> None:
-        """Process a response that may be in the store."""
+        """Process the event that the store may contain a new response."""
 
     def done(self, t: int) -> None:
         """Process the end of an instruction of the host, when its response is stored."""
@@ -57,7 +57,7 @@ class HostSide(Protocol):
     def answer(self, t: int, source: Source, block: bytes) -> None:
         """Send the response to an instruction.
 
-        This is for the serial mode, in which no store holds responses.
+        Only the serial mode uses this method, because there no store holds responses.
         """
 
 
@@ -109,14 +109,18 @@ class Core(Protocol):
 
 
 class Log(NamedTuple):
-    """(edge at which snd rises, frame) and (edge in the middle of the stop bit, character)."""
+    """Logs of the line.
+
+    An entry of `replies` is (edge at which snd rises, frame), an entry of `sent` (edge in the middle of the
+    stop bit, character).
+    """
 
     replies: list[tuple[int, bytes]]
     sent: list[tuple[int, int]]
 
 
 class Driver(NamedTuple):
-    """SND_LEAD and SND_WAIT in bits (P312-SER-18).
+    """The parameters SND_LEAD and SND_WAIT in bits (P312-SER-18).
 
     Attributes:
         lead: bits from the rising edge of snd to the start bit.
@@ -287,7 +291,7 @@ class Station:
     def _poll(self, t: int) -> tuple[int, bytes]:
         """Return the reply to a poll (P312-SER-30).
 
-        The priority is: the alarm, the result of an event or override, the other classes.
+        The order of priority is: the alarm, the result of an event or override, the other classes.
         """
         responses = self._core.responses
         if self._result_code is not None and not responses.alarm_waits:

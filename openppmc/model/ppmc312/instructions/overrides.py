@@ -101,9 +101,9 @@ class Fifo:
     """FIFO of registered overrides.
 
     Attributes:
-        waiting: entries that are not released yet; only the first one, the head, can be released.
+        waiting: entries that are not released yet. Only the first entry, the head, can be released.
         triggered: released entries that are not processed yet.
-        armed: cycles from a release to the arming of the next head.
+        armed: number of cycles from a release to the arming of the next head.
     """
 
     def __init__(self, armed: int) -> None:
@@ -118,7 +118,7 @@ class Fifo:
         return len(self.waiting) >= FIFO_DEPTH
 
     def uses(self, trigger: Trigger) -> bool:
-        """Return True if an entry waits for this trigger."""
+        """Return True if any entry waits for this trigger."""
         return any(entry.trigger is trigger for entry in self.waiting)
 
     def register(self, entry: Entry, armed_from: int) -> None:
@@ -146,7 +146,7 @@ class Fifo:
         return True
 
     def count(self, t: int, position: int) -> Triggered | None:
-        """Process the arrival at this position; return the entry if the position releases the head."""
+        """Process the arrival at this position; return the head if the position releases it."""
         head = self.waiting[0] if self.waiting else None
         if head is None or head.trigger is not Trigger.POSITION or head.position != position:
             return None
@@ -177,7 +177,7 @@ class EventBuffer:
         self.next = 0
 
     def delete(self) -> None:
-        """Remove the last entry, if any. If no entry is left, discard a stored edge."""
+        """Remove the last entry, if any. If no entry is left, discard a stored event edge."""
         if self.entries:
             self.entries.pop()
             self.next = 0
@@ -190,11 +190,11 @@ class EventBuffer:
         return block
 
     def clear(self) -> None:
-        """Clear the buffer, and discard a stored edge."""
+        """Clear the buffer, and discard an event edge that is stored."""
         self.entries.clear()
         self.next, self.edge = 0, None
 
     def read(self) -> bytes:
-        """Return the parameters of the response to 47 (P312-CMD-47)."""
+        """Return the parameters of the response to instruction 47 (P312-CMD-47)."""
         codes = bytes(block[2] for block in self.entries).ljust(BUFFER_DEPTH, b"\0")
         return bytes([len(self.entries), self.next]) + codes

@@ -1,4 +1,7 @@
-"""Setting instructions of the PPMC-312: 00..06 (P312-CMD-00..06)."""
+"""Setting instructions of the PPMC-312: 00..06 (P312-CMD-00..06).
+
+Each function checks the parameters of an instruction and returns its work (`work.Work`).
+"""
 
 from __future__ import annotations
 

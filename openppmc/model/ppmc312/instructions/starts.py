@@ -1,4 +1,4 @@
-"""Operation instructions of the PPMC-312: 10, 11, 80..88 with OV = 0.
+"""Operation instructions of the PPMC-312: 10, 11, and 80..88 with OV = 0.
 
 Rules: P312-BLK-01, P312-CMD-10, -11, -80..88 (parameter checks and starts).
 """
@@ -41,19 +41,20 @@ FIFO_FULL, EVT_IN_USE = 0x00, 0x01
 
 
 def is_reset(block: bytes) -> bool:
-    """Return True for a valid block 03 01 FF, the software reset."""
+    """Return True for the block 03 01 FF, which is the software reset."""
     return block == bytes([CODE_LAST, 1, Code.RESET])
 
 
 def check(core: Core, block: bytes, source: Source, at_position: bool = False) -> Work:
-    """Check a block in logical order; return its work.
+    """Check a block in logical order; return its work (`work.Work`).
 
     Args:
         at_position: True if a position has released the block; this affects the DATASHEET time of instruction
             80.
 
     Raises:
-        Rejection: the block is rejected. The state that this rejection clears has already been cleared.
+        Rejection: the block is rejected. If this rejection clears some state, the state has already been
+            cleared.
     """
     _check_size(core, block)
     header, body = block[0], block[2:]
@@ -175,11 +176,11 @@ def _count(data: bytes) -> int:
 
 
 def _plan(code: int, table: Table, data: bytes) -> tuple[Plan, int]:
-    """Return the plan of a start, and its DATASHEET time to pulse 1."""
+    """Return the plan of a start, and the time to its pulse 1 with DATASHEET timing."""
     given = data[1:3]
     if code == Code.RAMP:
         given = data[1:3] if len(data) == 7 else b"\0\0"
-        count = _count(data[-4:])  # this is checked before the rate
+        count = _count(data[-4:])  # the pulses are checked before the rate
         plan = ramped(table, _rate(table, given), count)
         if any(given):
             slow = timing.TRAPEZOID_RATE, timing.OTHER_SHAPE_RATE

@@ -22,7 +22,7 @@ _TERMINALS = (
 
 
 def _bits(values: Sequence[int | bool]) -> int:
-    """Return the values as bits; the first one is the most significant bit."""
+    """Return the values as the bits of a number; the first value is the most significant bit."""
     return sum(bool(value) << place for place, value in enumerate(reversed(values)))
 
 
@@ -33,7 +33,7 @@ def terminals(core: Core) -> bytes:
 
 
 def status(core: Core) -> bytes:
-    """Return the parameters of the response to 4D (P312-CMD-4D)."""
+    """Return the parameters of the response to instruction 4D (P312-CMD-4D)."""
     operation, monitors, fifo = core.operation, core.monitors, core.fifo
     first = [
         operation.run_ignored,
@@ -144,7 +144,7 @@ _READS: dict[int, Callable[[Core, bytes], bytes]] = {
     Code.EVENT_READ: _event_read,
     Code.STATUS: lambda core, data: status(core),
 }
-# Actions of the other instructions at edge t. They return the parameters of the response.
+# Actions of the instructions that have an effect at edge t. They return the parameters of the response.
 _ACTIONS: dict[int, Callable[[Core, int, bytes], bytes]] = {
     Code.EXCITATION_ON: _set(exon_n=0),
     Code.EXCITATION_OFF: _set(exon_n=1),
@@ -175,7 +175,7 @@ def _check_event(data: bytes) -> None:
 
 
 def execute(core: Core, code: int, data: bytes) -> Work:
-    """Return the work of one of these instructions with a legal length.
+    """Return the work of an instruction of this module that has a legal length.
 
     Args:
         data: parameters of the instruction.

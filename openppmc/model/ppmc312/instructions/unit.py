@@ -58,7 +58,7 @@ class Unit:
         self._storing = False
         self._waiting_block: bytes | None = None
         self._open_from = 0
-        """First edge at which the store may accept a response after the previous one was read."""
+        """First edge at which the response store may accept a response after the previous one was read."""
         self._alarming = False
         self._next_blocks: list[bytes] = []
         self.response_pending = False
@@ -94,7 +94,7 @@ class Unit:
     def _at(self, t: int, action: Callable[[int], None]) -> None:
         """Schedule an action that precedes the other events of edge t.
 
-        Thus, instructions use the state before this edge.
+        Thus, instructions use the state that was valid before this edge.
         """
         self._core.context.queue.at(t, Phase.BUS, action)
 
@@ -120,7 +120,7 @@ class Unit:
             self._begin(t, job)
 
     def _unread(self) -> bool:
-        """Return True if a response has not been read, or is about to be stored."""
+        """Return True if a response is unread, or is about to be stored."""
         occupied = bool(self._core.responses.answer) or self._storing
         return occupied or (not self._answered and self._host is None)
 
@@ -249,7 +249,7 @@ class Unit:
         self.response_pending = False
         self._core.host.notify_response(t)
         if work.check:
-            # The check uses the levels at that edge.
+            # The check uses the levels at its own edge, not at the current edge.
             check_at = t + self._core.core_timing.limits
             self._core.context.queue.at(
                 check_at, Phase.COMMAND, lambda now: self._check_limits(now, job, work, finish_at)
@@ -299,7 +299,7 @@ class Unit:
     def _enable_next(self, t: int) -> None:
         """End the processing of an instruction, so that the next one can begin."""
         self._idle(t)
-        # While a response must wait because another one is unread, other reports may precede it.
+        # While a response must wait because another response is unread, reports may be stored before it.
         self.response_pending = self._core.responses.answer is None
         self._core.operation.motion.schedule_standstill_check(t)
         self.schedule(t)
@@ -352,7 +352,8 @@ class Unit:
     def _fetch(self, t: int) -> None:
         """Begin to assemble the next block of a table read.
 
-        A triggered instruction that waits at this edge is a multiple occurrence, which is processed first.
+        If a triggered instruction is waiting at this edge, this is a multiple occurrence, which is processed
+        first.
         """
         if waiting := self._first_waiting(t):
             self._multiple_occurrence(t, waiting)

@@ -13,7 +13,7 @@ class Rejection(Exception):  # noqa: N818 - an answer, not a fault of the progra
     """Rejection of an instruction, with an abnormality response.
 
     Args:
-        number: error number, status or length byte, as the response requires.
+        number: byte of the response that states the reason: error number, status or length byte.
         clk: cycles from the effect of a short instruction to the rejection.
     """
 
@@ -26,12 +26,12 @@ class Work(NamedTuple):
     """Work of an instruction that has passed its checks.
 
     Attributes:
-        finish: finish(t) executes it at its edge. It returns the response without header and length, or
+        finish: finish(t) executes the work at edge t. It returns the response without header and length, or
             several whole blocks; it may raise Rejection.
         clk: cycles from the effect of a short instruction to finish.
         cycles: DATASHEET time in crystal cycles, from the write of the header or from the trigger; `None` if
             the time is that of FAST.
-        starts: True if this time ends at pulse 1, which is TW after t0.
+        starts: True if the DATASHEET time ends at pulse 1, which is TW after t0.
         begin: begin(t) executes the first effect, at the edge at which a short instruction takes effect.
         check: check(t) checks the limits of a start before it is planned; it may raise Rejection.
     """
@@ -52,7 +52,7 @@ def rejection_block(rejection: Rejection, source: Source, state: State, given: b
     """Return the response (docs/ppmc312/README.md, 6.1 Blocks).
 
     Args:
-        given: code and parameters as received.
+        given: code and parameters of the instruction as received.
     """
     if source is not Source.HOST:
         failed = Answer.EVENT_FAILED if source is Source.EVENT else Answer.OVERRIDE_FAILED

@@ -1,4 +1,7 @@
-"""Input levels of the PPMC-312 that decisions use, and the generalized input: P312-INP-01, P312-MON-10."""
+"""Filtered input levels and the generalized input of the PPMC-312: P312-INP-01, P312-MON-10.
+
+Decisions use the filtered levels.
+"""
 
 from __future__ import annotations
 
@@ -105,7 +108,7 @@ class Outputs:
 
     def _after(self, name: str, t: int, cycles: int, action: Callable[[int], None]) -> None:
         self._cancel(name)
-        # The pin register adds the last cycle.
+        # The pin register adds the last cycle of the time.
         at = t + self._context.timebase.cyc(cycles - 1) + 1
         self._timers[name] = self._context.queue.at(at, Phase.CHOPPER, action)
 
@@ -115,7 +118,7 @@ class Outputs:
             event.cancel()
 
     def counter_clear(self, t: int) -> None:
-        """Execute instruction 22: start the pulse; if it is active already, start it again."""
+        """Execute instruction 22: start the pulse; a pulse that is already active starts again."""
         self.cclr_n = 0
         self._after("cclr", t, CLEAR_PULSE, self._counter_cleared)
 
@@ -140,19 +143,19 @@ class Outputs:
         self._cancel("cd")
 
     def pulses_ended(self, t: int) -> None:
-        """Start the time until the current reduction."""
+        """Start the timer of the current reduction."""
         self._after("cd", t, CURRENT_DOWN, self.reduce)
 
     def reduce(self, t: int) -> None:
-        """Activate the current reduction, because its time has expired or alm_n is low."""
+        """Activate the current reduction, because its timer has expired or alm_n is low."""
         self.cd_n = 0
 
     @property
     def values(self) -> tuple[int, ...]:
-        """Internal levels."""
+        """Internal levels of all outputs, in the order of `levels`."""
         return self.exon_n, self.cclr_n, self.aclr_n, self.zclmp_n, self.cd_n, self.auxo_n
 
     def levels(self) -> dict[str, int]:
-        """Return pin names and internal levels."""
+        """Return the internal level of each pin, by its name."""
         names = ("exon_n", "cclr_n", "aclr_n", "zclmp_n", "cd_n", "auxo_n")
         return dict(zip(names, self.values, strict=True))

@@ -24,7 +24,7 @@ class MotionRequest:
     """Request of an operation.
 
     Attributes:
-        target: rate that the start check compares with the high-speed limit.
+        target: rate that is compared with the high-speed limit before the start.
         origin: True if the operation ends at the origin.
         reverses_at_origin: True in phase 1 of a zero return.
         index: True if the origin also requires an index (index_n).
@@ -45,10 +45,10 @@ class Motion:
         pins: levels of the guarded inputs for decisions.
         speed_limit: returns HSL.
         on_count: on_count(t, direction) is called when POS counts a pulse.
-        on_compare: on_compare(t, direction) is called when POS is compared; it returns True for a stop at
-            this position (P312-OVR-12).
-        overrides_done: overrides_done() returns True if all instructions that such a stop waits for have been
-            processed.
+        on_compare: on_compare(t, direction) is called when POS is compared. It returns True if an override
+            stops the pulses at this position (P312-OVR-12).
+        overrides_done: overrides_done() returns True if all instructions for which a stop at a position waits
+            have been processed.
         on_end: on_end(t, cause) is called when the pulse output has ended, or with Cause.RETURN after phase 1
             of a zero return.
     """
@@ -129,7 +129,7 @@ class Motion:
         elif cause is Cause.ALARM and self._at_position and self._ended is Cause.STOP:
             self._replace_cause(t, cause)
         if cause is Cause.ALARM:
-            # In an alarm, a stop at a position no longer waits for the released instructions.
+            # After an alarm, a stop at a position no longer waits for the released instructions.
             self._context.queue.at(t + 1, Phase.BEGIN, self.check_standstill)
 
     def slow_stop(self, t: int) -> None:
@@ -145,7 +145,8 @@ class Motion:
     def _replace_cause(self, t: int, cause: Cause) -> None:
         """Replace the cause of an end.
 
-        The new cause is a stop between the phases of a zero return, or an alarm after a stop at a position.
+        The new cause is either a stop between the two phases of a zero return, or an alarm after a stop at a
+        position.
         """
         self._ended = cause
         self._standstill_at(t + 1)
@@ -256,7 +257,7 @@ class Motion:
             self._events["pulse"] = self._context.queue.at(boundary, Phase.BASE, self._pulse)
 
     def _pulse(self, t: int) -> None:
-        """Process the boundary at edge t: the next pulse, or the end."""
+        """Process the boundary between two intervals at edge t: output the next pulse, or end."""
         if not self.active:
             return
         sequence, constant = self.sequence, not self.sequence.in_table
@@ -268,8 +269,8 @@ class Motion:
         if isinstance(step, Cause):
             self._end(t, step)
             return
-        # Cancel the changes that were requested early enough for this boundary, if the sequence has dropped
-        # its change or begins a deceleration.
+        # If the sequence has discarded its waiting change or begins a deceleration, cancel the changes that
+        # were requested early enough for this boundary.
         lead = 1 if sequence.decel_begins else self._core_timing.change_lead
         if sequence.decel_begins or sequence.change_dropped:
             for since, event in self._changes:

@@ -25,10 +25,10 @@ class Operation:
     """Operation from its acceptance to its stop report.
 
     Args:
-        pins: input levels for decisions.
+        pins: input levels that decisions use.
         alarm: alarm(t, status) is called on a multiple occurrence (P312-RSP-20).
-        on_pulses_ended: on_pulses_ended(t) is called when the position has changed, and when the pulse output
-            has ended.
+        on_pulses_ended: on_pulses_ended(t) is called after each change of the position, and when the pulse
+            output has ended.
         overrides_done: overrides_done() returns False if a stop that was registered for a position has ended
             the pulses there, but has not been processed yet.
         abnormal: abnormal() returns True in state ABN.

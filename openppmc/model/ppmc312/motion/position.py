@@ -15,7 +15,10 @@ from ..timing import CoreTiming
 
 _WRAP = (1 << 32) - 1
 _LONG, _SHORT = 14, 4
-"""Numbers of cycles until all comparisons are stable: with a monitor on, and with both off."""
+"""Numbers of cycles until all comparisons are stable.
+
+The first applies if at least one monitor is on, the second if both are off.
+"""
 
 
 @dataclass
@@ -52,7 +55,7 @@ class Interlock:
     on: bool = False
 
     def arrives(self, position: int) -> bool:
-        """Process the arrival at this position; return True if it ends the interlock control."""
+        """Process the arrival at this position; return True if the interlock control ends here."""
         ends = self.on and position == self.position
         self.on = self.on and not ends
         return ends
@@ -61,7 +64,7 @@ class Interlock:
 class Monitor:
     """In-position or encode monitor.
 
-    It sends reports of one class when the distance of POS and ENC enters or leaves a range.
+    It sends reports of one class when the distance between POS and ENC enters or leaves a range.
 
     Attributes:
         enabled: bit EN of the status.
@@ -120,7 +123,7 @@ class Monitor:
             self.enabled, self._report_pending = False, True
 
     def was_read(self, t: int) -> None:
-        """Process the read of a report."""
+        """Process the event that the host has read a report of this monitor."""
         self._reported = self._loaded_state
         self._report_from = t + 1
 
@@ -206,7 +209,7 @@ class WindowMonitors:
             self._queue.at(t + 1, Phase.PIN, self._clock)
 
     def was_read(self, t: int, kind: int) -> None:
-        """Process the read of E3 or E4."""
+        """Process the read of the report E3 or E4."""
         for monitor in (self.in_position, self.encode):
             if monitor.kind == kind:
                 monitor.was_read(t)

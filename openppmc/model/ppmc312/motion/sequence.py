@@ -58,7 +58,7 @@ class Sequence:
 
     @property
     def complete(self) -> bool:
-        """True after pulse N."""
+        """True after the last pulse, number N."""
         return self.done == self.plan.n
 
     @property
@@ -68,7 +68,7 @@ class Sequence:
 
     @property
     def present(self) -> Step:
-        """Current step; before pulse 1 the step of pulse 1."""
+        """Current pulse with its interval; before pulse 1, these are those of pulse 1."""
         return self.running or self.plan.step(1)
 
     # ------------------------------------------------------------------ requests
@@ -97,7 +97,10 @@ class Sequence:
         self._change_waits = True
 
     def change(self, change: Change) -> None:
-        """Record an instruction 87 or 88 for the next boundary. It replaces one that is waiting."""
+        """Record an instruction 87 or 88 for the next boundary.
+
+        The new instruction replaces an instruction that is waiting.
+        """
         self._change = change
         self._change_waits = change.ramp
 
@@ -109,7 +112,7 @@ class Sequence:
     # ------------------------------------------------------------------ boundary
 
     def boundary(self, ramps: bool = True, found: bool = True) -> Step | Cause:
-        """Return the next pulse, or the cause of the end.
+        """Return the next pulse with its interval, or the cause of the end.
 
         Cause.RETURN means that phase 1 of a zero return is over.
 
@@ -126,7 +129,7 @@ class Sequence:
             causes = self._requests
             self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
         else:
-            causes = set()  # wait, because the first stage of the deceleration is not known yet
+            causes = set()  # the first stage of the deceleration is not known yet
         if causes and self._mode is not _Mode.DECEL:
             end = self._decelerate(next(cause for cause in _ORDER if cause in causes))
             if end is not None:
@@ -147,7 +150,7 @@ class Sequence:
         return self.running
 
     def _decel_from(self, step: Step) -> list[list[int]]:
-        """Return the stages of a deceleration from a step, with their pulses (P312-MOT-20).
+        """Return the stages of a deceleration that begins at a step, with their pulses (P312-MOT-20).
 
         The list is empty if no deceleration is required.
         """

@@ -63,7 +63,7 @@ def show_talk(run: LineRun) -> None:
 
 
 def show_axes(run: LineRun, comparisons: list[Comparison]) -> None:
-    """Print for each axis its pulses, its polls and reports, and the comparison with its golden model."""
+    """Print, for each axis, its pulses, polls and reports, and the result of the comparison."""
     table = Table(title="Sixteen axes", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     heads = ("station", "pulse 1 / ms", "last pulse / ms", "pulses", "polls: busy", "stop reported / ms")
     for head in (*heads, "position read", "edges of the RTL", "edges of the model", "without a twin"):

@@ -29,7 +29,7 @@ class Exchange:
 
     @property
     def station(self) -> int:
-        """Number of the station."""
+        """Number of the station that the question addresses."""
         return self.question[0] & 15
 
     @property
@@ -39,7 +39,7 @@ class Exchange:
 
     @property
     def code(self) -> int:
-        """Instruction code; 0 for a poll, 100h for the initial setting."""
+        """Instruction code of the question; 0 for a poll, 100h for the initial setting."""
         return (self.data[0] or 0x100) if self.data else 0
 
     @property
@@ -49,7 +49,7 @@ class Exchange:
 
     @property
     def content(self) -> bytes:
-        """Data of the answer."""
+        """Data in the answer."""
         return bytes.fromhex(self.answer[1:-1].decode())
 
     @property
@@ -96,7 +96,7 @@ def as_text(frame: bytes) -> str:
 
 
 def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
-    """Return the exchanges in rows (begin, end, "master" or "station", hexadecimal text) sorted by time."""
+    """Return the frames as (begin, end, "master" or "station", hexadecimal text), sorted by time."""
     found: list[Exchange] = []
     for begin, end, who, text in talk:
         begin, end, data = int(begin), int(end), bytes.fromhex(str(text))

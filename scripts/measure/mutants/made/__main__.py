@@ -30,7 +30,7 @@ NOT_GUIDED = "run `make coverage` first to make this much faster"
 
 
 def known() -> dict[str, str]:
-    """Return key -> stamp of the killed mutants of unchanged files."""
+    """Return the stamp of each killed mutant whose file is unchanged, by the key of the mutant."""
     with Store() as store:
         return {
             done.key: stamp
@@ -40,7 +40,7 @@ def known() -> dict[str, str]:
 
 
 def on_file(keys: Container[str]) -> list[Done]:
-    """Return the last result of each of these mutants whose file has not changed since."""
+    """Return the last result of each of these mutants whose file has not changed since that result."""
     with Store() as store:
         found = {done.key: done for _, done in store.all(NAME) if done.key in keys and "file" in done.data}
     return [done for done in found.values() if done.data["file"] == digest(done.key.split(" ")[0])]

@@ -27,10 +27,7 @@ def folder_of(file: str) -> str:
 
 
 def rtl_files(word: str = "") -> list[str]:
-    """Return the files of a folder below rtl/ with this name, or else those whose path contains the word.
-
-    Raises ProjectError if there are none.
-    """
+    """Return the files of a folder of rtl/, or those with the word in their path, or raise ProjectError."""
     every = [relative(path) for path in sorted(RTL.rglob("*.sv"))]
     every = [file for file in every if folder_of(file) not in LEFT_OUT]
     found = [file for file in every if folder_of(file) == word] or [file for file in every if word in file]
@@ -45,7 +42,7 @@ def _lot(file: str, number: int) -> str:
 
 
 def sample(files: Sequence[str], count: int | None) -> Iterator[tuple[str, Fault]]:
-    """Yield `count` pseudo-random mutants of each folder; a higher count keeps those of a lower count."""
+    """Yield `count` pseudo-random mutants of each folder; a higher count yields the same and further ones."""
     lots = [(_lot(file, fault.number), file, fault) for file in files for fault in of_file(file)]
     drawn: Counter[str] = Counter()
     kept = []

@@ -29,7 +29,7 @@ SWAPS = {
     "<<": ">>",
     ">>": "<<",
 }
-"""Operator -> the operator that replaces it."""
+"""For each operator, the operator that replaces it."""
 LOGIC = ("&&", "||")
 ASSIGNMENTS = ("AssignmentExpression", "NonblockingAssignmentExpression")
 SKIPPED = (
@@ -47,7 +47,7 @@ class Fault:
 
     Attributes:
         dropped: True if the statement at this place is removed.
-        number: number of the mutant in its file, from 1.
+        number: number of the mutant in its file, counted from 1.
         what: description of the fault, for tables.
     """
 
@@ -128,7 +128,7 @@ class Finder:
                 self._walk(child)
 
     def _condition(self, predicate: Any) -> None:
-        """Add the faults of an `if`: its condition is always true, or never true; for a reset only never."""
+        """Add the faults of an `if`: condition always true, or never true; for a reset only never true."""
         text = self._of(predicate)
         if "rst" not in text:
             self._add(predicate, "1'b1", "always")
@@ -155,7 +155,7 @@ class Finder:
 
 
 def faults(text: str) -> list[Fault]:
-    """Return all mutants of a file, in order of their places, except in code that only silences lint."""
+    """Return all mutants of a file, in order of their places. Code that only silences lint has no mutants."""
     finder = Finder(text)
     return [
         fault for fault in finder.found if not any(start <= fault.start < end for start, end in finder.unused)

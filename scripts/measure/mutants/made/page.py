@@ -74,7 +74,7 @@ def judged() -> Mapping[tuple[str, str, str], str]:
 
 @dataclass(frozen=True)
 class Score:
-    """Counts of a set of mutants."""
+    """Numbers of mutants in a set, by result."""
 
     made: int
     killed: int
@@ -86,7 +86,7 @@ class Score:
 
     @property
     def percent(self) -> float | None:
-        """The score in %; None if no mutant counts."""
+        """The score in %; None if no mutant counts for the score."""
         counted = self.killed + self.alive
         return 100 * self.killed / counted if counted else None
 

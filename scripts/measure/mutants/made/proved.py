@@ -1,4 +1,4 @@
-"""Quick proofs for mutants: those whose blocks contain a file, and the first one that fails on a mutant."""
+"""Quick proofs for mutants: proofs of blocks with a file, and the first that fails with a mutant."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from scripts.measure.prove.check import check, place
 from scripts.measure.prove.table import Change, Proof, proofs
 
 LIMIT = 60
-"""Limit of a solver in s; a proof takes a few seconds."""
+"""Time limit of a solver in s; a proof usually takes a few seconds."""
 
 
 def _block_files(proof: Proof) -> set[str]:
@@ -31,7 +31,7 @@ def _block_files(proof: Proof) -> set[str]:
 
 @cache
 def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
-    """Return the proofs of the block itself, and those of blocks that contain it (not replaced by a stub)."""
+    """Return the proofs of the block itself, and of blocks that contain it, unless a stub replaces it."""
     name = Path(file).stem
     quick = (one for one in proofs() if not one.night)
     found = [one for one in quick if ROOT / file in one.sources() and name in _block_files(one)]

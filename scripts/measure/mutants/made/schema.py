@@ -1,6 +1,7 @@
-"""All mutants of a file in one copy: +mutant=N selects one when the simulation starts; 0: no mutant.
+"""All mutants of a file in one copy.
 
-Thus, a design is compiled only once for all mutants of a file. Line numbers do not change.
+The argument +mutant=N selects a mutant when the simulation starts; 0 selects none. Thus, a design is compiled
+only once for all mutants of a file. Line numbers do not change.
 """
 
 from __future__ import annotations
@@ -24,12 +25,12 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
     places: dict[tuple[int, int, bool], list[Fault]] = {}
     for fault in faults:
         places.setdefault((fault.start, fault.end, fault.dropped), []).append(fault)
-    # Outer places first; a statement that may be removed is outside its contents.
+    # Outer places precede inner places. A statement that may be removed is outside its own contents.
     order = sorted(places, key=lambda place: (place[0], -place[1], not place[2]))
     heads = _heads(text)
 
     def render(start: int, end: int, within: list[tuple[int, int, bool]]) -> str:
-        """Return the text of [start, end) with the mutants of the places `within` it."""
+        """Return the text of [start, end) with the mutants whose places are `within` this range."""
         parts, at, rest = [], start, within
         while rest:
             place = rest[0]
@@ -41,7 +42,7 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
         return "".join([*parts, plain(at, end)])
 
     def plain(start: int, end: int) -> str:
-        """Return unchanged text, with the declaration after each module header in it."""
+        """Return the unchanged text, but with the declaration of the selection after each module header."""
         piece, at = [], start
         for head in heads:
             if start < head <= end:

@@ -1,8 +1,8 @@
 """Tests for the mutants of a file: groups of tests, each in one simulator process, the fastest first.
 
-If results of a coverage campaign are stored (`make coverage`), the groups that cover the line of the mutant
-run in this order: groups of its block, groups that are newer than the campaign, all others by their time for
-each covered point of the file.
+If results of a coverage campaign are stored (`make coverage`), groups that cover the line of the mutant run.
+Their order is: groups of the block, groups that are newer than the campaign, all other groups by their time
+for each covered point of the file.
 
 Without such results, the groups of the folder run: tests of blocks before those of the parts that contain the
 file, directed tests before random tests.
@@ -30,12 +30,12 @@ BLOCKS = {
     "single": ("cocotb_tests/single/test_blocks.py",),
     "ppmc312": ("cocotb_tests/ppmc312/stages/test_blocks.py",),
 }
-"""Folder of rtl/ -> tests of its single blocks."""
+"""Tests of single blocks, by folder of rtl/."""
 AT_LAST = ("cocotb_tests/common/test_benches.py", "cocotb_tests/board/")
 
 Group = tuple[str, ...]
 GUIDED, FEW = 6, 2
-"""Number of groups in one pytest run: of those that cover the line, and of those that may cover it."""
+"""Numbers of groups in one pytest run: for groups that cover the line, and for groups that may cover it."""
 
 
 @cache
@@ -80,7 +80,7 @@ class _Reach:
 
 
 class Suites:
-    """Groups of tests; `of` returns those for a line of a file."""
+    """Groups of tests; `of` returns the groups for a line of a file."""
 
     def __init__(self) -> None:
         self._reached: list[_Reach] = []
@@ -99,7 +99,7 @@ class Suites:
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
-        """Return the groups in the order of their runs; some are joined, because each start takes seconds."""
+        """Return the groups in the order of their runs. Some are joined: a start takes seconds."""
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
@@ -125,12 +125,12 @@ def _together(all_groups: Sequence[Group], size: int) -> Iterator[Group]:
 
 
 def _weights(points: Points) -> Counter[str]:
-    """Return file -> number of covered points."""
+    """Return the number of covered points of each file."""
     return Counter(name.split(" ", 1)[0] for name, was in points.reached.items() if was)
 
 
 def _lines(points: Points) -> dict[str, set[int]]:
-    """Return file -> covered lines, including lines of assignments and instances, which have no points."""
+    """Return the covered lines of each file, including assignments and instances without points."""
     found: dict[str, set[int]] = {}
     for name, was in points.reached.items():
         file = name.split(" ", 1)[0]

@@ -1,6 +1,6 @@
 """Run proofs and tests on one mutant until one fails.
 
-The order is: the proofs of its block, its groups of tests, the proofs of the blocks that contain it.
+The order is: proofs of the mutant's block, groups of tests, proofs of the blocks that contain this block.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Mutant:
     """A mutant and its tests.
 
     Attributes:
-        briefly: True if only the proofs of its own block are run.
+        briefly: True if only the proofs of the mutant's own block are run.
     """
 
     file: str
@@ -43,7 +43,7 @@ class Mutant:
 
     @property
     def key(self) -> str:
-        """Key of the mutant, unique in the tree."""
+        """Key of the mutant, which is unique among all mutants of the project."""
         return f"{self.file} {self.fault.number}"
 
 
@@ -53,7 +53,7 @@ def digest(file: str) -> str:
 
 
 def copy_of(file: str) -> Path:
-    """Return the copy with all mutants of a file; write it if needed."""
+    """Return the path of the copy with all mutants of a file; write the copy if needed."""
     text = (ROOT / file).read_text(encoding="utf-8")
     copy = instrumented(text, faults(text))
     path = BUILD / "mutants" / hashlib.sha256(copy.encode()).hexdigest()[:12] / Path(file).name
@@ -65,7 +65,7 @@ def copy_of(file: str) -> Path:
 
 
 def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
-    """Run the tests; return what became of the mutant, and the name of the first test that failed."""
+    """Run the tests; return the result for the mutant, and the name of the first test that failed."""
     chosen = f"{mutant.file} {mutant.fault.number} {copy_of(mutant.file)}"
     variables = {MUTANT: chosen, "OPENPPMC_WALL_S": WALL_S}
     code, text = run_pytest(variables, "-x", "-p", "no:cacheprovider", *tests)
@@ -81,7 +81,7 @@ def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
 
 
 def met(mutant: Mutant) -> tuple[str, str]:
-    """Return what became of the mutant, and the test that killed it, or `PROOF` and the name of the proof."""
+    """Return the result for the mutant, and the test that killed it, or `PROOF` and the name of the proof."""
     own, others = proofs_of(mutant.file)
     if name := failing(mutant.file, mutant.fault, own):
         return KILLED, PROOF + name
@@ -95,6 +95,6 @@ def met(mutant: Mutant) -> tuple[str, str]:
 
 
 def run_one(mutant: Mutant) -> Result:
-    """Try one mutant; a test that does not end is counted separately from a failing check."""
+    """Try one mutant. A test that does not terminate is counted separately from a failing check."""
     verdict, test = met(mutant)
     return Result(verdict != BROKEN, {"verdict": verdict, "test": test, "file": digest(mutant.file)})
