@@ -31,7 +31,7 @@ AXES, PULSES = 8, 30
 class LinePort(UartBfm):
     """The UART of the board as a port of the host package.
 
-    The calls of the host package block, so they run in a thread.
+    The calls of the host package are blocking, so they run in a thread.
     """
 
     name = "simulated line"

@@ -104,7 +104,7 @@ async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
         one, two = await env.errors()
         env.check("P2104-HSK-02", f"newer code, gap {gap}", two, 1)
         outcomes.append(one)
-        # A data byte is written over a code, so that the command/data flag is replaced with the byte.
+        # A data byte is written over a code. Both the byte and its command/data flag must be replaced.
         await env.host.write(COMMAND, 0x40, strobe=1, gap=gap)
         await env.host.write(DATA, 0x40, strobe=1, gap=16)
         one, two = await env.errors()

@@ -122,8 +122,8 @@ async def stmc_ac_41_chopper(dut: Any) -> None:
 
 @directed("AC-42", "STMC-CLK-05")
 async def stmc_ac_42_no_ticks(dut: Any) -> None:
-    """Without an external clock, a started move waits; code 40 ends it, and code 41 leaves one step
-    (AC-42).
+    """Without an external clock, a started move waits. Code 40 ends it without a step; after code 41, it
+    makes one step when the clock runs (AC-42).
     """
     env = await Env.start(dut, clock=0)
     await env.go(0x43, 6)

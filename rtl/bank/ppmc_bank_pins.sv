@@ -32,7 +32,7 @@ module ppmc_bank_pins
     output logic limit_o,  // armed_o = 0 because of the limit in the direction of motion
     // pins
     output logic [5:1] s_o,  // phases
-    output logic hold_o,  // high: standstill for the hold time
+    output logic hold_o,  // high: at standstill for at least the hold time
     output logic pout_no,  // pulse, active low
     output logic dir_o  // 0: CW, 1: CCW
 );

@@ -19,7 +19,7 @@ module ppmc_hold_timer #(
     input  wire logic             busy_i,     // 1: a motion is in progress
     input  wire logic             quantum_i,  // strobe: quantum tick, restarted by the fall of busy_i
     input  wire logic [UnitTop:0] units_i,    // hold time in units, minus 1
-    output logic                  hold_o      // high: standstill for the hold time; 1 after reset
+    output logic                  hold_o      // high: at standstill for at least the hold time; 1 after reset
 );
 
   logic done;

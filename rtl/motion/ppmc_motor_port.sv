@@ -45,7 +45,7 @@ module ppmc_motor_port
     output logic        [         5:1] levels_o,        // phases with the polarity of the pins, not chopped
     // pins
     output logic        [         5:1] s_o,             // phases
-    output logic                       hold_o,          // high: standstill for the hold time
+    output logic                       hold_o,          // high: at standstill for at least the hold time
     output logic                       pout_no,         // pulse, active low
     output logic                       dir_o            // 0: CW, 1: CCW
 );

@@ -66,7 +66,7 @@ package ppmc_single_pkg;
   // Pins of the motor; each is a register.
   typedef struct packed {
     logic [5:1] s;       // phases
-    logic       hold;    // high: standstill for the hold time
+    logic       hold;    // high: at standstill for at least the hold time
     logic       pout_n;  // pulse, active low
     logic       dir;     // 0: CW, 1: CCW
   } motor_t;

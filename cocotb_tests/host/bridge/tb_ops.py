@@ -152,7 +152,8 @@ async def ops_overflow(dut):
     fill = bytes([0x32, 255])
     same("256", len(await bench.done(fill + b"\x06")), 256)
     bench.accesses()
-    # (fill bytes before the op, op, reads of the failing op, its data bytes)
+    # (data bytes of the fill op, ops after it, their read accesses, their data bytes, number of ops between
+    # the fill op and the failing op; each of these ops is one byte)
     cases = [
         (255, "06 06", 0, 1, 1),
         (255, "22 22", 1, 1, 1),

@@ -214,8 +214,10 @@ class CollisionRun(SequencerRun):
         return {} if 0 < before else super().plan_requests()
 
     def aim(self) -> int:
-        """Return a rate from which a ramp has stages; for the request of the ramp itself, return the high
-        speed.
+        """Return the rate of the next request.
+
+        It is the rate of the first stage, so that a later ramp has stages, or the high speed for the ramp
+        itself. Sometimes, and after the two requests, it is the rate that the base class returns.
         """
         before = (self.plan.n or 0) - self.plan.down - self.sequence.done
         if self.rand.random() < 0.2 or before < 1:

@@ -34,7 +34,7 @@ module pmc006_eeprom
     input  wire control_settings_t       control_i,        // settings used only by the control
     output logic                         load_o,           // strobe: check or execute load_op_o
     output logic                   [7:0] load_op_o,        // instruction that loads a parameter
-    output logic                         load_wide_o,      // width of load_op_o, 1: pair, 0: byte
+    output logic                         load_wide_o,      // data of load_op_o, 1: two bytes, 0: one byte
     output logic                         store_o,          // 1: execute load_op_o, 0: check its data
     input  wire logic                    legal_i,          // 1: the data of load_op_o are accepted
     // buffer

@@ -9,7 +9,8 @@
 //         If the rate of a stage becomes a constant rate at a boundary, a search for t(rate) begins. t(rate)
 //         is the last stage that is not faster than this rate. The search takes 129 cycles. A ramp begins at
 //         the earliest 136 cycles after this boundary, a deceleration to the end 132 cycles after it. Such a
-//         deceleration is possible only where the rates of the table do not fall.
+//         deceleration is possible only with a table that is not monotonic: the constant rate is the rate of
+//         a stage below first_dec_i, but it is faster than the rate of stage first_dec_i.
 // How:    the running interval is a stage (up or down) or a constant rate. Counts and stages are compared
 //         in the first cycle of an interval. The decision follows; it is delayed by two cycles, in which
 //         the table reads the stage that the decision needs.

@@ -45,7 +45,7 @@ module ppmc_hold_timer_fv (
   logic [4:0] quanta_q;  // quanta since the end of the motion, saturates at 31
   logic [1:0] behind_q;  // cycles after quantum 5, saturates at 3
   logic [1:0] gap_q;  // cycles since the last quantum, saturates at 3
-  logic set_q;  // 1: one cycle ago, the number of quanta was sufficient
+  logic set_q;  // 1: one cycle ago, quanta_q had reached the set hold time
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {moved_q, units_q, quanta_q, behind_q, gap_q, set_q} <= '0;

@@ -1,4 +1,6 @@
-"""`openppmc selftest` on the virtual board: no differences for any device, faults in the RTL, errors."""
+"""`openppmc selftest` on the virtual board finds no difference for any device, detects faults in the RTL, and
+reports errors.
+"""
 
 from __future__ import annotations
 

@@ -67,7 +67,9 @@ def calls(project: Path) -> list[str]:
 
 
 def test_groups_are_installed_once(project: Path) -> None:
-    """A group is installed only once, until groups or lock file change; `dev` includes `sim`."""
+    """An installed group is not installed again unless the groups or the lock file change. `dev` includes
+    `sim`.
+    """
     fake(project)
     for groups in (("dev", "campaign"), ("dev",), ("sim",)):
         assert install(project, *groups)[0] == 0

