@@ -67,7 +67,7 @@ class Alarm(ChannelAlarm):  # type: ignore[misc]
 
 @register_record
 class Fields(MotorFields):  # type: ignore[misc]
-    """Fields of a motor record, whose puts the record executes."""
+    """Fields of a motor record. The record itself executes each put to a field."""
 
     _record_type = "motor"
 

@@ -25,7 +25,10 @@ OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
 
 
 class WrongError(Exception):
-    """A goal, a variable or the machine is wrong; one line states what is wrong and what to do."""
+    """A goal or a variable is invalid, or this computer does not meet a requirement.
+
+    The message is one line that states what is wrong and what to do.
+    """
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

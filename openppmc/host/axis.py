@@ -234,8 +234,8 @@ class Axis(Checked):
         """Set the current position to 0.
 
         Raises:
-            AxisBusy: a motion that this object started is running. At the end of a motion, its pulses are
-                compared with the pulse counter, so the counter must not change before.
+            AxisBusy: a motion that this object started is running. When a motion ends, its pulses are
+                compared with the pulse counter, so the counter must not be changed until then.
         """
         motion = self._motion
         if motion is not None and not motion.over and motion.poll() is not None:

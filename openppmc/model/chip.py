@@ -276,8 +276,8 @@ class Chip(ABC):
         """Write a data byte (reg 0) or command byte (reg 1) with a strobe from edge t.
 
         Returns:
-            Edge 0 of P104-BUS-06 = t + strobe. The levels of the pins are set up to this edge, but this edge
-            is not simulated yet.
+            Edge 0 of P104-BUS-06, which is t + strobe. The model has all pin changes up to and including this
+            edge, but the edge itself is not simulated yet.
         """
         levels = self._strobe(True, reg)
         self.pins(t, **levels, d_i=byte)

@@ -232,8 +232,8 @@ class _Head:
         """Add a variable under its name.
 
         If variables in several scopes have this name, the name refers to the variable in the outermost scope.
-        If several of these scopes have the same depth, the name refers to the first variable, and each of
-        these variables also has the name `scope.name`.
+        If several scopes at the outermost depth have such a variable, the name refers to the first of these
+        variables. Each of them is also available as `scope.name`.
         """
         depth, home = len(scopes), ".".join(scopes)
         known = self._depths.get(name)
@@ -258,8 +258,8 @@ def read_vcd(path: Path) -> Capture:
     """Read all variables of a VCD.
 
     If variables in several scopes have the same name, it refers to the one in the outermost scope. If several
-    of these scopes have the same depth, the name refers to the first one, and each of their variables also
-    has the name `scope.name`.
+    scopes at the outermost depth have such a variable, the name refers to the first of these variables. Each
+    of them is also available as `scope.name`.
 
     Raises:
         CaptureError: the file is invalid.

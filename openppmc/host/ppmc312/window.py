@@ -172,7 +172,10 @@ class Window:
 
     @staticmethod
     def _append_exact_read(script: Script, size: int, part: int = 0) -> Script:
-        """Append a wait for a response of this size, and a read of it, or of its first bytes on the bus."""
+        """Append a wait for a response of `size` bytes, and a read of its first `part` bytes in bus order.
+
+        If `part` is 0, the whole response is read.
+        """
         return script.wait(ADDRESS, 0xFF, EMPTY - size).read_many(READ, part or size)
 
     @staticmethod
@@ -217,7 +220,9 @@ class Window:
                 left = self._bytes_left
         failed = answer.failed
         if left and failed is not None and failed.code[0] == WAIT_READ and answer.result is Result.TIMED_OUT:
-            self._feed(left, [answer.last])  # the cause of an abnormal end
+            # The failed wait has already read the cause byte, which is not NORMAL.
+            # It belongs to the response.
+            self._feed(left, [answer.last])
         if answer.result is Result.TIMED_OUT and (received or not patient):
             return found
         if answer.result is Result.TIMED_OUT and answer.failed is not None:

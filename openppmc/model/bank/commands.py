@@ -109,7 +109,7 @@ class Mailbox:
         self.obf, self._being_read = True, False
 
     def snapshot(self) -> None:
-        """Latch `data_register` for a data read."""
+        """Begin a data read: store whether `data_register` holds a byte to be read (OBF)."""
         self._being_read = self.obf
 
     def read_ended(self) -> None:

@@ -231,7 +231,7 @@ class StationState(Protocol):
         """Return the state in the format of `StationStatus`."""
 
     def set_inputs(self, levels: str) -> None:
-        """Set the levels of the general inputs, number 1 last, as "11111"."""
+        """Set the levels of the general inputs from text such as "11110"; the last character is input 1."""
 
 
 class VirtualLine(Protocol):

@@ -27,7 +27,7 @@ PREDICTED = "#1b2733"
 
 
 def colour(axis: int) -> tuple[float, ...]:
-    """Return the colour of an axis: blue for fast axes, orange for slow axes."""
+    """Return the colour of an axis: violet for fast axes, yellow-green for slow axes."""
     return tuple(colormaps["viridis"](0.85 * axis / (AXES - 1)))
 
 

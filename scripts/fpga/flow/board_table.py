@@ -97,7 +97,8 @@ def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]
 
 try:
     DESCRIPTIONS = load_all()
-except ProjectError as error:  # an error of one line in any script that imports this module
+except ProjectError as error:
+    # Every script that imports this module ends with a one-line message, not a traceback.
     raise SystemExit(project.fail(str(error))) from None
 BY_PART = by_part(DESCRIPTIONS)
 BOARDS = BY_PART["ppmc104"]

@@ -69,7 +69,7 @@ def options(on: Board) -> str:
         return flow("icestorm", nextpnr_options=on.route)
     if on.family == "ecp5":
         return flow("trellis", nextpnr_options=on.route, ecppack_options=("--compress",))
-    # edalize adds the option --device and the family.
+    # `on.route` is not passed to nextpnr: edalize itself adds --device and the family, from `named`.
     device = on.route[on.route.index("--device") + 1]
     more = ("--vopt", "sspi_as_gpio", "--freq", f"{on.clk_hz / 1e6:g}")
     packing = ("--sspi_as_gpio",)

@@ -70,7 +70,7 @@ def text(node: RegNode | FieldNode) -> str:
 
 
 def values(reg: RegNode) -> list[tuple[str, int, str]]:
-    """Return name, value and description of bits and named values of a register."""
+    """Return (name, value, description) for each field in `flags` (value: mask) and each named value."""
     found = [(f.inst_name, (1 << f.width) - 1 << f.low, text(f)) for f in flags(reg)]
     for field in reg.fields():
         members = field.get_property("encode")

@@ -60,7 +60,7 @@ def find_tests(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
 
 
 def check_entry(what: tuple[Mutant, bool]) -> Result:
-    """Return whether the result agrees with the entry, and a line about it."""
+    """Test a mutant; return whether it is caught or survives as listed, and a one-line summary."""
     right, line = _check_entry(*what)
     return Result(right, {"line": line})
 

@@ -10,7 +10,7 @@ from typing import Any
 from scripts.pages.pictures.kinds import made
 
 Levels = Mapping[str, int]
-Schedule = Sequence[tuple[int, Levels]]  # in order of time: first edge that samples the levels, levels
+Schedule = Sequence[tuple[int, Levels]]  # (first edge that samples the levels, levels), in order of time
 Samples = Sequence[Levels | None]  # one sample for each column; None represents cycles that are not shown
 
 LEVEL = re.compile(r"(\w+)(?: while (\w+) = (\w+))?")

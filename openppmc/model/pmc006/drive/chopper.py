@@ -72,7 +72,7 @@ class Chopper:
     def enable(self, t: int, on: bool) -> None:
         """Process a change of the bridge enable at edge t.
 
-        While the bridge is disabled, from this edge on, the commands are low.
+        If the bridge is disabled, the commands are low from edge t at least until it is enabled again.
         """
         self._on = on
         if not on:

@@ -110,7 +110,7 @@ class Drive:
         self._schedule_evaluation(t)
 
     def compare(self, t: int, a: int, b: int) -> None:
-        """Process levels of cmp_a and cmp_b that edge t samples first."""
+        """Process new levels of cmp_a and cmp_b; edge t is the first edge that samples them."""
         for name, level in zip(PINS, (a, b), strict=True):
             if level == self._compared[name]:
                 continue
