@@ -25,7 +25,7 @@ OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
 
 
 class WrongError(Exception):
-    """A goal or a variable is invalid, or this computer does not meet a requirement.
+    """A goal or a variable is invalid, or this computer lacks something that is required.
 
     The message is one line that states what is wrong and what to do.
     """
