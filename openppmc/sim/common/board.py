@@ -33,7 +33,7 @@ class AxisStatus:
     For an stmc, `pulses` counts steps, and `alm` is True while MON is low.
 
     Attributes:
-        hold: True if the motor has been at standstill for the hold time.
+        hold: True if the motor has been at standstill for at least the hold time.
         pulses: number of pulses since the start of the board.
         phases: levels of S5 to S1.
     """

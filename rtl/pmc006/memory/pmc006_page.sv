@@ -25,7 +25,7 @@ module pmc006_page
     output logic [7:0] byte_o,  // byte to be sent or expected
     output logic mismatch_o,  // strobe: received_i differs from byte_o at a checked address
     output logic [7:0] op_o,  // instruction that loads the byte or pair; I_NONE: no instruction
-    output logic wide_o  // data of op_o, 1: pair, 0: byte
+    output logic wide_o  // data of op_o, 1: two bytes, 0: one byte
 );
 
   typedef struct packed {
