@@ -82,7 +82,9 @@ def test_a_signal_in_a_program(number: signal.Signals, body: str) -> None:
     out, err = process.communicate(timeout=30)
     assert process.returncode == 128 + number and out == ""
     word = "interrupted" if number == signal.SIGINT else number.name
-    assert err.startswith(f"{word}: stopped, position ") and err.count("\n") == 1
+    # Between two moves of a queue, the signal finds no motion.
+    ends = ["stopped", "nothing was moving"] if "moves" in body else ["stopped"]
+    assert err.startswith(tuple(f"{word}: {end}, position " for end in ends)) and err.count("\n") == 1
 
 
 @pytest.mark.parametrize(
