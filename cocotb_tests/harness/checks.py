@@ -82,7 +82,8 @@ def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterat
             yield f"interval {j} is {edges[end] - edges[i]} instead of {length} cycles"
         if lows and length >= EXACT:
             quick = rate == 0 and edges[i] - edges[i - 1] < brisk
-            cut = edges[i + (rate + 1) // 2] - edges[i] if rate else train.falls[i] - edges[i] if quick else w
+            high = max(2, train.falls[i] - edges[i])
+            cut = edges[i + (rate + 1) // 2] - edges[i] if rate else high if quick else w
             most = w if rate and min(differences(edges[i : end + 1])) < EXACT_LOW else cut
             if not min(w, cut) <= lows[j - 1] <= min(w, most):
                 yield f"pulse {j} is low for {lows[j - 1]} instead of {min(w, cut)} cycles"
@@ -164,6 +165,20 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
             yield Move(99, (period,), 2, ramp, slowed=rng.choice(fast))
         uneven = tuple(rng.randint(period, 2 * period) for _ in range(7))
         yield Move(rng.randint(2, 2 * pa + 4), uneven, rng.randint(2, period - 2), ramp)
+
+
+def shortest_levels(ramp: Ramp, rng: Random) -> Iterator[Move]:
+    """Yield moves on a ramp whose clock is high or low for 1, 2 or 3 cycles, as sampled by the device.
+
+    A pin level of 2 cycles, the shortest that P104-BCK-04 permits, may be sampled in 1 to 3 cycles.
+    """
+    pa = ramp[2]
+    for period in (EXACT, EXACT + 8, BRISK - 8):
+        for level in (1, 2, 3):
+            for high in (level, period - level):
+                for n in (pa, pa + 1, 2 * pa + 4):
+                    yield Move(n, (period,), high, ramp)
+                yield Move(5, (period,), high, rate=rng.choice((0, 1)))
 
 
 BOTH = 0xB0

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness import F8, F16, F25, directed
 from cocotb_tests.harness.axis_driver import differences
-from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
+from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, shortest_levels, sweep
 
 from .env import Env
 from .expected_timing import INIT_A
@@ -89,3 +89,16 @@ async def p104_int_03_long_threshold(dut):
             same = f"intervals at {gaps[:4]} cycles, rate {rate}"
             env.check("P104-INT-03", same, env.intervals, differences(expected))
             await env.bench.clocks(20)
+
+
+@directed("P104-BCK-04", "P104-TIM-05", builds=(F16, F8, F25))
+async def p104_bck_04_shortest_levels(dut):
+    """With a clock that is sampled high or low for 1, 2 or 3 cycles, pulses and low times follow the formula
+    (P104-BCK-04, P104-TIM-05).
+    """
+    env = await Env.start(dut, EXTERNAL)
+    moves = await ExtMoves.of(env, INIT_A[1:], "l3_n")
+    for ramp in ((40, 0, 6), (90, 0, 4), (9, 0, 15)):
+        await env.init(0x1A, *ramp)
+        for move in shortest_levels(ramp, env.bench.rng):
+            await moves.check(move)

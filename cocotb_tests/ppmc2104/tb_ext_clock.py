@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import F8, F16, F48, directed
-from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
+from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, shortest_levels, sweep
 
 from .env import Env
 
@@ -48,3 +48,16 @@ async def p2104_tim_05_brisk_threshold(dut: Any) -> None:
         for gaps in ((brisk - 1,), (brisk,), (brisk + 1,), (brisk - 1, brisk + 1, brisk, brisk - 1, brisk)):
             await moves.check(Move(9, gaps, 9, rate=0))
             await moves.check(Move(9, gaps, 9, rate=1))
+
+
+@directed("P2104-BCK-04", "P2104-TIM-05", builds=(F16, F48))
+async def p2104_bck_04_shortest_levels(dut: Any) -> None:
+    """With a clock that is sampled high or low for 1, 2 or 3 cycles, pulses and low times follow the formula
+    (P2104-BCK-04, P2104-TIM-05).
+    """
+    env = await Env.start(dut)
+    for axis, ramp in zip(await env.both(EXTERNAL), ((40, 0, 6), (9, 0, 15)), strict=True):
+        moves = await ExtMoves.of(axis, EXTERNAL[1:], axis.pin("fhl_n"))
+        await axis.init(EXTERNAL[0], *ramp)
+        for move in shortest_levels(ramp, env.bench.rng):
+            await moves.check(move)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from cocotb_tests.harness import F16, directed
-from cocotb_tests.harness.checks import TOO_MANY, ExtMoves, sweep
+from cocotb_tests.harness.checks import TOO_MANY, ExtMoves, shortest_levels, sweep
 
 from .env import Env
 from .expected_timing import F8X20, Ramp, divisor
@@ -35,3 +35,16 @@ async def stmc_clk_04_sweep(dut: Any) -> None:
             await env.init(0x1A, ramp[0] + 1, fast + 1, ramp[2])
             for move in sweep(ramp, rng, rates):
                 await moves.check(move)
+
+
+@directed("STMC-CLK-02", "STMC-CLK-03")
+async def stmc_clk_02_shortest_levels(dut: Any) -> None:
+    """With a clock that is sampled high or low for 1, 2 or 3 cycles, gaps are exact (STMC-CLK-02)."""
+    env = await Env.start(dut, None, clock=0)
+    ramp = (40, 0, 6)
+    await env.init(0x1A, 10, 5, 4)
+    moves = await ExtMoves.of(env, (9, 4, 4), "l3_n", lows=False, rate_of=rates)
+    await env.init(0x1A, ramp[0] + 1, ramp[1] + 1, ramp[2])
+    for move in shortest_levels(ramp, env.bench.rng):
+        if move.rate is None:
+            await moves.check(move)

@@ -3,8 +3,9 @@
 //         period.
 // Rules:  P104-BCK-04, P104-INT-03 (period compared with the threshold), P104-TIM-05 (rate 0).
 // Timing: if an edge of the pin is first sampled at edge t, rise_o or fall_o is high in the cycle before
-//         edge t + 2. In the cycle of rise_o, long_period_o and short_period_o refer to the period that
-//         ends with this edge.
+//         edge t + 2. If the pin is sampled high only once, fall_o is one cycle later, so it is at least 2
+//         cycles after rise_o. In the cycle of rise_o, long_period_o and short_period_o refer to the period
+//         that ends with this edge.
 `default_nettype none
 
 module ppmc_ext_clock #(
@@ -15,7 +16,7 @@ module ppmc_ext_clock #(
     input  wire logic rst_ni,
     input  wire logic pin_i,          // external clock, asynchronous
     output logic      rise_o,         // strobe: rising edge of the pin
-    output logic      fall_o,         // strobe: falling edge of the pin
+    output logic      fall_o,         // strobe: falling edge of the pin, at least 2 cycles after rise_o
     output logic      long_period_o,  // 1: more than LongPeriodCycles cycles between rising edges
     output logic      short_period_o  // 1: less than ShortPeriodCycles cycles between rising edges
 );
@@ -25,6 +26,7 @@ module ppmc_ext_clock #(
   localparam logic [Width-1:0] LongLast = Width'(ppmc_lfsr_pkg::after(LongPeriodCycles - 1, Width));
 
   logic level, last_q, not_short_q;
+  logic high_q;  // 1: fall_o may report the end of the high level
   logic unused_meta;
   logic [Width-1:0] age_q;  // cycles since the last rising edge; unused if long_period_o = 1
 
@@ -40,16 +42,18 @@ module ppmc_ext_clock #(
   );
 
   assign rise_o = level && !last_q;
-  assign fall_o = !level && last_q;
+  assign fall_o = !level && high_q;
   assign short_period_o = !not_short_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       last_q <= 1'b1;
+      high_q <= 1'b1;
       not_short_q <= 1'b1;  // there is no previous edge, so the period is infinite
       long_period_o <= 1'b1;
     end else begin
       last_q <= level;
+      high_q <= last_q && (level || !high_q);
       if (rise_o) begin
         not_short_q   <= 1'b0;
         long_period_o <= 1'b0;

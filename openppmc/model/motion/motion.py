@@ -92,7 +92,7 @@ class Motion:
         self._external: ExternalInterval | None = None
         self._armed_from: int | None = None
         self._last_rise: int | None = None
-        self._cut_at, self._cut_on_fall, self._low_ended = 0, False, -1
+        self._cut_at, self._cut_on_fall, self._cut_from, self._low_ended = 0, False, 0, -1
         self._events: dict[str, Event] = {}
 
     # ------------------------------------------------------------------ start
@@ -274,9 +274,12 @@ class Motion:
             self._cut_low(t)
 
     def base_fall(self, t: int) -> None:
-        """Process an effective falling edge of the external clock (P104-TIM-05 c)."""
+        """Process an effective falling edge of the external clock (P104-TIM-05 c).
+
+        The low time lasts at least 2 cycles, also if the clock was sampled high only once.
+        """
         if self.low and self._cut_on_fall:
-            self._cut_low(t)
+            self._cut_low(max(t, self._cut_from))
 
     def _pulse(self, t: int, gap: int | None = None, on_edge: bool = False) -> None:
         """Process the pulse event at edge t (P104-TIM-04, P104-PRO-04)."""
@@ -328,7 +331,7 @@ class Motion:
     def _begin_low(self, t: int, rate: int | None, gap: int | None) -> None:
         """Set pout_n low and determine the length of the low time (P104-TIM-05)."""
         timebase = self._context.timebase
-        length, self._cut_at, self._cut_on_fall = timebase.w, 0, False
+        length, self._cut_at, self._cut_on_fall, self._cut_from = timebase.w, 0, False, t + 2
         if rate is not None and self._plain:
             if not self._external:
                 if self._csel and rate <= 2:

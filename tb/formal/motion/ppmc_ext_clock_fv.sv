@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_clock_fv: proves that each edge of the pin is reported once, and that the period of the pin is
-// classified correctly.
+// ppmc_ext_clock_fv: proves that each edge of the pin is reported once, a falling edge at least 2 cycles after
+// the rising edge, and that the period of the pin is classified correctly.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -20,20 +20,26 @@ module ppmc_ext_clock_fv (
       .*
   );
 
-  logic [2:0] pin_q;  // samples of the pin; the latest is bit 0
+  logic [4:0] pin_q;  // samples of the pin; the latest is bit 0
+  logic rose_q;  // rise_o was high in the last cycle
   logic [4:0] age_q;  // cycles since the last rise, saturates at 31; 31 before the first rise
 
   always_ff @(posedge clk_i)
-    if (!rst_ni) {pin_q, age_q} <= '1;
+    if (!rst_ni) {pin_q, age_q, rose_q} <= {5'h1f, 5'h1f, 1'b0};
     else begin
-      pin_q <= {pin_q[1:0], pin_i};
+      rose_q <= rise_o;
+      pin_q <= {pin_q[3:0], pin_i};
       age_q <= rise_o ? 5'd1 : (age_q == '1) ? '1 : age_q + 1'b1;
     end
 
   `FV_ASSERT(p104_bck_04_rise, rise_o == (pin_q[2:1] == 2'b01))
-  `FV_ASSERT(p104_bck_04_fall, fall_o == (pin_q[2:1] == 2'b10))
+  // A falling edge after a level of one sample is reported one cycle later, unless the pin is high again.
+  `FV_ASSERT(p104_bck_04_fall,
+             fall_o == (pin_q[3:1] == 3'b110 || pin_q[4:1] == 4'b0100))
+  `FV_ASSERT(p104_tim_05_two_cycles, !(fall_o && rose_q))
   `FV_ASSERT(p104_int_03_long, !rise_o || long_period_o == (age_q > 5'd9))
   `FV_ASSERT(p104_tim_05_brisk, !rise_o || short_period_o == (age_q < 5'd7))
+  `FV_COVER(seen_single, fall_o && !pin_q[2])
   `FV_COVER(seen_neither, rise_o && !long_period_o && !short_period_o)
 
 endmodule
