@@ -149,6 +149,10 @@ def _run(main: Callable[[], int], arguments: str | None) -> int:
         return main()
     except ProjectError as error:
         return fail(str(error))
+    except ModuleNotFoundError as error:
+        if not error.name or (ROOT / error.name.partition(".")[0]).is_dir():
+            raise
+        return fail(f"{error.name} is not installed in .venv; `make` installs it unless .venv is a link")
     except KeyboardInterrupt:
         fail("interrupted")
         return 130
