@@ -281,7 +281,7 @@ def test_stop():
     """After STOP, VAL equals RBV, the severity is MINOR, and the put that started the motion fails. SPMG
     pauses and resumes a motion.
     """
-    with records("speed=1") as ioc:
+    with records("speed=0.3") as ioc:
         ioc.while_moving(lambda: ioc.put("STOP", 1))
         assert not ioc.put("VAL", 30_000.0)
         position = ioc.get("RBV")
@@ -309,7 +309,7 @@ def test_homing():
         assert ioc.get("DMOV") == 1 and len(ioc.logged) == 1
         assert ioc.put("HOMR", 1) and ioc.alarm() == "NO_ALARM NO_ALARM"
         assert (ioc.get("RBV"), ioc.get("VAL")) == (0, 0) and ioc.get("MSTA") & HOMED
-    with records("speed=1") as ioc:
+    with records("speed=0.3") as ioc:
         ioc.while_moving(lambda: ioc.put("STOP", 1))
         assert not ioc.put("HOMR", 1)
         assert ioc.alarm() == "STATE MINOR_ALARM" and not ioc.get("MSTA") & HOMED and ioc.get("DMOV") == 1
@@ -355,7 +355,7 @@ def test_unconfirmed_end():
     """If the part is reset during a motion, RBV is NaN with severity INVALID until homing initialises the
     axis.
     """
-    with records("speed=1") as ioc:
+    with records("speed=0.3") as ioc:
         ioc.while_moving(lambda: ioc.device.link.port.board.reset())
         ioc.rejected("VAL", 30_000.0, "the end of the motion is not confirmed")
         assert math.isnan(ioc.get("RBV")) and ioc.get("DMOV") == 1 and ioc.get("MSTA") & PROBLEM
@@ -369,7 +369,7 @@ def test_unconfirmed_end():
 
 def test_unplugged():
     """If the port disappears during a motion, all records have COMM_ERR and INVALID; one line is logged."""
-    with records("speed=1", part="ppmc2104") as ioc:
+    with records("speed=0.2", part="ppmc2104") as ioc:
         ioc.while_moving(ioc.unplug)
         ioc.rejected("VAL", 30_000.0, "the port went away")
         ioc.until("SEVR", 3, 2)
@@ -491,7 +491,7 @@ def test_epics_motor():
 
 def test_epics_motor_fails():
     """The Status of EpicsMotor fails after a stop and at a limit switch."""
-    with epics_motor("speed=1,cw=9000,slow_cw=40000") as (ioc, motor):
+    with epics_motor("speed=0.2,cw=9000,slow_cw=40000") as (ioc, motor):
         move = motor.set(4000)
         ioc.until("MOVN", 1)
         motor.stop()
@@ -503,7 +503,7 @@ def test_epics_motor_fails():
 
 def test_epics_motor_unplugged():
     """If the port disappears, the Status of the running motion fails, and so does the next motion."""
-    with epics_motor("speed=1") as (ioc, motor):
+    with epics_motor("speed=0.2") as (ioc, motor):
         ioc.while_moving(ioc.unplug)
         assert failed(motor.set(33_000)) and not motor.moving and math.isnan(motor.position)
         assert failed(motor.set(10)) and len(ioc.logged) == 1
