@@ -134,8 +134,13 @@ class Records:
 
     def alarm(self) -> str:
         """Return status and severity of RBV, which are also STAT and SEVR."""
-        metadata = self.read("RBV").metadata
-        assert (metadata.status, metadata.severity) == (self.get("STAT"), self.get("SEVR"))
+        end = time.monotonic() + PATIENCE
+        while True:
+            metadata = self.read("RBV").metadata
+            fields = self.get("STAT"), self.get("SEVR")
+            if (metadata.status, metadata.severity) == fields:
+                break
+            assert time.monotonic() < end, (metadata, fields)
         return f"{AlarmStatus(metadata.status).name} {AlarmSeverity(metadata.severity).name}"
 
 
