@@ -20,6 +20,8 @@ from .host.pmc006.settings import coefficient, mean_acceleration
 
 SHORTEST_RAMP = 4
 HOME_PPS, SLOW_PPS = 1000, 200
+KEPT = ("stops", "start_speed", "stop_speed", "max_speed", "acceleration", "deceleration")
+"""Settings of a PMC006B4 that are restored after its port was lost."""
 TOLERANCE = 1e-6  # tolerance of a conversion of units, in pulses or steps
 
 
@@ -44,6 +46,10 @@ class Drive:
 
     def __init__(self, axis: Any, request: SetupRequest | None) -> None:
         self.axis, self._request, self._active = axis, request, request
+
+    def attach(self, axis: Any) -> None:
+        """Use another object for the axis, whose port was opened again. `initialise` restores its set-up."""
+        self.axis, self._prepared = axis, None
 
     def initialise(self) -> None:
         """Initialise the axis with its set-up, if any; the axis must be stopped."""
@@ -103,7 +109,13 @@ class SettingsDrive(Drive):
 
     has_acceleration = True
 
-    _before: tuple[tuple[str, int], ...] = ()  # settings before a homing that has not ended
+    _before: tuple[tuple[str, int], ...] = ()  # settings that `initialise` restores
+    _kept: tuple[tuple[str, int], ...] = ()  # settings when the speeds were last read
+
+    def attach(self, axis: Any) -> None:
+        super().attach(axis)
+        self.__dict__.pop("_rising", None)
+        self._before = tuple((dict(self._kept) | dict(self._before)).items())
 
     @cached_property
     def _rising(self) -> int:
@@ -116,8 +128,9 @@ class SettingsDrive(Drive):
 
     @property
     def speeds(self) -> Speeds:
-        base, top = self.axis.start_speed, self.axis.max_speed
-        return Speeds(base, top, (top - base) / mean_acceleration(self.axis.acceleration))
+        now = {name: getattr(self.axis, name) for name in KEPT}
+        self._kept, base, top = tuple(now.items()), now["start_speed"], now["max_speed"]
+        return Speeds(base, top, (top - base) / mean_acceleration(now["acceleration"]))
 
     def set_speeds(self, start: float, velocity: float, acceleration: float) -> None:
         chosen = coefficient(acceleration) if acceleration else None

@@ -15,8 +15,11 @@ from functools import partial
 from typing import Any
 
 from .errors import PpmcError, needs
-from .host.errors import AxisBusy, LinkError, OutOfRange
+from .host.errors import AxisBusy, Disconnected, LinkError, OutOfRange, PortError, WrongDevice
+from .host.line import LineBus
 from .host.motion_result import EndUnknown, LimitReached, StoppedByCommand
+from .host.part import Device
+from .host.stopping import stop_motors
 from .positioner import Positioner, Switches, finite
 
 needs("epics", "the IOC", "caproto")
@@ -28,6 +31,8 @@ from caproto.server.records import MotorFields, register_record  # noqa: E402
 
 POLL = 0.1
 """Seconds between two updates of the readbacks."""
+RETRY = 2.0
+"""Seconds between two attempts to open a lost port again."""
 COMMANDS = ("RLV", "TWF", "TWR", "HOMF", "HOMR", "STOP")
 """Fields in which a value other than 0 is a command; after the command, they read as 0."""
 IN_UNITS = ("VAL", "RBV", "DRBV", "RLV", "TWV", "OFF", "HLM", "LLM")
@@ -93,6 +98,9 @@ class Motor(PVGroup):  # type: ignore[misc]
         pvname: name of the record.
         positioner: the axis, initialised.
         units: initial values.
+
+    Attributes:
+        moving: True from the start of a motion until no further motion is requested.
     """
 
     motor = pvproperty(value=0.0, dtype=Setpoint, name="", record="motor")
@@ -110,7 +118,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._publishing = asyncio.Lock()
         self._seen, self._switches = math.nan, Switches(False, False, False)
         self._problem: Exception | None = None
-        self._moving = self._stopped = self._disconnected = self._homed = self._forward = False
+        self.moving = self._stopped = self._silent = self._unknown = self._homed = self._forward = False
         get = self._get
         self._puts: dict[str, Callable[[Any], Awaitable[None]]] = {
             "VAL": self._put_position,
@@ -146,9 +154,18 @@ class Motor(PVGroup):  # type: ignore[misc]
 
     async def refresh(self) -> None:
         """Publish the state of the part, which is read if no motion is in progress."""
-        if not self._moving:
+        if not self.moving:
             await self._call(self._look)
         await self._publish()
+
+    def lose(self) -> None:
+        """Mark the position as unknown, because the part does not respond."""
+        self._silent = self._unknown = True
+        self._homed = False
+
+    def attach(self, device: Device) -> None:
+        """Use another object for the device, which was opened again; no thread may use the axis."""
+        self._positioner.attach(device)
 
     async def close(self) -> None:
         """Wait until no thread of this record uses the axis."""
@@ -167,13 +184,8 @@ class Motor(PVGroup):  # type: ignore[misc]
             if channel.value is not value and channel.value != value:
                 await channel.write(value, verify_value=False, update_fields=False)
 
-    @property
-    def _unknown(self) -> bool:
-        """True if a motion ended without a confirmation of the part, so that RBV is NaN."""
-        return isinstance(self._problem, LinkError)
-
     def _new_alarm(self) -> tuple[AlarmStatus, AlarmSeverity]:
-        if self._disconnected:
+        if self._silent:
             return AlarmStatus.COMM, AlarmSeverity.INVALID_ALARM
         if self._unknown:
             return AlarmStatus.STATE, AlarmSeverity.INVALID_ALARM
@@ -188,7 +200,7 @@ class Motor(PVGroup):  # type: ignore[misc]
     async def _publish(self) -> None:
         """Write all fields that depend on the part: the alarm first, DMOV last."""
         async with self._publishing:
-            (status, severity), busy, (low, high, origin) = self._new_alarm(), self._moving, self._switches
+            (status, severity), busy, (low, high, origin) = self._new_alarm(), self.moving, self._switches
             if (status, severity) != (self._alarm.status, self._alarm.severity):
                 await self._alarm.write(status=status, severity=severity)
             position = math.nan if self._unknown else self._seen
@@ -204,15 +216,15 @@ class Motor(PVGroup):  # type: ignore[misc]
                 MINUS_LS: low,
                 HOME_LS: origin,
                 HOMED: self._homed,
-                PROBLEM: self._problem is not None,
-                COMM_ERR: self._disconnected,
+                PROBLEM: self._problem is not None or self._unknown,
+                COMM_ERR: self._silent,
             }
             await self._set(
                 STAT=status.name,
                 SEVR=("NO_ALARM", "MINOR", "MAJOR", "INVALID")[severity],
                 RBV=position,
                 DRBV=position - self._positioner.offset if known else math.nan,
-                RRBV=self._positioner.to_pulses(position) if known else self._get("RRBV"),
+                RRBV=self._get("RRBV") if math.isnan(self._seen) else self._positioner.to_pulses(self._seen),
                 HLS=int(high),
                 LLS=int(low),
                 ATHM=int(origin),
@@ -235,11 +247,11 @@ class Motor(PVGroup):  # type: ignore[misc]
             Abandoned: a stop or another put replaced the motion.
         """
         self._next = job
-        if self._moving:
+        if self.moving:
             self._positioner.stop_requested = True
             await self._call(self._positioner.send_stop)
         else:
-            self._moving = True
+            self.moving = True
             self._task = asyncio.create_task(self._work())
         await self._set(**fields)
         assert self._task is not None
@@ -253,37 +265,45 @@ class Motor(PVGroup):  # type: ignore[misc]
         """Execute motions until no further motion is requested; return the error of the last motion."""
         while True:
             error: Exception | None = None
-            self._stopped = True
+            stopped = True
             while self._next is not None:
                 job, self._next = self._next, None
-                self._executed, self._positioner.stop_requested = job, False
+                self._executed, self._positioner.stop_requested, self._stopped = job, False, False
                 await self._publish()
                 error = await self._call(job)
                 if isinstance(error, Abandoned):
                     return error
-                self._stopped = isinstance(error, StoppedByCommand) and self._positioner.stop_requested
+                stopped = isinstance(error, StoppedByCommand) and self._positioner.stop_requested
+            self._stopped = stopped
             self._problem = None if self._stopped else error
             if self._problem is not None:
                 self._ioc.report(self._problem, self.prefix)
+            if isinstance(self._problem, EndUnknown):
+                self._unknown, self._homed = True, False
             if not self._unknown:
                 await self._call(self._look)
             if self._next is None:
                 break
-        self._moving = False
+        self.moving = False
         await self._publish()
         if self._get("SPMG") == "Move":
             await self._set(SPMG="Pause")
         return error
 
     async def _call(self, job: Callable[[], None]) -> Exception | None:
-        """Call a function in a thread; return its exception."""
+        """Call a function in a thread; return its exception. While the port is lost, return the reason."""
+        if self._ioc.lost is not None:
+            return self._ioc.lost
+        self._ioc.calls += 1
         try:
             await asyncio.get_running_loop().run_in_executor(self._ioc.threads, job)
         except Exception as error:
             if isinstance(error, LinkError) and not isinstance(error, EndUnknown):
-                self._disconnected = True
-                self._ioc.report(error)
+                self.lose()
+                self._ioc.lose(error, self._positioner.device)
             return error
+        finally:
+            self._ioc.calls -= 1
         return None
 
     async def _checked(self, job: Callable[[], None]) -> None:
@@ -297,8 +317,8 @@ class Motor(PVGroup):  # type: ignore[misc]
     def _look(self) -> None:
         with self._positioner.lock:
             self._seen, self._switches = self._positioner.position, self._positioner.switches()
-        if self._disconnected:
-            self._disconnected, self._ioc.reported = False, ""
+        if self._silent:
+            self._silent, self._ioc.reported = False, ""
 
     def _report(self, position: float) -> None:
         if self._ioc.closing:
@@ -311,11 +331,20 @@ class Motor(PVGroup):  # type: ignore[misc]
         if motion is not None:
             self._positioner.follow(motion, self._report)
 
+    def _reject(self) -> None:
+        raise PpmcError("the position is not known; home first, or set the position with SET")
+
     def _home(self, forward: bool) -> None:
         self._homed = False
         self._positioner.initialise()
         self._positioner.home(forward, self._report)
-        self._homed = True
+        self._homed, self._unknown = True, False
+
+    def _confirm(self) -> None:
+        """Prepare the axis for a position that a client states; the part may have lost its set-up."""
+        self._positioner.initialise()
+        self._look()
+        self._problem, self._unknown = None, False
 
     def _read_speeds(self) -> None:
         self._speeds = self._shown = self._positioner.speeds()
@@ -366,6 +395,9 @@ class Motor(PVGroup):  # type: ignore[misc]
 
     async def _go(self, position: float) -> None:
         """Move to a position if limits and SPMG permit it."""
+        if self._unknown:
+            # DMOV changes to 0 and back, because EpicsMotor of ophyd waits for it.
+            await self._run(self._reject)
         low, high, slack = self._get("LLM"), self._get("HLM"), abs(self._units.mres) / 2
         if (low or high) and not low - slack <= position <= high + slack:
             await self._set(LVIO=1)
@@ -378,8 +410,6 @@ class Motor(PVGroup):  # type: ignore[misc]
         await self._run(partial(self._move, position), VAL=position, LVIO=0)
 
     async def _go_by(self, distance: float) -> None:
-        if self._unknown:
-            raise PpmcError("the position is not known; home first")
         await self._go(self._get("VAL") + distance)
 
     async def _go_home(self, forward: bool) -> None:
@@ -400,12 +430,14 @@ class Motor(PVGroup):  # type: ignore[misc]
         await self._set(SPMG=value)
         if value in ("Stop", "Pause"):
             await self._stop()
-        elif paused and not self._moving:
+        elif paused and not self.moving:
             await self._go(self._get("VAL"))
 
     async def _put_position(self, value: float) -> None:
         if self._get("SET") == "Set":
-            self._problem = None if self._unknown else self._problem
+            self._check_idle()
+            if self._unknown:
+                await self._checked(self._confirm)
             await self._put_offset(value - self._seen + self._get("OFF"))
         else:
             await self._go(value)
@@ -443,7 +475,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         await self._set(EGU=value)
 
     def _check_idle(self) -> None:
-        if self._moving:
+        if self.moving:
             raise AxisBusy(0, "the motor is moving; stop it first")
 
 
@@ -453,16 +485,27 @@ class Ioc:
     Args:
         motors: axis and initial values of each record, by its name.
         log: called with one line for each problem.
+        reopen: called in a thread to open the device again after the port was lost; None: it stays lost.
 
     Attributes:
         threads: threads that use the device.
         closing: True if the threads should end.
         reported: last problem of the port that was logged.
+        lost: last error of the port after it was lost, None while it is open.
+        calls: number of calls in threads that use the device.
     """
 
-    def __init__(self, motors: Mapping[str, tuple[Positioner, Units]], log: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        motors: Mapping[str, tuple[Positioner, Units]],
+        log: Callable[[str], None],
+        reopen: Callable[[], Device] | None = None,
+    ) -> None:
         self.threads = ThreadPoolExecutor(2 * len(motors) + 1)
-        self.closing, self.reported, self._log = False, "", log
+        self.closing, self.reported, self._log, self._reopen = False, "", log, reopen
+        self.lost: LinkError | None = None
+        self.calls, self._retry_at = 0, 0.0
+        self._attempt: asyncio.Task[None] | None = None
         self.motors = [Motor(self, name, *values) for name, values in motors.items()]
 
     def report(self, error: Exception, name: str = "") -> None:
@@ -473,6 +516,48 @@ class Ioc:
         elif str(error) != self.reported:
             self.reported = str(error)
             self._log(self.reported)
+
+    def lose(self, error: LinkError, device: Device) -> None:
+        """Report an error of the port, and decide whether the port has to be opened again.
+
+        A station of a line that does not reply is no such case: the other stations continue.
+        """
+        self.report(error)
+        gone = isinstance(error, (Disconnected, PortError)) or not isinstance(device, LineBus)
+        if gone and self.lost is None:
+            self.lost = error
+            for motor in self.motors:
+                motor.lose()
+
+    async def _open_again(self) -> None:
+        """Try to open the lost port. Motors that still move are stopped, because no client follows them."""
+        assert self._reopen is not None
+        loop = asyncio.get_running_loop()
+        try:
+            device = await loop.run_in_executor(self.threads, self._reopen)
+            for motor in self.motors:
+                motor.attach(device)
+            state = await loop.run_in_executor(self.threads, lambda: stop_motors([device], every=True))
+        except PpmcError as error:
+            self.lost = error if isinstance(error, LinkError) else WrongDevice(str(error))
+            self.report(self.lost)
+            return
+        finally:
+            self._retry_at = loop.time() + RETRY
+        self.lost, self.reported = None, ""
+        self._log(f"{device.link.name}: the port is open again: {state}; home, or set positions with SET")
+
+    async def _update(self) -> None:
+        """Begin an attempt to open a lost port, if it is time for one; publish all records."""
+        if self._attempt is not None and self._attempt.done():
+            done, self._attempt = self._attempt, None
+            done.result()
+        used = self.calls or any(motor.moving for motor in self.motors)
+        if self.lost is not None and self._reopen and not used and self._attempt is None:
+            if asyncio.get_running_loop().time() >= self._retry_at:
+                self._attempt = asyncio.create_task(self._open_again())
+        for motor in self.motors:
+            await motor.refresh()
 
     async def run(self, check: Callable[[], None], ready: Callable[[int], None]) -> None:
         """Serve the records until `check`, which is called about ten times a second, raises an exception.
@@ -494,8 +579,7 @@ class Ioc:
         try:
             while not server.done():
                 check()
-                for motor in self.motors:
-                    await motor.refresh()
+                await self._update()
                 await asyncio.sleep(POLL)
             try:
                 server.result()
@@ -504,6 +588,8 @@ class Ioc:
                 raise PpmcError(text) from error
         finally:
             self.closing = True
+            if self._attempt is not None:
+                await asyncio.wait([self._attempt])
             for motor in self.motors:
                 await motor.close()
             server.cancel()
@@ -518,9 +604,10 @@ def serve(
     check: Callable[[], None],
     ready: Callable[[int], None],
     log: Callable[[str], None],
+    reopen: Callable[[], Device] | None = None,
 ) -> None:
     """Run an IOC; see `Ioc`. Motions that are in progress at its end continue."""
     # `log` receives all problems.
     for name in ("caproto", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
-    asyncio.run(Ioc(motors, log).run(check, ready))
+    asyncio.run(Ioc(motors, log, reopen).run(check, ready))

@@ -295,7 +295,8 @@ class Controller:
         axis.pending = axis.confirmed = axis.on = False
         axis.homed &= not isinstance(error, EndUnknown)
         if error is not self._last_error:
-            self._report(f"axis {axis.number}: fault {axis.fault}: {error}")
+            text = str(error).removeprefix(f"axis {axis.number}: ")
+            self._report(f"axis {axis.number}: fault {axis.fault}: {text}")
         self._last_error = error
 
     def _attempt(self, axes: Sequence[HalAxis], call: Callable[[], object]) -> None:
@@ -345,7 +346,7 @@ class Controller:
 
     def _start_members(self) -> None:
         if off := [str(axis.number) for axis in self._members if not axis.on]:
-            raise GroupEndedError(f"axes {', '.join(off)} of the group have a fault or are not enabled")
+            raise GroupEndedError(f"a fault in the group, or not enabled: axis {', '.join(off)}")
         moves = {axis.number: pulses for axis in self._members if (pulses := axis.distance())}
         motions = self.machine.start_together(moves) if self.machine and moves else {}
         for number, motion in motions.items():

@@ -16,7 +16,7 @@ from weakref import WeakKeyDictionary
 
 from .drives import Speeds, drive_of
 from .host.capabilities import SetupRequest
-from .host.errors import NothingToStop, OutOfRange
+from .host.errors import NothingToStop, OutOfRange, WrongDevice
 from .host.motion import AnyMotion, Progress
 from .host.motion_result import Cause, MotionResult
 from .host.part import Device
@@ -83,11 +83,27 @@ class Positioner:
         if not pulses_per_unit:
             raise OutOfRange("pulses_per_unit 0: not supported; use the number of pulses in a unit")
         self.offset = 0.0
-        self.device, self.axis = device, _axis(device, axis)
+        self.device, self.axis, self._number = device, _axis(device, axis), axis
         self._drive = drive_of(self.axis, request)
         self.stop_requested = False
         self._access = _accesses.setdefault(device, _Access())
         self._stopped: AnyMotion | None = None
+
+    def attach(self, device: Device) -> None:
+        """Use another object for the device, whose port was opened again; scale and offset do not change.
+
+        The part may have lost its set-up, which `initialise` restores. No thread may use the positioner.
+
+        Raises:
+            WrongDevice: another kind of part is connected.
+            OutOfRange: the axis does not exist.
+        """
+        if type(device) is not type(self.device):
+            raise WrongDevice(f"{device.link.name}: another part is connected than before")
+        self.device, self.axis = device, _axis(device, self._number)
+        self._drive.attach(self.axis)
+        self._access = _accesses.setdefault(device, _Access())
+        self._stopped = None
 
     @property
     def lock(self) -> threading.RLock:

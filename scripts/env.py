@@ -222,6 +222,9 @@ def add_command() -> None:
 
 def main(groups: list[str]) -> int:
     """Install the groups that are missing; return the exit code."""
+    if wrong := [group for group in groups if not group.isalnum()]:
+        print(f"error: {wrong[0]}: no group (python -m scripts.env GROUP …)", file=sys.stderr)
+        return 2
     try:
         if missing(groups):
             with locked():

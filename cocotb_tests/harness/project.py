@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import shutil
 import subprocess
 import sys
@@ -115,19 +116,43 @@ def fail(message: str) -> int:
     return 1
 
 
-def run(main: Callable[[], int]) -> int:
+def run(main: Callable[[], int], arguments: str | None = None) -> int:
     """Run the `main` of a script: a ProjectError or Ctrl-C prints one line and returns a non-zero exit code.
 
     The stdout of the script may have any encoding, be closed, or lose its reader (`openppmc.streams`).
+
+    Args:
+        arguments: for a script without a parser, the names of its arguments: `JOB`, `[JOB]`, or `JOB...` for
+            several. Their number is checked, and --help prints them.
     """
-    return streams.guarded(lambda: _run(main))
+    return streams.guarded(lambda: _run(main, arguments))
 
 
-def _run(main: Callable[[], int]) -> int:
+def _check_arguments(names: str) -> None:
+    script = sys.modules["__main__"]
+    name = script.__spec__.name.removesuffix(".__main__") if script.__spec__ else sys.argv[0]
+    parser = argparse.ArgumentParser(
+        prog=f"python -m {name}",
+        description=script.__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    for one in names.split():
+        count = "?" if one[0] == "[" else "+" if one.endswith("...") else None
+        parser.add_argument(one.strip("[].").lower(), metavar=one.strip("[]."), nargs=count)
+    parser.parse_args()
+
+
+def _run(main: Callable[[], int], arguments: str | None) -> int:
     try:
+        if arguments is not None:
+            _check_arguments(arguments)
         return main()
     except ProjectError as error:
         return fail(str(error))
+    except ModuleNotFoundError as error:
+        if not error.name or (ROOT / error.name.partition(".")[0]).is_dir():
+            raise
+        return fail(f"{error.name} is not installed in .venv; `make` installs it unless .venv is a link")
     except KeyboardInterrupt:
         fail("interrupted")
         return 130

@@ -59,4 +59,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    raise SystemExit(project.run(main))
+    raise SystemExit(project.run(main, ""))

@@ -15,7 +15,7 @@ from ...drives import drive_of
 from ...errors import PpmcError
 from ...host.capabilities import SetupRequest
 from ...host.part import Part
-from ...host.stopping import name_of
+from ...host.stopping import name_of, stop_motors
 from ...linuxcnc import PERIOD, Controller, Machine
 from . import output
 from .line_session import parse_numbers
@@ -87,13 +87,18 @@ def serve(name: str, open_device: Callable[[], Any], machine_of: Callable[[Any],
 def _reconnect(
     controller: Controller, connect: Callable[[], Machine], report: Callable[[str], None]
 ) -> Machine:
-    """Wait until the pin `reset` requests it, and open the device again."""
+    """Wait until the pin `reset` requests it, and open the device again.
+
+    Motors that still move are stopped, because no axis of the component follows them.
+    """
     while True:
         controller.cycle()
         if controller.reopen:
             controller.reopen = False
             try:
-                return connect()
+                machine = connect()
+                report(f"the port is open again: {stop_motors([machine.device], every=True)}")
+                return machine
             except PpmcError as error:
                 report(f"error: {error}")
         time.sleep(PERIOD)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
 from typing import Annotated, Any, TypeVar
 
 import typer
@@ -15,7 +16,7 @@ from ...host.stopping import print_line
 from . import output
 from .line_session import parse_numbers
 from .options import with_options, with_setup
-from .session import Guard, initialise, opened, setup_values
+from .session import Guard, initialise, open_board, opened, setup_values
 
 T = TypeVar("T")
 Prefix = Annotated[str, typer.Option("--prefix", metavar="TEXT", help="beginning of the PV names: lab:")]
@@ -85,11 +86,13 @@ def serve(
     prefix: str,
     units: Mapping[str, str],
     requests: Mapping[int, SetupRequest | None],
+    reopen: Callable[[], Device],
 ) -> None:
     """Serve records until a signal arrives.
 
     Args:
         requests: by axis number, the set-up with which each axis is initialised.
+        reopen: opens the device again after its port was lost.
     """
     from ...epics import Units, serve
     from ...positioner import Positioner
@@ -109,7 +112,16 @@ def serve(
     def ready(port: int) -> None:
         output.print_line(f"{' '.join(motors)}: ready, TCP port {port}; Ctrl-C ends the IOC")
 
-    serve(motors, guard.check, ready, print_line)
+    with ExitStack() as later:
+
+        def open_again() -> Device:
+            later.close()
+            device.close()
+            fresh = later.enter_context(reopen())
+            later.enter_context(guard.stop_motors_on_exit(fresh))
+            return fresh
+
+        serve(motors, guard.check, ready, print_line, open_again)
 
 
 @with_setup
@@ -125,4 +137,4 @@ def ioc(typed: dict[str, Any], units: dict[str, str], prefix: Prefix, axis: Axes
         values = {number: setup_values(typed, number) for number in numbers}
         initialise(session, values)
         requests = {number: one.request(number) for number, one in values.items()}
-        serve(session.part, session.guard, prefix, units, requests)
+        serve(session.part, session.guard, prefix, units, requests, open_board)

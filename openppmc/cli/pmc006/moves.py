@@ -165,7 +165,8 @@ def ioc(units: dict[str, str], prefix: Prefix, address: Address = None) -> None:
     check_prefix(prefix)
     with opened() as session:
         parts = session.selected_axes(address)
-        serve(session.bus, session.guard, prefix, units, {part.address: None for part in parts})
+        requests = dict.fromkeys((part.address for part in parts), None)
+        serve(session.bus, session.guard, prefix, units, requests, open_bus)
 
 
 def hal(axes: Axes = None, name: Name = "openppmc") -> None:

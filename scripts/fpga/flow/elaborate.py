@@ -10,6 +10,8 @@ from __future__ import annotations
 import json
 import sys
 
+from cocotb_tests.harness.project import run
+
 
 def main() -> int:
     """Elaborate the top and check it; print the log."""
@@ -28,4 +30,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "JOB"))

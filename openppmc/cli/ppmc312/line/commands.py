@@ -236,7 +236,7 @@ def ioc(typed: dict[str, Any], units: dict[str, str], prefix: Prefix, axis: AnyA
         axes = session.selected_axes(axis)
         _initialise(session, axes, typed)
         requests = {one.number: setup_values(typed, one.number).request(one.number) for one in axes}
-        serve_ioc(session.bus, session.guard, prefix, units, requests)
+        serve_ioc(session.bus, session.guard, prefix, units, requests, open_bus)
 
 
 def _list(axes: list[Station312]) -> str:
