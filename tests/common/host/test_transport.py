@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.host import Disconnected, Link, NoAnswer, PortError, WrongDevice, open_port
+from openppmc.host import Disconnected, Link, NoAnswer, PortError, ProtocolError, WrongDevice, open_port
 from openppmc.host.frames import Deframer, Frame, encode
 from openppmc.host.script import Script
 from openppmc.model.carrier.carrier import Plant
@@ -162,6 +162,30 @@ def test_wrong_things_at_the_port(answer: object, kind: type[Exception], text: s
     assert port.closed
 
 
+@pytest.mark.parametrize("damaged", [1, 2])
+def test_an_answer_that_does_not_match_its_script_is_requested_again(damaged: int) -> None:
+    """If the CRC of an answer ends with 00, the answer is also valid without this byte, or with it twice. The
+    bridge repeats the answer; after two answers of the wrong length, an error is raised.
+    """
+    asked: list[bytes] = []
+
+    def answer(request: bytes) -> bytes:
+        if request[1:] == b"\x01":
+            return encode(request[:1] + b"\x00" + identity())
+        if request[1:] != b"\x08":
+            return encode(request[:1] + b"\x00")
+        asked.append(request)
+        return encode(request[:1] + b"\x00" + bytes(3 if len(asked) <= damaged else 4))
+
+    link = Link(Fake(answer), baud=115_200)
+    if damaged == 1:
+        assert link.execute(Script().count()).number(0) == 0
+        assert len(asked) == 2 and asked[0] == asked[1] and link.repeats == 1
+    else:
+        with pytest.raises(ProtocolError, match="bad answer .3 data bytes where COUNT gives 4"):
+            link.execute(Script().count())
+
+
 def test_a_rate_that_is_none() -> None:
     with pytest.raises(PortError, match="9600 baud is not a rate of the bridge: it has 115200"):
         Link("model:", baud=9600)
@@ -217,8 +241,8 @@ def test_an_adapter_that_refuses_the_rate(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_the_first_bytes_wake_the_bridge() -> None:
-    """UB-LIN-06: the host first sends bytes that are a break at any higher rate, then a flag that ends an
-    open frame.
+    """UB-LIN-06: the host first sends bytes that are a break at any higher rate, then 7D 7E, which ends an
+    open frame as invalid.
     """
     port = Fake(
         lambda request: encode(request[:1] + b"\x00" + (identity() if request[1:] == b"\x01" else b""))
@@ -227,7 +251,7 @@ def test_the_first_bytes_wake_the_bridge() -> None:
     write = port.write
     port.write = lambda data: (sent.append(data), write(data))[1]  # type: ignore[method-assign]
     Link(port, baud=115_200)
-    assert b"".join(sent).startswith(b"\x00\x00\x7e" + encode(b"\x00\x01"))
+    assert b"".join(sent).startswith(b"\x00\x00\x7d\x7e" + encode(b"\x00\x01"))
 
 
 def test_a_bridge_that_was_left_at_a_high_rate_is_woken_up() -> None:
