@@ -175,8 +175,8 @@ class Link:
         """
         if RATES.index(baud) > self.identity.best_rate:
             return
-        self.execute(Script().rate(RATES.index(baud)))
         try:
+            self._request_rate(Script().rate(RATES.index(baud)))
             self.port.read(_SETTLE)
             self.port.set_baud(baud)
             self.baud = baud
@@ -185,6 +185,18 @@ class Link:
             self.baud = BASE_BAUD
             self.port.set_baud(BASE_BAUD)
             self.identity = self._identify()
+
+    def _request_rate(self, script: Script) -> None:
+        """Execute the operation RATE.
+
+        If its answer is lost, the bridge may already work at the new rate. Then a wake-up resets the rate,
+        and the operation is executed again.
+        """
+        try:
+            self.execute(script)
+        except (NoAnswer, ProtocolError):
+            self.identity = self._identify()
+            self.execute(script)
 
     def close(self) -> None:
         """Switch events off, return to 115 200 baud and close the port.

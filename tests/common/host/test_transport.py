@@ -12,6 +12,7 @@ from openppmc.host.frames import Deframer, Frame, encode
 from openppmc.host.script import Script
 from openppmc.model.carrier.carrier import Plant
 from openppmc.sim.common.machine import parse_machine
+from scripts.measure.fire.line import Fault, FaultyLine, Kind
 
 
 def test_no_port_named() -> None:
@@ -223,6 +224,20 @@ def test_a_rate_that_does_not_get_through(monkeypatch: pytest.MonkeyPatch) -> No
         assert link.baud == 115_200
         assert rates == [115_200, 1_000_000, 115_200]
         assert link.execute(Script().pins()).byte(0) & 1
+
+
+@pytest.mark.parametrize("to_board", [False, True])
+def test_one_lost_byte_costs_no_rate(to_board: bool) -> None:
+    """With any byte of the connection lost, the link works at the requested rate.
+
+    If the answer to RATE is lost, the bridge already works at the new rate, and the repeated requests arrive
+    as framing errors.
+    """
+    line = FaultyLine(open_port("model:speed=max"))
+    Link(line, baud=1_000_000)
+    for place in range(line.passed[to_board]):
+        damaged = FaultyLine(open_port("model:speed=max"), [Fault(Kind.LOSE, to_board, place)])
+        assert Link(damaged, baud=1_000_000).baud == 1_000_000, place
 
 
 def test_an_adapter_that_refuses_the_rate(monkeypatch: pytest.MonkeyPatch) -> None:
