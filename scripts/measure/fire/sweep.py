@@ -53,8 +53,8 @@ def sizes(name: str, number: int) -> tuple[int, int]:
 def faults_of(name: str, seed: int) -> tuple[int, tuple[Fault, ...]]:
     """Return the number of the dialogue, and its faults.
 
-    As many seeds as the dialogue has bytes damage one byte each, and the next seeds damage the same bytes
-    with another kind of fault. After all kinds, the next dialogue begins. In each odd dialogue with a CRC, a
+    Each of the first n seeds damages another one of the n bytes of a dialogue. The next n seeds damage the
+    same bytes with another kind of fault. After all kinds, the next dialogue begins. In each odd dialogue with a CRC, a
     second fault is added at a random place.
     """
     seeds, number = seed, 0
