@@ -94,7 +94,7 @@ class Motion(Handle):
         if self._abort is not None:
             self._part.max_speed = self._abort[1]
             self._abort = None
-        position = self._part._read_position()
+        position = self._part._known_position = self._part._read_position()
         done = None if self.begin is None else _signed(position - self.begin)
         remaining = 0 if self.requested is None or done is None else self.requested - self.direction * done
         whole = self.requested is not None and done is not None and remaining == 0
@@ -109,7 +109,6 @@ class Motion(Handle):
             )
         else:
             self.result = MotionResult(cause, done, remaining, position, raw, self._part._message_prefix)
-            self._part._known_position = position
 
     def _cause(self, flags: Flags) -> Cause | None:
         """Return the cause of an early end, `None` if no known cause applies."""

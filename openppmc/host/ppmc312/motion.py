@@ -131,6 +131,7 @@ class Motion(Handle):
     def _not_confirmed(self, reason: str, report: Stopped | None = None) -> None:
         """Record that the motion is over, but that the report of its end is wrong or missing."""
         position = self._part._position(False) if report is None else report.position
+        self._part._known_position = position
         done = None if self.begin is None else signed((position - self.begin) % COUNTS)
         where = f"{self._link.name}: {self._part._message_prefix}"
         finish = None if report is None else int(report.cause)
