@@ -8,7 +8,9 @@ from openppmc.host import Disconnected, NothingToStop, NotInitialised, Ppmc104, 
 from openppmc.sim import SimBoard
 from scripts.measure.fire.line import DELAYS, Fault, FaultyLine, Killed, Kind
 
-from .fixtures import SETUP, Wait
+from .fixtures import PATIENCE, SETUP, CommandLine, Wait, one_line
+
+SLOW = ("--start", "1000", "--high", "4000", "--ramp", "300")
 
 LATE = DELAYS.index(0.12)
 PULSES = 400
@@ -51,3 +53,35 @@ def test_the_next_program_reads_the_true_position(
         before = again.position
         again.initialise(**SETUP)
         assert again.move(20).position == before + 20 == board.status().position - 4000
+
+
+def test_kill_9_of_the_program(board: SimBoard, openppmc: CommandLine, until: Wait) -> None:
+    """A killed command leaves the motor running; the next commands stop it and print the true position."""
+    process = openppmc.begin(board.port, "jog", "cw", *SLOW)
+    until(lambda: board.status().pulses > 300, "motor turning")
+    process.kill()
+    process.communicate(timeout=PATIENCE)
+    code, out, err = openppmc.run(board.port, "stop")
+    assert code == 0 and f"position {board.status().position - 4000}" in out, err
+    code, _, err = openppmc.run(board.port, "move", "25", *SLOW)
+    assert code == 0, err
+
+
+def test_two_programs_at_one_port(board: SimBoard, openppmc: CommandLine) -> None:
+    """The second program ends with one line, and the first one continues."""
+    with Ppmc104.open(board.port) as axis:
+        code, _, err = openppmc.run(board.port, "status")
+        assert code == 1 and one_line(err) and "another program has this port open" in err
+        axis.initialise(**SETUP)
+        assert axis.move(90).position == 90
+
+
+def test_kill_9_of_the_board(board: SimBoard, openppmc: CommandLine, until: Wait) -> None:
+    """If the board is killed during a move, the command ends with one line, and so does the next one."""
+    process = openppmc.begin(board.port, "move", "30000", *SLOW)
+    until(lambda: board.status().pulses > 300, "motor turning")
+    board.process.kill()
+    _, err = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 1 and one_line(err), err
+    code, _, err = openppmc.run(board.port, "status")
+    assert code == 1 and one_line(err), err
