@@ -131,10 +131,12 @@ soak | campaign | Compare random hosts with the golden model; PART=all: each par
     --seed {SEED:1} --count {COUNT:1000} {on}
 fuzz | campaign | Send random characters to each deframer and its model.
     {py} -m scripts.measure.fuzz [--seed {SEED}] [--count {COUNT}] {on}
-nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates, test-bits, test JITTER=1, prove.
-    code=0; for work in 'fuzz --count 100000000' 'soak all --seed {SEED:1000000} --count {COUNT:2000}'
-    coverage mutants.made gates 'gates --bits'; do echo "== nightly: $work";
-    {py} -m scripts.measure.$work {on} || code=1; done;
+fire | campaign | Damage the bytes between host drivers and their boards.
+    {py} -m scripts.measure.fire --seed {SEED:0} --count {COUNT:10000} {on}
+nightly | dev campaign | Run fuzz, fire, soak, coverage, mutate, test-gates, test-bits, test JITTER=1, prove.
+    code=0; for work in 'fuzz --count 100000000' 'fire --count 100000'
+    'soak all --seed {SEED:1000000} --count {COUNT:2000}' coverage mutants.made gates 'gates --bits'; do
+    echo "== nightly: $work"; {py} -m scripts.measure.$work {on} || code=1; done;
     echo '== nightly: jitter'; {pytest} -n {J:2} --jitter || code=1;
     echo '== nightly: proofs'; {py} -m scripts.measure.prove --night -n {J:2} || code=1; exit $code
 replay | sim | Repeat a failed random test on the RTL and the golden model.
@@ -163,7 +165,7 @@ BOARD | board | FPGA board
 HOST | host | host interface that the board has for the part: uart, bus or spi
 T | tests | parts of test names, separated by commas
 SEED | 0..4294967295 | (first) random seed; for bitstream: of place and route
-COUNT | 1..1000000000 | number of seeds, characters, or mutants of a folder
+COUNT | 1..1000000000 | number of seeds, sessions, characters, or mutants of a folder
 CLK_HZ | 8000000..200000000 | only tests with this clock rate
 J | 1..64 | number of workers
 WITH | campaign ophyd linuxcnc litex fusesoc versions | tests that need other packages

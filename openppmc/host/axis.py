@@ -21,7 +21,7 @@ from .errors import (
 )
 from .link import LinkProtocol
 from .motion import READ_FINISH, Homing, Motion, MotionRequest, Progress
-from .motion_result import Cause, MotionResult
+from .motion_result import Cause, MotionResult, position_lost
 from .registers import FAMILY, Outputs, ReadCodes, Switches
 from .script import Script
 from .speeds import Number, exact, nearby
@@ -30,6 +30,8 @@ OnProgress = Callable[[Progress], None]
 
 
 EXCITATION_OFF = 0xC0
+OPERATION_BITS = 7
+"""Bits of the finish status with the last operation, 0 until the first operation after a reset."""
 CW, CCW = 0, 1
 STOP_NOW, STOP_SLOWLY = 0x40, 0x41
 
@@ -88,6 +90,7 @@ class Axis(Checked):
         self.link = link
         self.setup = None
         self._motion: Motion | None = None
+        self._known_count = 0
 
     @property
     def motion(self) -> Motion | None:
@@ -158,6 +161,8 @@ class Axis(Checked):
             long_intervals,
             self.number,
         )
+        if self._known_count:
+            self._check_count(self._count())
         return self.apply(self.kind.plan(self.link.identity.xtal_hz, request))
 
     # ------------------------------------------------------------------ implemented by each part
@@ -213,11 +218,35 @@ class Axis(Checked):
 
     @property
     def position(self) -> int:
-        """Position in the pulse counter of the bridge, CW positive. The call is allowed at any time."""
-        position = self._position_of(self._count())
+        """Position in the pulse counter of the bridge, CW positive. The call is allowed at any time.
+
+        Raises:
+            ProtocolError: the board has no counter, or a restart of the board has cleared it. The call after
+                this error returns the new value.
+        """
+        position = self._position_of(self._check_count(self._count()))
         if position is None:
             raise ProtocolError(f"{self.link.name}: this board has no pulse counter, so no position")
         return position
+
+    def _check_count(self, count: int) -> int:
+        """Return a value of the position counter unchanged.
+
+        Raises:
+            ProtocolError: the counter has become 0 by a restart of the board: the finish status indicates no
+                motion since then.
+        """
+        known, self._known_count = self._known_count, count
+        motion = self._motion
+        if count or not known or (motion is not None and not motion.over and motion.poll() is not None):
+            return count
+        try:
+            finish = self.link.execute(Script().call(READ_FINISH | self._code_bits).get(1)).byte(1)
+        except AxisBusy:
+            return count  # another program has started a motion
+        if not finish & OPERATION_BITS:
+            raise position_lost(f"{self.link.name}: {self._message_prefix}", known)
+        return count
 
     def _add_position_read(self, script: Script) -> Script:
         """Add a read of the position counter of this axis to a script. It returns one value of 4 bytes."""
@@ -241,6 +270,7 @@ class Axis(Checked):
         if motion is not None and not motion.over and motion.poll() is not None:
             raise AxisBusy(self._busy_mask)
         self.link.execute(Script().zero(self.number))
+        self._known_count = 0
 
     def excitation_off(self) -> None:
         """Switch all coils off; the axis must be initialised again.
@@ -273,6 +303,7 @@ class Axis(Checked):
     def _on_reset(self) -> None:
         """Discard set-up and motion, because the part was reset."""
         self.setup = self._motion = None
+        self._known_count = 0
 
     def _at_rest(self, script: Script) -> None:
         """Execute a script only if BUSY = 0. The bridge checks this condition."""

@@ -150,10 +150,11 @@ class Deframer:
 
 MESSAGE_EVENT, MESSAGE_NAK = 0x80, 0x81
 LAST_SEQ = 127
-WAKE_UP = b"\x00\x00\x7e"
+WAKE_UP = b"\x00\x00\x7d\x7e"
 """Bytes that wake a bridge up at 115 200 baud (UB-LIN-06).
 
-At any rate, and within any frame, they return the bridge to the idle state.
+At any rate, and within any frame, they return the bridge to the idle state. 7D 7E ends a frame as invalid.
+With 7E alone, a request that lacks only its last flag would be executed, because its CRC stays 0 with 00 00.
 """
 
 
@@ -238,15 +239,30 @@ class Session:
         """
         if self.busy:
             raise RuntimeError("a request is outstanding")
+        # If the CRC ended with 00, the frame would also be valid without this byte, or with this byte twice.
+        while not crc16(bytes([self._next_seq]) + script) & 0xFF:
+            self._next_seq = self._following_seq()
         line = encode(bytes([self._next_seq]) + script, REQUEST_LIMIT)
-        self._request, self._answer = line, None
+        self._request = self._line = line
+        self._answer = None
         self._seq = self._next_seq
-        self._next_seq = self._next_seq % LAST_SEQ + 1
+        self._next_seq = self._following_seq()
         self._patience = patience
         self._sent = 1
         self._naks: list[int] = []
         self._received = 0
         self._deadline = now + patience
+        return line
+
+    def _following_seq(self) -> int:
+        return self._next_seq % LAST_SEQ + 1
+
+    def repeat(self, now: float) -> bytes:
+        """Return the line bytes of the last request again, because its answer does not match it."""
+        line = self._line
+        self._request, self._sent = line, self._sent + 1
+        self.repeats += 1
+        self._deadline = now + self._patience
         return line
 
     def abandon(self) -> None:

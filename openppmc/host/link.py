@@ -32,6 +32,8 @@ USB adapters and busy computers need this time.
 _SETTLE = 0.02
 _QUIET = 0.05
 _BITS = 10
+_READS = 2
+"""Number of times that an answer is read that does not match its script."""
 _MISMATCH = "package and bitstream do not fit together: renew the older one"
 
 
@@ -173,8 +175,8 @@ class Link:
         """
         if RATES.index(baud) > self.identity.best_rate:
             return
-        self.execute(Script().rate(RATES.index(baud)))
         try:
+            self._request_rate(Script().rate(RATES.index(baud)))
             self.port.read(_SETTLE)
             self.port.set_baud(baud)
             self.baud = baud
@@ -183,6 +185,18 @@ class Link:
             self.baud = BASE_BAUD
             self.port.set_baud(BASE_BAUD)
             self.identity = self._identify()
+
+    def _request_rate(self, script: Script) -> None:
+        """Execute the operation RATE.
+
+        If its answer is lost, the bridge may already work at the new rate. Then a wake-up resets the rate,
+        and the operation is executed again.
+        """
+        try:
+            self.execute(script)
+        except (NoAnswer, ProtocolError):
+            self.identity = self._identify()
+            self.execute(script)
 
     def close(self) -> None:
         """Switch events off, return to 115 200 baud and close the port.
@@ -251,8 +265,17 @@ class Link:
         patience = script.patience + line_time + attempts_margin
         request = session.request(bytes(script), patience, self.clock())
         try:
-            port.write(request)
-            return parse_answer(script, self._await())
+            for left in reversed(range(_READS)):
+                port.write(request)
+                body = self._await()
+                try:
+                    return parse_answer(script, body)
+                except BadAnswer:
+                    if not left:
+                        raise
+                # An answer without its last byte, or with this byte twice, may have a valid CRC.
+                request = session.repeat(self.clock())
+            raise AssertionError
         finally:
             session.abandon()
 

@@ -98,6 +98,7 @@ class MotionAxis(Protocol):
     _code_bits: int
     _busy_mask: int
     _zero_mask: int
+    _known_count: int
 
     @property
     def _message_prefix(self) -> str: ...
@@ -254,6 +255,7 @@ class Motion(Handle):
     def _decode(self, finish: int, remaining: bytes, counted: bytes) -> None:
         """Set `result` or `result_error` from the registers of the part and the pulse counter."""
         count = int.from_bytes(counted, "little", signed=True)
+        self._axis._known_count = count
         position = self._axis._position_of(count)
         moved = None
         if self._ours and position is not None:

@@ -91,6 +91,19 @@ class EndUnknown(ProtocolError):
         )
 
 
+def position_lost(where: str, known: int) -> ProtocolError:
+    """Return the exception for a part whose position became 0 by a reset.
+
+    Args:
+        where: prefix of the message.
+        known: last known position.
+    """
+    return ProtocolError(
+        f"{where}the position was {known} and now reads 0, because the part was reset or lost its power: "
+        "initialise it and home again"
+    )
+
+
 class Cause(Flag):
     """Cause of the end of a motion; several may coincide.
 

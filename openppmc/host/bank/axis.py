@@ -119,7 +119,7 @@ class BankAxis(Axis):
 
     def zero(self) -> None:
         """Set the current position to 0, for this object only."""
-        self._origin = self._count()
+        self._origin = self._known_count = self._check_count(self._count())
 
     def _on_reset(self) -> None:
         super()._on_reset()

@@ -144,6 +144,7 @@ class Axis(Settings):
         within(position, "position", -(1 << 31), (1 << 31) - 1)
         self._at_rest(self.flags())
         self.execute(Code.SET_POSITION, position, good=lambda value: value == position)
+        self._known_position = position
 
     def zero(self) -> None:
         """Set the current position to 0. The motor must be stopped."""
@@ -181,7 +182,12 @@ class Axis(Settings):
         moved.
         """
         try:
-            return reply if self.flags().busy or self.position != begin else None
+            if self.flags().busy or self._read_position() != begin:
+                return reply
+            # A reset during the motion also sets the position to 0.
+            if not begin and self.was_reset():
+                raise self._lost_reply("the controller was reset since")
+            return None
         except NoAnswer as error:
             raise self._lost_reply(str(error)) from error
 

@@ -94,7 +94,7 @@ class Motion(Handle):
         if self._abort is not None:
             self._part.max_speed = self._abort[1]
             self._abort = None
-        position = self._part.position
+        position = self._part._known_position = self._part._read_position()
         done = None if self.begin is None else _signed(position - self.begin)
         remaining = 0 if self.requested is None or done is None else self.requested - self.direction * done
         whole = self.requested is not None and done is not None and remaining == 0

@@ -20,6 +20,7 @@ from collections.abc import Callable
 from ..check import Checked
 from ..line import LostReply, unanswered
 from ..line_port import Counters, Fault
+from ..motion_result import position_lost
 from .wire import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags, Modes, Ports
 
 # Line with any number of PMC006B4 controllers. It transfers one frame and its reply at a time.
@@ -115,6 +116,7 @@ class StationLink(Checked):
         self.alone = alone
         self._mark = 0
         self.unsaved = {}
+        self._known_position = 0
 
     @property
     def _message_prefix(self) -> str:
@@ -228,8 +230,24 @@ class StationLink(Checked):
 
     @property
     def position(self) -> int:
-        """Position in steps, forward positive. The call is allowed at any time."""
+        """Position in steps, forward positive. The call is allowed at any time.
+
+        Raises:
+            ProtocolError: the position is 0 because the controller was reset. This is detected if this object
+                has set an unsaved setting (direction, stops, maximum speed) that the factory sets to another
+                value. The call after this error returns 0.
+        """
+        known, self._known_position = self._known_position, self._read_position()
+        if known and not self._known_position and self.was_reset():
+            raise position_lost(f"{self.line.name}: {self._message_prefix}", known)
+        return self._known_position
+
+    def _read_position(self) -> int:
         return self.execute(Code.POSITION)
+
+    def was_reset(self) -> bool:
+        """Return True if a setting that a reset changes differs from its recorded value."""
+        raise NotImplementedError
 
     def version(self) -> str:
         """Return the firmware version, for example V0.1.35."""

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from ...lazy import Renamed
-from ...model.ppmc312.codes import Code
+from ...model.ppmc312.codes import Code, State
 from .. import speeds
 from ..capabilities import SetupRequest
 from ..check import Checked
 from ..errors import OutOfRange, ProtocolError
-from ..motion_result import MotionResult
+from ..motion_result import MotionResult, position_lost
 from . import blocks
 from .answers import BadResponse, Executed, Inputs, Report, Response, Status, Stopped, signed
 from .motion import Motion, Transport
@@ -81,6 +81,7 @@ class Core(Checked, Generic[MotionT]):
         self.reports = deque(maxlen=MOST_KEPT)
         self._motion: MotionT | None = None
         self._mark = 0
+        self._known_position = 0
         self.window = self._make_window()
         self.window.open()
 
@@ -185,8 +186,23 @@ class Core(Checked, Generic[MotionT]):
 
     @property
     def position(self) -> int:
-        """Pulse position of the part, CW positive. The call is allowed at any time."""
-        return self._position(False)
+        """Pulse position of the part, CW positive. The call is allowed at any time.
+
+        Raises:
+            ProtocolError: the position is 0 because the part was reset. The call after this error returns 0.
+        """
+        return self._check_position(self._position(False))
+
+    def _check_position(self, position: int) -> int:
+        """Return a position unchanged.
+
+        Raises:
+            ProtocolError: the position has become 0 by a reset of the part, which has no table any more.
+        """
+        known, self._known_position = self._known_position, position
+        if known and not position and self.status().state is State.INI:
+            raise position_lost(f"{self.link.name}: {self._message_prefix}", known)
+        return position
 
     @property
     def encoder(self) -> int:
@@ -211,6 +227,8 @@ class Core(Checked, Generic[MotionT]):
             AxisBusy: the motor is moving.
         """
         self.instruct(blocks.set_position(position, encoder))
+        if not encoder:
+            self._known_position = position
 
     def zero(self) -> None:
         """Set the current position of pulses and encoder to 0."""
@@ -260,6 +278,7 @@ class Core(Checked, Generic[MotionT]):
     def _on_reset(self) -> None:
         """Discard set-up, motion and reports, because the part was reset."""
         self.setup = self._motion = None
+        self._known_position = 0
         self.reports.clear()
         self.window.open()
 
@@ -354,6 +373,8 @@ class Settings(Core[MotionT]):
 
     def apply(self, setup: Setup) -> Setup:
         """Initialise the part with a set-up planned earlier, and switch the excitation on."""
+        if self._known_position:
+            self._check_position(self._position(False))
         self.setup = None
         milliseconds = ANSWER_MS
         if self.link.identity.datasheet:

@@ -54,6 +54,10 @@ class MotionAxis(Protocol):
     def window(self) -> ReportSource: ...
     @property
     def position(self) -> int: ...
+
+    _known_position: int
+
+    def _position(self, encoder: bool) -> int: ...
     def status(self) -> Status: ...
     def _annotate(self, end: MotionResult) -> MotionResult: ...
 
@@ -122,10 +126,12 @@ class Motion(Handle):
         self.result = self._part._annotate(
             MotionResult(cause, done, remaining, report.position, int(report.cause))
         )
+        self._part._known_position = report.position
 
     def _not_confirmed(self, reason: str, report: Stopped | None = None) -> None:
         """Record that the motion is over, but that the report of its end is wrong or missing."""
-        position = self._part.position if report is None else report.position
+        position = self._part._position(False) if report is None else report.position
+        self._part._known_position = position
         done = None if self.begin is None else signed((position - self.begin) % COUNTS)
         where = f"{self._link.name}: {self._part._message_prefix}"
         finish = None if report is None else int(report.cause)
@@ -148,7 +154,7 @@ class Motion(Handle):
             EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.
         """
         self._update()
-        position = self._part.position
+        position = self._part._position(False)
         if self._confirmed_result() is not None:
             return None
         done = 0 if self.begin is None else abs(signed((position - self.begin) % COUNTS))

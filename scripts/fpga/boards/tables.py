@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from scripts.fpga.boards.description import Description
 from scripts.fpga.boards.pads import Fitted
 from scripts.markdown import table
 
+TIMING = project.ROOT / "docs" / "timing.json"
+"""Clock rates of the bitstreams after routing, written by scripts/fpga/flow/timing.py."""
 WAYS = {"in": "in", "out": "out", "inout": "in, out"}
 
 
@@ -34,6 +37,31 @@ def board_table(boards: tuple[Description, ...]) -> str:
         clocks = f"{board.clock['mhz']:g} MHz", f"{' or '.join(rates)} MHz"
         rows.append((names, board.title, board.chip, *clocks, parts, built))
     return table(("`BOARD`", "board", "FPGA", "oscillator", "`clk`", "`PART`", "built here"), rows)
+
+
+def timing_table(boards: tuple[Description, ...]) -> str:
+    """Return the table of the setup margins of the bitstreams, the worst of each board and clock first."""
+    figures = json.loads(TIMING.read_text(encoding="utf-8"))
+    rows: list[tuple[float, tuple[str, ...]]] = []
+    missing = []
+    for board in boards:
+        for device in board.devices:
+            for on in board.parts:
+                part = "" if on.part == "ppmc104" else f"-{on.part}"
+                for host in on.hosts:
+                    name = device.name + part + ("" if host == "uart" else f"-{host}")
+                    if name not in figures:
+                        missing.append(f"`{name}`")
+                        continue
+                    mhz, seed = figures[name]["mhz"], figures[name]["seed"]
+                    period, longest = 1000 / on.mhz, 1000 / mhz
+                    margin = period - longest
+                    ns = (f"{period:.2f} ns", f"{longest:.2f} ns", f"{margin:.2f} ns")
+                    percent = f"{100 * margin / period:.0f} %"
+                    rows.append((margin / period, (f"`{name}`", f"{on.mhz:g} MHz", *ns, percent, str(seed))))
+    heads = ("bitstream", "`clk`", "period", "longest path", "setup margin", "", "seed")
+    body = table(heads, [row for _, row in sorted(rows)])
+    return f"{body}\n\nNot measured: {', '.join(missing)}." if missing else body
 
 
 def flash_table(boards: tuple[Description, ...]) -> str:
@@ -102,6 +130,7 @@ def pages(boards: tuple[Description, ...], fitted: list[Fitted]) -> dict[Path, s
     tables = {
         "docs/boards.md": {
             "boards": board_table(boards),
+            "timing": timing_table(boards),
             "jumpers": jumper_table(fitted),
             **{f"pins {one.board.constraints(one.on)}": pin_table(one) for one in fitted},
         },

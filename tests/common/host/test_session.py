@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.frames import Deframer, Frame, RetriesExhausted, Session, encode
-from openppmc.model.carrier.bridge import Bridge
+from openppmc.host.frames import WAKE_UP, Deframer, Frame, RetriesExhausted, Session, crc16, encode, escape
+from openppmc.model.carrier.bridge import Bridge, Receiver, Request
 
 
 def answer(seq: int, body: bytes = b"\x00") -> bytes:
@@ -32,6 +32,46 @@ def test_sequence_numbers() -> None:
     assert seen[127:256] == [127, *range(1, 128), 1]
     session.restart()
     assert sent_seq(session.request(b"", 1, 0)) == 0
+
+
+@given(st.binary(max_size=40) | st.just(b"\x08"))
+def test_a_lost_or_doubled_last_byte_is_detected(script: bytes) -> None:
+    """No request has a CRC that ends with 00.
+
+    A CRC register of 0 stays 0 if a byte 00 follows, so such a request would also be valid without this byte,
+    or with this byte twice, as a shorter or longer script.
+    """
+    session = Session()
+    for _ in range(200):
+        (payload,) = (item.payload for item in Deframer().feed(session.request(script, 1, 0)))  # type: ignore[union-attr]
+        content = payload + encode_crc(payload)
+        for damaged in (content[:-1], content + content[-1:]):
+            assert not any(isinstance(item, Request) for item in received(framed(damaged)))
+        session.abandon()
+
+
+@given(st.binary(max_size=40))
+def test_a_wake_up_never_completes_a_request(script: bytes) -> None:
+    """A request without its last flag, as a killed program leaves it, is not executed by the next wake-up."""
+    line = Session().request(script, 1, 0)
+    for end in range(len(line)):
+        assert not any(isinstance(item, Request) for item in received(line[:end] + WAKE_UP))
+
+
+def encode_crc(payload: bytes) -> bytes:
+    """Return the CRC of a payload, without escapes."""
+    return crc16(payload).to_bytes(2, "big")
+
+
+def framed(content: bytes) -> bytes:
+    """Return the line bytes of any content."""
+    return b"\x7e" + escape(content) + b"\x7e"
+
+
+def received(line: bytes) -> list[Request | int | None]:
+    """Return what the bridge receives."""
+    receiver = Receiver()
+    return [receiver.take(byte) for byte in line]
 
 
 def test_one_request_at_a_time() -> None:

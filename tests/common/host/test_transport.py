@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.host import Disconnected, Link, NoAnswer, PortError, WrongDevice, open_port
+from openppmc.host import Disconnected, Link, NoAnswer, PortError, ProtocolError, WrongDevice, open_port
 from openppmc.host.frames import Deframer, Frame, encode
 from openppmc.host.script import Script
 from openppmc.model.carrier.carrier import Plant
 from openppmc.sim.common.machine import parse_machine
+from scripts.measure.fire.line import Fault, FaultyLine, Kind
 
 
 def test_no_port_named() -> None:
@@ -162,6 +163,30 @@ def test_wrong_things_at_the_port(answer: object, kind: type[Exception], text: s
     assert port.closed
 
 
+@pytest.mark.parametrize("damaged", [1, 2])
+def test_an_answer_that_does_not_match_its_script_is_requested_again(damaged: int) -> None:
+    """If the CRC of an answer ends with 00, the answer is also valid without this byte, or with it twice. The
+    bridge repeats the answer; after two answers of the wrong length, an error is raised.
+    """
+    asked: list[bytes] = []
+
+    def answer(request: bytes) -> bytes:
+        if request[1:] == b"\x01":
+            return encode(request[:1] + b"\x00" + identity())
+        if request[1:] != b"\x08":
+            return encode(request[:1] + b"\x00")
+        asked.append(request)
+        return encode(request[:1] + b"\x00" + bytes(3 if len(asked) <= damaged else 4))
+
+    link = Link(Fake(answer), baud=115_200)
+    if damaged == 1:
+        assert link.execute(Script().count()).number(0) == 0
+        assert len(asked) == 2 and asked[0] == asked[1] and link.repeats == 1
+    else:
+        with pytest.raises(ProtocolError, match="bad answer .3 data bytes where COUNT gives 4"):
+            link.execute(Script().count())
+
+
 def test_a_rate_that_is_none() -> None:
     with pytest.raises(PortError, match="9600 baud is not a rate of the bridge: it has 115200"):
         Link("model:", baud=9600)
@@ -201,6 +226,20 @@ def test_a_rate_that_does_not_get_through(monkeypatch: pytest.MonkeyPatch) -> No
         assert link.execute(Script().pins()).byte(0) & 1
 
 
+@pytest.mark.parametrize("to_board", [False, True])
+def test_one_lost_byte_costs_no_rate(to_board: bool) -> None:
+    """With any byte of the connection lost, the link works at the requested rate.
+
+    If the answer to RATE is lost, the bridge already works at the new rate, and the repeated requests arrive
+    as framing errors.
+    """
+    line = FaultyLine(open_port("model:speed=max"))
+    Link(line, baud=1_000_000)
+    for place in range(line.passed[to_board]):
+        damaged = FaultyLine(open_port("model:speed=max"), [Fault(Kind.LOSE, to_board, place)])
+        assert Link(damaged, baud=1_000_000).baud == 1_000_000, place
+
+
 def test_an_adapter_that_refuses_the_rate(monkeypatch: pytest.MonkeyPatch) -> None:
     port = open_port("model:speed=max")
     set_baud = port.set_baud
@@ -217,8 +256,8 @@ def test_an_adapter_that_refuses_the_rate(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_the_first_bytes_wake_the_bridge() -> None:
-    """UB-LIN-06: the host first sends bytes that are a break at any higher rate, then a flag that ends an
-    open frame.
+    """UB-LIN-06: the host first sends bytes that are a break at any higher rate, then 7D 7E, which ends an
+    open frame as invalid.
     """
     port = Fake(
         lambda request: encode(request[:1] + b"\x00" + (identity() if request[1:] == b"\x01" else b""))
@@ -227,7 +266,7 @@ def test_the_first_bytes_wake_the_bridge() -> None:
     write = port.write
     port.write = lambda data: (sent.append(data), write(data))[1]  # type: ignore[method-assign]
     Link(port, baud=115_200)
-    assert b"".join(sent).startswith(b"\x00\x00\x7e" + encode(b"\x00\x01"))
+    assert b"".join(sent).startswith(b"\x00\x00\x7d\x7e" + encode(b"\x00\x01"))
 
 
 def test_a_bridge_that_was_left_at_a_high_rate_is_woken_up() -> None:

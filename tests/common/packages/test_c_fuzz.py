@@ -12,13 +12,13 @@ from cocotb_tests.harness.paths import relative
 from tests.common.packages.c_programs import BENCH, C99, DRIVER, WARNINGS, run
 
 SANITIZE = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
-SOURCES = [BENCH / "fuzz.c", *(DRIVER / f"{name}.c" for name in ("ppmc104", "ppmc2104", "ppmc312", "pmc006"))]
+DRIVERS = [DRIVER / f"{name}.c" for name in ("ppmc104", "ppmc2104", "ppmc312", "pmc006", "ppmc_bank", "stmc")]
 SEEDS = [1, 2, 3, int(os.environ.get("SEED", "4"))]
 
 
 @pytest.fixture(scope="module")
-def program(tmp_path_factory):
-    """Build the fuzzer, with the sanitizers if the compiler has them."""
+def programs(tmp_path_factory):
+    """Build the programs, with the sanitizers if the compiler has them; return their folder."""
     folder = tmp_path_factory.mktemp("fuzz")
     probe = folder / "probe.c"
     probe.write_text("int main(void) { return 0; }\n")
@@ -27,16 +27,34 @@ def program(tmp_path_factory):
         sanitize = SANITIZE
     except pytest.fail.Exception:
         sanitize = []
-    run(*C99, *WARNINGS, *sanitize, "-O1", "-g", *map(relative, SOURCES), "-o", folder / "fuzz")
-    return folder / "fuzz"
+    for name in ("fuzz", "dead"):
+        sources = [BENCH / f"{name}.c", *DRIVERS]
+        run(*C99, *WARNINGS, *sanitize, "-O1", "-g", *map(relative, sources), "-o", folder / name)
+    return folder
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_damaged_replies(program, seed):
+def test_damaged_replies(programs, seed):
     """With cut, flipped, inserted and random bytes, every call ends with a result (P006-FRM-03,
     P312-SER-12).
     """
-    found = {int(line.split()[0]): int(line.split()[1]) for line in run(program, seed, 3000).splitlines()}
+    found = {
+        int(line.split()[0]): int(line.split()[1]) for line in run(programs / "fuzz", seed, 3000).splitlines()
+    }
     # The results include valid replies, time-outs, no device, damaged replies, and rejections by each device.
     assert {0, 16, 17, 18, 21, 37, 65, 96} <= found.keys()
     assert sum(found.values()) > 100_000
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_buses_without_a_working_part(programs, seed):
+    """On a dead bus or line, every call ends after a limited number of accesses, and none confirms a motion.
+
+    The bus reads one value or random bits. The line is silent, or never stops sending them.
+    """
+    lines = run(programs / "dead", seed, 2000).splitlines()
+    found = {int(line.split()[0]) for line in lines if line[0].isdigit()}
+    assert {16, 17, 19, 20, 21} <= found
+    accesses, chance = (line.split() for line in lines[-2:])
+    assert int(accesses[1]) <= 4000
+    assert int(chance[1]) <= 2

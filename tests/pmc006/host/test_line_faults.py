@@ -104,6 +104,27 @@ def test_a_controller_that_falls_silent_after_a_start() -> None:
             part.move(5)
 
 
+@pytest.mark.parametrize("steps", [3, -90])
+def test_a_controller_that_was_reset_after_a_start(steps: int) -> None:
+    """If the controller loses its power during a move from 0, its start is not repeated.
+
+    The position is 0 again, as before the start, but the motor has moved.
+    """
+    port, part = quick()
+    with part:
+
+        def plan(frame: bytes) -> str | None:
+            if frame[2] == ord("j") and count(port, "s"):
+                port.plan = lambda frame: None
+                port.node().reset()
+            return LOSE_REPLY if frame[2] == ord("s") else None
+
+        port.plan = plan
+        with pytest.raises(LostReply, match="the controller was reset since"):
+            part.move(steps)
+        assert count(port, "s") == 1 and part.motion is None
+
+
 def test_a_locked_start_is_no_start() -> None:
     """A start that EXT locks raises ExtStopActive, even if the reply to the start is lost."""
     port, part = quick("eeprom=none,low=3995")

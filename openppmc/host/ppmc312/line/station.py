@@ -48,7 +48,7 @@ class SerialMotion(Motion):
 
     def _current_progress(self) -> Progress:
         """Return the current progress; after the end of the motion, the progress at its end."""
-        position = self._part.position if self.result is None else self.result.position or 0
+        position = self._part._position(False) if self.result is None else self.result.position or 0
         done = 0 if self.begin is None else abs(signed((position - self.begin) % (1 << 32)))
         return Progress(position, done, self.requested, self._link.clock() - self._started)
 
