@@ -15,6 +15,7 @@ from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError, console, relative
 from scripts.release import arduino, bitstreams, notes, python, site, sources, verilog
 from scripts.release.state import Release, current_release
+from scripts.site.hooks import PARTS
 
 DIST = project.ROOT / "dist"
 SCRATCH = project.BUILD / "release"
@@ -29,6 +30,11 @@ Job = Callable[[Release, Path, Path], None]
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:
     """Return the function of each step, by its name. The fast steps are first, the release notes last."""
     from scripts.release import sbom
+    from scripts.site import sheets
+
+    def data_sheets(release: Release, out: Path, scratch: Path) -> None:
+        for part in PARTS:
+            (out / release.name(part, ".pdf")).write_bytes(sheets.make(part, release.version))
 
     return {
         "python": python.make,
@@ -36,6 +42,7 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
         "arduino": arduino.make,
         "verilog": verilog.make,
         "sbom": sbom.make,
+        "data sheets": data_sheets,
         "site": lambda release, out, scratch: site.make(release, out, scratch, say),
         "bitstreams": lambda release, out, scratch: bitstreams.make(release, out, scratch, say),
         "notes": notes.make,

@@ -1,29 +1,19 @@
-"""The site as an archive, and the data sheets as PDF if a browser is installed."""
+"""The site as an archive."""
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
-from cocotb_tests.harness.project import ROOT, ProjectError, console
+from cocotb_tests.harness.project import ROOT, ProjectError
 from scripts.release.archive import files_below, tar_gz
 from scripts.release.state import Release
 
 HTML = ROOT / "build" / "site" / "html"
-_DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:(\d{14})")
 COMMAND = [sys.executable, "-m", "scripts.site"]
-NO_PDF = "No data sheets as PDF: there was no browser."
-
-
-def dated(pdf: bytes, epoch: int) -> bytes:
-    """Return a PDF in which the creation time is replaced with another time of the same length."""
-    when = time.strftime("%Y%m%d%H%M%S", time.gmtime(epoch)).encode()
-    return _DATE.sub(lambda match: match[0][: -len(match[1])] + when, pdf)
 
 
 def check() -> None:
@@ -59,15 +49,8 @@ def run(say: Callable[[str], None], scratch: Path) -> None:
 
 
 def make(release: Release, out: Path, scratch: Path, say: Callable[[str], None]) -> None:
-    """Write archive and PDFs to `out`; print a line if there is no browser. `say` receives the progress."""
+    """Write the archive to `out`; `say` receives the progress."""
     check()
     run(say, scratch)
-    sheets = sorted((HTML / "pdf").glob("*.pdf"))
-    for path in sheets:
-        path.write_bytes(dated(path.read_bytes(), release.epoch))
-        shutil.copyfile(path, out / release.name(path.stem, ".pdf"))
-    if not sheets:
-        console.print(NO_PDF)
-        release.missing.append(NO_PDF)
     files = {f"openppmc-site-{release.version}/{name}": path for name, path in files_below(HTML).items()}
     tar_gz(out / release.name("site", ".tar.gz"), files, release.epoch)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 import subprocess
@@ -12,9 +11,9 @@ from pathlib import Path
 
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative, run
-from scripts.site import wasm
-from scripts.site.hooks import PARTS, PDF, START, data_sheet
-from scripts.site.pages import SITE, node, packages, playground
+from scripts.site import sheets, wasm
+from scripts.site.hooks import PARTS, START, data_sheet
+from scripts.site.pages import SITE, playground
 from scripts.site.progress import say
 
 PAGES = wasm.OUT / "pages"
@@ -30,34 +29,6 @@ OTHERS = (
     "examples/systemverilog/README.md",
 )
 LINK = re.compile(r"\]\(([^)#?\s:]+)(?:#[^)]*)?\)")
-API = {
-    "Host: PPMC-104": ("openppmc.host.ppmc104",),
-    "Host: PPMC-2104": ("openppmc.host.ppmc2104.part", "openppmc.host.ppmc2104.axis"),
-    "Host: J105 STMC": ("openppmc.host.stmc",),
-    "Host: PPMC-312": ("openppmc.host.ppmc312.part",),
-    "Host: PMC006B4": ("openppmc.host.pmc006.part", "openppmc.host.pmc006.axis"),
-    "Host: bank": ("openppmc.host.bank.part", "openppmc.host.bank.axis", "openppmc.host.bank.group"),
-    "Host: common classes": ("openppmc.host.part", "openppmc.host.units", "openppmc.host.axis"),
-    "Golden models": ("openppmc.model.ppmc104", *(f"openppmc.model.{part}.part" for part in
-                      ("ppmc2104", "stmc", "ppmc312", "pmc006", "bank"))),
-    "Predictions": ("openppmc.model.single.predict", *(f"openppmc.model.{part}.carrier" for part in
-                    ("ppmc2104", "stmc", "ppmc312"))),
-    "Virtual board (Python)": ("openppmc.sim.common.board", "openppmc.sim.common.spec"),
-    "Parts and errors": ("openppmc.parts", "openppmc.errors"),
-}  # fmt: skip
-"""Pages of the API reference: titles and modules."""
-SHIM = """(() => { const Own = window.Worker;
-SHIM
-if (window.Worker !== Own) window.Worker = function (url, options) {
-  return new (/^blob:/.test(url) ? Own : window.IFrameWorker)(url, options);
-};
-})();
-"""
-"""Shim of the search worker in pages that are opened from a file.
-
-Such pages can start a worker only from a blob. The worker of the playground is already a blob, so the shim
-does not replace it.
-"""
 APP = """---
 hide: [navigation, toc, footer]
 title: Playground
@@ -73,7 +44,6 @@ title: Playground
 
 <a id="pg-statements"></a>
 """
-
 
 TRIED = re.compile(r"^\*\*No board .*?(?=\n## )", re.M | re.S)
 """Part of README.md that states what was tried on hardware; the landing page contains it."""
@@ -108,50 +78,28 @@ def stage() -> None:
     shutil.copy(SITE / "site.css", PAGES)
     # The search in local files needs this script, which MkDocs Material would load from another host.
     shim = (SITE / "node_modules/iframe-worker/shim/index.js").read_text(encoding="utf-8")
-    (PAGES / "iframe-worker.js").write_text(SHIM.replace("SHIM", shim), encoding="utf-8")
-    folder = PAGES / "api"
-    folder.mkdir()
-    rows = []
-    for number, (title, modules) in enumerate(API.items()):
-        entries = "\n".join(f"\n::: {module}\n" for module in modules)
-        (folder / f"{number}.md").write_text(f"# {title}\n{entries}", encoding="utf-8")
-        rows.append(f"- [{title}]({number}.md)")
-    head = "# Python API\n\nFrom the docstrings of the package; [how to use it](../docs/host.md).\n\n"
-    (folder / "index.md").write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
+    text = (SITE / "search_shim.js").read_text(encoding="utf-8").replace("/* SHIM */", shim)
+    (PAGES / "iframe-worker.js").write_text(text, encoding="utf-8")
+    shutil.copytree(SITE / "api", PAGES / "api")
 
 
-def browser() -> bool:
-    """Return whether PDFs can be made; print the reason if they cannot be made."""
-    try:
-        packages(SITE / "browser")
-        node("node", "pdf.mjs", str(HTML), folder=SITE / "browser")
-    except ProjectError as error:
-        print(f"no PDFs of the manuals, because there is no browser: {error}")
-        return False
-    return True
-
-
-def build(with_pdf: bool = True, out: Path = HTML) -> Path:
+def build(out: Path = HTML) -> Path:
     """Build the whole site in `out`; raise ProjectError with the first warning of MkDocs."""
     stage()
-    if with_pdf:
-        say("browser for the data sheets as PDF")
-    pdf = with_pdf and browser()
     say("all pages, with MkDocs")
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--clean"]
     command += ["-f", str(SITE / "mkdocs.yml"), "-d", str(out)]
-    env = {**os.environ, **({PDF: "1"} if pdf else {})}
-    done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     log = wasm.OUT / "mkdocs.log"
     log.write_text(done.stdout + done.stderr, encoding="utf-8")
     if done.returncode:
         wrong = [line for line in done.stderr.splitlines() if line.startswith(("WARNING", "ERROR"))]
         raise ProjectError(f"{wrong[0] if wrong else 'MkDocs failed'} (the whole log: {relative(log)})")
-    if pdf:
-        say("data sheets as PDF")
-        (out / "pdf").mkdir()
-        jobs = [f"docs/{part}/index.html={data_sheet(part)}" for part in PARTS]
-        node("node", "pdf.mjs", str(out), *jobs, folder=SITE / "browser")
+    for number, part in enumerate(PARTS, 1):
+        say(f"data sheet of {part}, {number} of {len(PARTS)}")
+        path = out / data_sheet(part)
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(sheets.make(part))
     return out
 
 

@@ -8,8 +8,6 @@ from typing import Any
 
 RUN = re.compile(r"^<!-- run: .*? -->$", re.M | re.S)
 CHAPTER = re.compile(r"^## (\d+) ", re.M)
-PDF = "OPENPPMC_PDF"
-"""Environment variable that is set if the site will contain PDFs."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
 BASE = (
     '<script>document.write(\'<base href="\'+(location.protocol==="file:"?".":"/")+\'">\')</script>'
@@ -51,8 +49,7 @@ def run_links(source: str, markdown: str) -> str:
     if found[2] == "README":
         title, _, rest = markdown.partition("\n")
         links = button(source, part, "", "Run it in the playground")
-        if os.environ.get(PDF):
-            links += f'\n<a class="md-button run-this" href="../../{data_sheet(part)}">PDF</a>'
+        links += f'\n<a class="md-button run-this" href="../../{data_sheet(part)}">PDF</a>'
         return f"{title}\n\n{links}\n{rest}"
 
     def linked(match: re.Match[str]) -> str:

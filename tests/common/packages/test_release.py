@@ -203,14 +203,6 @@ def test_archives_depend_on_their_contents_alone(tmp_path, pack, suffix):
         assert tarfile.open(other).getnames() == ["a", "b/c"]
 
 
-def test_a_pdf_gets_the_time_of_the_commit():
-    """In a PDF the dates are replaced by a text of the same length, so all other bytes keep their
-    positions.
-    """
-    text = b"x /CreationDate (D:20260102030405+00'00') /ModDate (D:20260102030405+00'00') y"
-    assert site.dated(text, 0) == text.replace(b"20260102030405", b"19700101000000")
-
-
 def test_unknown_bitstreams_are_named():
     """For an unknown bitstream, one line lists the existing ones; without names, all are built."""
     with pytest.raises(

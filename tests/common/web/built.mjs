@@ -50,7 +50,7 @@ const position = (page) => page.textContent(".pg-position").then(Number);
 const part = (page) => page.inputValue(".pg-part");
 const link = (page, words) => page.evaluate((hash) => (location.hash = hash), new URLSearchParams(words).toString());
 const CONTRAST = ["index.html", "playground.html", "404.html", "docs/ppmc104/index.html", "docs/ppmc104/examples.html"];
-CONTRAST.push("overview.html", "docs/host.html", "docs/benchmarks.html", "api/1.html", "CHANGELOG.html");
+CONTRAST.push("overview.html", "docs/host.html", "docs/benchmarks.html", "api/ppmc2104.html", "CHANGELOG.html");
 const FIRST_MOVE = 2000; // maximum time from opening the landing page to its first move in ms
 const LANDING_BUTTON = "#openppmc-landing button"; // Pause or Play
 const LANDING_BOXES = [

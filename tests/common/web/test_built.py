@@ -33,8 +33,8 @@ LOADS = re.compile(
 
 @cache
 def site() -> Path:
-    """Build the pages without PDFs, in a folder whose name has a space and letters outside ASCII."""
-    return build(with_pdf=False, out=wasm.OUT / "tested/a site ü")
+    """Build the site in a folder whose name has a space and letters outside ASCII."""
+    return build(out=wasm.OUT / "tested/a site ü")
 
 
 @cache

@@ -93,16 +93,3 @@ def test_vcd():
     _, actual, mismatch = compare_edges(recording.edges, edges, initial, recording.end)
     assert mismatch is None, mismatch
     add(f"page: VCD of ppmc104's session 2, {sum(map(len, actual.values()))} edges as in the golden model")
-
-
-def test_data_sheet(tmp_path):
-    """In the PDF of a page, links to the web and within the page remain; links to local files are removed."""
-    checked()  # the fixture skips the test if there is no browser
-    (tmp_path / "page.html").write_text(
-        '<h1 id="top">T</h1><a href="#top">a</a> <a href="other.html">b</a> <a href="https://example.org/">c</a>',
-        encoding="utf-8",
-    )
-    command = ["node", "pdf.mjs", str(tmp_path), "page.html=page.pdf"]
-    subprocess.run(command, cwd=SITE / "browser", check=True)
-    data = (tmp_path / "page.pdf").read_bytes()
-    assert b"https://example.org/" in data and b"file:" not in data and b"/Dest" in data

@@ -16,15 +16,14 @@ from scripts.site.webparts import WEB_PARTS
 
 @pytest.fixture
 def quick(monkeypatch, tmp_path):
-    """Replace all slow steps, and report that a browser exists, so that the PDFs are not omitted."""
+    """Replace all slow steps."""
     monkeypatch.setattr(pages, "node", lambda *words, folder=None: None)
     monkeypatch.setattr(pages, "packages", lambda folder: None)
     monkeypatch.setattr(pages.shutil, "copy", lambda source, to: None)
     monkeypatch.setattr(export, "export", lambda name: None)
     monkeypatch.setattr(export, "PLAYGROUND", tmp_path)
-    monkeypatch.setattr(site, "node", lambda *words, folder=None: None)
     monkeypatch.setattr(site, "stage", pages._made)
-    monkeypatch.setattr(site, "browser", lambda: True)
+    monkeypatch.setattr(site.sheets, "make", lambda part: b"")
     monkeypatch.setattr(site.wasm, "OUT", tmp_path)
     done = subprocess.CompletedProcess([], 0, "", "")
     monkeypatch.setattr(site.subprocess, "run", lambda *words, **options: done)
@@ -39,17 +38,10 @@ def test_each_stage_has_a_line(quick, capsys):
     modules = [f"site: WebAssembly of {name}, {n} of {len(WEB_PARTS)}" for n, name in enumerate(WEB_PARTS, 1)]
     first = lines.index(modules[0])
     assert lines[first : first + len(modules)] == modules
-    words = ["packages", "script", "WebAssembly", "browser for", "MkDocs", "site: data sheets"]
+    words = ["packages", "script", "WebAssembly", "MkDocs", "data sheet of ppmc104, 1 of 6"]
     at = [next((n for n, line in enumerate(lines) if word in line), -1) for word in words]
     assert -1 not in at and at == sorted(at), lines
     assert all(line.startswith("site: ") for line in lines)
-
-
-def test_without_a_browser_there_is_no_line_for_pdfs(quick, capsys, monkeypatch):
-    """Without a browser, no line announces data sheets."""
-    monkeypatch.setattr(site, "browser", lambda: False)
-    site.build(out=quick / "html")
-    assert "site: data sheets" not in capsys.readouterr().out
 
 
 def test_lines_arrive_through_a_pipe(tmp_path):
