@@ -54,8 +54,8 @@ def faults_of(name: str, seed: int) -> tuple[int, tuple[Fault, ...]]:
     """Return the number of the dialogue, and its faults.
 
     Each of the first n seeds damages another one of the n bytes of a dialogue. The next n seeds damage the
-    same bytes with another kind of fault. After all kinds, the next dialogue begins. In each odd dialogue with a CRC, a
-    second fault is added at a random place.
+    same bytes with another kind of fault. After all kinds, the next dialogue begins. In each odd dialogue
+    with a CRC, a second fault is added at a random place.
     """
     seeds, number = seed, 0
     while seeds >= (size := sum(sizes(name, number)) * len(KINDS)):
