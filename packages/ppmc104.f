@@ -76,4 +76,5 @@
 ../rtl/ppmc104/ppmc104.sv
 ../rtl/boards/common/ppmc_board_inputs.sv
 ../rtl/boards/common/ppmc_board_host.sv
+../rtl/host/ppmc_char_host.sv
 ../rtl/ppmc104/ppmc104_carrier.sv

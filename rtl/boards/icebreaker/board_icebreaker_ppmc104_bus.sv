@@ -11,7 +11,8 @@
 module board_icebreaker_ppmc104_bus #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0         // level of s until the first initialisation
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
+    parameter bit          BRIDGE     = 1'b1         // 0: character host for small FPGAs, not the UART bridge
 ) (
     input  wire logic       clk_12m,     // 12 MHz
     input  wire logic       btn_n,       // 0: reset
@@ -68,7 +69,8 @@ module board_icebreaker_ppmc104_bus #(
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
-      .HOST      ("BUS")
+      .HOST      ("BUS"),
+      .BRIDGE    (BRIDGE)
   ) u_carrier (
       .clk,
       .rst_n,

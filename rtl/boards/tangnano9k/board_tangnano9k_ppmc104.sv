@@ -12,6 +12,7 @@ module board_tangnano9k_ppmc104 #(
     parameter              TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
+    parameter bit          BRIDGE     = 1'b1,        // 0: character host for small FPGAs, not the UART bridge
     parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
     parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
@@ -84,6 +85,7 @@ module board_tangnano9k_ppmc104 #(
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
+      .BRIDGE    (BRIDGE),
       .BAUD      (BAUD),
       .RECORD    (RECORD)
   ) u_carrier (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from scripts.fpga.boards.description import LANGUAGES
 from scripts.fpga.boards.pads import Fitted, Pad
 from scripts.fpga.boards.texts import head, title, wrapped
 
@@ -124,9 +123,7 @@ def clock(fitted: Fitted, language: str) -> list[str]:
 def files(fitted: Fitted) -> dict[str, str]:
     """Return the texts of the constraint files of a board with a part, by name below constraints/."""
     return {
-        name: text
-        for language in LANGUAGES[fitted.board.family]
-        for name, text in files_in(fitted, language).items()
+        name: text for language in fitted.board.languages for name, text in files_in(fitted, language).items()
     }
 
 

@@ -36,8 +36,8 @@ LANGUAGES = {
 # Required keys and optional keys, by section.
 KEYS = {
     "board": (
-        "title place chip family clock reset leds uart pads headers parts",
-        "revisions code devices vendor suffix loader port ties defaults statements",
+        "title place chip family clock leds uart pads headers parts",
+        "revisions code devices vendor suffix loader port reset ties defaults statements",
     ),
     "device": ("title device route", "chip"),
     "vendor": ("tool device", "family grade target"),
@@ -117,7 +117,6 @@ class Description:
     devices: tuple[Device, ...]
     vendor: Mapping[str, str]
     clock: Mapping[str, Any]
-    reset: Mapping[str, Any]
     leds: Mapping[str, Any]
     uart: Mapping[str, Any]
     ties: Mapping[str, Mapping[str, Any]]
@@ -125,6 +124,7 @@ class Description:
     statements: Mapping[str, Any]
     headers: dict[str, str]
     parts: tuple[Carried, ...]
+    reset: Mapping[str, Any] = field(default_factory=dict)  # empty for a board without a button
     revisions: str = ""  # board revisions for which the pins were checked
     code: str = ""
     suffix: str = ""
@@ -142,13 +142,13 @@ class Description:
         return f"board_{self.name}_{on.name.replace('-', '_')}"
 
     @property
-    def language(self) -> str:
-        """Suffix of the first pin file of the family."""
-        return LANGUAGES[self.family][0]
+    def languages(self) -> tuple[str, ...]:
+        """Suffixes of the pin files; those of a vendor's tool only if the tool supports the board."""
+        return LANGUAGES[self.family][: None if self.vendor else 1]
 
     def constraints(self, on: Carried, language: str = "") -> str:
         """Return the path of a pin file with this part below constraints/; by default, the first one."""
-        return f"{self.name}/{on.name}/pins.{language or self.language}"
+        return f"{self.name}/{on.name}/pins.{language or self.languages[0]}"
 
 
 def checked(where: str, section: str, found: Any) -> dict[str, Any]:
@@ -218,7 +218,7 @@ def load(path: Path) -> Description:
         raise ProjectError(f"{where}: expected devices (built here) or vendor (by the vendor's tool)")
     if keys["family"] not in LANGUAGES:
         raise ProjectError(f"{where}: family {keys['family']}: expected {', '.join(LANGUAGES)}")
-    for section in ("clock", "reset", "leds", "uart", "pads"):
+    for section in ("clock", "leds", "uart", "pads", *(["reset"] if "reset" in keys else [])):
         checked(f"{where}: {section}", section, keys[section])
     for led in keys["leds"]["pins"]:
         if checked(f"{where}: leds", "led", led)["shows"] not in SHOWS:

@@ -71,10 +71,9 @@ class Fitted:
 def own_pads(board: Description, on: Carried) -> list[Group]:
     """Return the pads of the board itself: oscillator, reset, LEDs, constant outputs, UART."""
     clock, reset = board.clock, board.reset
-    rows = [
-        (clock["port"], clock["pin"], clock["what"], "in", "none"),
-        (reset["port"], reset["pin"], reset["what"], "in", reset.get("pull", "up")),
-    ]
+    rows = [(clock["port"], clock["pin"], clock["what"], "in", "none")]
+    if reset:
+        rows.append((reset["port"], reset["pin"], reset["what"], "in", reset.get("pull", "up")))
     if on.leds:
         rows += [(led["port"], led["pin"], led["what"], "out", "none") for led in board.leds["pins"]]
     rows += [(name, tie["pin"], tie["what"], "out", "none") for name, tie in board.ties.items()]

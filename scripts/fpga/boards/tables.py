@@ -78,10 +78,11 @@ def flash_table(boards: tuple[Description, ...]) -> str:
 
 
 def jumper_table(fitted: list[Fitted]) -> str:
-    """Return the table of self-test wires for boards with the UART host; signals without a pin are marked."""
+    """Return the table of self-test wires for boards with a recorder; signals without a pin are marked."""
     rows = []
     for one in fitted:
-        if "uart" not in one.on.hosts or not one.on.row.selftest or not one.board.devices:
+        recorder = "uart" in one.on.hosts and "RECORD" not in (one.on.omit or {})
+        if not recorder or not one.on.row.selftest or not one.board.devices:
             continue
         plan: Plan = one.on.row.load("selftest")
         places = {pad.bit: pad.where for pad in one.pads}

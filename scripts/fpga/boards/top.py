@@ -59,10 +59,9 @@ class Top:
     def ports(self) -> list[str]:
         """Return the ports in this order: of the board, of the carrier, LEDs, constant outputs."""
         reset = self.board.reset
-        lines = [
-            declaration("in", [self.board.clock["port"]], f"{self.board.clock['mhz']:g} MHz"),
-            declaration("in", [reset["port"]], f"{reset['active']}: reset"),
-        ]
+        lines = [declaration("in", [self.board.clock["port"]], f"{self.board.clock['mhz']:g} MHz")]
+        if reset:
+            lines.append(declaration("in", [reset["port"]], f"{reset['active']}: reset"))
         if self.fitted.bits(HOST_RESET):
             lines.append(declaration("in", [HOST_RESET], "0: reset, from the host"))
         group = ""
@@ -102,8 +101,9 @@ class Top:
 
     def reset_request(self) -> str:
         """Return an expression that is 0 while the button or the host requests a reset."""
-        button = f"{'!' if self.board.reset['active'] else ''}{self.board.reset['port']}"
-        return f"{button} && {HOST_RESET}" if self.fitted.bits(HOST_RESET) else button
+        reset = self.board.reset
+        lines = [f"{'!' if reset['active'] else ''}{reset['port']}"] if reset else []
+        return " && ".join([*lines, *([HOST_RESET] if self.fitted.bits(HOST_RESET) else [])]) or "1'b1"
 
     def led_block(self) -> list[str]:
         """Return the instance for power-on reset and LEDs."""

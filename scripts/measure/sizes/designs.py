@@ -39,6 +39,7 @@ BRIDGES: tuple[tuple[str, str, dict[str, int], tuple[str, ...]], ...] = (
     ("ppmc_wishbone", "Wishbone B4 with its strobe master", {}, FAMILIES),
     ("ppmc_axil", "AXI4-Lite with its strobe master", {}, FAMILIES),
     ("ppmc_uart_bridge", "UART with receiver, transmitter and strobe master", {}, FAMILIES),
+    ("ppmc_char_host", "character host: UART without scripts", {}, FAMILIES),
     ("ppmc_recorder", "recorder of a PPMC-104, RECORD=9", {"Width": 49, "AddrBits": 9}, FAMILIES),
     ("ppmc_recorder", "recorder of a PPMC-104, RECORD=12", {"Width": 49, "AddrBits": 12}, ("ecp5",)),
     ("ppmc_recorder", "RECORD=14 in the 4 SPRAM of a UP5K", {"Width": 49, "AddrBits": 14}, ("ice40",)),
@@ -210,7 +211,7 @@ def of_bridges() -> list[Design]:
     """Return host bridges with one address line, and recorders of several sizes."""
     found = []
     for top, title, params, families in BRIDGES:
-        job = _job(top, list(project.files("host")), params)
+        job = _job(top, list(project.files("char_host" if top == "ppmc_char_host" else "host")), params)
         name = " ".join([top, *map(str, params.values())])
         found += [Design(name, family, "tuned", job=job, title=title) for family in families]
     return found

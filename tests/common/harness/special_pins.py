@@ -39,6 +39,7 @@ def pins(text: str) -> tuple[str, ...]:
 
 
 LITEX = "https://github.com/litex-hub/litex-boards/tree/master/litex_boards/platforms/"
+AMARANTH = "https://github.com/amaranth-lang/amaranth-boards/tree/main/amaranth_boards/"
 SIPEED9 = "https://github.com/sipeed/TangNano-9K-example/tree/main/spi_lcd/src/lcd114_test.cst"
 SIPEED = "https://github.com/sipeed/TangNano-20K-example/tree/main/"
 MISTERY_NANO = "https://github.com/harbaum/MiSTeryNano/tree/main/src/tang/nano20k/"
@@ -54,6 +55,11 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
         Special(
             pins("18 19 20 21 23 25 26 27"), Kind.SOCKET, "break-off section, PMOD 2", LITEX + "icebreaker.py"
         ),
+    ),
+    "icestick": (
+        Special(pins("67 68 70 71"), Kind.NEVER, "configuration flash", AMARANTH + "icestick.py"),
+        Special(pins("105-107"), Kind.NEVER, "IrDA transceiver", AMARANTH + "icestick.py"),
+        Special(pins("1-4 7"), Kind.DRIVEN, "control lines of the USB-UART", AMARANTH + "icestick.py"),
     ),
     "ulx3s": (
         Special(

@@ -108,6 +108,16 @@ def test_what_has_no_pin(tmp_path: Path) -> None:
     assert ".lock_i(1'b1)" in joined and ".req_ni(!btn)" in joined
 
 
+def test_a_board_without_a_button(tmp_path: Path) -> None:
+    """Without `reset`, the top has no button, and only power-on resets the part."""
+    line = "reset: {port: btn, pin: A2, active: 1, pull: down, what: button}\n"
+    one = fitted(tmp_path, BOARD.replace(line, ""))
+    ((_, text),) = top.file(one.board, one).items()
+    assert ".req_ni(1'b1)" in re.sub(r" +", "", text) and "btn" not in ports_of(text)
+    ((_, pin_text),) = constraints.files(one).items()
+    assert "A2" not in dict(pins(pin_text, ".lpf")).values()
+
+
 @pytest.mark.parametrize(
     ("was", "new", "said"),
     [

@@ -18,6 +18,7 @@ TOPS = project.RTL / "boards"
 # Clock input of each board, and the frequency of this clock in MHz.
 OSCILLATORS = {
     "icebreaker": ("clk_12m", 12),
+    "icestick": ("clk_12m", 12),
     "ulx3s": ("clk_25m", 25),
     "ulx3s_v31": ("clk_25m", 25),
     "tangnano9k": ("clk_27m", 27),

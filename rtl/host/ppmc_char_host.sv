@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_char_host: UART host interface for small FPGAs. An access to the device is one or two characters from
+//         the PC, and one character as the answer. The PC executes the scripts of the wire protocol.
+// Rules:  docs/char_host.md.
+// Timing: this block synchronises rxd_i. An access begins 2 cycles after the last character of its request
+//         was received. Its strobe lasts 8 cycles, and its answer begins 2 cycles later.
+// Assumes: the device holds d_i from the end of a read strobe to the next one. The PC waits for the answer
+//         before it sends the next request.
+`default_nettype none
+
+module ppmc_char_host
+  import ppmc_bridge_pkg::phase_step;
+#(
+    parameter int unsigned ClkHz     = 12_000_000,  // at least 40 * Baud
+    parameter int unsigned XtalHz    = 16_000_000,  // in Hz; only the info bytes use XtalHz, Part, Datasheet
+    parameter int unsigned Baud      = 115_200,
+    parameter int unsigned Part      = 104,
+    parameter bit          Datasheet = 1'b0
+) (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    input  wire logic       rxd_i,        // line from the PC, asynchronous
+    output logic            txd_o,        // line to the PC
+    // bus of the device
+    output logic            cs_no,        // chip select
+    output logic            rd_no,        // read strobe
+    output logic            wr_no,        // write strobe
+    output logic      [3:0] a_o,          // register
+    output logic      [7:0] d_o,          // write data
+    input  wire logic [7:0] d_i,          // read data
+    output logic            part_rst_no,  // reset of the device, active low
+    // board
+    output logic      [6:0] straps_o,     // strap outputs
+    input  wire logic [7:0] pins_i,       // levels of info byte 15, may be asynchronous
+    output logic            active_o      // 1: an access is running, or its answer is being sent
+);
+
+  if (ClkHz < 40 * Baud) begin : g_check
+    $fatal(1, "ppmc_char_host: ClkHz must be at least 40 * Baud");
+  end
+
+  // The step of the phase accumulators is at least 100, so rounding changes the rate by at most 0.5 %.
+  localparam int unsigned Width = $clog2(100 * (ClkHz / Baud + 1));
+  localparam logic [Width-1:0] Step = Width'(phase_step(Baud, ClkHz, Width));
+
+  localparam logic [7:0] Mark = 8'h43;
+  localparam logic [7:0] Version = 8'd1;
+  // The leading zeros are necessary: see ppmc_uart_bridge. Byte 15 is pins_i.
+  localparam logic [127:0] Info = {
+    24'd0, 32'd0 | ClkHz, 32'd0 | XtalHz, 7'd0, Datasheet, Part[15:0], Version, Mark
+  };
+
+  // First character of a request. Bits 6:0 of a second character are data bits 6:0 of a write.
+  typedef struct packed {
+    logic       first;   // 1: first character, 0: second character
+    logic       write;
+    logic       own;     // 1: info byte or control byte of this block, 0: register of the device
+    logic [3:0] addr;
+    logic       data_7;  // write: data bit 7
+  } head_t;
+
+  // ---- requests ------------------------------------------------------------------------------------
+
+  head_t head, head_q;
+  logic [7:0] char;
+  logic received, error, is_break, unused;
+  logic second_q;  // 1: the next character is the second one of a write
+  logic start_q;  // 1: a request is complete
+
+  ppmc_uart_rx #(
+      .Width(Width)
+  ) u_rx (
+      .clk_i,
+      .rst_ni,
+      .step_i (Step),
+      .wrap_i ('0),
+      .rxd_i,
+      .byte_o (char),
+      .valid_o(received),
+      .error_o(error),
+      .break_o(is_break)
+  );
+
+  assign head   = char;
+  assign unused = ^{is_break, head_q.first};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      second_q <= 1'b0;
+      start_q  <= 1'b0;
+    end else begin
+      start_q <= received && (head.first ? !head.write : second_q);
+      if (received || error) second_q <= received && head.first && head.write;
+    end
+  end
+
+  always_ff @(posedge clk_i) if (received && head.first) head_q <= head;
+
+  // ---- accesses ------------------------------------------------------------------------------------
+
+  logic [3:0] strobe_q;  // 0: no strobe; otherwise counts from 8 to 15
+  logic [7:0] control_q;  // reset of the device (low), strap outputs
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      strobe_q    <= '0;
+      control_q   <= '1;
+      part_rst_no <= 1'b0;
+    end else begin
+      if (start_q && !head_q.own) strobe_q <= 4'd8;
+      else if (strobe_q != '0) strobe_q <= strobe_q + 1'b1;
+      if (start_q && head_q.own && head_q.write) control_q <= d_o;
+      part_rst_no <= control_q[7];
+    end
+  end
+
+  assign cs_no    = !strobe_q[3];
+  assign rd_no    = !strobe_q[3] || head_q.write;
+  assign wr_no    = !strobe_q[3] || !head_q.write;
+  assign a_o      = head_q.addr;
+  assign d_o      = {head_q.data_7, char[6:0]};
+  assign straps_o = control_q[6:0];
+
+  // ---- answers -------------------------------------------------------------------------------------
+
+  // The transmitter samples each bit of pins_i in one flip-flop, at least one bit time before it is sent.
+  logic [7:0] info;
+  logic answer_q, ready;
+
+  assign info     = head_q.addr == '1 ? pins_i : Info[{head_q.addr, 3'b000}+:8];
+  assign active_o = answer_q || !ready;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) answer_q <= 1'b0;
+    else answer_q <= strobe_q == '1 || (start_q && head_q.own) || (answer_q && !ready);
+  end
+
+  ppmc_uart_tx #(
+      .Width(Width)
+  ) u_tx (
+      .clk_i,
+      .rst_ni,
+      .step_i (Step),
+      .byte_i (head_q.write ? d_o : head_q.own ? info : d_i),
+      .valid_i(answer_q),
+      .ready_o(ready),
+      .txd_o
+  );
+
+endmodule
+
+`default_nettype wire
