@@ -1,4 +1,4 @@
-// Comparison of a session on a board with its simulation, and the motions of a simulation in words.
+// Comparison of a session on a board with its simulation, and the motions of a simulation as text.
 
 import type { BoardRow } from "./serial_steps";
 

@@ -123,7 +123,7 @@ export class Run {
     return answer;
   }
 
-  /** Execute as many operations as fit into one frame. */
+  /** Execute the next operations, up to the size of a frame. */
   private async frame(todo: Step[]): Promise<void> {
     const ops: Op[] = [];
     let [size, gives, waits] = [3, 0, 0];

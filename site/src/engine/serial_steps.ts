@@ -3,7 +3,6 @@
 import type { PartData } from "../types";
 import { answerWords, blockWords, bytes } from "./blocks";
 import { Explainer } from "./explain";
-import { PATIENCE } from "./host";
 import { word } from "./serial_link";
 import { hex } from "./side";
 import { byte, clks, isByte, statements, TextError, whole } from "./text";
@@ -45,7 +44,8 @@ export interface BoardRow {
   bad: boolean;
 }
 
-const MAILBOX_MS = 1_000;
+const MAILBOX_MS = 1_000; // longest time until the part accepts or returns a byte
+const EVENT_MS = 600_000; // longest time of a motion; Stop is always in reach
 const OBF = 1;
 const IBF = 2;
 const MWEF = 0x08;
@@ -234,7 +234,7 @@ export class Translator {
   }
 
   private event(rest: string[], register: number, mask: number, value: number, event: string): string[] {
-    this.wait(register, mask, value, event, (PATIENCE * 1e3) / this.part.clkHz);
+    this.wait(register, mask, value, event, EVENT_MS);
     return rest;
   }
 
@@ -333,8 +333,7 @@ export class Translator {
   }
 
   private poll(bytes: number[], gives: number, event: string, done: (data: number[]) => boolean): void {
-    const patience = (PATIENCE * 1e3) / this.part.clkHz;
-    this.steps.push({ line: this.line, bytes, gives, patience, event, done });
+    this.steps.push({ line: this.line, bytes, gives, patience: EVENT_MS, event, done });
   }
 
   private pulse(words: string[]): string[] {

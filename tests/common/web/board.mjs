@@ -348,6 +348,21 @@ const checks = {
     truth(/Chrome or Edge on a desktop computer/.test(await none.textContent(".pg-board")), "no message");
     return [second];
   },
+  async "the panel on a small screen"() {
+    const page = await open(new Port(boards.plain), "ppmc104", { viewport: { width: 390, height: 844 } });
+    await connect(page);
+    await prepare(page, `${INIT}\n${MOVE}`);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    truth(wide <= 390, `${wide} pixels wide`);
+    await (await page.$(".pg-board")).screenshot({ path: path.join(shots, "board-390-confirm.png") });
+    await page.click(".pg-board-go");
+    await page.waitForSelector(".pg-board-live");
+    const stop = await (await page.$(".pg-board-stop")).boundingBox();
+    truth(stop.y >= 0 && stop.y + stop.height <= 844 && stop.x + stop.width <= 390, `Stop is at ${JSON.stringify(stop)}`);
+    await result(page);
+    await (await page.$(".pg-board")).screenshot({ path: path.join(shots, "board-390.png") });
+    return [page];
+  },
   async "every part runs on its board"() {
     let page;
     const told = [];
