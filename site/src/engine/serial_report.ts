@@ -36,16 +36,18 @@ const strict = (result: Result): number =>
   result.compared.differences.filter((one) => !one.timing).length +
   Number(typeof result.edges !== "string" && result.edges.difference !== "");
 
+const count = (n: number, what: string): string => `${n} ${what}${n === 1 ? "" : "s"}`;
+
 /** Return the result of a run in one line. */
 export function verdict(result: Result): string {
   const { compared, edges, error } = result;
   if (error) return error;
-  const counted = `${compared.answers} answers, ${compared.positions} positions`;
+  const counted = `${count(compared.answers, "answer")}, ${count(compared.positions, "position")}`;
   const edgeText = typeof edges === "string" ? "" : `, ${edges.edges} edges${edges.full ? " (recorder full)" : ""}`;
-  const count = strict(result);
+  const different = strict(result);
   const timed = compared.differences.length - compared.differences.filter((one) => !one.timing).length;
   const late = timed ? `; ${timed} depend on the speed of the host` : "";
-  return `${counted}${edgeText}: ${count ? `${count} different` : "all equal"}${late}`;
+  return `${counted}${edgeText}: ${different ? `${different} different` : "all equal"}${late}`;
 }
 
 export function report(part: string, link: Link, info: Recorder | undefined, runs: Result[]): Report {
