@@ -8,7 +8,7 @@ const MOST = 262; // bytes between the flags of an answer, CRC included
 /** Bytes that bring the bridge to its idle state at 115 200 baud (UB-LIN-06). */
 export const WAKE_UP: readonly number[] = [0, 0, FLAG];
 
-export function crc16(bytes: readonly number[]): number {
+function crc16(bytes: readonly number[]): number {
   let crc = 0xffff;
   for (const one of bytes) {
     crc ^= one << 8;

@@ -55,7 +55,7 @@ export interface Build {
 }
 
 export const BASE = 115_200;
-export const RATES: readonly number[] = [BASE, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000];
+const RATES: readonly number[] = [BASE, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000];
 const WORK = 1_000_000;
 const PROTOCOL = 1;
 const MARGIN = 600; // ms after which a request is repeated, in addition to its own duration

@@ -48,7 +48,7 @@ export class Run {
    * changed: called when a row or a position is new. */
   constructor(
     private readonly link: Link,
-    private readonly part: PartData,
+    readonly part: PartData,
     text: string,
     private readonly record = false,
     private readonly changed: () => void = () => undefined,

@@ -66,7 +66,7 @@ const STRAP_BITS: Record<string, readonly string[]> = {
 };
 
 export const write = (register: number, value: number): number[] => [0x10 | register, value];
-export const waitFor = (register: number, mask: number, value: number): number[] => [0x70 | register, mask, value];
+const waitFor = (register: number, mask: number, value: number): number[] => [0x70 | register, mask, value];
 export const read = (register: number): number[] => [0x20 | register];
 const signed = (data: readonly number[]): number => word(data) | 0;
 

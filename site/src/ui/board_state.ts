@@ -2,7 +2,7 @@
 
 import { batch, signal } from "@preact/signals";
 import { compare, motionLines, type Simulated, slowed } from "../engine/serial_compare";
-import { BoardError, Link, Lost } from "../engine/serial_link";
+import { Link, Lost } from "../engine/serial_link";
 import { fetchRecords, notComparable, type Recorder, recorder, replay } from "../engine/serial_record";
 import type { Result } from "../engine/serial_report";
 import { Run, stopMotors, Stopped } from "../engine/serial_run";
@@ -41,6 +41,8 @@ let port: Awaited<ReturnType<typeof choosePort>>;
 let simulation: Simulation | undefined;
 let simulated: PartData | undefined;
 let run: Run | undefined;
+/** The present run; it ends after its motors have stopped. */
+let active: Promise<unknown> = Promise.resolve();
 let endWatch: () => void = () => undefined;
 /** The run has been cancelled while it was prepared. */
 let cancelled = false;
@@ -93,7 +95,7 @@ async function attach(chosen: NonNullable<typeof port>): Promise<void> {
       phase.value = "ready";
     });
     made.onLost = lost;
-    if (part.value && !mismatch()) void prepare(part.value).load();
+    if (part.value && !mismatch()) prepare(part.value).load().catch(() => undefined);
   } catch (error) {
     await wire.close().catch(() => undefined);
     throw error;
@@ -104,6 +106,7 @@ async function attach(chosen: NonNullable<typeof port>): Promise<void> {
 function lost(): void {
   const moving = phase.value === "running";
   const gone = port;
+  const moved = run?.part;
   reset();
   trouble.value = moving
     ? "The port was lost during a run. The page cannot stop the motor now: it ends its move, or runs until a limit. " +
@@ -114,10 +117,8 @@ function lost(): void {
     if (found !== gone) return;
     void attach(found)
       .then(async () => {
-        const number = link!.identity.part;
-        const data = parts().find((one) => one.number === number) && part.value;
-        if (data?.board.number !== number) return;
-        await stopMotors(link!, data);
+        if (moved?.board.number !== link!.identity.part) return;
+        await stopMotors(link!, moved);
         told.value = "the port has returned, and the motor was stopped";
         trouble.value = "";
       })
@@ -140,6 +141,7 @@ function reset(): void {
 export async function disconnect(): Promise<void> {
   const old = link;
   await stop("the board was disconnected");
+  await active.catch(() => undefined);
   reset();
   await old?.close();
 }
@@ -225,7 +227,9 @@ export async function confirm(): Promise<void> {
   results.value = [];
   if (both.value && all.length === 1) start();
   for (const job of all) {
-    const result = await play(job, data, used);
+    const played = play(job, data, used);
+    active = played;
+    const result = await played;
     if (used !== link && !result.error) return;
     results.value = [...results.value, result];
     if (result.error) break;
@@ -272,7 +276,6 @@ async function play(job: Job, data: PartData, used: Link): Promise<Result> {
     result.error = message(error);
     if (!(error instanceof Lost)) trouble.value = result.error;
     if (error instanceof Stopped) told.value = `stopped at position ${made.positions.join(", ")}`;
-    if (!(error instanceof BoardError)) throw error;
   } finally {
     run = undefined;
     results.value = results.value.filter((one) => one !== result);
@@ -318,8 +321,8 @@ export async function stop(why: string): Promise<void> {
 
 /** The page is being closed or frozen. */
 function leave(): void {
-  if (!run || !link || !part.value) return;
-  link.shout(stopScripts(part.value));
+  if (!run || !link) return;
+  link.shout(stopScripts(run.part));
   run.stop("the page was closed");
 }
 
