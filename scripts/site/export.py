@@ -14,6 +14,7 @@ from cocotb_tests.harness.project import ProjectError
 from openppmc.capture.common.mnemonics import CommandDecoder
 from openppmc.parts import PARTS
 from openppmc.sim.common.build import SimError
+from scripts.fpga.flow.board_table import BY_PART
 from scripts.site import wasm
 from scripts.site.progress import say
 from scripts.site.sessions import sessions
@@ -66,6 +67,37 @@ def style(part: WebPart) -> dict[str, Any]:
     return found
 
 
+def board(part: WebPart) -> dict[str, Any]:
+    """Return the data for real boards with this part (BoardData in site/src/types.ts)."""
+    row = PARTS[part.name]
+    pins = []
+    if row.number:
+        width = sum(map(part.part.width, ("rst_n", *part.part.inputs, *part.part.watched)))
+        pins = list(row.load("selftest").layout(width))
+    return {
+        "number": row.number,
+        "params": part.params,
+        "recorder": pins,
+        "boards": [
+            {
+                "title": f"{on.title}, {on.revisions}",
+                "build": f"make bitstream BOARD={on.name}{_named(part.name)}",
+                "load": f"make flash BOARD={on.name}{_named(part.name)}",
+                "loader": f"openFPGALoader --board {on.loader}{_place(on.family)} {on.file('uart').name}",
+            }
+            for on in (BY_PART[part.name].values() if row.number else ())
+        ],
+    }
+
+
+def _named(part: str) -> str:
+    return "" if part == "ppmc104" else f" PART={part}"
+
+
+def _place(family: str) -> str:
+    return "" if family == "ice40" else " --write-flash"
+
+
 def data(part: WebPart, module: str) -> dict[str, Any]:
     """Return the tables of a part (PartData in site/src/types.ts)."""
     row = PARTS[part.name]
@@ -95,6 +127,7 @@ def data(part: WebPart, module: str) -> dict[str, Any]:
         "sessions": [vars(one) for one in sessions(part.name)],
         "style": style(part),
         "wasm": module,
+        "board": board(part),
     }
 
 
@@ -125,5 +158,7 @@ def all_parts() -> None:
             export(name)
     except SimError as error:
         raise ProjectError(str(error)) from None
-    text = json.dumps([{"name": name, "title": PARTS[name].title} for name in WEB_PARTS], ensure_ascii=False)
+    rows = [(name, PARTS[name]) for name in WEB_PARTS]
+    known = [{"name": name, "title": row.title, "number": row.number} for name, row in rows]
+    text = json.dumps(known, ensure_ascii=False)
     (PLAYGROUND / "parts.js").write_text(f"(globalThis.openppmc??={{}}).parts={text};\n", encoding="utf-8")

@@ -67,6 +67,27 @@ export interface PartData {
   sessions: Session[];
   style: Record<string, unknown>;
   wasm: string;
+  board: BoardData;
+}
+
+/** Data for a real board with the UART bridge; without it, the part has no bridge. */
+export interface BoardData {
+  /** Part number in IDENT; 0: the part is not accessed through a bridge. */
+  number: number;
+  /** Parameters of the module of this page. */
+  params: Record<string, number | string>;
+  /** Pins in a record and their widths, lowest bit first. */
+  recorder: [string, number][];
+  boards: Bitstream[];
+}
+
+/** A board for which a bitstream of the part can be built. */
+export interface Bitstream {
+  title: string;
+  /** Commands in a checkout, and the command that loads a file of a release. */
+  build: string;
+  load: string;
+  loader: string;
 }
 
 export interface LogEntry {
@@ -75,6 +96,8 @@ export interface LogEntry {
   text: string;
   words: string;
   bad?: boolean;
+  /** The entry is a value that the text reads. */
+  answer?: boolean;
 }
 
 export type ToWorker =

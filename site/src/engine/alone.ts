@@ -6,6 +6,8 @@ import { Core, ROW } from "./core";
 import { Player } from "./player";
 import type { Speeds } from "./speeds";
 
+export { Deframer, encode } from "./serial_frames";
+
 export interface Played {
   end: number;
   /** (t, word of an output, value) */

@@ -111,8 +111,10 @@ export class Side {
     return this.core.steps(axis) - this.mark[axis]!;
   }
 
-  note(kind: string, text: string, meaning: string, bad = false): void {
-    this.log.push({ t: this.core.now, kind, text, words: meaning, ...(bad ? { bad } : {}) });
+  /** Add a log entry. `bad` is given for an answer: whether it differs from the value in the text. */
+  note(kind: string, text: string, meaning: string, bad?: boolean): void {
+    const answer = bad === undefined ? {} : { answer: true };
+    this.log.push({ t: this.core.now, kind, text, words: meaning, ...(bad ? { bad } : {}), ...answer });
   }
 }
 

@@ -2,6 +2,7 @@
 
 import { useEffect } from "preact/hooks";
 import { Bar } from "./bar";
+import { Board } from "./board";
 import { HostPane } from "./host";
 import { BusLog } from "./log";
 import { Machine } from "./machine";
@@ -42,6 +43,7 @@ export function App() {
           <HostPane />
           <Machine />
           <Pins />
+          <Board />
         </div>
         <div class="pg-right">
           <Speed />

@@ -7,6 +7,8 @@ declare const WORKER: string; // code of the worker, inserted by build.mjs
 interface Entry {
   name: string;
   title: string;
+  /** Part number in IDENT of the UART bridge; 0: the part is not accessed through a bridge. */
+  number: number;
 }
 interface Loaded {
   parts: Entry[];

@@ -1,0 +1,81 @@
+// Simulates a session in a separate worker: answers, positions and motions, before a board executes it.
+
+import { Motions, type Simulated } from "../engine/serial_compare";
+import { ROW } from "../engine/core";
+import type { Frame, FromWorker, LogEntry, PartData, ToWorker } from "../types";
+import { loadWasm, makeWorker } from "./load";
+
+const STEP = 1 << 17;
+const LONGEST_MS = 60_000; // longest simulation
+const AFTER_S = 0.5; // a motor that still moves this time after the end of the text moves until it is stopped
+
+export class Simulation {
+  private worker: Worker | undefined;
+  private ready: Promise<void> | undefined;
+  private take: (message: FromWorker) => void = () => undefined;
+
+  constructor(private readonly part: PartData) {}
+
+  load(): Promise<void> {
+    this.ready ??= loadWasm(this.part).then(
+      (wasm) =>
+        new Promise<void>((done, fail) => {
+          const worker = makeWorker();
+          this.worker = worker;
+          worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+            if (data.kind === "ready") done();
+            else this.take(data);
+            // The worker sends the next frame after this message.
+            if (data.kind === "frame") worker.postMessage({ kind: "shown" } satisfies ToWorker);
+          };
+          worker.onerror = (event) => fail(new Error(event.message));
+          worker.postMessage({ kind: "load", part: this.part, wasm } satisfies ToWorker, [wasm]);
+        }),
+    );
+    return this.ready;
+  }
+
+  close(): void {
+    this.worker?.terminate();
+  }
+
+  async run(text: string): Promise<Simulated> {
+    await this.load();
+    const ask = (message: ToWorker): void => this.worker!.postMessage(message);
+    const log: LogEntry[] = [];
+    const motions = new Motions(this.part.clkHz);
+    let over = Infinity;
+    return new Promise((done, fail) => {
+      let began = false;
+      const end = (frame: Frame | undefined, open: string): void => {
+        clearTimeout(timer);
+        this.take = () => undefined;
+        ask({ kind: "pause" });
+        const answers = log.filter((entry) => entry.answer);
+        done({ answers, positions: frame?.positions ?? [], motions: motions.all, open });
+      };
+      let latest: Frame | undefined;
+      const timer = setTimeout(() => end(latest, "the simulation takes longer than a minute"), LONGEST_MS);
+      this.take = (message) => {
+        if (message.kind === "began") began = true;
+        if (message.kind === "error") {
+          clearTimeout(timer);
+          this.take = () => undefined;
+          fail(new Error(message.text));
+        }
+        if (message.kind !== "frame" || !began) return;
+        latest = message;
+        log.push(...message.log);
+        const view = new DataView(message.rows);
+        for (let at = 0; at + ROW <= message.rows.byteLength; at += ROW) {
+          const pin = view.getUint32(at + 8, true);
+          if (pin >= STEP) motions.step(pin - STEP, view.getFloat64(at, true), view.getUint32(at + 12, true) === 1);
+        }
+        if (message.over) over = Math.min(over, message.t);
+        if (message.over && !message.running) end(message, "");
+        else if (message.t - over > AFTER_S * this.part.clkHz) end(message, "a motor continues until it is stopped");
+      };
+      ask({ kind: "start", text, speed: 0, label: "" });
+    });
+  }
+}

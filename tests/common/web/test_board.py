@@ -1,0 +1,87 @@
+"""The panel "Real board" of the page in Chromium, with virtual boards on its serial port (board.mjs)."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from functools import cache
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import ProjectError
+from openppmc import sim
+from scripts.site.pages import SITE, packages, playground
+from tests.common.web.counters import add
+
+HERE = ROOT / "tests/common/web"
+pytestmark = [
+    pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed: no browser"),
+    pytest.mark.skipif(sys.platform != "linux", reason="a virtual board needs Linux"),
+    pytest.mark.xdist_group("page"),
+]
+NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "board.mjs").read_text(encoding="utf-8"), re.M)
+BOARDS = {
+    # Clock, crystal and timing of the module in the page, so that the recorded edges can be compared.
+    "recorded": "clk=16000000,record=13",
+    "plain": "",
+    **{part: f"part={part}" for part in ("ppmc2104", "stmc", "ppmc312", "bank")},
+}
+"""Virtual boards by their names in board.mjs."""
+
+
+@contextmanager
+def status_server(boards: dict[str, sim.SimBoard]) -> Iterator[str]:
+    """Serve the number of pulses of each board, and yield the address."""
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(str(boards[self.path.strip("/")].status().pulses).encode())
+
+        def log_message(self, *words: object) -> None:
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+
+
+@cache
+def checked() -> dict[str, dict[str, str]]:
+    """Return the result of each check in the browser. Without a browser, skip the tests with a message."""
+    folder = playground()
+    try:
+        packages(SITE / "browser")
+    except ProjectError as error:
+        pytest.skip(f"no browser: {error}")
+    with ExitStack() as stack:
+        boards = {name: stack.enter_context(sim.start(spec)) for name, spec in BOARDS.items()}
+        status = stack.enter_context(status_server(boards))
+        ports = {name: board.port for name, board in boards.items()}
+        command = ["node", str(HERE / "board.mjs"), str(folder), str(ROOT / "build/site/shots")]
+        command += [str(SITE / "browser"), json.dumps({**ports, "status": status})]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode == 3:
+        pytest.skip(done.stderr.strip().splitlines()[-1])
+    assert done.returncode == 0, done.stderr
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    for line in lines:
+        if line.get("told"):
+            add(line["told"])
+    return {line["name"]: line for line in lines}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_board(name):
+    """The panel passes the check without an error in the console."""
+    assert checked()[name].get("error") is None, checked()[name]["error"]
