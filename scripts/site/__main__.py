@@ -71,7 +71,7 @@ title: Playground
 <script src="playground/parts.js"></script>
 <script src="playground/playground.js"></script>
 
-<a id="pg-statements"></a>
+<div id="pg-statements" markdown="1" popover>
 """
 
 
@@ -97,7 +97,7 @@ def stage() -> None:
         shutil.copy(source, to)
     manual = (ROOT / "docs/playground.md").read_text(encoding="utf-8")
     (PAGES / "playground.md").write_text(
-        APP + "## Statements" + manual.split("## Statements")[1], encoding="utf-8"
+        f"{APP}\n## Statements{manual.split('## Statements')[1]}\n</div>\n", encoding="utf-8"
     )
     tried = TRIED.search((ROOT / START).read_text(encoding="utf-8"))
     if not tried:

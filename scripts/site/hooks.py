@@ -20,6 +20,7 @@ CONFIG = (
     'c.textContent=c.textContent.replace(\'"base": "/"\',\'"base": "."\')'
     ".replaceAll('\": \"/','\": \"')}</script>"
 )
+RULE = re.compile(r"<td>([A-Z0-9]+(?:-[A-Z0-9]+){2,})</td>")
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 ADDRESSES = {"landing.md": "index.html", START: "overview.html"}
@@ -63,7 +64,11 @@ def run_links(source: str, markdown: str) -> str:
 
 
 def on_post_page(output: str, page: Any, **_: Any) -> str:
-    """Load the shim of the search from this site instead of another host; called by MkDocs for each page."""
+    """Load the shim of the search from this site instead of another host; called by MkDocs for each page.
+
+    The row of each rule gets an anchor, to which the log of the playground links.
+    """
+    output = RULE.sub(lambda cell: f'<td id="{cell[1].lower()}">{cell[1]}</td>', output)
     return output.replace(SHIM, os.path.relpath("iframe-worker.js", os.path.dirname(page.file.src_uri)))
 
 

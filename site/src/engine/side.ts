@@ -26,6 +26,9 @@ export class Side {
   /** Levels that the host sets; in addition, the machine may close switches. */
   readonly levels = new Map<string, bigint>();
   log: LogEntry[] = [];
+  /** First cycle of the current access, and the line of its statement. */
+  from = 0;
+  line = 0;
   status = -1;
   mark: number[] = [];
   machine = false;
@@ -111,8 +114,8 @@ export class Side {
     return this.core.steps(axis) - this.mark[axis]!;
   }
 
-  note(kind: string, text: string, meaning: string, bad = false): void {
-    this.log.push({ t: this.core.now, kind, text, words: meaning, ...(bad ? { bad } : {}) });
+  note(kind: string, text: string, words: string, more: Partial<LogEntry> = {}): void {
+    this.log.push({ from: this.from, t: this.core.now, line: this.line, kind, text, words, ...more });
   }
 }
 
