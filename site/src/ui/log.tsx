@@ -1,7 +1,7 @@
 // Log of the bus: all accesses with time and meaning. The reader selects one with the pointer or the arrow keys.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { log, part, select, selected, selectedIn, shows } from "./state";
+import { log, part, select, selected, shows } from "./state";
 
 const NAMES: Record<string, string> = {
   c: "command",
@@ -33,7 +33,10 @@ export function BusLog() {
   useEffect(() => {
     const box = list.current;
     const row = box?.querySelector<HTMLElement>("[aria-current]");
-    if (box && row && selectedIn.value !== "log") box.scrollTop = row.offsetTop - box.clientHeight / 2;
+    if (!box || !row) return;
+    const y = row.offsetTop - box.scrollTop;
+    if (y < row.offsetHeight || y + row.offsetHeight > box.clientHeight)
+      box.scrollTop = row.offsetTop - box.clientHeight / 2;
   }, [chosen]);
   const key = (event: KeyboardEvent): void => {
     const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
@@ -41,7 +44,6 @@ export function BusLog() {
     if (!step) return;
     event.preventDefault();
     select(all[at < 0 ? all.length - 1 : Math.min(Math.max(at + step, 0), all.length - 1)], "log");
-    requestAnimationFrame(() => list.current?.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" }));
   };
   return (
     <>

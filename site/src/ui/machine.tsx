@@ -70,7 +70,7 @@ function Rail({ axis }: { axis: number }) {
         {position}
       </text>
       {part.value!.motors.length > 1 && (
-        <text x="1%" y="54" class="pg-name">
+        <text x="1%" y="59" class="pg-name">
           axis {axis + Number(part.value!.style.first)}
         </text>
       )}

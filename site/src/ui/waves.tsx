@@ -102,6 +102,8 @@ export function Waves() {
       const span = ACCESS_SHARE * Math.max(entry.t - entry.from, 8);
       follow.current = false;
       Object.assign(view.current, { from: entry.from - span / 3, to: entry.from + (span * 2) / 3 });
+      const first = shown.current.findIndex((row) => edges(row, entry).length);
+      canvas.current!.parentElement!.scrollTop = first * HEIGHT;
     }
     refresh();
   }, [selected.value]);

@@ -197,6 +197,8 @@ const checks = {
       equal(wide, width, `${size}: width of the page`);
       apart(boxes, size);
       count += boxes.length;
+      const top = (name) => boxes.find((one) => one.name.split(" ").includes(name)).box.top;
+      if (width > 500) equal(top("pg-rate"), top("pg-machine"), `${size}: speed next to the motor`);
       if (width === 1440) equal(tall, height, `${size}: height of the page`);
       if (width < 500) {
         const [tops, small, gone] = await page.evaluate(() => {
