@@ -38,11 +38,12 @@ title: Playground
 
 <div id="openppmc-playground" markdown="0"><p>The playground needs JavaScript and WebAssembly.</p></div>
 <link rel="stylesheet" href="playground/playground.css">
+<link rel="preload" as="script" href="playground/parts/ppmc104.js">
 <script>document.body.classList.add("playground-page")</script>
 <script src="playground/parts.js"></script>
 <script src="playground/playground.js"></script>
 
-<a id="pg-statements"></a>
+<div id="pg-statements" markdown="1" popover>
 """
 
 TRIED = re.compile(r"^\*\*No board .*?(?=\n## )", re.M | re.S)
@@ -67,7 +68,7 @@ def stage() -> None:
         shutil.copy(source, to)
     manual = (ROOT / "docs/playground.md").read_text(encoding="utf-8")
     (PAGES / "playground.md").write_text(
-        APP + "## Statements" + manual.split("## Statements")[1], encoding="utf-8"
+        f"{APP}\n## Statements{manual.split('## Statements')[1]}\n</div>\n", encoding="utf-8"
     )
     tried = TRIED.search((ROOT / START).read_text(encoding="utf-8"))
     if not tried:

@@ -18,6 +18,12 @@ CONFIG = (
     'c.textContent=c.textContent.replace(\'"base": "/"\',\'"base": "."\')'
     ".replaceAll('\": \"/','\": \"')}</script>"
 )
+RULE = re.compile(r"<td>([A-Z0-9]+(?:-[A-Z0-9]+){2,})</td>")
+SEARCH = (
+    'data-md-component="search" role="dialog"',
+    'data-md-component="search" role="dialog" aria-label="Search"',
+)
+"""Start tag of the search, and the same with the name that a dialog needs."""
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 ADDRESSES = {"landing.md": "index.html", START: "overview.html"}
@@ -60,7 +66,11 @@ def run_links(source: str, markdown: str) -> str:
 
 
 def on_post_page(output: str, page: Any, **_: Any) -> str:
-    """Load the shim of the search from this site instead of another host; called by MkDocs for each page."""
+    """Load the shim of the search from this site instead of another host; called by MkDocs for each page.
+
+    The row of each rule gets an anchor, to which the log of the playground links.
+    """
+    output = RULE.sub(lambda cell: f'<td id="{cell[1].lower()}">{cell[1]}</td>', output).replace(*SEARCH)
     return output.replace(SHIM, os.path.relpath("iframe-worker.js", os.path.dirname(page.file.src_uri)))
 
 
@@ -71,7 +81,7 @@ def on_post_template(output_content: str, template_name: str, **_: Any) -> str:
     """
     if template_name != "404.html":
         return output_content
-    local = output_content.replace(SHIM, "iframe-worker.js")
+    local = output_content.replace(SHIM, "iframe-worker.js").replace(*SEARCH)
     local = re.sub(r'\b(href|src)="/(?!/)', r'\1="', local).replace('href=""', 'href="index.html"')
     local = local.replace("<title>", "<title>Not found - ", 1)
     local = local.replace(

@@ -9,12 +9,14 @@ from typing import Any
 from cocotb_tests.bank.env import WORDS as BANK_REGISTERS
 from cocotb_tests.harness.bus import MREF, MWEF
 from cocotb_tests.harness.bus import NAMES as NAMES312
+from cocotb_tests.harness.paths import ROOT
 from openppmc.capture.common.mnemonics import END_STATUS, INPUTS, OUTPUTS, REMAINING, CommandDecoder
 from openppmc.capture.pmc006 import mnemonics as line
 from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.capture.ppmc312 import mnemonics as block
 from openppmc.model.motion.codes import Command, Kind
 from openppmc.model.ppmc312.codes import Code as Code312
+from scripts.site import rules
 
 KINDS = {
     Kind.STOP: "immediate stop",
@@ -27,6 +29,72 @@ KINDS = {
     Kind.AUX_OFF: "AUX off",
 }
 """Meanings of the commands that no demo sends, and of command codes with don't-care bits."""
+MOVE = "move flags:1 rate:2"
+FORMS = {
+    Code312.INITIAL: "table flags:1 start rate RS:2 high-speed rate RH:2 pulses NA:3"
+    "/table flags:1 start rate RS:2 stop rate RP:2 high-speed rate RH:2 acceleration pulses NA:3"
+    " deceleration pulses ND:3",
+    Code312.FREE_CURVE: "table flags:1 stages up:1/table flags:1 stages up:1 stages down:1",
+    Code312.IN_POSITION: "monitor flags:1 range:2",
+    Code312.ENCODE: "monitor flags:1 range:2",
+    Code312.INTERLOCK_POSITION: "position:4s",
+    Code312.SPEED_LIMIT: "rate HSL:2",
+    Code312.END_TERMINAL: "monitored:1",
+    Code312.ORIGIN_SEARCH: MOVE,
+    Code312.ZERO_RETURN: MOVE,
+    Code312.OUTPUT: "outputs:1",
+    Code312.MASK: "mode:1 mask:1",
+    Code312.POSITION_READ: "encoder:1",
+    Code312.POSITION_SET: "encoder:1 position:4s",
+    Code312.EVENT_READ: "buffer:1",
+    Code312.STOP: "move flags:1/move flags:1 at position:4s",
+    Code312.SLOW_STOP: "move flags:1/move flags:1 at position:4s",
+    Code312.RAMP: f"{MOVE} pulses:4/move flags:1 pulses:4",
+    Code312.CONSTANT: f"{MOVE} pulses:4",
+    Code312.STEP: "move flags:1",
+    Code312.FOREVER_RAMP: MOVE,
+    Code312.FOREVER_CONSTANT: MOVE,
+    Code312.RAMP_CHANGE: f"{MOVE}/{MOVE} at position:4s",
+    Code312.CHANGE: f"{MOVE}/{MOVE} at position:4s",
+}
+"""Parameters of the PPMC-312's instructions; below, of its answers and reports. Forms differ in length."""
+ANSWERS = {
+    Code312.FREE_CURVE: "list:1 missing values:1/list:1 pulses up:3 pulses down:3",
+    Code312.INPUT: "inputs:1",
+    Code312.TERMINALS: "alarm and limit pins:1 event pins:1",
+    Code312.VERSION: "version:1",
+    Code312.TABLE_READ: "rates:1 stages up:1 stages down:1 pulses up:3 pulses down:3",
+    Code312.POSITION_READ: "encoder:1 position:4s",
+    Code312.INTERLOCK: "on:1",
+    Code312.RUN_MONITOR: "not monitored:1",
+    Code312.EVENT_READ: "entries:1 next entry:1 codes:4",
+    Code312.STATUS: "operation:1 condition:1 buffers:1",
+    Code312.RAMP: "profile:1",
+    Code312.FOREVER_RAMP: "profile:1",
+    Code312.FOREVER_CONSTANT: "profile:1",
+}
+REPORT_FORMS = {
+    0xE0: "cause:1 position:4s", 0xE3: "outside:1", 0xE4: "outside:1", 0xE9: "overwritten:1 changed bits:1",
+    0xF1: "fault:1 condition:1", 0xF4: "alarm:1", 0xF5: "unknown code:1", 0xF6: "length received:1",
+    0xF7: "buffer fault:1", 0xF8: "event fault:1", 0xF9: "override fault:1",
+}  # fmt: skip
+FLAGS = {
+    "table flags": "8 MHz| | | |LE|FO|CLK bit 2|CLK bit 1|CLK bit 0",
+    "monitor flags": "off| | | | | |FO|RES|EN",
+    "move flags": "CW| |CCW| |IDX| |OV|trigger bit 1|trigger bit 0",
+    "cause": "|alarm|normal end|origin|low speed|decelerating stop|stop|speed limit|limit",
+    "condition": "| | |WRN|ABN|FIX|ACC|NOR|INI",
+    "profile": "trapezoid| |only up|only down|triangle| | | |held",
+}
+"""Meaning of a parameter that is 0, and the names of its bits, bit 7 first."""
+TITLES = re.compile(r"\[([0-9A-F]{2})(?:, [0-9A-F]{2})?\]\(#[^)]*\) \| ([^|]+) \|")
+"""Row of the table of instructions in docs/ppmc312/instructions.md."""
+HEADERS = {
+    "> 03": "instruction", "> 02": "instruction, data blocks follow", "> 00": "data, more follow",
+    "> 01": "data, the last", "< 03": "answer", "< 02": "answer, data blocks follow",
+    "< 00": "data, more follow", "< 01": "data, the last", "< 0B": "answer of an event",
+    "< 1B": "answer of an override", "< 23": "report",
+}  # fmt: skip
 TABLES = {END_STATUS: "end", INPUTS: "inputs", OUTPUTS: "outputs"}
 REGISTERS = {
     f"{kind} {register}": names[place]
@@ -51,8 +119,9 @@ def _fields(command: Command, words: CommandDecoder) -> list[Field]:
     return by_count[command.parameters] if command.kind is Kind.OPERATION else fields[command.kind]
 
 
-def _code(command: Command, words: CommandDecoder) -> dict[str, object]:
+def _code(part: str, command: Command, words: CommandDecoder) -> dict[str, object]:
     code = command.code
+    meaning = 0
     text = words.command(code, [])
     if command.kind in KINDS:
         axis = re.match(r"axis \d: ", text)
@@ -70,25 +139,59 @@ def _code(command: Command, words: CommandDecoder) -> dict[str, object]:
         elif answer == "number":
             answer = name.removeprefix("read ")
     fields = [{"name": name, "bytes": size, "plus": plus} for name, size, plus in _fields(command, words)]
-    return {"text": text, "fields": fields, "answer": answer, "count": count}
+    rule = rules.rule_of(part, command, meaning)
+    return {"text": text, "fields": fields, "answer": answer, "count": count, "rule": rule}
 
 
 def tables(part: str, words: CommandDecoder) -> dict[str, Any]:
     """Return the tables of a part: codes, status, answers, and the meanings of its host's accesses."""
     if part == "ppmc312":
-        return blocks()
-    if part == "pmc006":
-        return frames()
-    found = _bytes(part, words if part != "bank" else Ppmc104Decoder())
-    return {**found, "registers": REGISTERS} if part == "bank" else found
+        found = blocks()
+    elif part == "pmc006":
+        found = frames()
+    else:
+        found = _bytes(part, words if part != "bank" else Ppmc104Decoder())
+    more = {"P006-CMD-48"} if part == "pmc006" else set()
+    if part == "ppmc312":
+        more = {f"P312-PAR-0{n}" for n in (1, 3, 4, 5, 7, 9)} | {"P312-CMD-FC-2", "P312-RSP-10"}
+    if part == "bank":
+        more, found["registers"] = {"BANK-WIN-02"}, REGISTERS
+    names = more | {code["rule"] for code in found["codes"].values()} | {rules.STATUS[part]}
+    return {**found, "statusRule": rules.STATUS[part], "rules": rules.used(names)}
+
+
+def _bits(text: str) -> dict[str, object]:
+    none, *names = (name.strip() for name in text.split("|"))
+    return {"bits": names, "none": none}
+
+
+def _forms(text: str) -> list[list[dict[str, object]]]:
+    """Return alternative lists of parameters, separated by `/`: name, number of bytes, `s` for signed."""
+    found = []
+    for form in text.split("/"):
+        words = re.findall(r"([\w ?]+?):(\d)(s?)", form)
+        found.append([
+            {"name": name.strip(), "bytes": int(size), "plus": 0}
+            | ({"signed": True} if signed else {})
+            | (_bits(FLAGS[name.strip()]) if name.strip() in FLAGS else {})
+            for name, size, signed in words
+        ])  # fmt: skip
+    return found
 
 
 def blocks() -> dict[str, Any]:
     """Return the tables of the PPMC-312: instructions by code, registers, reports, refusals."""
     flags = ((0x20, "interrupts armed"), (MWEF, "no space for a block"))
+    page = (ROOT / "docs/ppmc312/instructions.md").read_text(encoding="utf-8")
+    titles = {**dict(TITLES.findall(page)), **{f"{code:02X}": text for code, text in block.SIMPLE.items()}}
     return {
         "codes": {
-            f"{code:02X}": {"text": block.SIMPLE.get(code, code.name.lower().replace("_", " "))}
+            f"{code:02X}": {
+                "text": titles[f"{code:02X}"],
+                "rule": f"P312-CMD-{code:02X}",
+                "forms": _forms(FORMS.get(code, "")),
+                "answerForms": _forms(ANSWERS.get(code, "")),
+            }
             for code in Code312
         },
         "status": [
@@ -102,13 +205,19 @@ def blocks() -> dict[str, Any]:
         "registers": {f"{kind} {register}": name for (kind, register), name in NAMES312.items()},
         "reports": {f"{code:02X}": text for code, text in {**block.REPORTS, **block.REFUSALS}.items()},
         "causes": {str(bit): text for bit, text in block.CAUSES.items()},
+        "headers": HEADERS,
+        "reportForms": {f"{code:02X}": _forms(text) for code, text in REPORT_FORMS.items()},
+        "reportRule": "P312-RSP-10",
     }  # fmt: skip
 
 
 def frames() -> dict[str, Any]:
     """Return the tables of the PMC006B4: instructions by letter."""
     return {
-        "codes": {letter: {"text": text} for letter, text in line.MEANINGS.items()},
+        "codes": {
+            letter: {"text": text, "rule": rules.letters().get(letter, "P006-CMD-48")}
+            for letter, text in line.MEANINGS.items()
+        },
         "status": [line.status(byte) for byte in range(256)],
         "answers": {},
     }
@@ -120,7 +229,9 @@ def _bytes(part: str, words: CommandDecoder) -> dict[str, Any]:
     decode = importlib.import_module(f"openppmc.model.{folder}.codes").decode
     commands = [decode(code) for code in range(256)]
     return {
-        "codes": {f"{one.code:02X}": _code(one, words) for one in commands if one.kind is not Kind.UNDEFINED},
+        "codes": {
+            f"{one.code:02X}": _code(part, one, words) for one in commands if one.kind is not Kind.UNDEFINED
+        },
         "status": [words.status(byte) for byte in range(256)],
         "answers": {
             "end": [words.end(byte) for byte in range(256)],

@@ -139,7 +139,7 @@ WEB_PARTS: dict[str, WebPart] = {
             ),
             straps=("run", "evt0_n", "evt1_n", "end_n", "index_n"),
             hint="> 03 04 86 00 01F4",
-            bits=("b7", "b6", "b5", "b4", "MWEF", "MREF", "b1", "b0"),
+            bits=("0", "EWRQ", "EWIRQ", "ERIRQ", "MWEF", "MREF", "0", "0"),
         ),
         WebPart(
             "pmc006",
@@ -156,6 +156,7 @@ WEB_PARTS: dict[str, WebPart] = {
             ),
             straps=("fset_n", *(f"gpi[{n}]" for n in range(5))),
             hint="f s 2000",
+            bits=("0", "0", "0", "stalled", "reduced", "EXT2", "EXT1", "busy"),
             config=F8B,
             settle=1200,
             # The EEPROM has no supply here. Thus, its data line is low, and the part boots immediately.

@@ -16,6 +16,10 @@ export interface Field {
   bytes: number;
   /** Added to the value for display, because counts are sent minus one. */
   plus: number;
+  /** How the value is displayed: as a signed number, or with the names of its bits (bit 7 first), or `none`. */
+  signed?: boolean;
+  bits?: string[];
+  none?: string;
 }
 
 export interface Code {
@@ -24,16 +28,34 @@ export interface Code {
   /** Key in `answers`, or else the name of the value that is read; count: number of bytes of the answer. */
   answer: string;
   count: number;
+  /** ID of the rule in the manual. */
+  rule: string;
+  /** Parameters of a block by their number of bytes: of an instruction, and of its answer. */
+  forms?: Field[][];
+  answerForms?: Field[][];
+}
+
+/** Rule of a manual: its text, and the address of its row. */
+export interface Rule {
+  text: string;
+  page: string;
 }
 
 export interface Words {
   codes: Record<string, Code>;
   status: string[];
+  /** Rules by their ID; statusRule: the one of the status register. */
+  rules: Record<string, Rule>;
+  statusRule: string;
   answers: Record<string, string[]>;
   /** Names of registers, by "read 4" or "write 4". */
   registers?: Record<string, string>;
   reports?: Record<string, string>;
   causes?: Record<string, string>;
+  /** Blocks: headers by direction and byte, parameters of reports, rule of reports. */
+  headers?: Record<string, string>;
+  reportForms?: Record<string, Field[][]>;
+  reportRule?: string;
 }
 
 export interface Session {
@@ -90,11 +112,20 @@ export interface Bitstream {
   loader: string;
 }
 
+/** Field of a block: name, bytes, meaning. */
+export type Decoded = [name: string, bytes: string, value: string];
+
 export interface LogEntry {
+  /** First and last cycle of the access. */
+  from: number;
   t: number;
+  /** Line of the text; 0: the access is not from the text. */
+  line: number;
   kind: string;
   text: string;
   words: string;
+  rule?: string;
+  fields?: Decoded[];
   bad?: boolean;
   /** The entry is a value that the text reads. */
   answer?: boolean;

@@ -1,6 +1,6 @@
 // Host of the PPMC-312: accesses registers, and transfers blocks through the windows.
 
-import type { Words } from "../types";
+import type { Decoded, Field, LogEntry, Words } from "../types";
 import { Host } from "./host";
 import { hex, type Doing, type Side } from "./side";
 import { Pauses, Strobes } from "./strobes";
@@ -14,6 +14,7 @@ const DWR = 5;
 const DRR = 7;
 const MWEF = 0x08;
 const MREF = 0x04;
+const WRITE_RULES: Record<number, string> = { 0: "P312-PAR-01", 2: "P312-PAR-03", 3: "P312-PAR-04", 5: "P312-PAR-05" };
 const LONGEST = 32; // bytes of a block
 
 export class BlockHost extends Host {
@@ -40,12 +41,8 @@ export class BlockHost extends Host {
 
   private *put(register: number, value: number, quiet = true): Doing {
     yield* this.bus.write(register, value, () => {
-      if (!quiet)
-        this.side.note(
-          "w",
-          hex(value),
-          this.side.part.words.registers?.[`write ${register}`] ?? `register ${register}`,
-        );
+      const name = this.side.part.words.registers?.[`write ${register}`] ?? `register ${register}`;
+      if (!quiet) this.side.note("w", hex(value), name, { rule: WRITE_RULES[register] ?? "P312-PAR-09" });
     });
   }
 
@@ -69,7 +66,8 @@ export class BlockHost extends Host {
         ? (this.side.part.words.status[value] ?? "")
         : (this.side.part.words.registers?.[`read ${register}`] ?? "");
     const bad = expected !== value;
-    this.side.note("r", hex(value), bad ? `${name} (the text expects ${hex(expected)})` : name, bad);
+    const more = { rule: register === CSR ? this.side.part.words.statusRule : "P312-PAR-07", bad };
+    this.side.note(register === CSR ? "st" : "r", hex(value), bad ? `${name} (the text expects ${hex(expected)})` : name, more);
     return words.slice(isByte(words[1]) ? 2 : 1);
   }
 
@@ -77,7 +75,8 @@ export class BlockHost extends Host {
     const pauses = new Pauses(this.side);
     for (;;) {
       const value = yield* this.get(CSR);
-      if (value !== this.polled) this.side.note("st", hex(value), this.side.part.words.status[value] ?? "");
+      const { words } = this.side.part;
+      if (value !== this.polled) this.side.note("st", hex(value), words.status[value] ?? "", { rule: words.statusRule });
       this.polled = value;
       if (!(value & bit)) return;
       yield* pauses.next();
@@ -89,25 +88,30 @@ export class BlockHost extends Host {
     if (!content.length || content.length > LONGEST)
       throw new TextError(`block of ${content.length} bytes: wrong length; write 1 to ${LONGEST} bytes`);
     yield* this.ready(MWEF);
+    const { side } = this;
+    const from = side.core.now;
     yield* this.put(WCR, 0x20);
     yield* this.put(WAR, 0x20 - content.length);
     for (const one of [...content].reverse()) yield* this.put(DWR, one);
-    this.side.note(">", content.map((one) => hex(one)).join(" "), blockWords(this.side.part.words, content));
+    side.from = from;
+    side.note(">", spaced(content), blockWords(side.part.words, content), decoded(side.part.words, content, false));
     return [];
   }
 
   *response(words: string[]): Doing<string[]> {
-    const expected = bytes(words)
-      .map((one) => hex(one))
-      .join(" ");
+    const expected = spaced(bytes(words));
     yield* this.ready(MREF);
+    const { side } = this;
+    const from = side.core.now;
     const count = 0x40 - (yield* this.get(RAR));
     const found: number[] = [];
     for (let n = 0; n < count; n++) found.unshift(yield* this.get(DRR));
-    const text = found.map((one) => hex(one)).join(" ");
+    const text = spaced(found);
     const bad = expected !== "" && expected !== text;
-    const meaning = answerWords(this.side.part.words, found);
-    this.side.note("<", text, bad ? `${meaning} (the text expects ${expected})` : meaning, bad);
+    const meaning = answerWords(side.part.words, found);
+    side.from = from;
+    const more = { ...decoded(side.part.words, found, true), bad };
+    side.note("<", text, bad ? `${meaning} (the text expects ${expected})` : meaning, more);
     return [];
   }
 
@@ -119,10 +123,42 @@ export class BlockHost extends Host {
       "count",
       String(found),
       `pulses${found === wanted ? "" : ` (the text expects ${wanted})`}`,
-      found !== wanted,
+      { bad: found !== wanted },
     );
     return words.slice(1);
   }
+}
+
+function spaced(content: readonly number[]): string {
+  return content.map((one) => hex(one)).join(" ");
+}
+
+function value({ signed, bits, none }: Field, content: readonly number[]): string {
+  if (bits) return bits.filter((name, n) => name && (content[0]! >> (7 - n)) & 1).join(", ") || (none ?? "0");
+  const number = content.reduce((sum, one) => 256 * sum + one, 0);
+  return String(signed && content[0]! & 0x80 ? number - 2 ** (8 * content.length) : number);
+}
+
+/** Return the rule of a block, and its fields: header, length, code and parameters. */
+export function decoded(words: Words, content: readonly number[], answer: boolean): Pick<LogEntry, "rule" | "fields"> {
+  const [head = 0, length = 0, first] = content;
+  const fields: Decoded[] = [
+    ["header", hex(head), words.headers?.[`${answer ? "<" : ">"} ${hex(head)}`] ?? ""],
+    ["length", hex(length), `${length} bytes follow`],
+  ];
+  const code = words.codes[hex(first ?? 0)];
+  const list = head < 2 || first === undefined;
+  const report = answer ? words.reports?.[hex(first ?? 0)] : undefined;
+  if (!list) fields.push(["code", hex(first), report ?? code?.text ?? "no such instruction"]);
+  let left = content.slice(list ? 2 : 3);
+  const forms = report ? words.reportForms?.[hex(first ?? 0)] : answer ? code?.answerForms : code?.forms;
+  const size = (form: Field[]): number => form.reduce((sum, field) => sum + field.bytes, 0);
+  for (const field of (!list && forms?.find((form) => size(form) === left.length)) || []) {
+    fields.push([field.name, spaced(left.slice(0, field.bytes)), value(field, left.slice(0, field.bytes))]);
+    left = left.slice(field.bytes);
+  }
+  if (left.length) fields.push([list ? "data" : "parameters", spaced(left), ""]);
+  return { fields, rule: (report ? words.reportRule : list ? "P312-CMD-FC-2" : code?.rule) ?? "P312-CMD-01" };
 }
 
 /** Parse words of hexadecimal digits, two for each byte. */
@@ -133,9 +169,17 @@ export function bytes(words: readonly string[]): number[] {
   return Array.from({ length: text.length / 2 }, (_, n) => parseInt(text.slice(2 * n, 2 * n + 2), 16));
 }
 
+/** Return the parameters of a block in one line. */
+function parameters(words: Words, content: readonly number[], answer: boolean): string {
+  const known = decoded(words, content, answer).fields!.slice(3).filter(([name]) => name !== "parameters");
+  const told = known.map(([name, , meaning]) => (/flags|profile/.test(name) ? meaning : `${name} ${meaning}`));
+  return told.length ? `: ${told.join(", ")}` : "";
+}
+
 export function blockWords(words: Words, content: readonly number[]): string {
   if (content[0]! < 2) return "free curve: data";
-  return words.codes[hex(content[2] ?? 0)]?.text ?? "no such instruction";
+  const text = words.codes[hex(content[2] ?? 0)]?.text;
+  return text === undefined ? "no such instruction" : text + parameters(words, content, false);
 }
 
 export function answerWords(words: Words, content: readonly number[]): string {
@@ -146,5 +190,5 @@ export function answerWords(words: Words, content: readonly number[]): string {
   }
   const report = words.reports?.[hex(code)];
   if (report) return code >= 0xf0 ? `rejected: ${report}` : report;
-  return `answer to: ${words.codes[hex(code)]?.text ?? hex(code)}`;
+  return `answer to: ${words.codes[hex(code)]?.text ?? hex(code)}${parameters(words, content, true)}`;
 }

@@ -38,8 +38,8 @@ export class ByteHost extends Host {
 
   *write(register: number, value: number): Doing {
     yield* this.bus.write(this.base + register, value, () => {
-      if (register) this.side.note("c", hex(value), this.explainer.command(value));
-      else this.side.note("d", hex(value), this.explainer.data(value));
+      const words = register ? this.explainer.command(value) : this.explainer.data(value);
+      this.side.note(register ? "c" : "d", hex(value), words, this.explainer.rule);
     });
   }
 
@@ -57,17 +57,22 @@ export class ByteHost extends Host {
     const pauses = new Pauses(this.side);
     for (;;) {
       const status = yield* this.status();
-      if (status !== this.polled) this.side.note("st", hex(status), this.explainer.status(status));
+      if (status !== this.polled) this.side.note("st", hex(status), this.explainer.status(status), this.statusRule);
       this.polled = status;
       if ((status & mask) === value) return status;
       yield* pauses.next();
     }
   }
 
-  protected check(kind: string, got: number, meaning: string, words: string[]): string[] {
+  private get statusRule(): { rule: string } {
+    return { rule: this.side.part.words.statusRule };
+  }
+
+  protected check(kind: string, got: number, meaning: string, words: string[], more: { rule?: string }): string[] {
     const expected = isByte(words[0]) ? parseInt(words[0], 16) : got;
     const bad = expected !== got;
-    this.side.note(kind, hex(got), bad ? `${meaning} (the text expects ${hex(expected)})` : meaning, bad);
+    const told = bad ? `${meaning} (the text expects ${hex(expected)})` : meaning;
+    this.side.note(kind, hex(got), told, { ...more, bad });
     return isByte(words[0]) ? words.slice(1) : words;
   }
 
@@ -89,13 +94,13 @@ export class ByteHost extends Host {
   *readData(words: string[]): Doing<string[]> {
     yield* this.poll(OBF, OBF);
     const value = yield* this.read(0);
-    return this.check("r", value, this.explainer.answer(value), words);
+    return this.check("r", value, this.explainer.answer(value), words, this.explainer.rule);
   }
 
   *readStatus(words: string[]): Doing<string[]> {
     const value = yield* this.status();
     this.polled = value;
-    return this.check("st", value, this.explainer.status(value), words);
+    return this.check("st", value, this.explainer.status(value), words, this.statusRule);
   }
 
   *pollStatus(words: string[]): Doing<string[]> {

@@ -18,6 +18,11 @@ export class Explainer {
 
   constructor(private readonly words: Words) {}
 
+  /** Rule of the current command. */
+  get rule(): { rule?: string } {
+    return this.code ? { rule: this.code.rule } : {};
+  }
+
   status(value: number): string {
     return this.words.status[value] ?? "";
   }

@@ -64,23 +64,43 @@ export class FrameHost extends Host {
       ...[0, 8, 16, 24].map((place) => (data >> place) & 0xff),
     ];
     const frame = [...content, sum(content)];
+    const { side } = this;
+    const more = { rule: side.part.words.codes[letter]?.rule ?? "P006-CMD-48" };
+    side.from = side.core.now;
     yield* this.say(frame);
     const meaning = (this.side.part.words.codes[letter]?.text ?? "no such instruction").replace(
       /\{[^}]*\}/,
       letter === "W" ? hex(data >>> 0, 8) : String(data),
     );
-    this.side.note("f", `${letter} ${frame.map((one) => hex(one)).join(" ")}`, meaning);
+    side.note("f", `${letter} ${frame.map((one) => hex(one)).join(" ")}`, meaning, {
+      ...more,
+      fields: [
+        ["start", hex(HEAD), ""],
+        ["address", hex(ADDRESS), "any"],
+        ["code", hex(content[2]!), `${letter}: ${meaning}`],
+        ["data", frame.slice(3, 7).map((one) => hex(one)).join(" "), String(data)],
+        ["sum", hex(frame[7]!), "of the seven bytes, modulo 256"],
+      ],
+    });
+    side.from = side.core.now;
     const got: number[] = [];
     for (let n = 0; n < 8; n++) got.push(yield* this.hear());
     if (got[0] !== HEAD || got[1] !== REPLY || sum(got.slice(0, 7)) !== got[7])
       throw new TextError(`${got.map((one) => hex(one)).join(" ")}: not a valid reply`);
     const value = got.slice(3, 7).reduceRight((whole, one) => (whole << 8) | one, 0);
-    if (letter === "j") this.side.status = value & 0xff;
-    this.side.note(
-      "r",
-      got.map((one) => hex(one)).join(" "),
-      letter === "j" ? (this.side.part.words.status[value & 0xff] ?? "") : String(value),
-    );
+    if (letter === "j") side.status = value & 0xff;
+    const told = letter === "j" ? (side.part.words.status[value & 0xff] ?? "") : String(value);
+    const bytes = got.map((one) => hex(one));
+    side.note("r", bytes.join(" "), told, {
+      ...more,
+      fields: [
+        ["start", bytes[0]!, ""],
+        ["reply", bytes[1]!, ""],
+        ["address", bytes[2]!, String(got[2])],
+        ["data", bytes.slice(3, 7).join(" "), told],
+        ["sum", bytes[7]!, "of the seven bytes, modulo 256"],
+      ],
+    });
     return value;
   }
 
@@ -97,7 +117,7 @@ export class FrameHost extends Host {
     const got = yield* this.ask(letter, data);
     if (rest[0] !== "=") return rest;
     if (got !== (number(rest[1] ?? "") | 0))
-      this.side.note("r", String(got), `the text expects ${rest[1]}`, true);
+      this.side.note("r", String(got), `the text expects ${rest[1]}`, { bad: true });
     return rest.slice(2);
   }
 

@@ -36,6 +36,8 @@ export class Host {
     while (rest.length) {
       const verb = this.verbs[rest[0]!];
       if (!verb) throw new TextError(`no such statement: ${rest[0]}`);
+      this.side.from = this.side.core.now;
+      this.side.line = one.line;
       rest = yield* verb(rest.slice(1));
     }
   }

@@ -55,13 +55,12 @@ function frameLine(part: PartData, text: string): Meant[] {
   return found;
 }
 
-/** Explain the line with the caret; its meaning depends on the lines before it. */
-export function meaning(part: PartData, whole: string, caret: number): Meant[] {
-  const lines = whole.slice(0, caret).split("\n");
-  const full = whole.split("\n")[lines.length - 1] ?? "";
-  if (part.bus === "block") return blockLine(part, full);
-  if (part.bus === "frame") return frameLine(part, full);
+/** Explain each line of a text; the meaning of a line can depend on the lines before it. */
+export function meanings(part: PartData, text: string): Meant[][] {
   const explainer = new Explainer(part.words);
-  for (const one of lines.slice(0, -1)) explainer.line(one);
-  return explainer.line(full);
+  return text
+    .split("\n")
+    .map((line) =>
+      part.bus === "block" ? blockLine(part, line) : part.bus === "frame" ? frameLine(part, line) : explainer.line(line),
+    );
 }

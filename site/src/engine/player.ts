@@ -111,8 +111,10 @@ export class Player {
   }
 
   private atOnce(one: Statement): void {
+    const { from, line } = this.side; // of the access that the host is executing
     const doing = this.host.statement(one);
     while (!doing.next().done) continue;
+    Object.assign(this.side, { from, line });
     this.stir();
   }
 

@@ -26,6 +26,9 @@ export class Side {
   /** Levels that the host sets; in addition, the machine may close switches. */
   readonly levels = new Map<string, bigint>();
   log: LogEntry[] = [];
+  /** First cycle of the current access, and the line of its statement. */
+  from = 0;
+  line = 0;
   status = -1;
   mark: number[] = [];
   machine = false;
@@ -111,10 +114,10 @@ export class Side {
     return this.core.steps(axis) - this.mark[axis]!;
   }
 
-  /** Add a log entry. `bad` is given for an answer: whether it differs from the value in the text. */
-  note(kind: string, text: string, meaning: string, bad?: boolean): void {
-    const answer = bad === undefined ? {} : { answer: true };
-    this.log.push({ t: this.core.now, kind, text, words: meaning, ...(bad ? { bad } : {}), ...answer });
+  /** Add a log entry. `more.bad` is given for an answer: whether it differs from the value in the text. */
+  note(kind: string, text: string, words: string, more: Partial<LogEntry> = {}): void {
+    const answer = more.bad === undefined ? {} : { answer: true };
+    this.log.push({ from: this.from, t: this.core.now, line: this.line, kind, text, words, ...more, ...answer });
   }
 }
 

@@ -40,6 +40,7 @@ export class Strobes {
   /** Write a byte; `done` is called when the strobe ends. */
   *write(address: number, value: number, done: () => void): Doing {
     const { side, style } = this;
+    side.from = side.core.now;
     yield* this.address(address);
     side.sets({ [style.address]: address, d_i: value, ...style.writeOn });
     yield* side.clocks(style.strobe);
@@ -50,6 +51,7 @@ export class Strobes {
 
   *read(address: number): Doing<number> {
     const { side, style } = this;
+    side.from = side.core.now;
     yield* this.address(address);
     side.sets({ [style.address]: address, ...style.readOn });
     yield* side.clocks(style.readStrobe);

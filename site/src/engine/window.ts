@@ -4,6 +4,8 @@ import { ByteHost } from "./bytes";
 import { hex, type Doing, type Side } from "./side";
 import { byte, TextError, whole } from "./text";
 
+const WINDOW_RULE = "BANK-WIN-02"; // registers of the window
+
 export class WindowHost extends ByteHost {
   constructor(side: Side) {
     super(side);
@@ -32,7 +34,8 @@ export class WindowHost extends ByteHost {
     const register = this.register(words[0]);
     const value = byte(words[1]);
     const name = this.side.part.words.registers?.[`write ${register}`] ?? `register ${register}`;
-    yield* this.bus.write(this.base + register, value, () => this.side.note("put", hex(value), name));
+    const more = { rule: WINDOW_RULE };
+    yield* this.bus.write(this.base + register, value, () => this.side.note("put", hex(value), name, more));
     return words.slice(2);
   }
 
@@ -44,6 +47,7 @@ export class WindowHost extends ByteHost {
       value,
       this.side.part.words.registers?.[`read ${register}`] ?? "",
       words.slice(1),
+      { rule: WINDOW_RULE },
     );
   }
 }

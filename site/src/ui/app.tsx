@@ -1,15 +1,15 @@
-// The page: host and machine on the left, speed, waves, registers and log on the right.
+// The page on one screen: motor and speed above, text and log next to each other, waves below the text.
 
 import { useEffect } from "preact/hooks";
 import { Bar } from "./bar";
 import { Board } from "./board";
+import { Details } from "./details";
 import { HostPane } from "./host";
 import { BusLog } from "./log";
 import { Machine } from "./machine";
-import { Pins } from "./pins";
-import { Registers } from "./registers";
 import { Speed } from "./speed";
-import { clock, running, trouble } from "./state";
+import { chosen, clock, running, trouble, welcome } from "./state";
+import { parts } from "./load";
 import { Waves } from "./waves";
 
 function keys(event: KeyboardEvent): void {
@@ -22,6 +22,18 @@ function keys(event: KeyboardEvent): void {
   }
 }
 
+function Invitation() {
+  const title = parts().find((one) => one.name === chosen.value)?.title;
+  return (
+    <p class="pg-note">
+      <span>
+        The RTL of a {title} drives this motor in your browser: press <b>▶ Run</b> or a limit switch, or change a byte
+        of the text.
+      </span>
+    </p>
+  );
+}
+
 export function App() {
   useEffect(() => {
     document.addEventListener("keydown", keys);
@@ -29,29 +41,25 @@ export function App() {
   }, []);
   return (
     <div class="pg">
-      <Bar />
-      {trouble.value && (
-        <p class="pg-trouble" role="alert">
+      <Bar>{/* A panel that connects a board belongs here. */}</Bar>
+      {trouble.value ? (
+        <p class="pg-note pg-trouble" role="alert">
           <span>{trouble.value}</span>
           <button type="button" aria-label="close the message" onClick={() => (trouble.value = "")}>
             ×
           </button>
         </p>
+      ) : (
+        welcome.value && <Invitation />
       )}
-      <div class="pg-columns">
-        <div class="pg-left">
-          <HostPane />
-          <Machine />
-          <Pins />
-          <Board />
-        </div>
-        <div class="pg-right">
-          <Speed />
-          <Waves />
-          <Registers />
-          <BusLog />
-        </div>
-      </div>
+      <Machine />
+      <HostPane />
+      <section class="pg-box pg-bus" aria-labelledby="pg-log">
+        <BusLog />
+        <Details />
+      </section>
+      <Speed />
+      <Waves />
     </div>
   );
 }

@@ -1,5 +1,6 @@
 // Tool bar: part, session, clock (run, pause, step, speed), files and links.
 
+import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { parts } from "./load";
 import {
@@ -38,7 +39,8 @@ function download(): void {
   setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
 }
 
-export function Bar() {
+/** children: panels of other components at the end of the bar. */
+export function Bar({ children }: { children?: ComponentChildren }) {
   const [copied, setCopied] = useState("");
   const data = part.value;
   const copy = async (): Promise<void> => {
@@ -90,12 +92,11 @@ export function Bar() {
         type="button"
         onClick={() => clock(running.value ? "pause" : "go")}
         title="Space bar, outside text fields"
-        aria-pressed={!running.value}
       >
-        {running.value ? "❚❚ Pause" : "▶ Continue"}
+        {running.value ? "❚❚" : "▶"} <span>{running.value ? "Pause" : "Continue"}</span>
       </button>
       <button type="button" onClick={() => clock("step")} title="run to the next pulse">
-        ▶❚ Next pulse
+        ▶❚ <span>Next pulse</span>
       </button>
       <label>
         <span>Speed</span>
@@ -112,10 +113,10 @@ export function Bar() {
           ))}
         </select>
       </label>
-      <button type="button" onClick={download} title="all pins since power-up, for GTKWave or Surfer">
+      <button type="button" class="pg-file" onClick={download} title="all pins since power-up, for GTKWave or Surfer">
         VCD
       </button>
-      <button type="button" onClick={() => void copy()} title="a link that plays this session again">
+      <button type="button" class="pg-file" onClick={() => void copy()} title="a link that plays this session again">
         Link
       </button>
       <output
@@ -128,6 +129,7 @@ export function Bar() {
           {copied || (running.value ? `${mclk.value.toFixed(1)} million cycles/s` : why.value || "ready")}
         </small>
       </output>
+      {children}
     </div>
   );
 }

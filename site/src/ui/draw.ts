@@ -14,6 +14,13 @@ export interface View {
   b: number;
 }
 
+/** Cycles of an access whose edges are marked, and its text. */
+export interface Marked {
+  from: number;
+  t: number;
+  text: string;
+}
+
 export function draw(
   canvas: HTMLCanvasElement,
   rows: readonly Row[],
@@ -21,6 +28,7 @@ export function draw(
   end: number,
   clkHz: number,
   scrolled: number,
+  marked?: Marked,
 ): void {
   const ratio = window.devicePixelRatio || 1;
   const width = canvas.clientWidth;
@@ -35,7 +43,7 @@ export function draw(
   const ink = (name: string): string => style.getPropertyValue(name).trim() || "#888";
   paper.setTransform(ratio, 0, 0, ratio, 0, 0);
   paper.clearRect(0, 0, width, height);
-  paper.font = "11px ui-monospace, monospace";
+  paper.font = `${style.fontSize} ui-monospace, monospace`;
   paper.lineWidth = 1;
   const scale = width / (view.to - view.from);
   const x = (t: number): number => (t - view.from) * scale;
@@ -44,11 +52,18 @@ export function draw(
   paper.beginPath();
   paper.rect(0, TOP - 4, width, height);
   paper.clip();
+  if (marked) {
+    paper.fillStyle = ink("--pg-marked");
+    paper.fillRect(x(marked.from) - 1, 0, Math.max(3, (marked.t - marked.from) * scale + 2), height);
+  }
   rows.forEach((row, n) => {
     const top = TOP + n * HEIGHT - scrolled;
     if (top + HEIGHT < 0 || top > height) return;
     paper.strokeStyle = paper.fillStyle = ink(row.input ? "--pg-one" : "--pg-two");
     trace(paper, row, top, x, view, width, end);
+    if (!marked) return;
+    paper.fillStyle = ink("--pg-cursor");
+    for (const t of edges(row, marked)) paper.fillRect(x(t) - 1.5, top + 3, 3, HEIGHT - 6);
   });
   paper.restore();
   for (const [name, t] of [
@@ -65,6 +80,12 @@ export function draw(
   }
 }
 
+/** Return the times of a row's edges in an access; the last ones can follow it by a few cycles. */
+export function edges(row: Row, { from, t }: Marked): number[] {
+  const { times } = row.track;
+  return [...times.subarray(row.track.at(from - 1) + 1, row.track.at(t + 2) + 1)].filter((one) => one > 0);
+}
+
 function grid(
   paper: CanvasRenderingContext2D,
   view: View,
@@ -75,7 +96,7 @@ function grid(
   line: string,
   soft: string,
 ): void {
-  const seconds = 90 / scale / clkHz; // approximate time between two grid lines
+  const seconds = (8 * parseFloat(paper.font)) / scale / clkHz; // approximate time between two grid lines
   const power = 10 ** Math.floor(Math.log10(seconds));
   const step = [1, 2, 5, 10].map((n) => n * power).find((one) => one >= seconds) ?? power;
   const unit = step >= 1 ? "s" : step >= 1e-3 ? "ms" : "µs";
@@ -91,7 +112,7 @@ function grid(
     const text = `${(n * step * times).toFixed(digits)} ${unit}`;
     if (at + paper.measureText(text).width < width) {
       paper.fillStyle = soft;
-      paper.fillText(text, at + 2, 11);
+      paper.fillText(text, at + 2, 13);
     }
   }
 }

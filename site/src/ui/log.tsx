@@ -1,7 +1,7 @@
-// Log of the bus: all accesses with time and meaning.
+// Log of the bus: all accesses with time and meaning. The reader selects one with the pointer or the arrow keys.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { log, part, shows } from "./state";
+import { log, part, select, selected, shows } from "./state";
 
 const NAMES: Record<string, string> = {
   c: "command",
@@ -21,13 +21,32 @@ export function BusLog() {
   const list = useRef<HTMLDivElement>(null);
   const [only, setOnly] = useState(false);
   const clk = part.value?.clkHz ?? 1;
-  const rows = (only ? log.value.filter((row) => row.kind !== "st") : log.value).slice(-SHOWN);
+  const chosen = selected.value;
+  const all = only ? log.value.filter((row) => row.kind !== "st" || row === chosen) : log.value;
+  const at = chosen ? all.indexOf(chosen) : -1;
+  const end = at < 0 ? all.length : Math.min(all.length, at + SHOWN / 2);
+  const rows = all.slice(Math.max(0, end - SHOWN), end);
   useEffect(() => {
     const box = list.current;
-    if (box) box.scrollTop = box.scrollHeight;
+    if (box && !selected.value) box.scrollTop = box.scrollHeight;
   }, [log.value]);
+  useEffect(() => {
+    const box = list.current;
+    const row = box?.querySelector<HTMLElement>("[aria-current]");
+    if (!box || !row) return;
+    const y = row.offsetTop - box.scrollTop;
+    if (y < row.offsetHeight || y + row.offsetHeight > box.clientHeight)
+      box.scrollTop = row.offsetTop - box.clientHeight / 2;
+  }, [chosen]);
+  const key = (event: KeyboardEvent): void => {
+    const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+    if (event.key === "Escape") select(undefined, "log");
+    if (!step) return;
+    event.preventDefault();
+    select(all[at < 0 ? all.length - 1 : Math.min(Math.max(at + step, 0), all.length - 1)], "log");
+  };
   return (
-    <section class="pg-box" aria-labelledby="pg-log">
+    <>
       <h2 id="pg-log">
         Bus{" "}
         <label class="pg-check">
@@ -40,8 +59,9 @@ export function BusLog() {
         ref={list}
         data-run={shows.value}
         tabIndex={0}
-        role="log"
-        aria-label="accesses on the bus"
+        role="region"
+        aria-label="accesses on the bus; the arrow keys select one"
+        onKeyDown={key}
       >
         <table class="pg-table">
           <thead>
@@ -54,7 +74,11 @@ export function BusLog() {
           </thead>
           <tbody>
             {rows.map((row) => (
-              <tr class={row.bad ? "pg-bad" : `pg-${row.kind}`}>
+              <tr
+                class={row.bad ? "pg-bad" : row.kind === "st" ? "pg-st" : ""}
+                aria-current={row === chosen ? "true" : undefined}
+                onClick={() => select(row === chosen ? undefined : row, "log")}
+              >
                 <td>{((row.t / clk) * 1e3).toFixed(4)}</td>
                 <td>{NAMES[row.kind] ?? row.kind}</td>
                 <td>
@@ -66,6 +90,6 @@ export function BusLog() {
           </tbody>
         </table>
       </div>
-    </section>
+    </>
   );
 }

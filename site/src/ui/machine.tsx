@@ -1,11 +1,20 @@
-// Motor and machine: phases, shaft, carriage and switches.
+// Motor and machine: phases, shaft, carriage, and the input pins that the reader can press. A closed switch is low.
 
 import { useState } from "preact/hooks";
 import { Motor } from "./motor";
-import { ask, frames, machineOn, outputs, part, places, positions, remember, store } from "./state";
+import { ask, frames, inputs, machineOn, outputs, part, places, positions, remember, store } from "./state";
 import { level } from "./store";
 
 const NAMES = ["start", "CCW limit", "slow CCW", "origin", "slow CW", "CW limit"];
+/** Switches of a motor from the CCW end to the CW end: place in `switches`, name. */
+const SWITCHES: [number, string][] = [
+  [1, "CCW limit"],
+  [3, "slow CCW"],
+  [4, "origin"],
+  [2, "slow CW"],
+  [0, "CW limit"],
+  [5, "alarm"],
+];
 
 /** Relative current of a winding, 0 to 1: from a phase, or from the reference of a chopper. */
 function lit(pin: string, on: number): number {
@@ -28,56 +37,83 @@ function AxisMotor({ axis }: { axis: number }) {
 
 function Rail({ axis }: { axis: number }) {
   const position = positions.value[axis] ?? 0;
-  const on = machineOn.value;
   const [, ccw = 0, slowCcw = 0, origin = 0, slowCw = 0, cw = 0] = places.value;
   const low = Math.min(ccw, position, 0);
   const high = Math.max(cw, position, 1);
-  const room = (high - low) * 0.04;
-  const x = (place: number): number => 10 + (280 * (place - low + room)) / (high - low + 2 * room);
-  const marks: [number, string, string][] = on
+  const x = (place: number): string => `${5 + (90 * (place - low)) / (high - low)}%`;
+  const marks: [number, string, string][] = machineOn.value
     ? [
         [ccw, "CCW", "pg-limit"],
         [slowCcw, "slow", "pg-slow"],
-        [origin, "origin", "pg-origin"],
+        [origin, "0", "pg-origin"],
         [slowCw, "slow", "pg-slow"],
         [cw, "CW", "pg-limit"],
       ]
     : [[0, "0", "pg-origin"]];
   return (
     <svg
-      viewBox="0 0 300 62"
       class="pg-rail"
       role="img"
       aria-label={`carriage of axis ${axis + Number(part.value!.style.first)} at ${position}`}
     >
-      <line x1="6" y1="36" x2="294" y2="36" class="pg-bed" />
+      <line x1="1%" y1="38" x2="99%" y2="38" class="pg-bed" />
       {marks.map(([place, name, kind], n) => (
         <g class={kind}>
-          <line x1={x(place)} y1="26" x2={x(place)} y2="46" />
-          <text x={x(place)} y={n % 2 ? 57 : 22}>
+          <line x1={x(place)} y1="27" x2={x(place)} y2="49" />
+          <text x={x(place)} y={n % 2 ? 23 : 64}>
             {name}
           </text>
         </g>
       ))}
-      <rect x={x(position) - 7} y="28" width="14" height="16" rx="2" class="pg-carriage" />
-      <text x={x(position)} y="10" class="pg-position">
+      <rect x={x(position)} y="29" width="16" height="18" rx="2" transform="translate(-8 0)" class="pg-carriage" />
+      <text x={x(position)} y="16" class="pg-position">
         {position}
       </text>
+      {part.value!.motors.length > 1 && (
+        <text x="1%" y="59" class="pg-name">
+          axis {axis + Number(part.value!.style.first)}
+        </text>
+      )}
     </svg>
+  );
+}
+
+function high(pin: string): number {
+  const row = store?.find(pin, true);
+  if (!row) return 1;
+  const idle = part.value!.inputs.flatMap((port) => port.idle); // shown until the part reports its levels
+  return level(row, inputs.value.length ? inputs.value : idle);
+}
+
+function Pin({ pin, name = "" }: { pin: string; name?: string }) {
+  const is = high(pin);
+  return (
+    <button
+      type="button"
+      class={is ? "" : "pg-low"}
+      aria-pressed={!is}
+      onClick={() => ask({ kind: "press", pin, level: is ? 0 : 1 })}
+    >
+      {name} <code>{pin}</code> <b>{is ? "H" : "L"}</b>
+    </button>
   );
 }
 
 export function Machine() {
   void frames.value;
+  const [axis, setAxis] = useState(0);
   const [open, setOpen] = useState(false);
   const data = part.value;
-  if (!data) return null;
+  if (!data) return <section class="pg-box pg-machine" />;
+  const several = data.motors.length > 1;
+  const present = Math.min(axis, data.motors.length - 1);
+  const switches = data.motors[present]!.switches;
   const change = (on: boolean): void => {
     machineOn.value = on;
     ask({ kind: "machine", words: on ? ["machine", "on", ...places.value.map(String)] : ["machine", "off"] });
   };
   return (
-    <section class="pg-box" aria-labelledby="pg-machine">
+    <section class={`pg-box pg-machine ${several ? "" : "pg-single"}`} aria-labelledby="pg-machine">
       <h2 id="pg-machine">
         Motor and machine{" "}
         <label class="pg-check">
@@ -86,40 +122,54 @@ export function Machine() {
             checked={machineOn.value}
             onChange={(event) => change(event.currentTarget.checked)}
           />{" "}
-          switches active
+          the carriage operates the switches
         </label>
       </h2>
-      <div class={data.motors.length > 2 ? "pg-axes pg-many" : "pg-axes"}>
-        {data.motors.map((_, axis) => (
+      <div class={`pg-axes pg-axes-${data.motors.length}`}>
+        {data.motors.map((_, n) => (
           <div class="pg-axis">
-            <AxisMotor axis={axis} />
-            <Rail axis={axis} />
+            <AxisMotor axis={n} />
+            <Rail axis={n} />
           </div>
         ))}
       </div>
-      <button type="button" class="pg-more" aria-expanded={open} onClick={() => setOpen(!open)}>
-        {open ? "▾" : "▸"} positions of the switches
-      </button>
-      {open && (
-        <div class="pg-places">
-          {NAMES.map((name, n) => (
-            <label>
-              <span>{name}</span>
-              <input
-                type="number"
-                value={places.value[n]}
-                onChange={(event) => {
-                  const value = Number(event.currentTarget.value);
-                  if (!Number.isSafeInteger(value)) return;
-                  places.value = places.value.map((old, place) => (place === n ? value : old));
-                  remember();
-                  if (machineOn.value) change(true);
-                }}
-              />
-            </label>
-          ))}
-        </div>
-      )}
+      <div class="pg-pins" role="group" aria-label="switches, alarms and straps">
+        {several && (
+          <label>
+            Axis{" "}
+            <select value={present} onChange={(event) => setAxis(Number(event.currentTarget.value))}>
+              {data.motors.map((_, n) => (
+                <option value={n}>{n + Number(data.style.first)}</option>
+              ))}
+            </select>
+          </label>
+        )}
+        {SWITCHES.map(([n, name]) => switches[n] && <Pin pin={switches[n]!} name={name} />)}
+        {data.straps.map((pin) => (
+          <Pin pin={pin} />
+        ))}
+        <button type="button" class="pg-more" aria-expanded={open} onClick={() => setOpen(!open)}>
+          {open ? "▾" : "▸"} positions of the switches
+        </button>
+      </div>
+      <div class="pg-places">
+        {open && NAMES.map((name, n) => (
+          <label>
+            <span>{name}</span>
+            <input
+              type="number"
+              value={places.value[n]}
+              onChange={(event) => {
+                const value = Number(event.currentTarget.value);
+                if (!Number.isSafeInteger(value)) return;
+                places.value = places.value.map((old, place) => (place === n ? value : old));
+                remember();
+                if (machineOn.value) change(true);
+              }}
+            />
+          </label>
+        ))}
+      </div>
     </section>
   );
 }

@@ -6,7 +6,7 @@ import { columns } from "../engine/speeds";
 import { paced } from "./paced";
 import { frames, part, store } from "./state";
 
-const INKS = ["--pg-one", "--pg-two", "--pg-three", "--pg-four"];
+const INKS = ["one", "two", "three", "four", "five", "six", "seven", "eight"].map((name) => `--pg-${name}`);
 
 function ink(element: Element, name: string): string {
   return getComputedStyle(element).getPropertyValue(name).trim() || "#888";
@@ -24,11 +24,14 @@ export function Speed() {
       plot?.destroy();
       const line = ink(element, "--pg-line");
       const word = ink(element, "--pg-ink");
-      const look = { stroke: word, grid: { stroke: line, width: 1 }, ticks: { stroke: line } };
+      const { fontSize } = getComputedStyle(element);
+      const size = parseFloat(fontSize);
+      const font = `${fontSize} system-ui, sans-serif`;
+      const look = { stroke: word, font, labelFont: font, grid: { stroke: line, width: 1 }, ticks: { stroke: line } };
       plot = new uPlot(
         {
           width: element.clientWidth,
-          height: 170,
+          height: element.clientHeight,
           legend: { show: false },
           cursor: { drag: { x: true, y: false } },
           scales: { x: { time: false } },
@@ -36,14 +39,16 @@ export function Speed() {
             {
               ...look,
               values: (_u, values) => values.map((value) => `${+(value * 1e3).toFixed(3)}`),
-              label: "ms",
-              labelSize: 16,
+              label: "time in ms",
+              labelSize: 1.2 * size,
               labelGap: 0,
-              size: 34,
+              size: 2.3 * size,
+              space: 5 * size,
             },
             {
               ...look,
-              size: 64,
+              size: 4 * size,
+              space: 3 * size,
               values: (_u, values) => values.map((value) => (value >= 1e3 ? `${value / 1e3} k` : `${value}`)),
             },
           ],
@@ -71,7 +76,7 @@ export function Speed() {
     const soon = paced(draw);
     make();
     const stop = frames.subscribe(soon.call);
-    const sizes = new ResizeObserver(() => plot?.setSize({ width: element.clientWidth, height: 170 }));
+    const sizes = new ResizeObserver(() => plot?.setSize({ width: element.clientWidth, height: element.clientHeight }));
     sizes.observe(element);
     const scheme = new MutationObserver(make);
     scheme.observe(document.body, { attributes: true, attributeFilter: ["data-md-color-scheme"] });
@@ -83,9 +88,22 @@ export function Speed() {
       plot?.destroy();
     };
   }, [name]);
+  const first = Number(part.value?.style.first ?? 0);
+  const axes = part.value?.motors ?? [];
   return (
-    <section class="pg-box" aria-labelledby="pg-speed">
-      <h2 id="pg-speed">Speed, pulses per second</h2>
+    <section class="pg-box pg-rate" aria-labelledby="pg-speed">
+      <h2 id="pg-speed">
+        Speed, pulses per second
+        {axes.length > 1 && (
+          <span class="pg-legend">
+            {axes.map((_, n) => (
+              <span>
+                <i style={{ background: `var(${INKS[n % INKS.length]})` }} /> {n + first}
+              </span>
+            ))}
+          </span>
+        )}
+      </h2>
       <div ref={box} class="pg-plot" role="img" aria-label="speed over time" />
     </section>
   );

@@ -4,7 +4,7 @@ import { batch, computed, signal } from "@preact/signals";
 import type { Frame, FromWorker, LogEntry, PartData, ToWorker } from "../types";
 import { loadPart, loadWasm, makeWorker, parts } from "./load";
 import { isLink, read, write } from "./link";
-import { Store } from "./store";
+import { READS, Store } from "./store";
 
 export const SPEEDS: readonly (readonly [number, string])[] = [
   [0.001, "1/1000"],
@@ -14,9 +14,11 @@ export const SPEEDS: readonly (readonly [number, string])[] = [
   [10, "10 ×"],
   [0, "as fast as possible"],
 ];
+const FIRST_SPEED = 0.01;
 const MOST_LOG = 2_000;
 const LOG_MS = 250; // minimum time between two updates of the log while the part runs
 const SHOWN_MS = 100; // a frame is drawn after this time even if the page is in the background
+const NEAR = 4; // cycles between the end of an access and its last edge
 const KEPT_MS = 150; // delay between an input of the reader and its storage
 
 export const part = signal<PartData | undefined>(undefined);
@@ -45,6 +47,11 @@ export const frames = signal(0); // number of frames drawn; a change redraws the
 export const journal = signal<string[]>([]);
 export const machineOn = signal(false);
 export const places = signal<number[]>([500, -300, -150, 0, 1850, 2000]);
+/** The access that log, waves and text mark, and the view in which the reader has selected it. */
+export const selected = signal<LogEntry | undefined>(undefined);
+export const selectedIn = signal<"log" | "waves" | "text">("log");
+/** This is the first visit: the page has started a session without a request of the reader. */
+export const welcome = signal(false);
 export const seconds = computed(() => (part.value ? clk.value / part.value.clkHz : 0));
 
 export let store: Store | undefined;
@@ -61,10 +68,32 @@ let failed = false;
 let remark = "";
 /** The displayed address. */
 let opened = "";
+/** The next start is that of the first visit. */
+let first = false;
 /** A frame that is not drawn yet, and log entries that are not shown yet. */
 let frame: Frame | undefined;
 let entries: LogEntry[] = [];
 let logged = 0;
+
+export function select(entry: LogEntry | undefined, view: "log" | "waves" | "text"): void {
+  batch(() => {
+    selectedIn.value = view;
+    selected.value = entry;
+  });
+}
+
+/** Select the last access of a line of the text. */
+export function selectLine(number: number): void {
+  select(log.value.filter((one) => one.line === number).at(-1), "text");
+}
+
+/** Select the access with an edge in this cycle, or else the last write before it, which is the edge's cause. */
+export function selectEdge(t: number): void {
+  const away = (one: LogEntry): number => Math.max(one.from - t, t - one.t, 0);
+  const near = log.value.filter((one) => away(one) <= NEAR);
+  const inside = near.filter((one) => away(one) === Math.min(...near.map(away))).at(-1);
+  select(inside ?? log.value.filter((one) => one.t <= t && !READS.has(one.kind)).at(-1), "waves");
+}
 
 const able = (): boolean => typeof WebAssembly === "object";
 
@@ -133,6 +162,7 @@ function onMessage(data: FromWorker, from: Worker): void {
       frame = undefined;
       entries = [];
       log.value = [];
+      selected.value = undefined;
       shows.value = data.label;
       over.value = false;
       why.value = "";
@@ -174,11 +204,12 @@ function unload(): void {
   store = undefined;
   part.value = undefined;
   log.value = [];
+  selected.value = undefined;
   journal.value = [];
   positions.value = inputs.value = outputs.value = [];
   clk.value = mclk.value = line.value = 0;
   status.value = -1;
-  machineOn.value = running.value = over.value = false;
+  machineOn.value = running.value = over.value = welcome.value = false;
 }
 
 /** Load another part: its tables, its module, one of its sessions or another text. go: start the session. */
@@ -268,6 +299,8 @@ export function start(): void {
 
 function launch(): void {
   if (!able()) return;
+  welcome.value = first;
+  first = false;
   over.value = false;
   journal.value = [];
   machineOn.value = false;
@@ -334,7 +367,7 @@ export function remember(): void {
 addEventListener("beforeunload", () => due && keep());
 
 /** The page is new or has another address: show the state that is stored for it, else the session in the address. */
-export function arrive(first = false): void {
+export function arrive(load = false): void {
   const kept = (history.state as { openppmc?: Kept } | null)?.openppmc;
   clearTimeout(due);
   due = 0;
@@ -348,12 +381,19 @@ export function arrive(first = false): void {
     void choose(kept.part, { run: kept.chapter || undefined, own });
     return;
   }
-  if (!first && !isLink(hash) && (hash !== "" || opened === "")) {
+  if (!load && !isLink(hash) && (hash !== "" || opened === "")) {
     keep(); // a position on this page: the text stays
     return;
   }
   opened = hash;
   const { linked, wrong } = read(hash, SPEEDS.map(([value]) => value));
   if (linked?.speed !== undefined) speed.value = linked.speed;
-  void choose(linked?.part || parts()[0]!.name, { run: linked?.run, own: linked?.text, go: linked?.go, wrong });
+  let go = linked?.go;
+  if (load && !linked && !wrong.length) {
+    // The first visit begins with a motor that turns slowly enough to see its phases.
+    speed.value = FIRST_SPEED;
+    first = go = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  }
+  void choose(linked?.part || parts()[0]!.name, { run: linked?.run, own: linked?.text, go, wrong });
+  welcome.value = load && !linked && !wrong.length;
 }

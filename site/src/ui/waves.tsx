@@ -1,12 +1,12 @@
 // Waves of all pins: zoom with wheel, buttons or keys, drag to move, two cursors that snap to edges.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { frames, part, running, store } from "./state";
+import { frames, part, running, selected, selectedIn, selectEdge, store } from "./state";
 import type { Row } from "./store";
-import { draw, HEIGHT, type View } from "./draw";
+import { draw, edges, HEIGHT, type View } from "./draw";
 import { paced } from "./paced";
 
-const TALLEST = 640; // px, equal to max-height of .pg-waves in style.css
+const ACCESS_SHARE = 12; // width of the view as a multiple of the access that it shows
 
 function nice(s: number): string {
   const size = Math.abs(s);
@@ -27,7 +27,10 @@ export function Waves() {
   const [all, setAll] = useState(false);
   const name = part.value?.name;
   const clk = part.value?.clkHz ?? 1;
-  const rows = (store?.rows ?? []).filter((row) => all || interesting(row));
+  // The pins of the motors are above the others.
+  const motors = part.value?.motors.flatMap(({ step, dir, phases }) => [step, dir, ...phases]) ?? [];
+  const found = (store?.rows ?? []).filter((row) => all || interesting(row));
+  const rows = [true, false].flatMap((first) => found.filter(({ name }) => motors.includes(name) === first));
   const shown = useRef(rows);
   shown.current = rows;
 
@@ -42,7 +45,8 @@ export function Waves() {
         look.from = -0.02 * store.end;
         look.to = Math.max(1000, store.end * 1.02);
       }
-      draw(element, shown.current, look, store.end, clk, element.parentElement!.scrollTop);
+      element.style.maxHeight = `${element.parentElement!.clientHeight}px`;
+      draw(element, shown.current, look, store.end, clk, element.parentElement!.scrollTop, selected.value);
       const now = store.rows.filter(interesting).length;
       if (now !== count) {
         count = now;
@@ -91,6 +95,18 @@ export function Waves() {
     frames.value++;
     redraw((n) => n + 1);
   };
+  // Show the access that was selected in the log or in the text.
+  useEffect(() => {
+    const entry = selected.value;
+    if (entry && selectedIn.value !== "waves") {
+      const span = ACCESS_SHARE * Math.max(entry.t - entry.from, 8);
+      follow.current = false;
+      Object.assign(view.current, { from: entry.from - span / 3, to: entry.from + (span * 2) / 3 });
+      const first = shown.current.findIndex((row) => edges(row, entry).length);
+      canvas.current!.parentElement!.scrollTop = first * HEIGHT;
+    }
+    refresh();
+  }, [selected.value]);
   const zoom = (factor: number, at = (view.current.from + view.current.to) / 2): void => {
     const look = view.current;
     follow.current = false;
@@ -152,6 +168,7 @@ export function Waves() {
       look.a = t;
       look.b = NaN;
     }
+    selectEdge(t);
     refresh();
   };
   const key = (event: KeyboardEvent): void => {
@@ -176,10 +193,12 @@ export function Waves() {
     refresh();
   };
 
+  const entry = selected.value;
+  const touched = entry ? rows.filter((row) => edges(row, entry).length).map((row) => row.name) : [];
   const { a, b } = view.current;
   const gap = b - a;
   return (
-    <section class="pg-box" aria-labelledby="pg-waves">
+    <section class="pg-box pg-below" aria-labelledby="pg-waves">
       <h2 id="pg-waves">
         Waves
         <span class="pg-tools">
@@ -201,7 +220,10 @@ export function Waves() {
       <div class="pg-waves">
         <ul class="pg-names" style={{ paddingTop: "20px" }}>
           {rows.map((row) => (
-            <li class={row.input ? "pg-in" : "pg-out"} style={{ height: `${HEIGHT}px` }}>
+            <li
+              class={`${row.input ? "pg-in" : "pg-out"}${touched.includes(row.name) ? " pg-touched" : ""}`}
+              style={{ height: `${HEIGHT}px` }}
+            >
               {row.name}
             </li>
           ))}
@@ -211,7 +233,7 @@ export function Waves() {
           tabIndex={0}
           role="img"
           aria-label="waves; arrows move, plus and minus zoom, a and b set the cursors, f shows all"
-          style={{ height: `${Math.min(20 + rows.length * HEIGHT + 4, TALLEST)}px` }}
+          style={{ height: `${20 + rows.length * HEIGHT + 4}px` }}
           onPointerDown={down}
           onPointerMove={over}
           onPointerUp={up}
@@ -223,7 +245,7 @@ export function Waves() {
         {Number.isNaN(a)
           ? running.value
             ? " "
-            : "Click an edge for cursor A, another edge for cursor B. Zoom with Ctrl and wheel, drag to move."
+            : "Click an edge for cursor A and its access, another edge for cursor B. Ctrl and wheel zoom, drag moves."
           : `A ${nice(a / clk)}` +
             (Number.isNaN(b)
               ? ""

@@ -57,6 +57,20 @@ const LANDING_BOXES = [
   ".landing h1, .landing-hero > div:first-child > p, .landing .md-button, .pg-motor, .landing-bytes, .landing-plot span",
   ".landing-plot canvas, .landing-caption > *, .landing-doors > div, .landing > h2",
 ].join();
+const PLAYGROUND_BOXES = [
+  ".pg-bar > *, .pg-note, .pg-box, .pg-box h2, .pg-motor, .pg-rail, .pg-pins > *, .pg-more, .pg-editor, .pg-send > *",
+  ".pg-log, .pg-registers, .pg-bits, .pg-plot, .pg-waves, .pg-measured, .pg-caret",
+].join();
+/** Throw an error for two boxes that overlap although no one contains the other. */
+const apart = (boxes, where) =>
+  boxes.forEach(({ name, box: a, around }, n) =>
+    boxes.forEach(({ name: other, box: b, around: more }, m) => {
+      const over = Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1;
+      const under = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+      if (over && under && !around.includes(m) && !more.includes(n))
+        throw new Error(`${where}: ${name} overlaps ${other}`);
+    }),
+  );
 const turned = (page) => page.getAttribute(".pg-shaft", "transform").then((text) => parseFloat(text.slice(7)));
 const turns = (page, from) =>
   page
@@ -131,14 +145,7 @@ const checks = {
       }, LANDING_BOXES);
       equal(wide, width, "width of the page");
       equal(small.join(), "", `texts below 16 pixels, ${width} pixels`);
-      boxes.forEach(({ name, box: a, around }, n) =>
-        boxes.forEach(({ name: other, box: b, around: more }, m) => {
-          const over = Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1;
-          const under = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
-          if (over && under && !around.includes(m) && !more.includes(n))
-            throw new Error(`${width} pixels: ${name} overlaps ${other}`);
-        }),
-      );
+      apart(boxes, `${width} pixels`);
       if (boxes.length < 18) throw new Error(`only ${boxes.length} boxes`);
       for (const end of ["docs/ppmc104/replace.html", "docs/integration.html", "docs/host.html"])
         equal(links.includes(base + end), true, end);
@@ -156,6 +163,123 @@ const checks = {
       await rest(page);
       equal(await position(page), 1000, from);
     }
+    return [page];
+  },
+  async "the layout of the playground at three sizes"() {
+    let page;
+    let count = 0;
+    for (const [width, height, words] of [
+      [1440, 900, { ...RUN, part: "ppmc104", run: "2" }],
+      [1440, 900, { ...RUN, part: "ppmc2104", run: "2" }],
+      [1440, 900, { ...RUN, part: "bank", run: "2" }],
+      [1440, 900, {}],
+      [768, 1024, { ...RUN, part: "ppmc104", run: "2" }],
+      [390, 844, { ...RUN, part: "ppmc104", run: "2" }],
+      [390, 844, { ...RUN, part: "bank", run: "2" }],
+    ]) {
+      const size = `${words.part ?? "first visit"}, ${width} × ${height}`;
+      page = await open(`${base}playground.html#${new URLSearchParams(words)}`, { viewport: { width, height } });
+      if (words.part) await rest(page);
+      else await page.waitForSelector(".pg-note");
+      await page.waitForSelector(".pg-bits");
+      const [boxes, wide, tall] = await page.evaluate((selector) => {
+        const all = [...document.querySelectorAll(selector)].filter((one) => one.getBoundingClientRect().width > 1);
+        return [
+          all.map((one) => ({
+            name: one.getAttribute("class") ?? one.id ?? one.tagName,
+            box: one.getBoundingClientRect().toJSON(),
+            around: all.flatMap((other, n) => (one.contains(other) ? [n] : [])),
+          })),
+          document.documentElement.scrollWidth,
+          document.documentElement.scrollHeight,
+        ];
+      }, PLAYGROUND_BOXES);
+      equal(wide, width, `${size}: width of the page`);
+      apart(boxes, size);
+      count += boxes.length;
+      const top = (name) => boxes.find((one) => one.name.split(" ").includes(name)).box.top;
+      if (width > 500) equal(top("pg-rate"), top("pg-machine"), `${size}: speed next to the motor`);
+      if (width === 1440) equal(tall, height, `${size}: height of the page`);
+      if (width < 500) {
+        const [tops, small, gone] = await page.evaluate(() => {
+          const [run, motor, text, log] = [".pg-run", ".pg-motor", ".pg-host", ".pg-log"].map((one) =>
+            document.querySelector(one).getBoundingClientRect(),
+          );
+          const own = (one) => [...one.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+          const size = (one) => parseFloat(getComputedStyle(one).fontSize) * (one.getScreenCTM?.().a ?? 1);
+          const texts = [...document.querySelectorAll(".pg *")].filter(
+            (one) => (own(one) || /^(INPUT|SELECT|TEXTAREA|CANVAS)$/.test(one.tagName)) && one.checkVisibility(),
+          );
+          scrollTo(0, document.body.scrollHeight);
+          const bar = [...document.querySelectorAll(".pg-bar > *, .pg-bar select")];
+          return [
+            [run.bottom <= motor.top, motor.bottom <= text.top, text.bottom <= log.top].join(),
+            texts.filter((one) => size(one) < 15.99).map((one) => `${one.tagName} ${one.textContent} ${size(one)}`),
+            bar.filter((one) => {
+              const box = one.getBoundingClientRect();
+              return box.top < 0 || box.bottom > innerHeight || box.left < 0 || box.right > innerWidth;
+            }).length,
+          ];
+        });
+        equal(tops, "true,true,true", `${size}: order of Run, motor, text, log`);
+        equal(small.slice(0, 4).join(), "", `${size}: texts below 16 pixels`);
+        equal(gone, 0, `${size}: controls out of sight after scrolling`);
+      }
+      await page.screenshot({ path: path.join(shots, `playground-${words.part ?? "first"}-${width}.png`) });
+    }
+    if (count < 150) throw new Error(`only ${count} boxes`);
+    return [page, `${count} boxes of the playground at three sizes do not overlap`];
+  },
+  async "log, text, waves and rules select each other"() {
+    const page = await open(`${base}playground.html#${new URLSearchParams({ ...RUN, part: "ppmc104", run: "2" })}`);
+    await rest(page);
+    const row = (code) => page.locator(`.pg-log tr:has(td:nth-child(2):text-is("command")):has(code:text-is("${code}"))`);
+    const current = () => page.textContent(".pg-log [aria-current] code", { timeout: 2000 });
+    const line = () => page.evaluate(() => document.querySelector(".pg-marked").style.top);
+    const touched = () => page.$$eval(".pg-touched", (names) => names.map((one) => one.textContent).join());
+    await row("43").click();
+    equal(await line(), "calc(13 * var(--pg-row))", "line of the command 43");
+    equal((await touched()).includes("wr_n,d_i"), true, "pins with edges of the access");
+    equal(await page.textContent(".pg-rule a"), "P104-OPR-07", "rule");
+    const rule = await open(new URL(await page.getAttribute(".pg-rule a", "href"), page.url()).href);
+    equal(await rule.textContent("td:target"), "P104-OPR-07", "row of the manual");
+    // Edge to row: the waves still show the access.
+    await page.press(".pg-log", "Escape");
+    equal(await page.$(".pg-log [aria-current]"), null, "row after Escape");
+    const at = await page.evaluate(() => {
+      const names = [...document.querySelectorAll(".pg-names li")];
+      const { top } = names.find((one) => one.textContent === "wr_n").getBoundingClientRect();
+      const canvas = document.querySelector(".pg-waves canvas").getBoundingClientRect();
+      const scrolled = document.querySelector(".pg-waves");
+      scrolled.scrollTop += top - canvas.top - 60;
+      const moved = names.find((one) => one.textContent === "wr_n").getBoundingClientRect();
+      return { x: canvas.width / 3 + 2, y: moved.top + 10 - canvas.top };
+    });
+    await page.click(".pg-waves canvas", { position: at });
+    equal(await current(), "43", "row of an edge");
+    // Line to row.
+    await page.evaluate(() => (document.querySelector(".pg-editor").scrollTop = 0));
+    const height = await page.evaluate(() => document.querySelector(".pg-decoded li").getBoundingClientRect().height);
+    await page.click("#pg-text", { position: { x: 20, y: 7.5 * height } });
+    equal(await current(), "20", "row of line 8");
+    equal(await page.textContent(".pg-bits .pg-on"), "N1 1", "bit of the status 20");
+    page.wrong.push(...rule.wrong);
+    return [page];
+  },
+  async "blocks of the PPMC-312 by fields"() {
+    const text = "> 03 09 00 01 03E8 00C8 0007D0\n< 03 01 00\n> 03 08 82 40 0000 0000012C\n< 03 02 82 10";
+    const page = await open(`${base}playground.html#${new URLSearchParams({ ...RUN, part: "ppmc312", text })}`);
+    await rest(page);
+    const fields = async (n) => {
+      await page.locator(".pg-log tr:has(td:nth-child(2):text-matches('^(block|answer)$'))").nth(n).click();
+      return page.$$eval(".pg-fields tr", (rows) => rows.map((one) => [...one.cells].map((cell) => cell.textContent).join(" ")).join("; "));
+    };
+    equal(
+      await fields(2),
+      "header 03 instruction; length 08 8 bytes follow; code 82 move with ramps; move flags 40 CCW; rate 00 00 0; pulses 00 00 01 2C 300",
+      "block",
+    );
+    equal(await fields(3), "header 03 answer; length 02 2 bytes follow; code 82 move with ramps; profile 10 triangle", "answer");
     return [page];
   },
   async "the page for lost addresses from a file"() {

@@ -37,25 +37,24 @@ def site() -> Path:
     return build(out=wasm.OUT / "tested/a site ü")
 
 
-@cache
-def checked() -> dict[str, dict[str, str]]:
-    """Return the result of each check in the browser."""
+def run(script: str) -> str:
+    """Run a script of this folder on the site, and return its output; without a browser, skip the test."""
     try:
         packages(SITE / "browser")
     except ProjectError as error:
         pytest.skip(f"no browser: {error}")
-    command = [
-        "node",
-        str(HERE / "built.mjs"),
-        str(site()),
-        str(ROOT / "build/site/shots"),
-        str(SITE / "browser"),
-    ]
+    command = ["node", str(HERE / script), str(site()), str(ROOT / "build/site/shots"), str(SITE / "browser")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode == 3:
         pytest.skip(done.stderr.strip().splitlines()[-1])
     assert done.returncode == 0, done.stderr
-    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    return done.stdout
+
+
+@cache
+def checked() -> dict[str, dict[str, str]]:
+    """Return the result of each check in the browser."""
+    lines = [json.loads(line) for line in run("built.mjs").splitlines()]
     for line in lines:
         if line.get("told"):
             add(f"site: {line['told']}")
@@ -84,3 +83,8 @@ def test_no_other_host():
 def test_built(name):
     """The page passes its check in a browser without an error in the console."""
     assert checked()[name].get("error") is None, checked()[name]["error"]
+
+
+def test_firefox():
+    """In Firefox, the first visit starts a session, and the playground fills the window without scrolling."""
+    add(f"site: the playground runs in {run('firefox.mjs').strip()}")

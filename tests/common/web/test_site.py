@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
 from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.model.single.codes import decode
-from scripts.site.hooks import PARTS, run_links
+from openppmc.parts import PARTS as DEVICES
+from scripts.site.hooks import PARTS, on_post_page, run_links
 from scripts.site.sessions import sessions
 from scripts.site.texts import tables
 from scripts.site.webparts import WEB_PARTS
@@ -47,6 +49,25 @@ def test_other_pages_stay_as_they_are():
     assert manual.startswith("# A\n") and manual.count("playground.html#v=1&part=bank") == 1
     overview = run_links("README.md", "# A\n\ntext")
     assert overview.count('href="playground.html#v=1&part=ppmc104&run=2&go=1"') == 1
+
+
+@pytest.mark.parametrize("part", WEB_PARTS)
+def test_rules(part):
+    """Each command, each instruction and the status register have a rule of the manual."""
+    found = tables(part, getattr(DEVICES[part].load("demo"), "words", Ppmc104Decoder()))
+    names = {code["rule"] for code in found["codes"].values()} | {found["statusRule"]}
+    assert names <= set(found["rules"]) and len(names) >= 12
+    assert all(rule["text"] and "`" not in rule["text"] for rule in found["rules"].values())
+
+
+def test_rules_of_commands():
+    """The rule of a command is that of its operation or register; the manual's rows get anchors."""
+    rules = {part: tables(part, Ppmc104Decoder())["codes"] for part in ("ppmc104", "ppmc312", "pmc006")}
+    assert rules["ppmc104"]["43"]["rule"] == "P104-OPR-07" and rules["ppmc104"]["81"]["rule"] == "P104-RD-05"
+    assert rules["ppmc312"]["82"]["rule"] == "P312-CMD-82" and rules["pmc006"]["s"]["rule"] == "P006-CMD-40"
+    page = SimpleNamespace(file=SimpleNamespace(src_uri="docs/ppmc104/README.md"))
+    row = "<tr><td>P104-OPR-07</td><td>P104</td></tr>"
+    assert on_post_page(row, page) == '<tr><td id="p104-opr-07">P104-OPR-07</td><td>P104</td></tr>'
 
 
 def test_words():
