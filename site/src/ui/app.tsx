@@ -2,7 +2,7 @@
 
 import { useEffect } from "preact/hooks";
 import { Bar } from "./bar";
-import { Board } from "./board";
+import { Board, BoardButton } from "./board";
 import { Details } from "./details";
 import { HostPane } from "./host";
 import { BusLog } from "./log";
@@ -41,7 +41,9 @@ export function App() {
   }, []);
   return (
     <div class="pg">
-      <Bar>{/* A panel that connects a board belongs here. */}</Bar>
+      <Bar>
+        <BoardButton />
+      </Bar>
       {trouble.value ? (
         <p class="pg-note pg-trouble" role="alert">
           <span>{trouble.value}</span>
@@ -52,6 +54,7 @@ export function App() {
       ) : (
         welcome.value && <Invitation />
       )}
+      <Board />
       <Machine />
       <HostPane />
       <section class="pg-box pg-bus" aria-labelledby="pg-log">

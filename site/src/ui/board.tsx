@@ -1,5 +1,6 @@
 // Panel "Real board": connect, confirm, run, compare, report.
 
+import { signal } from "@preact/signals";
 import { useState } from "preact/hooks";
 import { report, reportText, verdict, type Result } from "../engine/serial_report";
 import {
@@ -29,6 +30,9 @@ import { webSerial } from "./board_port";
 import { parts } from "./load";
 import { choose, part } from "./state";
 import "./board.css";
+
+const open = signal(false);
+const busy = (): boolean => phase.value !== "ready" && phase.value !== "off";
 
 function save(name: string, type: string, content: string): void {
   const anchor = document.createElement("a");
@@ -170,7 +174,6 @@ function Connected() {
   const used = board.value!;
   const { identity, build } = used;
   const wrong = mismatch();
-  const busy = phase.value !== "ready";
   const fits = parts().find((one) => one.number === identity.part);
   const first = Number(part.value?.style.first ?? 1);
   return (
@@ -199,10 +202,10 @@ function Connected() {
             <option value="board">board</option>
           </select>
         </label>
-        <button type="button" class="pg-board-run" disabled={busy || wrong !== ""} onClick={() => void askText()}>
+        <button type="button" class="pg-board-run" disabled={busy() || wrong !== ""} onClick={() => void askText()}>
           Run on the board
         </button>
-        <button type="button" disabled={busy || wrong !== ""} onClick={() => void askSelfTest()}>
+        <button type="button" disabled={busy() || wrong !== ""} onClick={() => void askSelfTest()}>
           Self-test
         </button>
         <button type="button" onClick={() => void disconnect()}>
@@ -233,10 +236,33 @@ function Connected() {
   );
 }
 
+/** Button that shows and hides the panel. While a session uses the board, the panel stays open. */
+export function BoardButton() {
+  return (
+    <button type="button" class="pg-real" aria-expanded={open.value || busy()} onClick={() => (open.value = !open.value)}>
+      Real board
+    </button>
+  );
+}
+
 export function Board() {
+  if (!open.value && !busy()) return null;
+  return (
+    <div class="pg-over">
+      <Panel />
+    </div>
+  );
+}
+
+function Panel() {
   return (
     <section class="pg-box pg-board" aria-labelledby="pg-board" data-phase={phase.value}>
-      <h2 id="pg-board">Real board</h2>
+      <h2 id="pg-board">
+        Real board
+        <button type="button" aria-label="close the panel" disabled={busy()} onClick={() => (open.value = false)}>
+          ×
+        </button>
+      </h2>
       {!webSerial() ? (
         <p>To run the text on a real board, open this page in Chrome or Edge on a desktop computer; this browser has no Web Serial.</p>
       ) : board.value ? (

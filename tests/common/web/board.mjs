@@ -109,6 +109,7 @@ async function open(port, part = "ppmc104", { context, ...more } = {}) {
   page.on("console", (message) => message.type() === "error" && page.wrong.push(message.text()));
   await page.goto(`${base}#v=1&part=${part}`);
   await page.waitForSelector(".pg-names li");
+  await page.click(".pg-real");
   return page;
 }
 const phase = (page, name) => page.waitForSelector(`.pg-board[data-phase="${name}"]`);
@@ -345,6 +346,7 @@ const checks = {
     const none = await context.newPage();
     await none.addInitScript(() => Object.defineProperty(navigator, "serial", { value: undefined }));
     await none.goto(base);
+    await none.click(".pg-real");
     truth(/Chrome or Edge on a desktop computer/.test(await none.textContent(".pg-board")), "no message");
     return [second];
   },
