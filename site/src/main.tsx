@@ -26,6 +26,8 @@ function begin(): void {
   root.replaceChildren();
   render(<App />, root);
   arrive(true);
+  // The search of the site links to the list of statements, which is a popover.
+  if (location.hash === "#statements") document.getElementById("pg-statements")?.showPopover?.();
   // A link to this page, and the buttons Back and Forward. (hashchange misses a link that is followed twice.)
   addEventListener("popstate", () => arrive());
 }
