@@ -268,8 +268,8 @@ class AxisDriver:
         await self.bench.level_is(self.pout, 1)
 
     def clock_edges(self, since: int = 0) -> list[int]:
-        """Return the stamps of the rising edges driven on the external clock pin."""
-        return self.bench.pin_rises(self.clock, since)
+        """Return the rising edges of the external clock pin, see `DutBench.pin_edges`."""
+        return self.bench.pin_edges(self.clock, 1, since)
 
     # ---------------------------------------------------------------- byte by byte
 

@@ -145,8 +145,8 @@ class ExtMoves:
         await bench.until(rises[-1] + move.gaps[0])
         await axis.idle()
         bench.set(**{self.slow_pin: 1})
-        edges = [t + self.delay for t in rises]
-        falls = [t + move.high for t in edges]
+        edges = [t + self.delay for t in bench.pin_edges(axis.clock, 1, start)]
+        falls = [t + self.delay for t in bench.pin_edges(axis.clock, 0, start)]
         return Train(edges, falls, axis.pulses, axis.low_times if self.lows else None)
 
 
@@ -179,6 +179,27 @@ def shortest_levels(ramp: Ramp, rng: Random) -> Iterator[Move]:
                 for n in (pa, pa + 1, 2 * pa + 4):
                     yield Move(n, (period,), high, ramp)
                 yield Move(5, (period,), high, rate=rng.choice((0, 1)))
+
+
+async def clock_delays(axis: AxisDriver, code: int = 0x44, rate: int | None = 0) -> list[int]:
+    """Return, for 40 pulses, the cycles from the edge of the external clock pin to the pulse."""
+    await axis.go(code, 40, rate)
+    rises = []
+    while len(axis.pulses) < 40:
+        rises.append(await axis.bench.align())
+        await axis.ticks(1, 32)
+    await axis.idle()
+    return [t - max(edge for edge in rises if edge < t) for t in axis.pulses]
+
+
+def check_delays(axis: AxisDriver, rule: str, what: str, delays: Sequence[int], low: int, high: int) -> None:
+    """Check the delays from pin changes to their effects: low to high cycles, and the same for all changes.
+
+    With JITTER=1, there are two delays, which differ by one cycle, and both occur.
+    """
+    spread = max(delays) - min(delays)
+    axis.check(rule, f"difference of the delays {what}", spread, axis.bench.slack)
+    axis.window(rule, f"shortest delay {what}", min(delays), low, high)
 
 
 BOTH = 0xB0

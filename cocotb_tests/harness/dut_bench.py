@@ -182,18 +182,21 @@ class DutBench(ABC):
 
         Edge t + 1 is the first to sample a change that the top makes at edge t.
         """
-        part = self.part
-        if self.stage_log:
-            return self._sampled_changes(self.stage_log)
-        if not part.fed:
-            return self.stimulus
-        seen = self._output_changes()
-        driven = [change for change in self.stimulus if change.pin not in part.aside]
-        return self._stimulus_log.add(driven, {name: seen[name] for name in part.fed})
+        part, changes = self.part, self.stimulus
+        if part.fed:
+            seen = self._output_changes()
+            driven = [change for change in changes if change.pin not in part.aside]
+            changes = self._stimulus_log.add(driven, {name: seen[name] for name in part.fed})
+        return self._sampled_changes(self.stage_log, changes) if self.stage_log else changes
 
-    def _sampled_changes(self, log: StageLog) -> list[Change]:
+    def _sampled_changes(self, log: StageLog, changes: list[Change]) -> list[Change]:
         """Return the changes that the synchronisers have sampled."""
         raise NotImplementedError
+
+    @property
+    def slack(self) -> int:
+        """Number of cycles by which the sample of a pin may be late: 1 with JITTER=1, else 0."""
+        return int(self.stage_log is not None)
 
     def close(self) -> None:
         """Stop all scheduled pin changes."""
@@ -256,11 +259,18 @@ class DutBench(ABC):
         port, place = self.part.locate(name)
         return self.pins[port] if place is None else self.pins[port] >> place & 1
 
-    def pin_rises(self, pin: str, since: int = 0) -> list[int]:
-        """Return the stamps of the rising edges driven on an input of one bit from edge `since` on."""
+    def pin_edges(self, pin: str, level: int = 1, since: int = 0) -> list[int]:
+        """Return the edges of `clk` from `since` on that first sampled an input of one bit at `level`.
+
+        With JITTER=1, these are the edges at which the first stage of its synchroniser did.
+        """
         port, place = self.part.locate(pin)
-        changes = [(c.t, c.value) for c in self.stimulus if c.pin == port]
-        return [t for t, v in bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
+        changes = self.pin_changes()
+        first = bisect_left(changes, since, key=lambda change: change.t)
+        earlier = (changes[n] for n in range(first - 1, -1, -1))
+        before = next((c.value for c in earlier if c.pin == port), self.part.inputs[port])
+        rows = [(c.t, c.value) for c in changes[first:] if c.pin == port]
+        return [t for t, v in bit_changes(rows, place or 0, before) if v == level]
 
     def _levelled(self, pin: str, level: int) -> tuple[str, int]:
         """Return the port of a pin, and the level of the port when the pin has `level`."""

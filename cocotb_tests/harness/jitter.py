@@ -1,9 +1,10 @@
 """`make test JITTER=1`: every synchroniser samples each change of a pin one cycle late with probability 1/2.
 
-The build replaces rtl/common/ppmc_sync.sv by tb/jitter/ppmc_sync.sv. `StageLog` reads which levels the first
-stages have sampled, and passes exactly these levels to the golden model. Thus the comparison remains exact.
-A pin that a register also samples directly (the strobes of the host bus) has two names in the model: its own
-for the direct register, and "stage.<pin>" for the synchroniser.
+The build replaces rtl/common/ppmc_sync.sv by tb/jitter/ppmc_sync.sv. `StageLog` reads which changes the first
+stages have sampled late, and passes exactly these levels to the golden model. Thus the comparison is exact.
+A pin that two registers sample (the strobes of the host bus, a serial line) has two names in the model: its
+own, and "stage.<pin>" for the second one. If only "stage.<pin>" has a synchroniser, the pin itself is sampled
+directly.
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ from .paths import ROOT
 JITTER = "OPENPPMC_JITTER"
 """Environment variable: if set, the synchronisers of a simulation have the random extra cycle."""
 MODELS = {ROOT / "rtl/common/ppmc_sync.sv": ROOT / "tb/jitter/ppmc_sync.sv"}
-STAGE = "stage_q"
-FIRST_SAMPLE = 2
-"""Edge of the first sample after the release of the reset, which is edge 0."""
+LATE = "late_q"
+"""Bits of a synchroniser that the last edge sampled late."""
+SECOND = "stage."
 Rows = Sequence[tuple[int, int]]
 
 
@@ -56,66 +57,55 @@ class StageLog:
     """
 
     def __init__(self, part: Part) -> None:
-        self._part = part
         self._bits: dict[str, list[tuple[str, int, int]]] = {}
-        for path, pins in part.stages.items():
+        for path, names in part.stages.items():
             place = 0
-            for pin in reversed(pins):
-                port, bit = part.locate(pin)
+            for name in reversed(names):
+                port, bit = part.locate(name.removeprefix(SECOND))
+                full = port if name == name.removeprefix(SECOND) else SECOND + port
                 for number in range(part.width(port)) if bit is None else [bit]:
-                    self._bits.setdefault(port, []).append((path, place, number))
+                    self._bits.setdefault(full, []).append((path, place, number))
                     place += 1
-        direct = part.direct & set(self._bits)
-        self._name = {pin: f"stage.{pin}" if pin in direct else pin for pin in self._bits}
-        self._direct = direct
+        self._names: dict[str, list[str]] = {}
+        for name in self._bits:
+            self._names.setdefault(name.removeprefix(SECOND), []).append(name)
         self._driven = 0
-        self._checks: list[tuple[int, str, int | None]] = []
-        self._last: dict[str, int] = dict(part.inputs)
-        self._sampling_from = FIRST_SAMPLE
-        self.changes = [Change(0, self._name[pin], part.inputs[pin]) for pin in sorted(direct)]
+        self._checks: list[tuple[int, bool, str, int]] = []
+        self._pins = {port: part.inputs.get(port, 1) for port in self._names}
+        self._last = {name: self._pins[port] for port, names in self._names.items() for name in names}
+        self.changes = [Change(0, name, level) for name, level in self._last.items() if SECOND in name]
         self.late = self.prompt = 0
 
-    def add(
-        self, driven: Sequence[Change], rows: Mapping[str, Rows], first: Mapping[str, int], now: int
-    ) -> None:
+    def add(self, driven: Sequence[Change], rows: Mapping[str, Rows], now: int) -> None:
         """Process the driven changes that are new since the last call, up to edge `now` - 1.
 
         Args:
-            rows: path of a first stage -> (edge, level) of its changes.
-            first: path -> level before the first change.
+            rows: path of a synchroniser -> (edge, bits that this edge samples late) of each change.
         """
         for change in driven[self._driven :]:
-            self._checks.append((change.t, change.pin, change.value))
-            if change.pin in self._bits:
-                self._checks.append((change.t + 1, change.pin, None))
+            self._checks.append((change.t, False, change.pin, change.value))
+            if change.pin in self._names:
+                self._checks.append((change.t + 1, True, change.pin, 0))
         self._driven = len(driven)
-        self._checks.sort(key=lambda check: check[0])
+        self._checks.sort(key=lambda check: check[:2])
         count = bisect_right(self._checks, now - 1, key=lambda check: check[0])
-        for t, pin, value in self._checks[:count]:
-            self._check(t, pin, value, rows, first)
+        for t, is_next, pin, value in self._checks[:count]:
+            if not is_next:
+                self._pins[pin] = value
+                if pin not in self._bits:
+                    self.changes.append(Change(t, pin, value))
+            for name in self._names.get(pin, ()):
+                self._sample(t, name, self._pins[pin], rows, is_next)
         del self._checks[:count]
 
-    def _check(
-        self, t: int, pin: str, value: int | None, rows: Mapping[str, Rows], first: Mapping[str, int]
-    ) -> None:
-        if pin == "rst_n" and value is not None:
-            self._sampling_from = t + FIRST_SAMPLE if value else 1 << 62
-        if value is not None and (pin not in self._bits or pin in self._direct):
-            self.changes.append(Change(t, pin, value))
-        if pin not in self._bits:
-            return
-        if t < self._sampling_from:
-            level = value
-        else:
-            level = 0
-            for path, place, number in self._bits[pin]:
-                found = rows[path]
-                n = bisect_right(found, (t, 1 << 300))
-                level |= ((found[n - 1][1] if n else first[path]) >> place & 1) << number
-            if value is None:
-                self.late += level != self._last[pin]
-            else:
-                self.prompt += level == value
-        if level is not None and level != self._last[pin]:
-            self._last[pin] = level
-            self.changes.append(Change(t, self._name[pin], level))
+    def _sample(self, t: int, name: str, pin: int, rows: Mapping[str, Rows], is_next: bool) -> None:
+        """Add the level of an input that edge t samples, if it is new."""
+        level = pin
+        for path, place, number in self._bits[name]:
+            n = bisect_right(rows[path], (t, 1 << 300))
+            level ^= (rows[path][n - 1][1] >> place & 1 if n else 0) << number
+        self.late += level != pin
+        self.prompt += level == pin and not is_next
+        if level != self._last[name]:
+            self._last[name] = level
+            self.changes.append(Change(t, name, level))

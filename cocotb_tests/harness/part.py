@@ -78,8 +78,8 @@ class Part:
         shape: function that returns the pins for parameters that determine the widths of ports (see `built`).
 
     For `make test JITTER=1`, `stages` lists the synchronisers of the pins: path -> pins from the most
-    significant bit on. `direct` lists the pins among them that another register also samples. `exact` is the
-    reason why only random hosts run with JITTER=1.
+    significant bit on; "stage.<pin>" is the second level of a pin that two registers sample
+    (`harness/jitter.py`). `exact` is the reason why only random hosts run with JITTER=1.
 
     The top of a bench may contain more than the device. Then `fed` lists inputs of the device that the top
     drives (outputs of the bench), and `aside` lists inputs that only the top has.
@@ -101,7 +101,6 @@ class Part:
     fed: frozenset[str] = frozenset()
     aside: frozenset[str] = frozenset()
     stages: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    direct: frozenset[str] = frozenset()
     exact: str = ""
 
     @classmethod

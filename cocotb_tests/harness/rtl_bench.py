@@ -20,7 +20,7 @@ from openppmc.check.records import Change
 
 from .config import F16, Config
 from .dut_bench import TIMEOUT, DutBench, PinChange
-from .jitter import STAGE, StageLog, jitters
+from .jitter import LATE, StageLog, jitters
 from .part import Part
 from .sim_backend import collect_seldom, sim_backend
 
@@ -47,7 +47,6 @@ class RtlBench(DutBench):
         self._edges: dict[str, list[tuple[int, int]]] = {}
         self._watched: dict[int, list[tuple[int, int]]] = {}
         self._stages: dict[str, list[tuple[int, int]]] = {}
-        self._first: dict[str, int] = {}
         part = self.part
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
         self._backend = sim_backend()
@@ -115,18 +114,18 @@ class RtlBench(DutBench):
         self._backend.watch(port)
 
     def watch_stages(self) -> None:
-        """Record the levels that the first stages of the synchronisers sample, for the golden model."""
+        """Record which changes the synchronisers sample late, for the golden model."""
         self.stage_log = StageLog(self.part)
         for path in self.part.stages:
-            port = self._backend.port(f"{path}.{STAGE}")
-            self._stages[path], self._first[path] = [], self._backend.read(port)
+            port = self._backend.port(f"{path}.{LATE}")
+            self._stages[path] = []
             self._watched[port] = self._stages[path]
             self._backend.watch(port)
 
-    def _sampled_changes(self, log: StageLog) -> list[Change]:
+    def _sampled_changes(self, log: StageLog, changes: list[Change]) -> list[Change]:
         """See `DutBench._sampled_changes`."""
         self._output_changes()
-        log.add(self.stimulus, self._stages, self._first, self.now)
+        log.add(changes, self._stages, self.now)
         return log.changes
 
     # ---------------------------------------------------------------- time

@@ -15,9 +15,8 @@ PPMC104 = Part.of_model(
     idle={"PHASE_IDLE": "s"},
     stages={
         "u_sync": ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n", "csel", "vsel", "auxi"),
-        "u_single.u_host.u_bus.u_sync": ("cs_n", "rd_n", "wr_n"),
+        "u_single.u_host.u_bus.u_sync": ("stage.cs_n", "stage.rd_n", "stage.wr_n"),
         "u_single.u_axis.u_ext.u_sync": ("clock",),
     },
-    direct=frozenset({"cs_n", "rd_n", "wr_n"}),
 )
 PARTS = (PPMC104,)

@@ -90,9 +90,7 @@ async def p104_ac_48_hold_after_one_step(dut):
     env.window("AC-48", "pulse to hold", rise - env.pulses[0], 544_000, 545_600)
 
 
-@directed(
-    "AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04", exact="it checks times that follow an edge of a pin"
-)
+@directed("AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04")
 async def p104_ac_49_external_clock(dut):
     """With external clocks and rate 9, intervals are 640, 760, 1600 or 1400 cycles, depending on clock period
     and vsel (AC-49).
@@ -112,7 +110,10 @@ async def p104_ac_49_external_clock(dut):
             env.window(
                 "AC-49", f"interval at {period} cycles, vsel {vsel}", interval, expected - 2, expected + 2
             )
-        env.check("AC-49", "sum of intervals", sum(env.intervals), 9 * expected)
+        slack = 2 * env.bench.slack
+        env.window(
+            "AC-49", "sum of intervals", sum(env.intervals), 9 * expected - slack, 9 * expected + slack
+        )
         env.check("AC-49", "low times", env.low_times, [80] * 10)
         await env.result("AC-49", 10, 0x84, 0)
 

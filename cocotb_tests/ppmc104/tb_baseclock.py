@@ -110,7 +110,6 @@ async def p104_bck_03_phase_restart(dut):
     "P104-INI-01",
     "P104-TIM-03",
     builds=(F16, F25, F100),
-    exact="it checks times that follow an edge of a pin",
 )
 async def p104_bck_04_external_edges(dut):
     """With external clocks of any duty cycle and jitter, each pulse follows the clock edge that belongs to it
@@ -175,9 +174,7 @@ async def p104_bck_05_too_fast_clock(dut):
         await env.bench.clocks(8)
 
 
-@directed(
-    "P104-INT-03", "P104-INT-04", builds=(F16, F25), exact="it checks times that follow an edge of a pin"
-)
+@directed("P104-INT-03", "P104-INT-04", builds=(F16, F25))
 async def p104_int_03_vsel_low_external(dut):
     """With vsel = L and a constant or changing external clock, each pulse occurs at the time in
     P104-INT-03.
@@ -314,7 +311,7 @@ async def p104_tim_03_first_edge(dut):
         await env.init(*EXTERNAL)
 
 
-@directed("P104-BCK-04", "P104-BAD-13", exact="it checks times that follow an edge of a pin")
+@directed("P104-BCK-04", "P104-BAD-13")
 async def p104_bck_04_clock_stops_and_resumes(dut):
     """If the external clock stops for 50 us within an interval, no edge is missed or added when it continues
     (P104-BCK-04).

@@ -326,7 +326,9 @@ async def p104_lim_09_causes_on_the_external_clock(dut):
         await env.result("P104-LIM-09", made, finish, ALL - made - 1)
 
 
-@directed("P104-LIM-09", "P104-END-04", "P104-STP-03", exact="it checks times that follow an edge of a pin")
+@directed(
+    "P104-LIM-09", "P104-END-04", "P104-STP-03", exact="command and switch must be sampled at the same edge"
+)
 async def p104_lim_09_stop_command_and_hard_limit(dut):
     """If a stop command and L1 take effect on the same edge of a ramped move, command 0x40 sets its bit in
     addition to the bit of the limit; command 0x41 is too late to set its bit (P104-LIM-09).

@@ -35,10 +35,9 @@ PPMC2104 = Part.of_model(
     unwatched=frozenset({"clk_o"}),
     stages={
         "u_sync": (*(f"{pin}[{n}]" for n in (2, 1) for pin in _LEVELS), "busc", "errint_n", "auxi"),
-        "u_host.u_bus.u_sync": ("cs_n", "rw_rds_n", "ds_wrs_n"),
+        "u_host.u_bus.u_sync": ("stage.cs_n", "stage.rw_rds_n", "stage.ds_wrs_n"),
         "g_axis[1].u_axis.u_axis.u_ext.u_sync": ("extck[1]",),
         "g_axis[2].u_axis.u_axis.u_ext.u_sync": ("extck[2]",),
     },
-    direct=frozenset({"cs_n", "rw_rds_n", "ds_wrs_n"}),
 )
 PARTS = (PPMC2104,)

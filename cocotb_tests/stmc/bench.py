@@ -17,10 +17,9 @@ STMC = Part.of_model(
     idle={"PHASE_IDLE": "s"},
     stages={
         "u_sync": ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"),
-        "u_single.u_host.u_bus.u_sync": ("cs_n", "rd_n", "wr_n"),
+        "u_single.u_host.u_bus.u_sync": ("stage.cs_n", "stage.rd_n", "stage.wr_n"),
         "u_single.u_axis.u_ext.u_sync": ("ext_clk",),
     },
-    direct=frozenset({"cs_n", "rd_n", "wr_n"}),
     exact="the directed tests check intervals between steps, which follow the edges of ext_clk",
 )
 J105_STMC = Part.of_model("j105_stmc", pc104_board, styles=(STROBES_ISA,), lowest={"s": 1, "drv": 1})

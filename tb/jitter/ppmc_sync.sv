@@ -17,7 +17,8 @@ module ppmc_sync #(
     output logic      [Width-1:0] q2_o
 );
 
-  logic [Width-1:0] stage_q  /*verilator public_flat_rd*/;  // the bench feeds the golden model with these levels
+  logic [Width-1:0] late_q  /*verilator public_flat_rd*/;  // bits that the last edge sampled late, for the bench
+  logic [Width-1:0] stage_q;
   logic [Width-1:0] last_q;  // pins at the last edge
   logic [Width-1:0] changed, late;
   logic is_running_q;
@@ -39,16 +40,17 @@ module ppmc_sync #(
     late = '0;
     if (changed != '0)
       for (int unsigned i = 0; i < Width; i++)
-        if (changed[i]) late[i] = draw((edges_q << 8) ^ i) >> 31 != 0;
+        if (changed[i]) late[i] = draw((edges_q << 10) ^ i) >> 31 != 0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {q2_o, stage_q, last_q} <= {ResetVal, ResetVal, ResetVal};
-      {is_running_q, edges_q} <= '0;
+      {is_running_q, edges_q, late_q} <= '0;
     end else begin
       q2_o         <= stage_q;
       stage_q      <= d_i ^ late;
+      late_q       <= late;
       last_q       <= d_i;
       is_running_q <= 1'b1;
       edges_q      <= edges_q + 1;

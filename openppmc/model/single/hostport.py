@@ -3,11 +3,20 @@
 Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..04, P2104-HSK-01..04. Output
 queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Each part defines the pins of a strobe, the other status
 bits, and the conditions for which a byte waits.
+
+The two registers that drive the bus sample a read strobe directly (P104-PORT-02, D-05), all others by its
+synchroniser, which may sample it up to one cycle later. Let E and S be the first edges of these two samples,
+E' and S' the first edges without the strobe. The rules then say:
+
+- P104-BUS-05, P2104-BUS-06: d_oe rises at E and falls at E'. d_o is loaded at E and refreshed at the edge
+  after the first sample, for which both samples count: at each edge up to S + 1.
+- P104-HSK-05, P2104-BUS-08: a data read clears OBF at S' + 2 if OBF was 1 at its last refresh. That is S + 1,
+  or S if the strobe was sampled only once. A read instruction in between has priority.
+- P104-HSK-05: from the last refresh on, no status shows the OBF of this byte.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from typing import Protocol
 
@@ -60,6 +69,8 @@ MustWait = Callable[[int, int, bool], bool]
 
 WRITE_SYNC = 2
 READ_SYNC = 2
+ALWAYS = 1 << 62
+"""Last edge of the refreshes of d_o while the synchroniser has not sampled the strobe."""
 
 
 class BytePort(Protocol):
@@ -98,18 +109,17 @@ class HostPort:
         self._strobes = strobes
         self._must_wait = must_wait
         self._pins: dict[str, int] = {}
-        self._writing = self._reading = self._in_stage = False
-        self._staged = False
-        self._write_began = 0
-        self._stage_began = (0, True)
-        self._stage_levels = deque([(-1, False)], maxlen=4)
+        self._writing = self._reading = self._sampled = False
+        self._write_began = self._read_began = 0
+        self._refreshing = False
+        self._last_refresh = ALWAYS
         self._in_pipe = 0
         self._buffer = (0, False)
         self._stored_at = 0
         self.ibf = self.obf = False
         self._output_byte = 0
         self._queue: list[int] = []
-        self._byte_was_read = False
+        self._is_data_read = self._counts = self._is_final = False
         self._clearing: Event | None = None
         self._presenting: Event | None = None
         self._closed_until = 0
@@ -123,7 +133,7 @@ class HostPort:
             stage: levels of the strobes in the synchroniser, where they differ from the pins.
         """
         _, reading = self._strobes(pins)
-        writing, in_stage = self._strobes({**pins, **stage} if stage else pins)
+        writing, sampled = self._strobes({**pins, **stage} if stage else pins)
         if self._writing and not writing:
             self._in_pipe += 1
             byte, command = self._pins["d_i"], bool(self._pins["a0"])
@@ -132,48 +142,52 @@ class HostPort:
             self._write_began = t
         self._writing = writing
         self._pins = dict(pins)
-        self._staged = bool(stage)
         if reading != self._reading:
             self._reading = reading
             self._context.log.set(t, "d_oe", int(reading))
-            if reading:
-                self._load_unless_settled(t)
-                self._context.queue.at(t + 1, Phase.BUS, self._load_again)
-        if in_stage != self._in_stage:
-            if in_stage:
-                self._stage_began = t, reading or bool(pins["a0"])
-            elif self._stage_began == (t - 1, False):
-                # The synchroniser has sampled a strobe of one cycle, at which no register loaded d_o.
-                self._byte_was_read = self._readable
-            self._in_stage = in_stage
-            self._stage_levels.append((t, in_stage))
-            if not in_stage and self._byte_was_read:
-                self._byte_was_read = False
-                self._clearing = self._context.queue.at(t + READ_SYNC, Phase.QUEUE, self._clear)
+            self._refresh(t)
+        if sampled != self._sampled:
+            self._sampled = sampled
+            (self._begin_read if sampled else self._end_read)(t)
 
-    def _load_unless_settled(self, t: int) -> None:
-        """Load d_o, unless the synchroniser sampled the read strobe at both edges before edge t."""
-        for edge in (t - 1, t - 2):
-            if not next((level for since, level in reversed(self._stage_levels) if since <= edge), False):
-                self._load(t)
-                return
-
-    def _load_again(self, t: int) -> None:
-        if self._reading:
-            self._load_unless_settled(t)
-            if self._staged and self._stage_levels[-1][0] >= t - 1:
-                self._context.queue.at(t + 1, Phase.BUS, self._load_again)
-
-    def _load(self, t: int) -> None:
-        """Load d_o with the value that the selected register has just before edge t."""
-        self._byte_was_read = False
-        if self._pins["a0"]:
-            # While the synchroniser still samples a write strobe, the byte of this strobe counts as waiting.
-            value = self.status | (IBF if self._writing and self._write_began < t else 0)
-        else:
+    def _refresh(self, t: int) -> None:
+        """Load d_o with the value that the selected register has just before edge t, if the rules say so."""
+        if not self._reading:
+            return
+        if t <= self._last_refresh:
             value = self._output_byte
-            self._byte_was_read = self._readable
-        self._context.log.set(t, "d_o", value)
+            if self._pins["a0"]:
+                # While the synchroniser still samples a write strobe, the byte of this strobe counts as
+                # waiting.
+                value = self.status | (IBF if self._writing and self._write_began < t else 0)
+            self._context.log.set(t, "d_o", value)
+        if not self._refreshing:
+            self._refreshing = True
+            self._context.queue.at(t + 1, Phase.BUS, self._refresh_next)
+
+    def _refresh_next(self, t: int) -> None:
+        self._refreshing = False
+        if t <= self._last_refresh:
+            self._refresh(t)
+
+    def _begin_read(self, t: int) -> None:
+        """Process edge S of a read strobe."""
+        self._read_began, self._last_refresh = t, t + 1
+        self._is_data_read = not self._pins["a0"]
+        self._counts = self._is_data_read and self._readable
+        self._context.queue.at(t + 1, Phase.LEVELS, self._decide)
+
+    def _decide(self, t: int) -> None:
+        """Decide at edge S + 1 whether the read clears OBF, if it still samples the strobe."""
+        if self._sampled and t == self._read_began + 1:
+            self._counts = self._is_final = self._is_data_read and self._readable
+
+    def _end_read(self, t: int) -> None:
+        """Process edge S' of a read strobe."""
+        self._last_refresh = ALWAYS
+        if self._counts:
+            self._clearing = self._context.queue.at(t + READ_SYNC, Phase.QUEUE, self._clear)
+        self._counts = self._is_final = False
 
     @property
     def _readable(self) -> bool:
@@ -186,7 +200,8 @@ class HostPort:
         IBF is already 1 while a byte is being stored, and OBF is already 0 while a byte is being cleared.
         """
         waiting = self.ibf or self._in_pipe > 0
-        return self._state() | (IBF if waiting else 0) | (OBF if self._readable else 0)
+        unread = self._readable and not self._is_final
+        return self._state() | (IBF if waiting else 0) | (OBF if unread else 0)
 
     # ------------------------------------------------------------------ output queue
 
@@ -195,7 +210,7 @@ class HostPort:
         self._queue = list(values)
         self._output_byte = self._queue.pop(0)
         self.obf = True
-        self._byte_was_read = False
+        self._counts = self._is_final = False
         for event in (self._clearing, self._presenting):
             if event:
                 event.cancel()

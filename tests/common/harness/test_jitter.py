@@ -14,20 +14,25 @@ from openppmc.check.records import Change
 
 PART = Part(
     "ppmc104",
-    {"l1_n": 1, "auxi": 0, "rd_n": 1, "d_i": 0},
+    {"l1_n": 1, "auxi": 0, "rd_n": 1, "d_i": 0, "rxd": 1},
     widths={"auxi": 2, "d_i": 8},
-    stages={"u_a": ("l1_n", "auxi"), "u_b": ("rd_n",)},
-    direct=frozenset({"rd_n"}),
+    stages={
+        "u_a": ("l1_n", "auxi"),
+        "u_b": ("stage.rd_n",),
+        "u_c": ("rxd",),
+        "u_d": ("stage.rxd",),
+    },
 )
-FIRST = {"u_a": 0b100, "u_b": 1}
+FIRST = [Change(0, "stage.rd_n", 1), Change(0, "stage.rxd", 1)]
 
 
-def sampled(driven: list[Change], a: list[tuple[int, int]], b: list[tuple[int, int]]) -> jitter.StageLog:
+def sampled(driven: list[Change], **late: list[tuple[int, int]]) -> jitter.StageLog:
     """Return the log after all changes, which it receives edge by edge."""
     log = jitter.StageLog(PART)
     for now in range(60):
-        rows = {"u_a": [row for row in a if row[0] < now], "u_b": [row for row in b if row[0] < now]}
-        log.add([change for change in driven if change.t <= now], rows, FIRST, now)
+        rows = {path: [row for row in late.get(path, []) if row[0] < now] for path in PART.stages}
+        log.add([change for change in driven if change.t <= now], rows, now)
+    assert log.changes[:2] == FIRST
     return log
 
 
@@ -36,8 +41,8 @@ def test_late_and_prompt_changes() -> None:
     directly has two levels.
     """
     driven = [Change(10, "l1_n", 0), Change(20, "auxi", 3), Change(30, "rd_n", 0), Change(30, "d_i", 7)]
-    log = sampled(driven, [(10, 0b000), (20, 0b010), (21, 0b011)], [(31, 0)])
-    assert log.changes[1:] == [
+    log = sampled(driven, u_a=[(20, 0b001), (21, 0)], u_b=[(30, 1), (31, 0)])
+    assert log.changes[2:] == [
         Change(10, "l1_n", 0),
         Change(20, "auxi", 2),
         Change(21, "auxi", 3),
@@ -48,17 +53,21 @@ def test_late_and_prompt_changes() -> None:
     assert (log.late, log.prompt) == (2, 1)
 
 
-def test_short_pulse_may_be_lost() -> None:
-    """A level of one cycle whose first change is late does not reach the model."""
-    driven = [Change(10, "l1_n", 0), Change(11, "l1_n", 1)]
-    assert sampled(driven, [], []).changes[1:] == []
+def test_two_synchronisers_of_a_pin() -> None:
+    """Each synchroniser of a pin has its own level."""
+    log = sampled([Change(10, "rxd", 0)], u_d=[(10, 1), (11, 0)])
+    assert log.changes[2:] == [Change(10, "rxd", 0), Change(11, "stage.rxd", 0)]
 
 
-def test_levels_during_reset() -> None:
-    """While the first stages are reset, and until their first sample, the driven levels count."""
-    driven = [Change(10, "rst_n", 0), Change(11, "l1_n", 0), Change(14, "rst_n", 1), Change(20, "l1_n", 1)]
-    log = sampled(driven, [(10, 0b111), (16, 0b000), (21, 0b100)], [])
-    assert log.changes[1:] == [*driven[:3], Change(21, "l1_n", 1)]
+@pytest.mark.parametrize(
+    ("late", "seen"),
+    [([(10, 1), (11, 0)], []), ([(10, 1), (12, 0)], [11, 12]), ([(11, 1), (12, 0)], [10, 12])],
+)
+def test_short_pulse(late: list[tuple[int, int]], seen: list[int]) -> None:
+    """A level of one cycle is lost, late, or longer, depending on which of its changes are late."""
+    driven = [Change(10, "rxd", 0), Change(11, "rxd", 1)]
+    levels = [(c.t, c.value) for c in sampled(driven, u_c=late).changes[2:] if c.pin == "rxd"]
+    assert levels == list(zip(seen, (0, 1), strict=False))
 
 
 def test_sources(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -76,11 +85,11 @@ def test_sources(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("part", [part for part in PARTS.values() if part.stages], ids=lambda part: part.name)
 def test_pins_of_stages(part: Part) -> None:
-    """Every listed pin is an input of the device, and no bit has two synchronisers."""
+    """Every listed pin is an input of the device, and no two synchronisers have the same name for a bit."""
     bits = []
-    for pin in [pin for pins in part.stages.values() for pin in pins]:
-        port, place = part.locate(pin)
+    for name in [name for names in part.stages.values() for name in names]:
+        port, place = part.locate(name.removeprefix(jitter.SECOND))
         assert port in part.inputs
-        bits += [(port, bit) for bit in (range(part.width(port)) if place is None else [place])]
+        rows = range(part.width(port)) if place is None else [place]
+        bits += [(name.startswith(jitter.SECOND), port, bit) for bit in rows]
     assert len(bits) == len(set(bits))
-    assert part.direct <= {port for port, _ in bits}

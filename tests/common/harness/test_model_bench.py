@@ -60,7 +60,7 @@ def test_an_external_clock_runs_during_the_test() -> None:
     clock.cancel()
     on_model(bench.until(200))
     assert [(c.t, c.value) for c in bench.stimulus] == [(4, 1), (9, 0), (24, 1), (29, 0), (44, 1), (49, 0)]
-    assert bench.pin_rises("clock") == [4, 24, 44]
+    assert bench.pin_edges("clock") == [4, 24, 44]
 
 
 def test_waits_end_at_the_edge_or_after_their_time() -> None:
