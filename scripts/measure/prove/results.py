@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
@@ -27,6 +28,8 @@ PROVED = DOCS / "proved.json"
 def digest(proof: Proof) -> str:
     """Return the digest of all that determines the result of a proof, without comments of the RTL."""
     headers = [path for folder in (*include_dirs(), FORMAL) for path in sorted(folder.glob("*.svh"))]
+    text = proof.file.read_text(encoding="utf-8")
+    headers += [FORMAL / name for name in re.findall(r'`include "(\w+/\w+\.svh)"', text)]
     version = next(
         line for line in LOCK.read_text(encoding="utf-8").splitlines() if line.startswith("pyosys==")
     )

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc104_fv: a whole PPMC-104 from its bus pins to its motor pins, with TIMING = "FAST", a clock of 8 MHz and
+// a crystal of 16 MHz (a pulse of 40 cycles, a quantum of 2 cycles). The words of the ramp table are free in
+// every cycle, and a build takes five cycles. Host, switches, clock pin and reset pin are unconstrained.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc104_fv
+  import ppmc_code_pkg::*;
+  import ppmc_motion_pkg::*;
+(
+    input wire logic       clk_i,
+    input wire logic       pin_rst_n,
+    input wire logic       a0,
+    input wire logic       cs_n,
+    input wire logic       rd_n,
+    input wire logic       wr_n,
+    input wire logic [7:0] d_i,
+    input wire logic       csel,
+    input wire logic       vsel,
+    input wire logic       clock,
+    input wire logic       l1_n,
+    input wire logic       l2_n,
+    input wire logic       l3_n,
+    input wire logic       l4_n,
+    input wire logic       cnp_n,
+    input wire logic       alm_n,
+    input wire logic [3:0] auxi
+);
+
+  localparam bit IdleLevel = 1'b1;
+  logic [7:0] d_o;
+  logic d_oe, int_n, aux_n, hold, pout_n, dir;
+  logic [3:0] auxo;
+  logic [5:1] s;
+
+  `FV_RESET
+
+  ppmc104 #(
+      .CLK_HZ    (8_000_000),
+      .XTAL_HZ   (16_000_000),
+      .PHASE_IDLE(IdleLevel)
+  ) dut (
+      .clk  (clk_i),
+      .rst_n(rst_ni && pin_rst_n),
+      .*
+  );
+
+  logic limit_cw_n, limit_ccw_n, alarm_n, ccw, moved, is_read, pins_at_rest, pout_nq;
+
+  `include "single/ppmc_single_part.svh"
+
+  assign limit_cw_n = l1_n;
+  assign limit_ccw_n = l2_n;
+  assign alarm_n = alm_n;
+  assign ccw = dir;
+  assign moved = pout_nq && !pout_n;
+  assign is_read = wr_a0 && wr_data[7:3] == 5'b10000 && wr_data[2:0] inside {3'd0, 3'd1, 3'd2, 3'd3, 3'd5};
+  assign pins_at_rest = pout_n && s == '1 && !dir && int_n && !d_oe && aux_n && auxo == '1;
+
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) pout_nq <= 1'b1;
+    else pout_nq <= pout_n;
+
+  `FV_ASSERT(no_pulse_at_standstill, pout_n || busy_h[0])
+
+  `FV_COVER(seen_limit, blocked_q && dir && busy_h[1])
+  `FV_COVER(seen_answer, load && complete_q)
+  `FV_COVER(seen_step, moved && index_q == 4'd2)
+  `FV_COVER(ready_seen, alarm_age_q > 6'd40 && busy_h[0] && !motion.busy && complete_q)
+
+endmodule
+
+`default_nettype wire
