@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // verilog_syntax: parse-as-module-body
-// Properties of a whole part with one axis, from the bus pins to the motor pins (ppmc104_fv). The
+// Properties of a whole part with one axis, from the bus pins to the motor pins (ppmc104_fv, stmc_fv). The
 // wrapper defines dut, IdleLevel, and these signals: pin_rst_n, limit_cw_n, limit_ccw_n, alarm_n (pins), s,
 // ccw (direction of the pulse), moved (a pulse begins at the pins in this cycle), is_read (the byte that the
 // host has just written is a read code), and pins_at_rest.
