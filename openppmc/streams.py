@@ -9,6 +9,7 @@ import errno
 import io
 import os
 import re
+import stat
 import sys
 import unicodedata
 from collections.abc import Callable, Iterator
@@ -18,6 +19,8 @@ from typing import TextIO
 
 PIPE_CLOSED = 141
 """Exit status if the reader of stdout has ended: 128 + SIGPIPE, as in shells."""
+TERMINAL_CLOSED = 129
+"""Exit status if the terminal was closed: 128 + SIGHUP. A write may fail before the signal arrives."""
 NARROW = 80
 """Number of columns of a terminal below which a table that is too wide is printed as a list.
 
@@ -42,12 +45,16 @@ In addition, letters lose their accents.
 
 
 class StdoutLost(SystemExit):
-    """Standard output cannot be written. The exit status is PIPE_CLOSED if the reader has ended, else 1."""
+    """Standard output cannot be written.
+
+    The exit status is PIPE_CLOSED if the reader has ended, TERMINAL_CLOSED for a closed terminal, else 1.
+    """
 
     def __init__(self, error: OSError) -> None:
         # Windows reports EINVAL for a pipe without a reader.
         ended = error.errno == errno.EPIPE or (os.name == "nt" and error.errno == errno.EINVAL)
-        self.status = PIPE_CLOSED if ended else 1
+        closed = error.errno == errno.EIO and stat.S_ISCHR(os.fstat(1).st_mode)
+        self.status = PIPE_CLOSED if ended else TERMINAL_CLOSED if closed else 1
         super().__init__(self.status)
         reason = "closed" if error.errno == errno.EBADF else error.strerror or str(error)
         self.reason = "the reader has ended" if ended else reason
