@@ -28,14 +28,13 @@ module ppmc_ext_clock_fv (
     if (!rst_ni) {pin_q, age_q, rose_q} <= {5'h1f, 5'h1f, 1'b0};
     else begin
       rose_q <= rise_o;
-      pin_q <= {pin_q[3:0], pin_i};
-      age_q <= rise_o ? 5'd1 : (age_q == '1) ? '1 : age_q + 1'b1;
+      pin_q  <= {pin_q[3:0], pin_i};
+      age_q  <= rise_o ? 5'd1 : (age_q == '1) ? '1 : age_q + 1'b1;
     end
 
   `FV_ASSERT(p104_bck_04_rise, rise_o == (pin_q[2:1] == 2'b01))
   // A falling edge after a level of one sample is reported one cycle later, unless the pin is high again.
-  `FV_ASSERT(p104_bck_04_fall,
-             fall_o == (pin_q[3:1] == 3'b110 || pin_q[4:1] == 4'b0100))
+  `FV_ASSERT(p104_bck_04_fall, fall_o == (pin_q[3:1] == 3'b110 || pin_q[4:1] == 4'b0100))
   `FV_ASSERT(p104_tim_05_two_cycles, !(fall_o && rose_q))
   `FV_ASSERT(p104_int_03_long, !rise_o || long_period_o == (age_q > 5'd9))
   `FV_ASSERT(p104_tim_05_brisk, !rise_o || short_period_o == (age_q < 5'd7))
