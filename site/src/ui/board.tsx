@@ -248,14 +248,6 @@ export function BoardButton() {
 export function Board() {
   if (!open.value && !busy()) return null;
   return (
-    <div class="pg-over">
-      <Panel />
-    </div>
-  );
-}
-
-function Panel() {
-  return (
     <section class="pg-box pg-board" aria-labelledby="pg-board" data-phase={phase.value}>
       <h2 id="pg-board">
         Real board
