@@ -265,9 +265,9 @@ export class Translator {
   private readRegister(words: string[], kind: string): string[] {
     const register = this.register(words[0], kind === "r" ? 7 : 15);
     const wanted = isByte(words[1]) ? hex(parseInt(words[1], 16)) : undefined;
-    const note = this.noted(kind);
     const name = this.part.words.registers?.[`read ${register}`] ?? "";
     const status = kind === "r" && register === 0;
+    const note = this.noted(status ? "st" : kind);
     this.op(read(register), 1, ([value]) =>
       note(hex(value!), status ? (this.part.words.status[value!] ?? "") : name, wanted),
     );

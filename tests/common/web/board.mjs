@@ -40,7 +40,9 @@ const matches = (text, pattern) => truth(pattern.test(text), `${pattern} is not 
 
 /** Serial port of a computer: a virtual board, or a function that returns the answer of another device. */
 class Port {
+  static all = [];
   constructor(device) {
+    Port.all.push(this);
     this.device = device;
     this.sent = [];
     this.page = undefined;
@@ -394,6 +396,7 @@ for (const [name, check] of Object.entries(checks).filter(([name]) => name.inclu
     line.error = String(error.stack).split("\n").slice(0, 6).join(" ");
   }
   for (const context of view.contexts()) await context.close();
+  for (const port of Port.all.splice(0)) port.close(); // as the browser: a closed tab has no port
   line.seconds = (Date.now() - begin) / 1000;
   console.log(JSON.stringify(line));
 }
