@@ -32,6 +32,8 @@ def test_a_proof_fits_the_tree(proof: Proof) -> None:
     RTL.
     """
     text = proof.file.read_text(encoding="utf-8")
+    included = re.findall(r'`include "(\w+/\w+\.svh)"', text)
+    text = "\n".join([text, *((FORMAL / name).read_text(encoding="utf-8") for name in included)])
     assert f"module {proof.file.stem}" in text and re.search(rf"\b{proof.block}\b", text)
     assert list(RTL.rglob(f"{proof.block}.sv"))
     assert all(label.startswith("dut.") or label in text for label in proof.only)

@@ -102,7 +102,7 @@ def test_proofs_are_listed_with_the_tests() -> None:
     """The row of a rule names its proofs; a bounded proof has its number of cycles."""
     rules = {"P104-OPR-02": "Count", "P104-BUS-01": "Register map"}
     trace = join(rules, [record("a", *rules)], "ppmc104")
-    first, second = by_rule()["P104-OPR-02"]
+    first, second, *_ = by_rule()["P104-OPR-02"]
     trace.proofs = {"P104-OPR-02": [first, replace(second, bound=40)]}
     shown = page(trace, "ppmc104")
     assert "| pass | `ppmc_ramp_seq`<br>`ppmc_axis_count` (40 cycles) |" in shown
