@@ -66,7 +66,7 @@ export function compare(
       board: board?.text ?? NONE,
       simulation: other?.text ?? NONE,
       words: board?.words ?? other?.words ?? "",
-      timing: slower !== undefined && other?.text !== late?.text,
+      timing: slower !== undefined && other?.text !== late?.text && board?.text === late?.text,
     });
   }
   const whole = golden.open ? [] : positions;

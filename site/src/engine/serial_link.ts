@@ -71,6 +71,7 @@ const COPIES = 4;
 
 export const word = (bytes: readonly number[], at = 0): number =>
   bytes[at]! + bytes[at + 1]! * 0x100 + bytes[at + 2]! * 0x10000 + bytes[at + 3]! * 0x1000000;
+export const message = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 const sleep = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
 export class Link {

@@ -1,7 +1,7 @@
 // Runs a session on a board, and stops its motors.
 
 import type { PartData } from "../types";
-import { BoardError, type Link, Lost, word } from "./serial_link";
+import { BoardError, type Link, Lost, message, word } from "./serial_link";
 import { type BoardRow, type Op, type Pause, type Poll, pinsOps, positionOps, type Step, stopScripts, Translator } from "./serial_steps";
 import { hex } from "./side";
 
@@ -76,7 +76,10 @@ export class Run {
       this.changed();
       await this.rest();
     } catch (error) {
-      if (!(error instanceof Lost)) await this.halt().catch(() => undefined);
+      if (!(error instanceof Lost))
+        await this.halt().catch((failed: unknown) => {
+          throw new BoardError(`${message(error)}; the stop was not confirmed (${message(failed)}): switch the driver off`);
+        });
       throw error;
     }
   }

@@ -13,6 +13,7 @@ export class Simulation {
   private worker: Worker | undefined;
   private ready: Promise<void> | undefined;
   private take: (message: FromWorker) => void = () => undefined;
+  private abort: () => void = () => undefined;
 
   constructor(private readonly part: PartData) {}
 
@@ -39,7 +40,9 @@ export class Simulation {
     this.worker?.terminate();
   }
 
+  /** Simulate a text. A simulation that is still running is aborted. */
   async run(text: string): Promise<Simulated> {
+    this.abort();
     await this.load();
     const ask = (message: ToWorker): void => this.worker!.postMessage(message);
     const log: LogEntry[] = [];
@@ -55,6 +58,10 @@ export class Simulation {
         done({ answers, positions: frame?.positions ?? [], motions: motions.all, open });
       };
       let latest: Frame | undefined;
+      this.abort = () => {
+        clearTimeout(timer);
+        fail(new Error("aborted by another simulation"));
+      };
       const timer = setTimeout(() => end(latest, "the simulation takes longer than a minute"), LONGEST_MS);
       this.take = (message) => {
         if (message.kind === "began") began = true;

@@ -2,7 +2,7 @@
 
 import { batch, signal } from "@preact/signals";
 import { compare, motionLines, type Simulated, slowed } from "../engine/serial_compare";
-import { Link, Lost } from "../engine/serial_link";
+import { Link, Lost, message } from "../engine/serial_link";
 import { fetchRecords, notComparable, type Recorder, recorder, replay } from "../engine/serial_record";
 import type { Result } from "../engine/serial_report";
 import { Run, stopMotors, Stopped } from "../engine/serial_run";
@@ -44,10 +44,8 @@ let run: Run | undefined;
 /** The present run; it ends after its motors have stopped. */
 let active: Promise<unknown> = Promise.resolve();
 let endWatch: () => void = () => undefined;
-/** The run has been cancelled while it was prepared. */
-let cancelled = false;
-
-const message = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+/** Number of the last request to simulate; an earlier one has been cancelled. */
+let asked = 0;
 
 /** Return the title of the part on the board. */
 export function boardPart(): string {
@@ -158,7 +156,7 @@ function prepare(data: PartData): Simulation {
 export async function ask(texts: { title: string; text: string }[]): Promise<void> {
   const data = part.value;
   trouble.value = told.value = "";
-  cancelled = false;
+  const mine = ++asked;
   const wrong = mismatch();
   if (wrong || !data || !link) {
     trouble.value = wrong;
@@ -171,7 +169,7 @@ export async function ask(texts: { title: string; text: string }[]): Promise<voi
     for (const [n, one] of texts.entries()) {
       told.value = texts.length > 1 ? `simulating session ${n + 1} of ${texts.length}` : "";
       const found = await prepare(data).run(one.text);
-      if (cancelled) return;
+      if (mine !== asked) return;
       const scale = link.identity.xtalHz / Number(data.board.params.XTAL_HZ);
       const motions = motionLines(found.motions, data.motors.length, Number(data.style.first), scale);
       if (found.open) motions.push(`${found.open}: it may output more pulses than listed`);
@@ -183,6 +181,7 @@ export async function ask(texts: { title: string; text: string }[]): Promise<voi
       phase.value = "confirm";
     });
   } catch (error) {
+    if (mine !== asked) return;
     trouble.value = message(error);
     phase.value = link ? "ready" : "off";
   }
@@ -212,7 +211,7 @@ export function askSelfTest(): Promise<void> {
 }
 
 export function cancel(): void {
-  cancelled = true;
+  asked++;
   jobs.value = [];
   told.value = "";
   phase.value = link ? "ready" : "off";
@@ -227,6 +226,7 @@ export async function confirm(): Promise<void> {
   results.value = [];
   if (both.value && all.length === 1) start();
   for (const job of all) {
+    if (!jobs.value.length) break;
     const played = play(job, data, used);
     active = played;
     const result = await played;
@@ -301,16 +301,19 @@ async function play(job: Job, data: PartData, used: Link): Promise<Result> {
   return result;
 }
 
+/** End the session, and start no further one. */
+function end(why: string): void {
+  if (phase.value === "running" || phase.value === "comparing") jobs.value = [];
+  run?.stop(why);
+}
+
 /** Stop the session and all motors immediately. */
 export async function stop(why: string): Promise<void> {
   const used = link;
   const data = part.value;
   if (phase.value === "simulating" || phase.value === "confirm") cancel();
-  if (run) {
-    run.stop(why);
-    return;
-  }
-  if (!used || !data || mismatch()) return;
+  end(why);
+  if (run || !used || !data || mismatch()) return;
   try {
     await stopMotors(used, data);
     told.value = "all motors were stopped";
@@ -321,16 +324,15 @@ export async function stop(why: string): Promise<void> {
 
 /** The page is being closed or frozen. */
 function leave(): void {
-  if (!run || !link) return;
-  link.shout(stopScripts(run.part));
-  run.stop("the page was closed");
+  if (run && link) link.shout(stopScripts(run.part));
+  end("the page was closed");
 }
 
 addEventListener("pagehide", leave);
 document.addEventListener("freeze", leave);
 document.addEventListener("visibilitychange", () => {
-  if (document.hidden) run?.stop("the tab was hidden");
+  if (document.hidden) end("the tab was hidden");
 });
 document.addEventListener("keydown", (event) => {
-  if (event.key === "Escape" && run) void stop("stopped with Escape");
+  if (event.key === "Escape" && (run || phase.value === "comparing")) void stop("stopped with Escape");
 });
