@@ -109,22 +109,20 @@ class SettingsDrive(Drive):
 
     has_acceleration = True
 
-    _before: tuple[tuple[str, int], ...] = ()  # settings that `initialise` restores
-    _kept: tuple[tuple[str, int], ...] = ()  # settings when the speeds were last read
+    # Settings when the speeds were last read. The station may have been reset, so `initialise` restores them.
+    _kept: tuple[tuple[str, int], ...] = ()
 
     def attach(self, axis: Any) -> None:
         super().attach(axis)
         self.__dict__.pop("_rising", None)
-        self._before = tuple((dict(self._kept) | dict(self._before)).items())
 
     @cached_property
     def _rising(self) -> int:
         return self.axis.trigger  # type: ignore[no-any-return]
 
     def initialise(self) -> None:
-        for name, value in self._before:
+        for name, value in self._kept:
             setattr(self.axis, name, value)
-        self._before = ()
 
     @property
     def speeds(self) -> Speeds:

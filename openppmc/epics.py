@@ -15,11 +15,19 @@ from functools import partial
 from typing import Any
 
 from .errors import PpmcError, needs
-from .host.errors import AxisBusy, Disconnected, LinkError, OutOfRange, PortError, WrongDevice
+from .host.errors import (
+    AxisBusy,
+    Disconnected,
+    LinkError,
+    NoAnswer,
+    OutOfRange,
+    PortError,
+    WrongDevice,
+)
 from .host.line import LineBus
 from .host.motion_result import EndUnknown, LimitReached, StoppedByCommand
 from .host.part import Device
-from .host.stopping import stop_motors
+from .host.stopping import NOT_KNOWN, stop_motors
 from .positioner import Positioner, Switches, finite
 
 needs("epics", "the IOC", "caproto")
@@ -538,6 +546,8 @@ class Ioc:
             for motor in self.motors:
                 motor.attach(device)
             state = await loop.run_in_executor(self.threads, lambda: stop_motors([device], every=True))
+            if state.startswith(NOT_KNOWN):
+                raise NoAnswer(state)
         except PpmcError as error:
             self.lost = error if isinstance(error, LinkError) else WrongDevice(str(error))
             self.report(self.lost)

@@ -18,7 +18,7 @@ import time
 from typing import Any
 
 from .errors import needs
-from .host.errors import AxisBusy, LinkError, PpmcError
+from .host.errors import AxisBusy, LinkError, PpmcError, ProtocolError
 from .host.motion import AnyMotion
 from .host.motion_result import StoppedByCommand
 from .host.part import Device
@@ -68,12 +68,13 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     def position(self) -> float:
         """Position of the axis in `egu`, read from the part.
 
-        If the port is lost, the value is the last known position.
+        If the port is lost, the value is the last known position. A part that was reset raises ProtocolError
+        once.
         """
         try:
             return self._ask()
-        except LinkError:
-            if self._position is None:
+        except LinkError as error:
+            if self._position is None or isinstance(error, ProtocolError):
                 raise
             return float(self._position)
 

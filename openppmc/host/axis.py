@@ -245,7 +245,9 @@ class Axis(Checked):
         except AxisBusy:
             return count  # another program has started a motion
         if not finish & OPERATION_BITS:
-            raise position_lost(f"{self.link.name}: {self._message_prefix}", known)
+            lost = self._position_of(known)
+            self._on_reset()
+            raise position_lost(f"{self.link.name}: {self._message_prefix}", lost)
         return count
 
     def _add_position_read(self, script: Script) -> Script:

@@ -91,7 +91,7 @@ class EndUnknown(ProtocolError):
         )
 
 
-def position_lost(where: str, known: int) -> ProtocolError:
+def position_lost(where: str, known: int | None) -> ProtocolError:
     """Return the exception for a part whose position became 0 by a reset.
 
     Args:

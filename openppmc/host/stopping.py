@@ -27,7 +27,9 @@ SIGNALS = tuple(
 )
 """Signals of this system that `stop_on_signals` handles."""
 NO_MOTION = "nothing was moving"
-"""Beginning of the result of `stop_motors` if motors still move after the time limit."""
+"""Beginning of the result of `stop_motors` if no motor was moving."""
+NOT_KNOWN = "not known whether a motor moves"
+"""Beginning of the result of `stop_motors` if a part does not answer, and no motor was stopped."""
 arrived: list[int] = []
 """Signals that the command line received before it opened a board.
 
@@ -136,6 +138,8 @@ def stop_motors(
             how = f"stopped immediately after {seconds:g} s"
         except PpmcError as error:
             errors.append(str(error))
+    if errors and how == NO_MOTION:
+        how = NOT_KNOWN
     with suppress(PpmcError):
         errors[:0] = [f"{axis._message_prefix}position {axis.position}" for axis in axes]
     return ", ".join([how, *errors])

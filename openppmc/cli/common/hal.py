@@ -14,8 +14,9 @@ import typer
 from ...drives import drive_of
 from ...errors import PpmcError
 from ...host.capabilities import SetupRequest
+from ...host.errors import NoAnswer
 from ...host.part import Part
-from ...host.stopping import name_of, stop_motors
+from ...host.stopping import NOT_KNOWN, name_of, stop_motors
 from ...linuxcnc import PERIOD, Controller, Machine
 from . import output
 from .line_session import parse_numbers
@@ -97,7 +98,10 @@ def _reconnect(
             controller.reopen = False
             try:
                 machine = connect()
-                report(f"the port is open again: {stop_motors([machine.device], every=True)}")
+                state = stop_motors([machine.device], every=True)
+                if state.startswith(NOT_KNOWN):
+                    raise NoAnswer(state)
+                report(f"the port is open again: {state}")
                 return machine
             except PpmcError as error:
                 report(f"error: {error}")

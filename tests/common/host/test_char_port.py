@@ -26,12 +26,12 @@ class FakeLine:
     def write(self, data: bytes) -> None:
         self.sent.append(data)
         if len(data) == 2:
-            self._answer = bytes([((data[0] & 1) << 7 | data[1]) ^ self.bad])
+            self._answer += bytes([((data[0] & 1) << 7 | data[1]) ^ self.bad])
         elif self.info[15]:
-            self._answer = self.info[data[0] >> 1 & 15 :][:1] if data[0] & 0x20 else b"\0"
+            self._answer += self.info[data[0] >> 1 & 15 :][:1] if data[0] & 0x20 else b"\0"
 
     def read(self, timeout: float) -> bytes:
-        answer, self._answer = self._answer, b""
+        answer, self._answer = self._answer[:1], self._answer[1:]
         return answer
 
     def set_baud(self, baud: int) -> None:
@@ -81,3 +81,11 @@ def test_damaged_write() -> None:
     port = CharPort(FakeLine(bad=0x10))
     with pytest.raises(ProtocolError, match="received 0x53 instead of 0x43"):
         port._bus.write(1, 0x43)
+
+
+def test_a_late_answer_is_discarded() -> None:
+    """An answer that arrives after NoAnswer is not taken as the answer of the next request."""
+    line = FakeLine()
+    port = CharPort(line)
+    line._answer = b"\x55"
+    assert port._bus.info(0) == INFO[0]

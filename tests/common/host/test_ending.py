@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import pytest
 
-from openppmc.host import Cause, LimitReached, MotionResult, StoppedByCommand
+from openppmc.host import Cause, LimitReached, MotionResult, NoAnswer, StoppedByCommand
+from openppmc.host.stopping import stop_motors
 
 
 def test_messages_of_ends() -> None:
@@ -16,3 +20,21 @@ def test_messages_of_ends() -> None:
         MotionResult(Cause.LIMIT, None, 2, 7, 0, "axis 2: ").check()
     with pytest.raises(LimitReached, match="^limit switch ended the motion: move away"):
         MotionResult(Cause.LIMIT, None, 2, None, 0).check()
+
+
+def test_a_part_that_does_not_answer_may_move() -> None:
+    """If a stop is not answered, the result states that it is not known whether a motor moves."""
+
+    class Silent:
+        motion = None
+        _message_prefix = ""
+
+        def stop(self, wait: bool) -> None:
+            raise NoAnswer("no answer")
+
+        @property
+        def position(self) -> int:
+            raise NoAnswer("no answer")
+
+    device: Any = SimpleNamespace(axes=[Silent()], link=SimpleNamespace(clock=lambda: 0.0))
+    assert stop_motors([device], every=True) == "not known whether a motor moves, no answer"

@@ -406,6 +406,17 @@ def test_a_restart_after_a_move_loses_the_position(axis: Any, way: str) -> None:
     assert axis.move(-20).position == -20 == axis.position
 
 
+def test_a_restart_clears_the_origin_of_a_bank(axis: Any) -> None:
+    """The error states the position that the object reported. Afterwards the position is 0, also in a bank."""
+    axis.move(200)
+    axis.zero()
+    axis.move(30)
+    replace_board(axis)
+    with pytest.raises(ProtocolError, match=r"the position was 30 and now reads 0"):
+        axis.position  # noqa: B018
+    assert axis.position == 0 and axis.setup is None
+
+
 def test_a_position_of_0_is_no_restart(axis: Any) -> None:
     """A position of 0 is returned if motions, or `zero`, have led to it."""
     for way in (300, -300):
