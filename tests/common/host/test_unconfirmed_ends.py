@@ -407,7 +407,7 @@ def test_a_restart_after_a_move_loses_the_position(axis: Any, way: str) -> None:
 
 
 def test_a_restart_clears_the_origin_of_a_bank(axis: Any) -> None:
-    """The error states the position that the object reported. Afterwards the position is 0, also in a bank."""
+    """The error states the position that the object reported. Afterwards the position is 0."""
     axis.move(200)
     axis.zero()
     axis.move(30)

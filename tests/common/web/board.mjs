@@ -59,6 +59,7 @@ class Port {
     return true;
   }
   toPage(data) {
+    if (this.silent) return;
     this.page?.evaluate((bytes) => globalThis.fakeSerial.data(bytes), [...data]).catch(() => undefined);
   }
   write(bytes) {
@@ -292,6 +293,38 @@ const checks = {
     const after = await pulses();
     await new Promise((done) => setTimeout(done, 400));
     equal(await pulses(), after, "pulses after the return of the port");
+    return [page];
+  },
+  async "Stop ends a whole self-test"() {
+    const port = new Port(boards.recorded);
+    const page = await open(port);
+    await connect(page);
+    await page.click("text=Self-test");
+    await phase(page, "confirm");
+    await page.click(".pg-board-go");
+    await phase(page, "comparing");
+    await page.click(".pg-board-stop");
+    await phase(page, "ready");
+    const sent = port.moving.length;
+    await page.waitForTimeout(500);
+    equal(port.moving.length, sent, "accesses that may move a motor, after Stop");
+    equal(await page.$$eval(".pg-board-results > li", (found) => found.length), 1, "sessions");
+    return [page];
+  },
+  async "a stop without an answer"() {
+    const port = new Port(boards.plain);
+    const page = await open(port);
+    await connect(page);
+    await prepare(page, FOREVER);
+    await page.click(".pg-board-go");
+    await moves(page, 3);
+    port.silent = true;
+    await page.click(".pg-board-stop");
+    truth(/the stop was not confirmed/.test(await trouble(page)), await trouble(page));
+    port.silent = false;
+    await phase(page, "ready");
+    await page.click(".pg-board-stop");
+    await page.waitForSelector("text=all motors were stopped");
     return [page];
   },
   async "a board with another part"() {
