@@ -92,7 +92,7 @@ export interface PartData {
   board: BoardData;
 }
 
-/** Data for a real board with the UART bridge; without it, the part has no bridge. */
+/** Data for a real board with the UART bridge; undefined for a part without a bridge. */
 export interface BoardData {
   /** Part number in IDENT; 0: the part is not accessed through a bridge. */
   number: number;

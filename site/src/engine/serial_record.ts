@@ -9,7 +9,7 @@ const RECORD = 0x0d;
 const RECORDED = 0x0e;
 const FETCH = 0x90;
 const INPUT = 1 << 16;
-const SETTLE = 2; // cycles of reset before the outputs have their reset levels
+const SETTLE = 2; // cycles of reset after which the outputs have their reset levels
 const MOST_RUN = 1_000_000;
 const SLICE_MS = 20;
 

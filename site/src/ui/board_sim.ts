@@ -25,7 +25,7 @@ export class Simulation {
           worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
             if (data.kind === "ready") done();
             else this.take(data);
-            // The worker sends the next frame after this message.
+            // The worker waits for the message "shown" before it sends the next frame.
             if (data.kind === "frame") worker.postMessage({ kind: "shown" } satisfies ToWorker);
           };
           worker.onerror = (event) => fail(new Error(event.message));
