@@ -30,7 +30,7 @@ export interface Code {
   count: number;
   /** ID of the rule in the manual. */
   rule: string;
-  /** Parameters of a block by their number of bytes: of an instruction, and of its answer. */
+  /** Alternative lists of parameters, of an instruction and of its answer; the length of a block selects the list. */
   forms?: Field[][];
   answerForms?: Field[][];
 }
@@ -52,7 +52,7 @@ export interface Words {
   registers?: Record<string, string>;
   reports?: Record<string, string>;
   causes?: Record<string, string>;
-  /** Blocks: headers by direction and byte, parameters of reports, rule of reports. */
+  /** For parts with blocks: meaning of a header by direction and byte, parameters of reports, rule of reports. */
   headers?: Record<string, string>;
   reportForms?: Record<string, Field[][]>;
   reportRule?: string;

@@ -127,7 +127,7 @@ export class Link {
       this.received = 0;
       await this.line.write(Uint8Array.from(WAKE_UP));
       await sleep(QUIET);
-      received += Math.max(0, this.received - 16); // the wake-up may cause two NAKs
+      received += Math.max(0, this.received - 16); // 16 bytes: two NAKs that the wake-up may cause
       this.deframer.reset();
       this.seq = 0;
       try {

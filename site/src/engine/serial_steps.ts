@@ -13,7 +13,7 @@ export interface Op {
   bytes: number[];
   /** Number of data bytes in the answer. */
   gives: number;
-  /** Called with the data; returns operations to execute next. */
+  /** Function that receives the data of the answer, and returns the operations to execute next. */
   take?: (data: number[]) => Op[] | void;
   /** Time in ms for which an operation that waits may be repeated; `event` is the text of what it waits for. */
   patience?: number;
@@ -195,7 +195,7 @@ export class Translator {
     return known;
   }
 
-  // Parts with a data register and a register for commands and status; the bank with a window of them.
+  // Parts with a data register and a register for commands and status. The bank has a window of such registers.
 
   private command(words: string[], polled: boolean): string[] {
     const value = byte(words[0]);

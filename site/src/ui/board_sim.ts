@@ -7,7 +7,7 @@ import { loadWasm, makeWorker } from "./load";
 
 const STEP = 1 << 17;
 const LONGEST_MS = 60_000; // longest simulation
-const AFTER_S = 0.5; // a motor that still moves this time after the end of the text moves until it is stopped
+const AFTER_S = 0.5; // if a motor still moves this long after the end of the text, its motion is taken as endless
 
 export class Simulation {
   private worker: Worker | undefined;

@@ -41,7 +41,7 @@ let port: Awaited<ReturnType<typeof choosePort>>;
 let simulation: Simulation | undefined;
 let simulated: PartData | undefined;
 let run: Run | undefined;
-/** The present run; it is present until its motors have stopped. */
+/** The present run, until its motors have stopped. */
 let active: Promise<unknown> = Promise.resolve();
 let endWatch: () => void = () => undefined;
 /** The run has been cancelled while it was prepared. */

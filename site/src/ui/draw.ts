@@ -14,7 +14,7 @@ export interface View {
   b: number;
 }
 
-/** Cycles of an access whose edges are marked, and its text. */
+/** First and last cycle of the access whose edges are marked, and the text of this access. */
 export interface Marked {
   from: number;
   t: number;
