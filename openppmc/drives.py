@@ -48,7 +48,7 @@ class Drive:
         self.axis, self._request, self._active = axis, request, request
 
     def attach(self, axis: Any) -> None:
-        """Use another object for the axis, whose port was opened again. `initialise` restores its set-up."""
+        """Replace the object of the axis after a lost port was opened again; `initialise` restores it."""
         self.axis, self._prepared = axis, None
 
     def initialise(self) -> None:

@@ -40,7 +40,7 @@ from caproto.server.records import MotorFields, register_record  # noqa: E402
 POLL = 0.1
 """Seconds between two updates of the readbacks."""
 RETRY = 2.0
-"""Seconds between two attempts to open a lost port again."""
+"""Seconds from the end of an attempt to open a lost port to the next attempt."""
 COMMANDS = ("RLV", "TWF", "TWR", "HOMF", "HOMR", "STOP")
 """Fields in which a value other than 0 is a command; after the command, they read as 0."""
 IN_UNITS = ("VAL", "RBV", "DRBV", "RLV", "TWV", "OFF", "HLM", "LLM")
@@ -172,7 +172,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._homed = False
 
     def attach(self, device: Device) -> None:
-        """Use another object for the device, which was opened again; no thread may use the axis."""
+        """Replace the object of the device after the device was opened again; no thread may use the axis."""
         self._positioner.attach(device)
 
     async def close(self) -> None:
@@ -349,7 +349,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._homed, self._unknown = True, False
 
     def _confirm(self) -> None:
-        """Prepare the axis for a position that a client states; the part may have lost its set-up."""
+        """Initialise the axis, which may have lost its set-up, because a client has stated the position."""
         self._positioner.initialise()
         self._look()
         self._problem, self._unknown = None, False
@@ -404,7 +404,7 @@ class Motor(PVGroup):  # type: ignore[misc]
     async def _go(self, position: float) -> None:
         """Move to a position if limits and SPMG permit it."""
         if self._unknown:
-            # DMOV changes to 0 and back, because EpicsMotor of ophyd waits for it.
+            # DMOV changes to 0 and back, because EpicsMotor of ophyd waits for this change.
             await self._run(self._reject)
         low, high, slack = self._get("LLM"), self._get("HLM"), abs(self._units.mres) / 2
         if (low or high) and not low - slack <= position <= high + slack:
@@ -528,7 +528,7 @@ class Ioc:
     def lose(self, error: LinkError, device: Device) -> None:
         """Report an error of the port, and decide whether the port has to be opened again.
 
-        A station of a line that does not reply is no such case: the other stations continue.
+        If only a station of a line does not reply, the port stays open, and the other stations continue.
         """
         self.report(error)
         gone = isinstance(error, (Disconnected, PortError)) or not isinstance(device, LineBus)
@@ -558,7 +558,7 @@ class Ioc:
         self._log(f"{device.link.name}: the port is open again: {state}; home, or set positions with SET")
 
     async def _update(self) -> None:
-        """Begin an attempt to open a lost port, if it is time for one; publish all records."""
+        """Begin an attempt to open a lost port, if RETRY seconds have passed; publish all records."""
         if self._attempt is not None and self._attempt.done():
             done, self._attempt = self._attempt, None
             done.result()

@@ -90,7 +90,7 @@ class Positioner:
         self._stopped: AnyMotion | None = None
 
     def attach(self, device: Device) -> None:
-        """Use another object for the device, whose port was opened again; scale and offset do not change.
+        """Replace the object of the device after a lost port was opened again; keep scale and offset.
 
         The part may have lost its set-up, which `initialise` restores. No thread may use the positioner.
 

@@ -47,7 +47,8 @@ In addition, letters lose their accents.
 class StdoutLost(SystemExit):
     """Standard output cannot be written.
 
-    The exit status is PIPE_CLOSED if the reader has ended, TERMINAL_CLOSED for a closed terminal, else 1.
+    The exit status is PIPE_CLOSED if the reader of the pipe has ended, TERMINAL_CLOSED if the terminal was
+    closed, and otherwise 1.
     """
 
     def __init__(self, error: OSError) -> None:

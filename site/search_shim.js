@@ -1,6 +1,6 @@
-// Shim of the search worker in pages that are opened from a file. Such pages can start a worker only from a
-// blob. The worker of the playground is already a blob, so the shim does not replace it.
-// scripts/site/__main__.py puts in the shim of the npm package iframe-worker.
+// Lets the search work in pages that are opened from a file. Such pages can start a worker only from a blob, so
+// the worker of the search is replaced by that of the npm package iframe-worker. The worker of the playground
+// is already a blob and is not replaced. scripts/site/__main__.py inserts the code of the package below.
 (() => { const Own = window.Worker;
 /* SHIM */
 if (window.Worker !== Own) window.Worker = function (url, options) {

@@ -168,9 +168,9 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
 
 
 def shortest_levels(ramp: Ramp, rng: Random) -> Iterator[Move]:
-    """Yield moves on a ramp whose clock is high or low for 1, 2 or 3 cycles, as sampled by the device.
+    """Yield moves on a ramp with an external clock that the device samples high or low for 1, 2 or 3 cycles.
 
-    A pin level of 2 cycles, the shortest that P104-BCK-04 permits, may be sampled in 1 to 3 cycles.
+    A pin level of 2 cycles, the shortest that P104-BCK-04 permits, may be sampled as 1 to 3 cycles.
     """
     pa = ramp[2]
     for period in (EXACT, EXACT + 8, BRISK - 8):
@@ -182,7 +182,7 @@ def shortest_levels(ramp: Ramp, rng: Random) -> Iterator[Move]:
 
 
 async def clock_delays(axis: AxisDriver, code: int = 0x44, rate: int | None = 0) -> list[int]:
-    """Return, for 40 pulses, the cycles from the edge of the external clock pin to the pulse."""
+    """Return, for each of 40 pulses, the cycles from the edge of the external clock pin to the pulse."""
     await axis.go(code, 40, rate)
     rises = []
     while len(axis.pulses) < 40:
@@ -193,9 +193,9 @@ async def clock_delays(axis: AxisDriver, code: int = 0x44, rate: int | None = 0)
 
 
 def check_delays(axis: AxisDriver, rule: str, what: str, delays: Sequence[int], low: int, high: int) -> None:
-    """Check the delays from pin changes to their effects: low to high cycles, and the same for all changes.
+    """Check that the delays from pin changes to their effects are equal, and `low` to `high` cycles.
 
-    With JITTER=1, there are two delays, which differ by one cycle, and both occur.
+    With JITTER=1, two delays that differ by one cycle must occur instead.
     """
     spread = max(delays) - min(delays)
     axis.check(rule, f"difference of the delays {what}", spread, axis.bench.slack)

@@ -260,9 +260,9 @@ class DutBench(ABC):
         return self.pins[port] if place is None else self.pins[port] >> place & 1
 
     def pin_edges(self, pin: str, level: int = 1, since: int = 0) -> list[int]:
-        """Return the edges of `clk` from `since` on that first sampled an input of one bit at `level`.
+        """Return the edges of `clk`, from `since` on, that first sample a one-bit input at a new `level`.
 
-        With JITTER=1, these are the edges at which the first stage of its synchroniser did.
+        With JITTER=1, these are the edges at which the first stage of the synchroniser samples the change.
         """
         port, place = self.part.locate(pin)
         changes = self.pin_changes()

@@ -1,10 +1,10 @@
 """`make test JITTER=1`: every synchroniser samples each change of a pin one cycle late with probability 1/2.
 
 The build replaces rtl/common/ppmc_sync.sv by tb/jitter/ppmc_sync.sv. `StageLog` reads which changes the first
-stages have sampled late, and passes exactly these levels to the golden model. Thus the comparison is exact.
-A pin that two registers sample (the strobes of the host bus, a serial line) has two names in the model: its
-own, and "stage.<pin>" for the second one. If only "stage.<pin>" has a synchroniser, the pin itself is sampled
-directly.
+stages have sampled late, and passes the levels as sampled to the golden model. Thus the comparison is exact.
+A pin that two registers sample (the strobes of the host bus, a serial line) has two names in the model:
+"<pin>" for the first register, and "stage.<pin>" for the second one. If only "stage.<pin>" belongs to a
+synchroniser, the first register samples the pin directly.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ JITTER = "OPENPPMC_JITTER"
 """Environment variable: if set, the synchronisers of a simulation have the random extra cycle."""
 MODELS = {ROOT / "rtl/common/ppmc_sync.sv": ROOT / "tb/jitter/ppmc_sync.sv"}
 LATE = "late_q"
-"""Bits of a synchroniser that the last edge sampled late."""
+"""Register of the simulated synchroniser: bits that the last edge sampled late."""
 SECOND = "stage."
 Rows = Sequence[tuple[int, int]]
 
@@ -80,7 +80,7 @@ class StageLog:
         """Process the driven changes that are new since the last call, up to edge `now` - 1.
 
         Args:
-            rows: path of a synchroniser -> (edge, bits that this edge samples late) of each change.
+            rows: for each path of a synchroniser, the changes of `late_q`: (edge, bits that it samples late).
         """
         for change in driven[self._driven :]:
             self._checks.append((change.t, False, change.pin, change.value))
@@ -99,7 +99,7 @@ class StageLog:
         del self._checks[:count]
 
     def _sample(self, t: int, name: str, pin: int, rows: Mapping[str, Rows], is_next: bool) -> None:
-        """Add the level of an input that edge t samples, if it is new."""
+        """Add the level of an input that edge t samples, if it differs from the previous one."""
         level = pin
         for path, place, number in self._bits[name]:
             n = bisect_right(rows[path], (t, 1 << 300))

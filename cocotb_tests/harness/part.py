@@ -78,7 +78,7 @@ class Part:
         shape: function that returns the pins for parameters that determine the widths of ports (see `built`).
 
     For `make test JITTER=1`, `stages` lists the synchronisers of the pins: path -> pins from the most
-    significant bit on; "stage.<pin>" is the second level of a pin that two registers sample
+    significant bit on; "stage.<pin>" is the level that the second of two registers samples at a pin
     (`harness/jitter.py`). `exact` is the reason why only random hosts run with JITTER=1.
 
     The top of a bench may contain more than the device. Then `fed` lists inputs of the device that the top

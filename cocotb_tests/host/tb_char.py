@@ -26,10 +26,10 @@ OUTPUTS = ("cs_no", "rd_no", "wr_no", "a_o", "d_o")
 
 
 class Line:
-    """PC at the line, and the device at the bus.
+    """The PC at the line, and the device at the bus of the block.
 
-    `accesses` contains (kind, address, byte) of each strobe. A read returns a random byte, which the device
-    holds until the next read.
+    `accesses` contains (kind, address, byte) of each strobe. A read strobe returns a random byte, which the
+    device holds until the next read strobe.
     """
 
     def __init__(self, dut: Any) -> None:
@@ -44,7 +44,7 @@ class Line:
         self._wait = 0
 
     async def reset(self) -> None:
-        """Reset the block, and let it see an idle line."""
+        """Reset the block, and keep the line idle for 4 bit times."""
         await self.unit.reset(rxd_i=1, d_i=0, pins_i=0xFF)
         await self.clk(4 * BIT)
 
@@ -129,8 +129,9 @@ def write_request(head: int, byte: int) -> tuple[int, int]:
 
 @cocotb.test()
 async def char_accesses(dut):
-    """Each read and each write is one strobe with its address and data. A read answers with the byte of the
-    device, a write with the byte that was written; PCs that are 2 % slow or fast are understood.
+    """Each read or write causes one strobe with its address and data. The answer to a read is the byte of the
+    device; the answer to a write is the written byte. Characters that are sent 2 % too slow or too fast are
+    received correctly.
     """
     line = await start(dut)
     for n in range(60):
@@ -149,8 +150,8 @@ async def char_accesses(dut):
 
 @cocotb.test()
 async def char_own_bytes(dut):
-    """The info bytes state the build, byte 15 returns the pins, and a write to the block itself sets the
-    straps and the reset of the device; none of these is a strobe.
+    """The info bytes state the parameters of the block, byte 15 returns the pins, and a write to the block
+    itself sets the straps and the reset of the device. None of these requests causes a strobe.
     """
     line = await start(dut)
     same("info", bytes([await line.ask(FIRST | OWN | n << 1) for n in range(15)]), INFO)
@@ -197,7 +198,7 @@ async def char_active(dut):
     line = await start(dut)
     same("idle", line.unit.get("active_o"), 0)
     await line.send(FIRST | OWN)
-    # The answer begins in the middle of the stop bit, so half a bit time of it has passed.
+    # The block answers in the middle of the stop bit of the request, so half of its start bit has been sent.
     for _ in range(9 * BIT + BIT // 2 - 4):
         same("during the answer", line.unit.get("active_o"), 1)
         await line.clk(1)

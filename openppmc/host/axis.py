@@ -31,7 +31,7 @@ OnProgress = Callable[[Progress], None]
 
 EXCITATION_OFF = 0xC0
 OPERATION_BITS = 7
-"""Bits of the finish status with the last operation, 0 until the first operation after a reset."""
+"""Bits of the finish status with the last operation code; 0 until the first operation after a reset."""
 CW, CCW = 0, 1
 STOP_NOW, STOP_SLOWLY = 0x40, 0x41
 
@@ -221,8 +221,8 @@ class Axis(Checked):
         """Position in the pulse counter of the bridge, CW positive. The call is allowed at any time.
 
         Raises:
-            ProtocolError: the board has no counter, or a restart of the board has cleared it. The call after
-                this error returns the new value.
+            ProtocolError: the board has no counter, or a restart of the board has cleared the counter. After
+                a restart, the next call returns the new value.
         """
         position = self._position_of(self._check_count(self._count()))
         if position is None:
@@ -230,11 +230,11 @@ class Axis(Checked):
         return position
 
     def _check_count(self, count: int) -> int:
-        """Return a value of the position counter unchanged.
+        """Check a value of the position counter, and return it.
 
         Raises:
-            ProtocolError: the counter has become 0 by a restart of the board: the finish status indicates no
-                motion since then.
+            ProtocolError: a restart of the board has set the counter to 0. The driver detects this because
+                the finish status indicates no motion since the reset.
         """
         known, self._known_count = self._known_count, count
         motion = self._motion

@@ -1,7 +1,7 @@
 """Port `char:<port>`: a board whose FPGA has the character host (docs/char_host.md), not the UART bridge.
 
-The scripts of the wire protocol are executed in this program: by the golden model of the bridge, with the
-registers of the part as its bus.
+This program executes the scripts of the wire protocol itself: it contains the golden model of the bridge, and
+sends each bus access of this model to the character host.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ _FIRST, _WRITE, _OWN = 0x80, 0x40, 0x20
 _INFO_BYTES, _PINS = 15, 15
 _RELEASED = 0x80
 ANSWER_SECONDS = 0.3
-"""Longest time in s from a request to its answer; USB adapters and busy computers need this time."""
+"""Longest time in s from a request to its answer, with the delays of USB adapters and busy computers."""
 POLL_SECONDS = 0.005
-"""Time in s between two reads of the interrupt level while a caller waits for an event."""
+"""Time in s between two reads of the level of `int_n` while a caller waits for an event."""
 
 
 class Line(Protocol):
@@ -47,7 +47,7 @@ class CharBus:
         self._store(_FIRST | _WRITE | a << 1, byte)
 
     def info(self, n: int) -> int:
-        """Return byte n of the character host, 0 to 15."""
+        """Return info byte n (0 to 15) of the character host."""
         return self._ask(bytes([_FIRST | _OWN | n << 1]))
 
     def pins(self) -> int:
@@ -59,7 +59,7 @@ class CharBus:
         self._set_control(byte | _RELEASED)
 
     def reset(self) -> None:
-        """Reset the part; the strap outputs stay unchanged."""
+        """Reset the part; the strap outputs keep their levels."""
         straps = self._control
         self._set_control(straps & ~_RELEASED)
         self._set_control(straps)
@@ -73,7 +73,7 @@ class CharBus:
         self._control = byte
 
     def _store(self, head: int, byte: int) -> None:
-        """Write a byte; raise ProtocolError if the character host received another one."""
+        """Write a byte; raise ProtocolError if the answer is not this byte."""
         if (got := self._ask(bytes([head | byte >> 7, byte & 0x7F]))) != byte:
             raise ProtocolError(
                 f"{self._line.name}: the board received 0x{got:02X} instead of 0x{byte:02X}: check the cable"
@@ -88,8 +88,8 @@ class CharBus:
         while not (answer := self._line.read(max(0.0, end - self._line.clock()))):
             if self._line.clock() >= end:
                 raise NoAnswer(
-                    f"{self._line.name}: no answer of a character host: is the board powered, and was its "
-                    "bitstream built without the bridge (BRIDGE=0)?"
+                    f"{self._line.name}: no answer of a character host; check the power, and that the bitstream "
+                    "was built with BRIDGE=0"
                 )
         return answer[-1]
 
@@ -117,7 +117,7 @@ class CharPort:
         self._level = 1
 
     def _identify(self) -> Bridge:
-        """Read the info bytes, and return a bridge for this board."""
+        """Read the info bytes, and return a golden model of the bridge for this board."""
         info = bytes(map(self._bus.info, range(_INFO_BYTES)))
         if info[:2] != bytes([MARK, VERSION]):
             raise WrongDevice(
@@ -143,11 +143,12 @@ class CharPort:
 
     def write(self, data: bytes) -> None:
         self._waiting += self._bridge.receive(data)
-        # A script may have released int_n, so that the next falling edge is a new one.
+        # A script may have set int_n high and the part low again, between two reads of the level. So a low
+        # level after a script counts as a new falling edge.
         self._level = 1
 
     def set_baud(self, baud: int) -> None:
-        """Do nothing: the line to the board stays at its rate, because the bridge is in this program."""
+        """Do nothing: the rate of the line to a character host is fixed."""
 
     def clock(self) -> float:
         return self._line.clock()

@@ -154,7 +154,8 @@ WAKE_UP = b"\x00\x00\x7d\x7e"
 """Bytes that wake a bridge up at 115 200 baud (UB-LIN-06).
 
 At any rate, and within any frame, they return the bridge to the idle state. 7D 7E ends a frame as invalid.
-With 7E alone, a request that lacks only its last flag would be executed, because its CRC stays 0 with 00 00.
+With 7E alone, the bridge would execute a request that lacks only its last flag: 00 00 do not change its CRC
+register, which is 0.
 """
 
 
@@ -239,7 +240,7 @@ class Session:
         """
         if self.busy:
             raise RuntimeError("a request is outstanding")
-        # If the CRC ended with 00, the frame would also be valid without this byte, or with this byte twice.
+        # If the CRC ended with 00, the frame would also be valid without this 00, or with two of them.
         while not crc16(bytes([self._next_seq]) + script) & 0xFF:
             self._next_seq = self._following_seq()
         line = encode(bytes([self._next_seq]) + script, REQUEST_LIMIT)
@@ -258,7 +259,7 @@ class Session:
         return self._next_seq % LAST_SEQ + 1
 
     def repeat(self, now: float) -> bytes:
-        """Return the line bytes of the last request again, because its answer does not match it."""
+        """Return the line bytes of the last request again. Called if its answer does not match it."""
         line = self._line
         self._request, self._sent = line, self._sent + 1
         self.repeats += 1

@@ -33,7 +33,7 @@ _SETTLE = 0.02
 _QUIET = 0.05
 _BITS = 10
 _READS = 2
-"""Number of times that an answer is read that does not match its script."""
+"""Number of answers to a script that may be read until one matches the script."""
 _MISMATCH = "package and bitstream do not fit together: renew the older one"
 
 
@@ -189,8 +189,8 @@ class Link:
     def _request_rate(self, script: Script) -> None:
         """Execute the operation RATE.
 
-        If its answer is lost, the bridge may already work at the new rate. Then a wake-up resets the rate,
-        and the operation is executed again.
+        If the answer is lost, the bridge may already use the new rate. Then a wake-up returns it to 115 200
+        baud, and the operation is executed again.
         """
         try:
             self.execute(script)
@@ -273,7 +273,7 @@ class Link:
                 except BadAnswer:
                     if not left:
                         raise
-                # An answer without its last byte, or with this byte twice, may have a valid CRC.
+                # An answer that lacks its last byte 00, or has it twice, may have a valid CRC.
                 request = session.repeat(self.clock())
             raise AssertionError
         finally:

@@ -92,7 +92,7 @@ class EndUnknown(ProtocolError):
 
 
 def position_lost(where: str, known: int | None) -> ProtocolError:
-    """Return the exception for a part whose position became 0 by a reset.
+    """Return the exception for a part whose position a reset has set to 0.
 
     Args:
         where: prefix of the message.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_char_host: UART host interface for small FPGAs. An access to the device is one or two characters from
-//         the PC, and one character as the answer. The PC executes the scripts of the wire protocol.
+// ppmc_char_host: UART host interface for small FPGAs. For each access to the device, the PC sends one or two
+//         characters and receives one as the answer. The PC executes the scripts of the wire protocol.
 // Rules:  docs/char_host.md.
-// Timing: this block synchronises rxd_i. An access begins 2 cycles after the last character of its request
-//         was received. Its strobe lasts 8 cycles, and its answer begins 2 cycles later.
-// Assumes: the device holds d_i from the end of a read strobe to the next one. The PC waits for the answer
+// Timing: rxd_i is synchronised in this block. A strobe begins 2 cycles after the last character of its
+//         request was received, and lasts 8 cycles. The answer begins 2 cycles after the last strobe cycle.
+// Assumes: d_i is stable from the end of a read strobe to the next read strobe. The PC waits for the answer
 //         before it sends the next request.
 `default_nettype none
 
@@ -12,10 +12,10 @@ module ppmc_char_host
   import ppmc_bridge_pkg::phase_step;
 #(
     parameter int unsigned ClkHz     = 12_000_000,  // at least 40 * Baud
-    parameter int unsigned XtalHz    = 16_000_000,  // in Hz; only the info bytes use XtalHz, Part, Datasheet
-    parameter int unsigned Baud      = 115_200,
-    parameter int unsigned Part      = 104,
-    parameter bit          Datasheet = 1'b0
+    parameter int unsigned XtalHz    = 16_000_000,  // crystal in Hz; only reported in info bytes
+    parameter int unsigned Baud      = 115_200,     // line rate, fixed
+    parameter int unsigned Part      = 104,         // part number in the info bytes
+    parameter bit          Datasheet = 1'b0         // 1: the info bytes report DATASHEET timing
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
@@ -32,7 +32,7 @@ module ppmc_char_host
     // board
     output logic      [6:0] straps_o,     // strap outputs
     input  wire logic [7:0] pins_i,       // levels of info byte 15, may be asynchronous
-    output logic            active_o      // 1: an access is running, or its answer is being sent
+    output logic            active_o      // 1: an answer is being sent; for the link LED
 );
 
   if (ClkHz < 40 * Baud) begin : g_check
@@ -45,12 +45,13 @@ module ppmc_char_host
 
   localparam logic [7:0] Mark = 8'h43;
   localparam logic [7:0] Version = 8'd1;
-  // The leading zeros are necessary: see ppmc_uart_bridge. Byte 15 is pins_i.
+  // Info bytes, byte 0 in the lowest bits. Byte 15 is replaced by pins_i. "32'd0 |" is necessary: see
+  // ppmc_uart_bridge.
   localparam logic [127:0] Info = {
     24'd0, 32'd0 | ClkHz, 32'd0 | XtalHz, 7'd0, Datasheet, Part[15:0], Version, Mark
   };
 
-  // First character of a request. Bits 6:0 of a second character are data bits 6:0 of a write.
+  // First character of a request. The second character of a write has data bits 6:0 in its bits 6:0.
   typedef struct packed {
     logic       first;   // 1: first character, 0: second character
     logic       write;
@@ -64,8 +65,8 @@ module ppmc_char_host
   head_t head, head_q;
   logic [7:0] char;
   logic received, error, is_break, unused;
-  logic second_q;  // 1: the next character is the second one of a write
-  logic start_q;  // 1: a request is complete
+  logic second_q;  // 1: the second character of a write is expected
+  logic start_q;  // strobe: the last character has completed a request
 
   ppmc_uart_rx #(
       .Width(Width)
@@ -99,7 +100,7 @@ module ppmc_char_host
   // ---- accesses ------------------------------------------------------------------------------------
 
   logic [3:0] strobe_q;  // 0: no strobe; otherwise counts from 8 to 15
-  logic [7:0] control_q;  // reset of the device (low), strap outputs
+  logic [7:0] control_q;  // bit 7: reset of the device, active low; bits 6:0: strap outputs
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -123,7 +124,8 @@ module ppmc_char_host
 
   // ---- answers -------------------------------------------------------------------------------------
 
-  // The transmitter samples each bit of pins_i in one flip-flop, at least one bit time before it is sent.
+  // pins_i needs no synchroniser: the transmitter samples each bit in one flip-flop, and sends it at least one
+  // bit time later.
   logic [7:0] info;
   logic answer_q, ready;
 

@@ -3,9 +3,9 @@
 //         period.
 // Rules:  P104-BCK-04, P104-INT-03 (period compared with the threshold), P104-TIM-05 (rate 0).
 // Timing: if an edge of the pin is first sampled at edge t, rise_o or fall_o is high in the cycle before
-//         edge t + 2. If the pin is sampled high only once, fall_o is one cycle later, so it is at least 2
-//         cycles after rise_o. In the cycle of rise_o, long_period_o and short_period_o refer to the period
-//         that ends with this edge.
+//         edge t + 2. If the pin is sampled high for only one cycle, fall_o is delayed by one cycle, so it is
+//         at least 2 cycles after rise_o. In the cycle of rise_o, long_period_o and short_period_o refer to
+//         the period that ends with this edge.
 `default_nettype none
 
 module ppmc_ext_clock #(
@@ -26,7 +26,7 @@ module ppmc_ext_clock #(
   localparam logic [Width-1:0] LongLast = Width'(ppmc_lfsr_pkg::after(LongPeriodCycles - 1, Width));
 
   logic level, last_q, not_short_q;
-  logic high_q;  // 1: fall_o may report the end of the high level
+  logic high_q;  // 1: if level is low, fall_o reports the falling edge
   logic unused_meta;
   logic [Width-1:0] age_q;  // cycles since the last rising edge; unused if long_period_o = 1
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc104_carrier: PPMC-104 board without clock generator and pads. Contains ppmc104 and one host
 //         interface: the UART bridge, the character host, or the bus pins of the old chip.
-// Rules:  HOST = "UART": docs/uart_bridge.md, with BRIDGE = 0 docs/char_host.md; HOST = "BUS": P104-PORT-01.
-//         Wiring: docs/boards.md.
+// Rules:  HOST = "UART": docs/uart_bridge.md, or with BRIDGE = 0: docs/char_host.md. HOST = "BUS":
+//         P104-PORT-01. Wiring: docs/boards.md.
 // Timing: same as ppmc104. With RECORD != 0, inputs other than the bus act 2 cycles later. No input needs an
 //         external synchroniser.
 `default_nettype none
@@ -14,7 +14,7 @@ module ppmc104_carrier #(
     parameter bit          PHASE_IDLE = 1'b1,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
     parameter bit          BRIDGE     = 1'b1,        // 0: character host for small FPGAs, not the UART bridge
-    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the UART host after reset
     parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,
@@ -31,7 +31,7 @@ module ppmc104_carrier #(
     output logic      [7:0] d_o,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with HOST = "UART", strap outputs of the bridge can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", strap outputs of the host can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,

@@ -23,7 +23,7 @@ SEARCH = (
     'data-md-component="search" role="dialog"',
     'data-md-component="search" role="dialog" aria-label="Search"',
 )
-"""Start tag of the search, and the same with the name that a dialog needs."""
+"""Start tag of the search, and the same tag with the accessible name that a dialog needs."""
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 ADDRESSES = {"landing.md": "index.html", START: "overview.html"}
@@ -66,7 +66,7 @@ def run_links(source: str, markdown: str) -> str:
 
 
 def on_post_page(output: str, page: Any, **_: Any) -> str:
-    """Load the shim of the search from this site instead of another host; called by MkDocs for each page.
+    """Load the shim of the search from this site instead of another host. MkDocs calls this for each page.
 
     The row of each rule gets an anchor, to which the log of the playground links.
     """

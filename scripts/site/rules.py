@@ -31,8 +31,8 @@ STMC = {
     0x80: "FIN-01", 0x81: "INP-01", 0x82: "OUT-01", 0x83: "REM-01",
     2: "SGL-01", 3: "MOV-02", 4: "MOV-01", 5: "MOV-01", 6: "MOV-02", 7: "RUN-03",
 }  # fmt: skip
-"""Rules without the name of their part: by the kind of the command, by the meaning of a read (a code of the
-PPMC-104), and by the operation.
+"""IDs of rules without the prefix of the part: by the kind of the command, by the code of a read command (of
+the PPMC-104), and by the operation.
 """
 TABLES = {"ppmc104": ("P104", SINGLE), "ppmc2104": ("P2104", DOUBLE), "stmc": ("STMC", STMC)}
 TABLES["bank"] = TABLES["ppmc104"]
@@ -74,7 +74,7 @@ def address(name: str) -> str:
 
 
 def used(names: set[str]) -> dict[str, dict[str, str]]:
-    """Return text and address of rules by ID; KeyError if a manual does not have a rule."""
+    """Return the text and the address of each rule by its ID; KeyError if a manual does not have a rule."""
     return {
         name: {"text": plain(texts(FOLDERS[name.split("-")[0]])[name]), "page": address(name)}
         for name in sorted(names)

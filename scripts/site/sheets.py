@@ -17,7 +17,7 @@ from openppmc import __version__, parts
 from scripts.fpga.flow.boards import git_state
 
 APPENDICES = ("instructions", "serial", "carrier", "spi", "replace", "isa", "examples", "rulings")
-"""Pages that follow the manual, in this order; each device has some of them."""
+"""Pages that follow the manual of a device, in this order; a device may lack some of them."""
 Node = dict[str, Any]
 
 
@@ -36,7 +36,7 @@ def tree(path: Path) -> list[Node]:
 def make(part: str, version: str = __version__) -> bytes:
     """Return the data sheet of a part as PDF.
 
-    Its time is SOURCE_DATE_EPOCH, otherwise the current time. The call raises ProjectError for a link without
+    The date of the PDF is SOURCE_DATE_EPOCH, or else the current time. Raises ProjectError for a link without
     a target, a missing picture, or Markdown that the template does not support.
     """
     epoch = int(os.environ.get("SOURCE_DATE_EPOCH") or time.time())

@@ -57,7 +57,10 @@ FORMS = {
     Code312.RAMP_CHANGE: f"{MOVE}/{MOVE} at position:4s",
     Code312.CHANGE: f"{MOVE}/{MOVE} at position:4s",
 }
-"""Parameters of the PPMC-312's instructions; below, of its answers and reports. Forms differ in length."""
+"""Parameters of the instructions of the PPMC-312, and below, of its answers and reports.
+
+The alternative forms of an entry, separated by `/`, differ in length.
+"""
 ANSWERS = {
     Code312.FREE_CURVE: "list:1 missing values:1/list:1 pulses up:3 pulses down:3",
     Code312.INPUT: "inputs:1",
@@ -86,7 +89,7 @@ FLAGS = {
     "condition": "| | |WRN|ABN|FIX|ACC|NOR|INI",
     "profile": "trapezoid| |only up|only down|triangle| | | |held",
 }
-"""Meaning of a parameter that is 0, and the names of its bits, bit 7 first."""
+"""By parameter: the text for the value 0, and the names of its bits, bit 7 first."""
 TITLES = re.compile(r"\[([0-9A-F]{2})(?:, [0-9A-F]{2})?\]\(#[^)]*\) \| ([^|]+) \|")
 """Row of the table of instructions in docs/ppmc312/instructions.md."""
 HEADERS = {

@@ -30,7 +30,7 @@ export interface Code {
   count: number;
   /** ID of the rule in the manual. */
   rule: string;
-  /** Parameters of a block by their number of bytes: of an instruction, and of its answer. */
+  /** Alternative lists of parameters, of an instruction and of its answer; the length of a block selects the list. */
   forms?: Field[][];
   answerForms?: Field[][];
 }
@@ -52,7 +52,7 @@ export interface Words {
   registers?: Record<string, string>;
   reports?: Record<string, string>;
   causes?: Record<string, string>;
-  /** Blocks: headers by direction and byte, parameters of reports, rule of reports. */
+  /** For parts with blocks: meaning of a header by direction and byte, parameters of reports, rule of reports. */
   headers?: Record<string, string>;
   reportForms?: Record<string, Field[][]>;
   reportRule?: string;
@@ -92,7 +92,7 @@ export interface PartData {
   board: BoardData;
 }
 
-/** Data for a real board with the UART bridge; without it, the part has no bridge. */
+/** Data for a real board with the UART bridge; undefined for a part without a bridge. */
 export interface BoardData {
   /** Part number in IDENT; 0: the part is not accessed through a bridge. */
   number: number;

@@ -88,7 +88,7 @@ def serve(name: str, open_device: Callable[[], Any], machine_of: Callable[[Any],
 def _reconnect(
     controller: Controller, connect: Callable[[], Machine], report: Callable[[str], None]
 ) -> Machine:
-    """Wait until the pin `reset` requests it, and open the device again.
+    """Wait until the pin `reset` rises, and open the device again.
 
     Motors that still move are stopped, because no axis of the component follows them.
     """

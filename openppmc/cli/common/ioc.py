@@ -92,7 +92,7 @@ def serve(
 
     Args:
         requests: by axis number, the set-up with which each axis is initialised.
-        reopen: opens the device again after its port was lost.
+        reopen: function that opens the device again after its port was lost.
     """
     from ...epics import Units, serve
     from ...positioner import Positioner

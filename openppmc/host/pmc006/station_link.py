@@ -233,9 +233,9 @@ class StationLink(Checked):
         """Position in steps, forward positive. The call is allowed at any time.
 
         Raises:
-            ProtocolError: the position is 0 because the controller was reset. This is detected if this object
-                has set an unsaved setting (direction, stops, maximum speed) that the factory sets to another
-                value. The call after this error returns 0.
+            ProtocolError: the position is 0 because the controller was reset. The reset is detected only if
+                this object has set direction, stops or maximum speed to a value that differs from the factory
+                value, and has not saved it. The call after this error returns 0.
         """
         known, self._known_position = self._known_position, self._read_position()
         if known and not self._known_position and self.was_reset():

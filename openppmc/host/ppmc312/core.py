@@ -194,10 +194,11 @@ class Core(Checked, Generic[MotionT]):
         return self._check_position(self._position(False))
 
     def _check_position(self, position: int) -> int:
-        """Return a position unchanged.
+        """Check a position, and return it.
 
         Raises:
-            ProtocolError: the position has become 0 by a reset of the part, which has no table any more.
+            ProtocolError: a reset of the part has set the position to 0. The driver detects this because the
+                part has the state INI.
         """
         known, self._known_position = self._known_position, position
         if known and not position and self.status().state is State.INI:

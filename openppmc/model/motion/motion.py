@@ -276,7 +276,7 @@ class Motion:
     def base_fall(self, t: int) -> None:
         """Process an effective falling edge of the external clock (P104-TIM-05 c).
 
-        The low time lasts at least 2 cycles, also if the clock was sampled high only once.
+        The low time lasts at least 2 cycles, even if the clock was sampled high for only one cycle.
         """
         if self.low and self._cut_on_fall:
             self._cut_low(max(t, self._cut_from))

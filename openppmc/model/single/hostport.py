@@ -4,15 +4,17 @@ Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..
 queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Each part defines the pins of a strobe, the other status
 bits, and the conditions for which a byte waits.
 
-The two registers that drive the bus sample a read strobe directly (P104-PORT-02, D-05), all others by its
-synchroniser, which may sample it up to one cycle later. Let E and S be the first edges of these two samples,
-E' and S' the first edges without the strobe. The rules then say:
+The two registers that drive the bus (d_oe and d_o) sample a read strobe directly (P104-PORT-02, D-05). All
+other registers use the output of a synchroniser, which may sample the strobe up to one cycle later. Let E be
+the first edge that directly samples the strobe, and S the first edge at which the synchroniser samples it. E'
+and S' are the first edges that no longer sample the strobe. The rules then state:
 
-- P104-BUS-05, P2104-BUS-06: d_oe rises at E and falls at E'. d_o is loaded at E and refreshed at the edge
-  after the first sample, for which both samples count: at each edge up to S + 1.
-- P104-HSK-05, P2104-BUS-08: a data read clears OBF at S' + 2 if OBF was 1 at its last refresh. That is S + 1,
-  or S if the strobe was sampled only once. A read instruction in between has priority.
-- P104-HSK-05: from the last refresh on, no status shows the OBF of this byte.
+- P104-BUS-05, P2104-BUS-06: d_oe rises at E and falls at E'. d_o is loaded at E and loaded again
+  (refreshed) at each edge up to S + 1.
+- P104-HSK-05, P2104-BUS-08: a data read clears OBF at S' + 2 if OBF was 1 at the last refresh. The last
+  refresh is at S + 1, or at S if the synchroniser sampled the strobe only once. A read instruction that is
+  executed before S' + 2 has priority.
+- P104-HSK-05: from the last refresh on, a status read no longer shows the OBF of this byte.
 """
 
 from __future__ import annotations
@@ -151,7 +153,7 @@ class HostPort:
             (self._begin_read if sampled else self._end_read)(t)
 
     def _refresh(self, t: int) -> None:
-        """Load d_o with the value that the selected register has just before edge t, if the rules say so."""
+        """Until the last refresh, load d_o with the value of the selected register just before edge t."""
         if not self._reading:
             return
         if t <= self._last_refresh:
@@ -178,7 +180,7 @@ class HostPort:
         self._context.queue.at(t + 1, Phase.LEVELS, self._decide)
 
     def _decide(self, t: int) -> None:
-        """Decide at edge S + 1 whether the read clears OBF, if it still samples the strobe."""
+        """Decide at edge S + 1 whether the read clears OBF, if this edge still samples the strobe."""
         if self._sampled and t == self._read_began + 1:
             self._counts = self._is_final = self._is_data_read and self._readable
 

@@ -11,13 +11,13 @@ module board_icestick_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
-    parameter int unsigned BAUD       = 115_200      // baud rate of the bridge after reset
+    parameter int unsigned BAUD       = 115_200      // baud rate of the UART host after reset
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // clock selection; with HOST = "UART", strap outputs of the bridge can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", strap outputs of the host can also set csel and vsel to 0
     input  wire logic       clock,
     // switches, active low
     input  wire logic       l1_n,

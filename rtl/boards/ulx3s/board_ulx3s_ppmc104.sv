@@ -12,7 +12,7 @@ module board_ulx3s_ppmc104 #(
     parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
     parameter bit          BRIDGE     = 1'b1,        // 0: character host for small FPGAs, not the UART bridge
-    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the UART host after reset
     parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
@@ -29,7 +29,7 @@ module board_ulx3s_ppmc104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with HOST = "UART", strap outputs of the bridge can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", strap outputs of the host can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,

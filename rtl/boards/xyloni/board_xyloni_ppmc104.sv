@@ -12,7 +12,7 @@ module board_xyloni_ppmc104 #(
     parameter              TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter bit          BRIDGE     = 1'b1,        // 0: character host for small FPGAs, not the UART bridge
-    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the UART host after reset
     parameter int unsigned RECORD     = 0            // 4 .. 16: 2**RECORD records of the pins; 0: no recorder
 ) (
     input  wire logic       clk,       // 33.33 MHz
@@ -20,7 +20,7 @@ module board_xyloni_ppmc104 #(
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // clock selection; with HOST = "UART", strap outputs of the bridge can also set csel and vsel to 0
+    // clock selection; with HOST = "UART", strap outputs of the host can also set csel and vsel to 0
     input  wire logic       clock,
     // switches, active low
     input  wire logic       l1_n,

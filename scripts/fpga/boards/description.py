@@ -143,7 +143,7 @@ class Description:
 
     @property
     def languages(self) -> tuple[str, ...]:
-        """Suffixes of the pin files; those of a vendor's tool only if the tool supports the board."""
+        """Suffixes of the pin files of the board, with those of a vendor's tool if the tool supports it."""
         return LANGUAGES[self.family][: None if self.vendor else 1]
 
     def constraints(self, on: Carried, language: str = "") -> str:

@@ -40,7 +40,7 @@ def board_table(boards: tuple[Description, ...]) -> str:
 
 
 def timing_table(boards: tuple[Description, ...]) -> str:
-    """Return the table of the setup margins of the bitstreams, the worst of each board and clock first."""
+    """Return the table of the setup margins of the bitstreams, the smallest relative margin first."""
     figures = json.loads(TIMING.read_text(encoding="utf-8"))
     rows: list[tuple[float, tuple[str, ...]]] = []
     missing = []
@@ -78,7 +78,7 @@ def flash_table(boards: tuple[Description, ...]) -> str:
 
 
 def jumper_table(fitted: list[Fitted]) -> str:
-    """Return the table of self-test wires for boards with a recorder; signals without a pin are marked."""
+    """Return the table of self-test wires for boards with a recorder; it marks signals without a pin."""
     rows = []
     for one in fitted:
         recorder = "uart" in one.on.hosts and "RECORD" not in (one.on.omit or {})

@@ -1,8 +1,8 @@
 """Post-route timing of the bitstreams: `python -m scripts.fpga.flow.timing [FOLDER]`.
 
-The script copies clock rate and seed of each bitstream from its report.json into docs/timing.json. `make
-bitstream` and `make release` write the reports, with the seed whose bitstream they keep. Reports of other
-sources, or of other parameters, are left out. `make boards` writes the table in docs/boards.md.
+The script copies the clock rate and the seed of each bitstream from its report.json into docs/timing.json.
+`make bitstream` and `make release` write the reports, for the seed whose bitstream they keep. The script
+ignores reports of other sources or with parameters. `make boards` writes the table in docs/boards.md.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ class BridgeBoard:
     """Board with a bridge.
 
     Attributes:
-        starts: positions of the motors that the counter of a fresh board calls 0.
+        starts: true positions of the motors at which the counters of a new board are 0.
     """
 
     def __init__(self, text: str) -> None:
@@ -43,7 +43,7 @@ class BridgeBoard:
 
 
 class LineBoard:
-    """Line with stations of which the first one is used."""
+    """Serial line with stations; the sessions use the first station."""
 
     def __init__(self, text: str, baud: int, part: str) -> None:
         self.port = ModelLine(f"speed=max,{text}", baud, part)
@@ -65,7 +65,7 @@ class Target:
     """Part with its driver on a line.
 
     Attributes:
-        make: creates a fresh board.
+        make: creates a new board.
         open: opens the driver on a port.
         axes: returns the axes of the driver that a session uses.
         prepare: initialises an axis.
@@ -73,7 +73,7 @@ class Target:
         group: True if the part starts several axes together.
         queue: True if the axes have `moves`.
         baud: rate at which the driver opens its port.
-        crc: True if the frames have a CRC; else a checksum, which two faults may defeat.
+        crc: True if the frames have a CRC; False: a checksum, which may miss two faults in a frame.
     """
 
     make: Callable[[], Any]

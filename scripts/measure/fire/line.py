@@ -1,4 +1,4 @@
-"""Port with faults: it passes the bytes of another port on and damages chosen ones.
+"""Port with faults: it passes the bytes of another port on and damages selected bytes.
 
 The tests and `make fire` use this class. It needs only the functions of a port, so the other port may be a
 model or a real device.
@@ -53,7 +53,7 @@ class Fault:
     Attributes:
         to_board: True for a byte from the host to the board.
         place: number of bytes in this direction that precede the damaged byte.
-        detail: number of the inverted bit, or index in DELAYS; each modulo the number of possible values.
+        detail: number of the inverted bit (modulo 8), or index in DELAYS (modulo its length).
     """
 
     kind: Kind
@@ -89,7 +89,7 @@ class FaultyLine:
     Attributes:
         passed: number of bytes to the host, and to the board.
         hit: faults that have occurred.
-        limit: time of the port in s after which each call raises Hang.
+        limit: time of `clock` in s after which each call raises Hang.
     """
 
     def __init__(

@@ -17,7 +17,7 @@ Span = tuple[int, int]
 
 
 class WrongError(Exception):
-    """The driver stated something untrue, did not return, or raised an exception that is no clear line."""
+    """The driver stated something untrue, did not return in time, or raised an unexpected exception."""
 
 
 class Player:
@@ -25,7 +25,7 @@ class Player:
 
     Args:
         name: key of TARGETS.
-        rng: source of distances and pauses.
+        rng: random generator for distances and pauses.
         faults: faults of the line.
 
     Attributes:
@@ -50,7 +50,7 @@ class Player:
         self._restarted = self.board.positions()
 
     def play(self) -> None:
-        """Run the session, and a session without faults after it. Raises WrongError."""
+        """Run the session, and then a session without faults. Raises WrongError."""
         spans: list[Span] = []
         try:
             for reachable in self._steps():
@@ -96,7 +96,7 @@ class Player:
 
         Raises:
             PpmcError: the driver raised this exception with a message of one line.
-            WrongError: the call is too long, or raises another exception.
+            WrongError: the call took more than LONGEST_CALL, or raised another exception.
         """
         begin = self.line.clock()
         self.line.limit = begin + LONGEST_CALL
@@ -117,7 +117,7 @@ class Player:
     # ------------------------------------------------------------------ the session
 
     def _steps(self) -> Iterator[list[Span]]:
-        """Use the driver. Before each motion, yield the positions at which the motors may be after it."""
+        """Use the driver. Before each motion, yield the ranges in which the motors may be from then on."""
         target, rng = self.target, self._rng
         self._device = self._call(lambda: target.open(self.line))
         axes = target.axes(self._device)
@@ -188,7 +188,7 @@ class Player:
     # ------------------------------------------------------------------ after the session
 
     def _continue(self, error: PpmcError) -> None:
-        """Use the same objects after an exception: they state the true position, or raise again."""
+        """After an exception, check that the same objects state the true position or raise again."""
         if self._device is None or self._restarted or isinstance(error, Disconnected):
             return
         try:

@@ -1,4 +1,4 @@
-"""Faults of a session by its seed, so that consecutive seeds damage every byte of a session."""
+"""Selection of the faults of a session by its seed: consecutive seeds damage every byte of a session."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from scripts.measure.fire.session import AS_REQUESTED, Player, WrongError
 
 KINDS = tuple(Kind)
 REPAIRED = (Kind.LOSE, Kind.DOUBLE, Kind.FLIP, Kind.DELAY, Kind.SHARE)
-"""Faults after which a bridge with a CRC continues, so that no call of its driver may fail.
+"""Faults after which a bridge with a CRC continues, so no call of its driver may fail.
 
-The exception is a delay that is longer than all attempts to send a request.
+Exception: after a delay of more than LONGEST_DELAY, which may outlast all attempts to send a request, a call
+may fail.
 """
 LONGEST_DELAY = 1.0
 
@@ -26,7 +27,7 @@ class Played:
     Attributes:
         faults: faults of the line.
         outcome: see `Player`.
-        error: untrue statement of the driver, or an empty text.
+        error: description of the failure, or an empty text.
         longest: longest time of a call in s.
     """
 
@@ -37,13 +38,13 @@ class Played:
 
 
 def _dialogue(name: str, number: int) -> Random:
-    """Return the source of the distances and pauses of a session."""
+    """Return the random generator for the distances and pauses of dialogue `number` of a board."""
     return Random(f"{name} {number}")
 
 
 @cache
 def sizes(name: str, number: int) -> tuple[int, int]:
-    """Return the number of bytes to the host, and to the board, in a session without faults."""
+    """Return the number of bytes to the host, and to the board, in a dialogue without faults."""
     player = Player(name, _dialogue(name, number))
     line = player.line
     player.play()
@@ -51,11 +52,12 @@ def sizes(name: str, number: int) -> tuple[int, int]:
 
 
 def faults_of(name: str, seed: int) -> tuple[int, tuple[Fault, ...]]:
-    """Return the number of the dialogue, and its faults.
+    """Return the number of the dialogue that a seed selects, and its faults.
 
-    Each of the first n seeds damages another one of the n bytes of a dialogue. The next n seeds damage the
-    same bytes with another kind of fault. After all kinds, the next dialogue begins. In each odd dialogue
-    with a CRC, a second fault is added at a random place.
+    A dialogue is a session with given distances and pauses. Each of the first n seeds damages a different one
+    of the n bytes of dialogue 0. The next n seeds damage the same bytes, each with another kind of fault.
+    After all kinds, the next dialogue begins. For a board with a CRC, each dialogue with an odd number has a
+    second fault at a random place.
     """
     seeds, number = seed, 0
     while seeds >= (size := sum(sizes(name, number)) * len(KINDS)):

@@ -111,7 +111,7 @@ export class Player {
   }
 
   private atOnce(one: Statement): void {
-    const { from, line } = this.side; // of the access that the host is executing
+    const { from, line } = this.side; // first cycle and line of the access that the host is executing
     const doing = this.host.statement(one);
     while (!doing.next().done) continue;
     Object.assign(this.side, { from, line });

@@ -17,12 +17,12 @@ export interface Simulated {
   open: string;
 }
 
-/** Pulses of an axis in one direction without a pause. */
+/** Pulses of an axis in one direction, at intervals below PAUSE_S. */
 export interface Motion {
   axis: number;
   ccw: boolean;
   pulses: number;
-  /** Pulses per second. */
+  /** `first` and `fastest`: speed at the first interval and greatest speed, in pulses per second. */
   first: number;
   fastest: number;
 }
@@ -33,7 +33,7 @@ export interface Difference {
   board: string;
   simulation: string;
   words: string;
-  /** The simulation also has another value if the host is slower. */
+  /** The simulated value depends on the speed of the host, so this is not counted as a difference. */
   timing: boolean;
 }
 
@@ -44,7 +44,7 @@ export interface Compared {
 }
 
 const NONE = "no answer";
-const SHOWN = 6; // motions of an axis that are listed
+const SHOWN = 6; // number of motions of an axis that are listed one by one
 const PAUSE_S = 0.045; // a longer interval separates two motions
 
 /** Compare all answers and positions. slower: the simulation with a slower host. first: number of the first axis. */
@@ -91,7 +91,7 @@ export function slowed(text: string, ms = 20): string {
     .join("\n");
 }
 
-/** Collects steps of the simulation as motions. */
+/** Combines the steps of a simulation to motions. */
 export class Motions {
   readonly all: Motion[] = [];
   private readonly now = new Map<number, { motion: Motion; t: number }>();

@@ -3,9 +3,9 @@
 const FLAG = 0x7e;
 const ESCAPE = 0x7d;
 const TOGGLE = 0x20;
-const MOST = 262; // bytes between the flags of an answer, CRC included
+const MOST = 262; // largest number of bytes between the flags of an answer, CRC included
 
-/** Bytes that bring the bridge to its idle state at 115 200 baud (UB-LIN-06). */
+/** Bytes that return the bridge to its idle state at 115 200 baud (UB-LIN-06). */
 export const WAKE_UP: readonly number[] = [0, 0, ESCAPE, FLAG];
 
 function crc16(bytes: readonly number[]): number {

@@ -5,7 +5,7 @@ import { Deframer, encode, WAKE_UP } from "./serial_frames";
 /** Byte stream to a board. The page uses Web Serial (ui/board_port.ts). */
 export interface Line {
   write(bytes: Uint8Array): Promise<void>;
-  /** Open again with another rate. */
+  /** Open the port again at another rate. */
   rate(baud: number): Promise<void>;
   close(): Promise<void>;
   onData: (bytes: Uint8Array) => void;
@@ -58,15 +58,15 @@ export const BASE = 115_200;
 const RATES: readonly number[] = [BASE, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000];
 const WORK = 1_000_000;
 const PROTOCOL = 1;
-const MARGIN = 600; // ms after which a request is repeated, in addition to its own duration
+const MARGIN = 600; // ms without an answer after which a request is repeated, in addition to its own duration
 const TRIES = 4;
-const GRACE = 50; // ms from a NAK to the repetition
+const GRACE = 50; // ms from a NAK to the repetition of the request
 const QUIET = 30; // ms without a byte before the first request
 const IDENT = 0x01;
 const RATE = 0x02;
 const VERSION = 0x0c;
 const LAST_SEQ = 127;
-const BUSY_LINE = 5; // ms of bytes that `shout` sends, in addition to COPIES of each script
+const BUSY_LINE = 5; // ms for which `shout` sends further copies of each script, in addition to COPIES
 const COPIES = 4;
 
 export const word = (bytes: readonly number[], at = 0): number =>
@@ -128,7 +128,7 @@ export class Link {
       this.received = 0;
       await this.line.write(Uint8Array.from(WAKE_UP));
       await sleep(QUIET);
-      received += Math.max(0, this.received - 16); // the wake-up may cause two NAKs
+      received += Math.max(0, this.received - 16); // 16 bytes: two NAKs that the wake-up may cause
       this.deframer.reset();
       this.seq = 0;
       try {
@@ -196,8 +196,8 @@ export class Link {
 
   /** Send scripts several times each, without waiting for an answer, because the page is being closed.
    *
-   * The first bytes end a wait of the bridge. Bytes that arrive before its answer is sent are dropped; a later copy is
-   * executed (UB-FRM-07). SEQ 0 is executed each time. */
+   * The first bytes end a wait of the bridge. The bridge drops all bytes that arrive until its answer has been sent,
+   * and then executes a later copy (UB-FRM-07). A request with SEQ 0 is executed each time. */
   shout(scripts: readonly number[][]): void {
     if (this.lost) return;
     const all = scripts.flatMap((script) => {

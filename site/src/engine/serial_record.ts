@@ -9,7 +9,7 @@ const RECORD = 0x0d;
 const RECORDED = 0x0e;
 const FETCH = 0x90;
 const INPUT = 1 << 16;
-const SETTLE = 2; // cycles of reset before the outputs have their reset levels
+const SETTLE = 2; // cycles of reset after which the outputs have their reset levels
 const MOST_RUN = 1_000_000;
 const SLICE_MS = 20;
 
@@ -105,7 +105,8 @@ export async function replay(part: PartData, wasm: BufferSource, samples: readon
   let before = 0n;
   let slice = performance.now();
   for (const { t, levels } of samples.slice(from)) {
-    // An output that changes at edge t is recorded at t + 1, so only the last edge before a record may change one.
+    // An output that changes at edge t is recorded at t + 1, so outputs may change only at the last edge before a
+    // record.
     for (let left = t - base - core.now; left > 0; ) {
       left -= core.run(Math.min(left, MOST_RUN), 0);
       const early = firstOutput(core.rows());

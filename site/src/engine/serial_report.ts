@@ -8,7 +8,7 @@ export interface Result {
   title: string;
   motions: string[];
   compared: Compared;
-  /** Comparison of the recorded edges; a text states why there is none. */
+  /** Comparison of the recorded edges, or a text with the reason why there is none. */
   edges: Edges | string;
   /** Reason why the run has ended early, "" if it is complete. */
   error: string;

@@ -10,16 +10,16 @@ const RESET = 0x05;
 const STRAPS = 0x07;
 const ZERO = [0x09, 0x0b];
 const RECORD = 0x0d;
-const WAIT_MS = 40; // limit of a wait of the bridge; Stop acts between two of them
-const WAITS = 3; // operations in a frame that may use this limit
+const WAIT_MS = 40; // time limit of one wait operation of the bridge
+const WAITS = 3; // wait operations in a frame; Stop is sent after the frame
 const MOST_SCRIPT = 253;
 const MOST_DATA = 256;
 const POSITIONS_MS = 100; // time between two reads of the positions
-const STOP_MS = 60; // positions that change after this time are those of motors that have not stopped
+const STOP_MS = 60; // a motor whose position still changes this time after an immediate stop has not stopped
 const HOLD = 2;
 const POLL_MS = 2;
-const GAP = 4; // NOPs before a wait that reads once; during them, a part with FAST timing accepts a byte
-const ASLEEP_MS = 3_000; // a longer gap between two steps of the program means that the page has slept
+const GAP = 4; // NOPs before a wait that reads only once; in this time, a part with FAST timing accepts a byte
+const ASLEEP_MS = 3_000; // if the time between two steps of this program is longer, the page was suspended
 const SETTLE_MS = 5;
 
 /** The reader or the page has stopped the session. */
@@ -120,7 +120,7 @@ export class Run {
     if (this.stopping) throw new Stopped(this.stopping);
     const answer = await this.link.request(script, duration);
     this.last = performance.now();
-    // 1: a wait has reached its limit; 5: a repeated request or noise has ended it. Both are repeated.
+    // 1: a wait has reached its limit; 5: a repeated request or noise has ended a wait. The wait is then repeated.
     if (answer.result > 1 && answer.result !== 5)
       throw new BoardError(`the board rejects an operation (result ${answer.result}); the bitstream does not match this page`);
     return answer;
@@ -158,7 +158,7 @@ export class Run {
   }
 
   private readonly since = new Map<Op, number>();
-  /** Throw an error if this operation waits longer than its patience. */
+  /** Throw an error if this operation has been repeated for longer than its `patience`. */
   private again(op: Op, last: number): void {
     const first = this.since.get(op) ?? performance.now() - WAIT_MS;
     this.since.set(op, first);

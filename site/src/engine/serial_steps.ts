@@ -13,19 +13,19 @@ export interface Op {
   bytes: number[];
   /** Number of data bytes in the answer. */
   gives: number;
-  /** Called with the data; returns operations to execute next. */
+  /** Function that receives the data of the answer, and returns the operations to execute next. */
   take?: (data: number[]) => Op[] | void;
-  /** An operation that waits may be repeated for this time in ms; `event` states what it waits for. */
+  /** Time in ms for which an operation that waits may be repeated; `event` is the text of what it waits for. */
   patience?: number;
   event?: string;
-  /** The next operation is sent only after `take`. */
+  /** True: the next operation is sent only after `take` has processed the data of this one. */
   ends?: boolean;
 }
 /** Repeat the operation until `done` accepts its data. */
 export interface Poll extends Op {
   done: (data: number[]) => boolean;
 }
-/** Wait for a time, or until a time after the start, in ms. */
+/** Wait for `pause` ms, or, if `since` is true, until `pause` ms after the start. */
 export interface Pause {
   line: number;
   pause: number;
@@ -45,7 +45,7 @@ export interface BoardRow {
 }
 
 const MAILBOX_MS = 1_000; // longest time until the part accepts or returns a byte
-const EVENT_MS = 600_000; // longest time of a motion; Stop is always in reach
+const EVENT_MS = 600_000; // longest time of a motion; it may be long, because Stop can end it
 const OBF = 1;
 const IBF = 2;
 const MWEF = 0x08;
@@ -83,7 +83,7 @@ export function pinsOps(part: PartData, straps: number): number[] {
   return [STRAPS, straps | 0x80, PINS, STRAPS, straps & 0x7f, PINS, STRAPS, straps];
 }
 
-/** Scripts that stop all motors immediately; they read no register and need no previous state. */
+/** Scripts that stop all motors immediately. They read no register, and work in any state of the part. */
 export function stopScripts(part: PartData): number[][] {
   if (part.bus === "block") return [[...write(2, WINDOW), ...write(3, WINDOW - 4), 0x85, 4, 0x00, 0x80, 0x02, 0x03]];
   if (part.bus === "window") return [part.motors.flatMap((_, axis) => [...write(SELECT, axis), ...write(1, 0x40)])];
@@ -102,7 +102,7 @@ export class Translator {
   private steps: Step[] = [];
   private readonly counted: boolean;
 
-  /** Convert the text. Throws TextError for a statement that a board cannot execute. gap: NOPs before each wait. */
+  /** Convert the text. Throws TextError for a statement that a board cannot execute. gap: NOPs before a wait. */
   constructor(
     private readonly part: PartData,
     text: string,
@@ -195,7 +195,7 @@ export class Translator {
     return known;
   }
 
-  // Parts with a data register and a register for commands and status; the bank with a window of them.
+  // Parts with a data register and a register for commands and status. The bank has a window of such registers.
 
   private command(words: string[], polled: boolean): string[] {
     const value = byte(words[0]);

@@ -114,7 +114,7 @@ export class Side {
     return this.core.steps(axis) - this.mark[axis]!;
   }
 
-  /** Add a log entry. `more.bad` is given for an answer: whether it differs from the value in the text. */
+  /** Add a log entry. For an answer, `more.bad` states whether it differs from the value in the text. */
   note(kind: string, text: string, words: string, more: Partial<LogEntry> = {}): void {
     const answer = more.bad === undefined ? {} : { answer: true };
     this.log.push({ from: this.from, t: this.core.now, line: this.line, kind, text, words, ...more, ...answer });

@@ -18,7 +18,7 @@ const BUFFER = 4096;
 
 export const webSerial = (): WebSerial | undefined => (navigator as unknown as { serial?: WebSerial }).serial;
 
-/** Ask the reader for a port; undefined if none was chosen. Must be called in a click. */
+/** Let the reader choose a port; undefined if none was chosen. Browsers allow this only while they handle a click. */
 export async function choosePort(): Promise<WebPort | undefined> {
   try {
     return await webSerial()!.requestPort();
@@ -28,7 +28,7 @@ export async function choosePort(): Promise<WebPort | undefined> {
   }
 }
 
-/** Call `action` when a port that was used before appears again; return a function that ends this. */
+/** Call `action` whenever a port that was used before appears again; return a function that ends these calls. */
 export function onReturn(action: (port: WebPort) => void): () => void {
   const serial = webSerial()!;
   const listen = (event: Event): void => action(event.target as WebPort);
@@ -79,7 +79,7 @@ export class WebLine implements Line {
           this.onData(value);
         }
       } catch {
-        // The loop checks whether there is another stream.
+        // The loop checks whether the port has a new stream.
       } finally {
         this.reader.releaseLock();
       }

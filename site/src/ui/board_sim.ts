@@ -7,7 +7,7 @@ import { loadWasm, makeWorker } from "./load";
 
 const STEP = 1 << 17;
 const LONGEST_MS = 60_000; // longest simulation
-const AFTER_S = 0.5; // a motor that still moves this time after the end of the text moves until it is stopped
+const AFTER_S = 0.5; // if a motor still moves this long after the end of the text, its motion is taken as endless
 
 export class Simulation {
   private worker: Worker | undefined;
@@ -26,7 +26,7 @@ export class Simulation {
           worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
             if (data.kind === "ready") done();
             else this.take(data);
-            // The worker sends the next frame after this message.
+            // The worker waits for the message "shown" before it sends the next frame.
             if (data.kind === "frame") worker.postMessage({ kind: "shown" } satisfies ToWorker);
           };
           worker.onerror = (event) => fail(new Error(event.message));

@@ -41,7 +41,7 @@ let port: Awaited<ReturnType<typeof choosePort>>;
 let simulation: Simulation | undefined;
 let simulated: PartData | undefined;
 let run: Run | undefined;
-/** The present run; it ends after its motors have stopped. */
+/** The present run, until its motors have stopped. */
 let active: Promise<unknown> = Promise.resolve();
 let endWatch: () => void = () => undefined;
 /** Number of the last request to simulate; an earlier one has been cancelled. */
@@ -53,7 +53,7 @@ export function boardPart(): string {
   return parts().find((one) => one.number === number)?.title ?? `part ${number}`;
 }
 
-/** Return why the chosen part does not run on the board, "" if it does. */
+/** Return the reason why a text of the chosen part cannot run on the board, "" if it can. */
 export function mismatch(): string {
   const data = part.value;
   if (!board.value || !data) return "";
@@ -152,7 +152,7 @@ function prepare(data: PartData): Simulation {
   return simulation;
 }
 
-/** Simulate texts, and ask for the confirmation. Sends nothing. */
+/** Simulate texts, and show the request for confirmation. Sends nothing to the board. */
 export async function ask(texts: { title: string; text: string }[]): Promise<void> {
   const data = part.value;
   trouble.value = told.value = "";
@@ -322,7 +322,7 @@ export async function stop(why: string): Promise<void> {
   }
 }
 
-/** The page is being closed or frozen. */
+/** Stop all motors while the page is being closed or frozen. */
 function leave(): void {
   if (run && link) link.shout(stopScripts(run.part));
   end("the page was closed");

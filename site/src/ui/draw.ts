@@ -14,7 +14,7 @@ export interface View {
   b: number;
 }
 
-/** Cycles of an access whose edges are marked, and its text. */
+/** First and last cycle of the access whose edges are marked, and the text of this access. */
 export interface Marked {
   from: number;
   t: number;
@@ -80,7 +80,7 @@ export function draw(
   }
 }
 
-/** Return the times of a row's edges in an access; the last ones can follow it by a few cycles. */
+/** Return the times of a row's edges that belong to an access; the last edges can follow its end by a few cycles. */
 export function edges(row: Row, { from, t }: Marked): number[] {
   const { times } = row.track;
   return [...times.subarray(row.track.at(from - 1) + 1, row.track.at(t + 2) + 1)].filter((one) => one > 0);

@@ -7,8 +7,8 @@ import { statements } from "../engine/text";
 import { ask, chapter, line, now, over, part, remember, running, selected, selectedIn, selectLine, start } from "./state";
 import { text, trouble } from "./state";
 
-const AROUND = 40; // lines above and below the visible ones whose meaning is in the page
-const PAGE = 60; // lines that the largest window shows
+const AROUND = 40; // number of lines above and below the visible lines that are also in the DOM
+const PAGE = 60; // number of lines that the largest window shows
 
 function Meaning({ rows, named = true }: { rows: Meant[]; named?: boolean }) {
   return (

@@ -18,7 +18,7 @@ const FIRST_SPEED = 0.01;
 const MOST_LOG = 2_000;
 const LOG_MS = 250; // minimum time between two updates of the log while the part runs
 const SHOWN_MS = 100; // a frame is drawn after this time even if the page is in the background
-const NEAR = 4; // cycles between the end of an access and its last edge
+const NEAR = 4; // largest number of cycles from the end of an access to its last edge
 const KEPT_MS = 150; // delay between an input of the reader and its storage
 
 export const part = signal<PartData | undefined>(undefined);
@@ -50,7 +50,7 @@ export const places = signal<number[]>([500, -300, -150, 0, 1850, 2000]);
 /** The access that log, waves and text mark, and the view in which the reader has selected it. */
 export const selected = signal<LogEntry | undefined>(undefined);
 export const selectedIn = signal<"log" | "waves" | "text">("log");
-/** This is the first visit: the page has started a session without a request of the reader. */
+/** True on the first visit, in which the page has started a session without a request of the reader. */
 export const welcome = signal(false);
 export const seconds = computed(() => (part.value ? clk.value / part.value.clkHz : 0));
 
@@ -68,7 +68,7 @@ let failed = false;
 let remark = "";
 /** The displayed address. */
 let opened = "";
-/** The next start is that of the first visit. */
+/** True if the next start of a session is the automatic start of the first visit. */
 let first = false;
 /** A frame that is not drawn yet, and log entries that are not shown yet. */
 let frame: Frame | undefined;

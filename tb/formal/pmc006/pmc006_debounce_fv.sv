@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_debounce_fv: compares the filter, with three ticks, with a count of ticks.
+// pmc006_debounce_fv: compares the debounce filter, set to three ticks for both levels, with a counter of
+// ticks.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -20,7 +21,8 @@ module pmc006_debounce_fv (
       .*
   );
 
-  // ticks_q: ticks since the input has the level that changes armed_q, without interruption
+  // ticks_q: ticks for which the input has had, without interruption, the level that changes armed_q (low while
+  // armed, high while not armed)
   logic armed_q, first_q;
   logic [1:0] ticks_q;
   logic change;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_ext_stop_fv: events and flags of the emergency switches.
+// pmc006_ext_stop_fv: proves the events and flags of the emergency switches.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_aux_monitor_fv: reports of the monitor of the generalized input, with a sample every 2.5 cycles.
+// ppmc312_aux_monitor_fv: proves the reports of the monitor of the generalized input, with a sample every 2.5
+// cycles on average.
 `include "ppmc_fv.svh"
 `default_nettype none
 

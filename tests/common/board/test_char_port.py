@@ -65,7 +65,7 @@ def test_home(start_board: StartBoard) -> None:
 
 
 def test_wrong_host(start_board: StartBoard) -> None:
-    """A board with the bridge is not opened with `char:`, and a board with the character host not without."""
+    """A board with the bridge is rejected with `char:`, and a board with the character host without it."""
     with pytest.raises(NoAnswer, match="no answer of a character host"):
         Ppmc104.open("char:" + start_board().port)
     with pytest.raises(NoAnswer, match="is the board powered"):

@@ -1,4 +1,4 @@
-"""Faults between host and virtual board: a small sample of what `make fire` runs on golden models."""
+"""Faults between host and virtual board: a few of the sessions that `make fire` runs on golden models."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_a_damaged_byte_changes_no_result(board: SimBoard, kind: Kind, to_board:
 def test_the_next_program_reads_the_true_position(
     board: SimBoard, until: Wait, kind: Kind, place: int
 ) -> None:
-    """After the end of a program at any byte, the next one connects, and states the true position."""
+    """If a program ends at any byte, the next program connects and states the true position."""
     line = FaultyLine(open_port(board.port), [Fault(kind, True, place)])
     with pytest.raises((Disconnected, Killed)), Ppmc104.open(line) as axis:
         axis.initialise(**SETUP)
@@ -77,7 +77,7 @@ def test_two_programs_at_one_port(board: SimBoard, openppmc: CommandLine) -> Non
 
 
 def test_kill_9_of_the_board(board: SimBoard, openppmc: CommandLine, until: Wait) -> None:
-    """If the board is killed during a move, the command ends with one line, and so does the next one."""
+    """If the board is killed during a move, this command and the next one each end with one line."""
     process = openppmc.begin(board.port, "move", "30000", *SLOW)
     until(lambda: board.status().pulses > 300, "motor turning")
     board.process.kill()

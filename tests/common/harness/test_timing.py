@@ -1,4 +1,4 @@
-"""Timing after routing: which reports are kept, and the table of setup margins."""
+"""Timing after routing: the reports that are accepted, and the table of setup margins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`CharPort` on a line without a board: identification and damaged characters."""
+"""`CharPort` with a simulated line: identification of the character host, and damaged characters."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def test_other_device(info: bytes) -> None:
 
 
 def test_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A line without answers is rejected after a time limit."""
+    """If the line does not answer, it is rejected after a time limit."""
     monkeypatch.setattr("openppmc.host.char_port.ANSWER_SECONDS", 0.02)
     line = FakeLine()
     line.info = bytes(16)

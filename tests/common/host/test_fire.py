@@ -1,4 +1,4 @@
-"""The drivers on lines with faults: a sample of the sessions of `make fire`, and its detection of faults."""
+"""The drivers on lines with faults: some sessions of `make fire`, and proof that it detects wrong drivers."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_consecutive_seeds_damage_every_byte() -> None:
 
 
 def test_a_wrong_statement_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A driver without the check of the counter, or a link without SEQ, is reported."""
+    """`make fire` reports a driver that does not check the counter, and a link that ignores SEQ."""
     name = "ppmc104-115200"
     seeds = range(3, 4000, 41)
     monkeypatch.setattr(Axis, "_check_count", lambda axis, count: count)
@@ -148,7 +148,7 @@ def test_the_end_of_a_port() -> None:
 
 
 def test_a_killed_program_leaves_its_motor_running() -> None:
-    """The bytes that `Killed` interrupts are not followed by a stop command of the driver."""
+    """After `Killed` has interrupted the bytes of a program, the driver sends no stop command."""
     port = ModelPort("speed=max")
     line = FaultyLine(port)
     with pytest.raises(Killed), Ppmc104.open(line) as axis:

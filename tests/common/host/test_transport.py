@@ -165,8 +165,8 @@ def test_wrong_things_at_the_port(answer: object, kind: type[Exception], text: s
 
 @pytest.mark.parametrize("damaged", [1, 2])
 def test_an_answer_that_does_not_match_its_script_is_requested_again(damaged: int) -> None:
-    """If the CRC of an answer ends with 00, the answer is also valid without this byte, or with it twice. The
-    bridge repeats the answer; after two answers of the wrong length, an error is raised.
+    """If the CRC of an answer ends with 00, the answer is also valid without this 00, or with two. The host
+    requests such an answer again; after two answers of the wrong length, an error is raised.
     """
     asked: list[bytes] = []
 
@@ -228,7 +228,7 @@ def test_a_rate_that_does_not_get_through(monkeypatch: pytest.MonkeyPatch) -> No
 
 @pytest.mark.parametrize("to_board", [False, True])
 def test_one_lost_byte_costs_no_rate(to_board: bool) -> None:
-    """With any byte of the connection lost, the link works at the requested rate.
+    """If any single byte of the connection is lost, the link still works at the requested rate.
 
     If the answer to RATE is lost, the bridge already works at the new rate, and the repeated requests arrive
     as framing errors.

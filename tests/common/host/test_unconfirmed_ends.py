@@ -418,7 +418,7 @@ def test_a_restart_clears_the_origin_of_a_bank(axis: Any) -> None:
 
 
 def test_a_position_of_0_is_no_restart(axis: Any) -> None:
-    """A position of 0 is returned if motions, or `zero`, have led to it."""
+    """A position of 0 is returned without an error if motions, or `zero`, have caused it."""
     for way in (300, -300):
         assert axis.move(way).complete
         axis.initialise(1000, 5000, 100)

@@ -48,7 +48,7 @@ class Ended(Exception):  # noqa: N818 - not an error
 
 
 class Records:
-    """Motor records of an IOC in this process, and the lines that it has logged.
+    """Motor records of an IOC in this process, and the lines that the IOC has logged.
 
     Args:
         axes: number of the axes; None: all.
@@ -446,7 +446,7 @@ def test_return_of_a_moving_motor():
 
 
 def test_another_part():
-    """If another part is at the port that returns, all positions stay unknown."""
+    """If another part is connected to the port that returns, all positions stay unknown."""
     with records(reopen=lambda: open_model("ppmc2104")) as ioc:
         ioc.unplug()
         end = time.monotonic() + PATIENCE
@@ -563,7 +563,7 @@ def test_command(port):
 
 @NO_VERILATOR
 def test_board_returns(tmp_path):
-    """The virtual board ends during a motion, and another one appears at the same port: nothing moves before
+    """If the virtual board ends during a motion, and a new one appears at the same port, nothing moves before
     the homing.
     """
     port = tmp_path / "port"

@@ -29,7 +29,7 @@ const view = await launch();
 const base = `http://127.0.0.1:${server.address().port}/`;
 fs.mkdirSync(shots, { recursive: true });
 const PATIENCE = 180_000; // in ms; long, because the computer may be busy
-const MOST_MS = 400; // limit for the figure of which 100 ms are wanted; other processes may delay one of three runs
+const MOST_MS = 400; // limit for the best of three runs; the goal is 100 ms, but other processes may delay them
 const equal = (got, wanted, what) => {
   if (got !== wanted) throw new Error(`${what}: ${JSON.stringify(got)} instead of ${JSON.stringify(wanted)}`);
 };
@@ -48,7 +48,7 @@ class Port {
     this.page = undefined;
   }
   open(page, baud) {
-    if (this.page) return false; // as the operating system: a port has one user
+    if (this.page) return false; // like an operating system: a port has only one user
     this.page = page;
     if (typeof this.device !== "string") return true;
     this.file = fs.openSync(this.device, fs.constants.O_RDWR | fs.constants.O_NOCTTY | fs.constants.O_NONBLOCK);
@@ -117,7 +117,7 @@ async function open(port, part = "ppmc104", { context, ...more } = {}) {
 }
 const phase = (page, name) => page.waitForSelector(`.pg-board[data-phase="${name}"]`);
 const trouble = (page) => page.textContent(".pg-board-trouble");
-/** Connect. A virtual board on a busy computer may answer too late, so there are several attempts. */
+/** Connect to the board. A virtual board on a busy computer may answer too late, so this is tried several times. */
 async function connect(page, attempts = 5) {
   await page.click(".pg-board-connect");
   await page.waitForSelector('.pg-board:not([data-phase="opening"])');
@@ -222,7 +222,7 @@ const checks = {
     truth(/1000 pulses CCW/.test(await prepare(page, `${INIT}\nc 4B d E7 d 03 d 00\nidle`)), "the direction is missing");
     await page.click("text=Cancel");
     await phase(page, "ready");
-    // Statements that a board cannot execute, and wrong ones: one message, and no confirmation.
+    // A statement that a board cannot execute, or an invalid one, causes one message and no confirmation.
     for (const [text, wanted] of [
       ["set l1_n=0\nc 43", "line 1: set l1_n: the board has a real machine"],
       ["c 0A\nmachine on", "line 2: machine: the board has a real machine"],
@@ -266,7 +266,7 @@ const checks = {
     await prepare(page);
     await page.click(".pg-board-go");
     await moves(page, 3);
-    // The first bytes of the stop interrupt a wait of the bridge, so the page sends it several times.
+    // The first bytes of the stop only end a wait of the bridge, so the page sends the stop several times.
     const sent = port.scripts.length;
     await page.evaluate(() => dispatchEvent(new PageTransitionEvent("pagehide")));
     await new Promise((done) => setTimeout(done, 1000));
@@ -429,7 +429,7 @@ for (const [name, check] of Object.entries(checks).filter(([name]) => name.inclu
     line.error = String(error.stack).split("\n").slice(0, 6).join(" ");
   }
   for (const context of view.contexts()) await context.close();
-  for (const port of Port.all.splice(0)) port.close(); // as the browser: a closed tab has no port
+  for (const port of Port.all.splice(0)) port.close(); // like a browser, which closes the ports of a closed tab
   line.seconds = (Date.now() - begin) / 1000;
   console.log(JSON.stringify(line));
 }

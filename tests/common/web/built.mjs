@@ -243,7 +243,7 @@ const checks = {
     equal(await page.textContent(".pg-rule a"), "P104-OPR-07", "rule");
     const rule = await open(new URL(await page.getAttribute(".pg-rule a", "href"), page.url()).href);
     equal(await rule.textContent("td:target"), "P104-OPR-07", "row of the manual");
-    // Edge to row: the waves still show the access.
+    // A click on an edge selects its row; the waves still show the access.
     await page.press(".pg-log", "Escape");
     equal(await page.$(".pg-log [aria-current]"), null, "row after Escape");
     const at = await page.evaluate(() => {
@@ -257,7 +257,7 @@ const checks = {
     });
     await page.click(".pg-waves canvas", { position: at });
     equal(await current(), "43", "row of an edge");
-    // Line to row.
+    // A click on a line selects its row.
     await page.evaluate(() => (document.querySelector(".pg-editor").scrollTop = 0));
     const height = await page.evaluate(() => document.querySelector(".pg-decoded li").getBoundingClientRect().height);
     await page.click("#pg-text", { position: { x: 20, y: 7.5 * height } });

@@ -1,5 +1,5 @@
 // node firefox.mjs HTML SHOTS PACKAGES: open the playground in the Firefox on PATH, from a file.
-// Output: a line with its version. Without a Firefox, the program prints one line and ends with exit code 3.
+// Output: a line with the version of Firefox. Without Firefox, the program prints one line, and its exit code is 3.
 import { execFileSync } from "node:child_process";
 import path from "node:path";
 import { createRequire } from "node:module";
@@ -14,7 +14,7 @@ function found() {
     try {
       return execFileSync("which", [name], { encoding: "utf8" }).trim();
     } catch {
-      // There is no program of this name.
+      // This name is not a program on PATH.
     }
   console.error("no Firefox is installed");
   process.exit(3);

@@ -1,5 +1,5 @@
-// Stand-in for navigator.serial; its port is connected to the functions boardOpen, boardWrite and boardClose of the test.
-// The events of the test arrive through globalThis.fakeSerial.
+// Stand-in for navigator.serial. Its port calls the functions boardOpen, boardWrite and boardClose of the test.
+// The test reports events through globalThis.fakeSerial.
 (() => {
   const failed = (text, name) => new DOMException(text, name);
   class FakePort extends EventTarget {

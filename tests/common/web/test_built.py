@@ -86,5 +86,5 @@ def test_built(name):
 
 
 def test_firefox():
-    """In Firefox, the first visit starts a session, and the playground fills the window without scrolling."""
+    """In Firefox, the first visit starts a session, and the playground fits the window without scrolling."""
     add(f"site: the playground runs in {run('firefox.mjs').strip()}")

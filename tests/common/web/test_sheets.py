@@ -47,7 +47,7 @@ def document(part: str) -> PDFDocument:
 
 
 def words(text: str) -> str:
-    """Return a text in which each white space is one space."""
+    """Return a text in which one space replaces each run of white space."""
     return " ".join(text.split())
 
 
@@ -117,7 +117,7 @@ def test_margins(part):
 
 @pytest.mark.parametrize("part", PARTS)
 def test_links(part):
-    """A link leads to the web or to a place in the document, never to a file."""
+    """Each link leads to a web address or to a place in the document, never to a file."""
     targets: list[Any] = []
     for xref in document(part).xrefs:
         for number in xref.get_objids():
@@ -129,7 +129,7 @@ def test_links(part):
 
 
 def test_same_bytes():
-    """Another process, with another time zone and folder, makes the same bytes."""
+    """A second process, with another time zone and folder, makes the same bytes."""
     program = "import sys; from scripts.site import sheets; sys.stdout.buffer.write(sheets.make(sys.argv[1]))"
     env = {**os.environ, "SOURCE_DATE_EPOCH": "1700000000", "TZ": "Asia/Tokyo", "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-c", program, "bank"]

@@ -61,7 +61,7 @@ def test_rules(part):
 
 
 def test_rules_of_commands():
-    """The rule of a command is that of its operation or register; the manual's rows get anchors."""
+    """The rule of a command is the rule of its operation or register; the row of each rule gets an anchor."""
     rules = {part: tables(part, Ppmc104Decoder())["codes"] for part in ("ppmc104", "ppmc312", "pmc006")}
     assert rules["ppmc104"]["43"]["rule"] == "P104-OPR-07" and rules["ppmc104"]["81"]["rule"] == "P104-RD-05"
     assert rules["ppmc312"]["82"]["rule"] == "P312-CMD-82" and rules["pmc006"]["s"]["rule"] == "P006-CMD-40"

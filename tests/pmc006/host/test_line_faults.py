@@ -106,9 +106,9 @@ def test_a_controller_that_falls_silent_after_a_start() -> None:
 
 @pytest.mark.parametrize("steps", [3, -90])
 def test_a_controller_that_was_reset_after_a_start(steps: int) -> None:
-    """If the controller loses its power during a move from 0, its start is not repeated.
+    """If the controller loses its power during a move from position 0, the start is not sent again.
 
-    The position is 0 again, as before the start, but the motor has moved.
+    The position reads 0 again, as before the start, but the motor has moved.
     """
     port, part = quick()
     with part:
