@@ -88,8 +88,8 @@ class CharBus:
         while not (answer := self._line.read(max(0.0, end - self._line.clock()))):
             if self._line.clock() >= end:
                 raise NoAnswer(
-                    f"{self._line.name}: no answer of a character host; check the power, and that the bitstream "
-                    "was built with BRIDGE=0"
+                    f"{self._line.name}: no answer of a character host; check the power, and that the "
+                    "bitstream was built with BRIDGE=0"
                 )
         return answer[-1]
 
