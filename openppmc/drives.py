@@ -109,8 +109,8 @@ class SettingsDrive(Drive):
 
     has_acceleration = True
 
-    # Settings when the speeds were last read. The station may have been reset, so `initialise` restores them.
-    _kept: tuple[tuple[str, int], ...] = ()
+    _before: tuple[tuple[str, int], ...] = ()  # settings that `initialise` restores
+    _kept: tuple[tuple[str, int], ...] = ()  # settings when the speeds were last read
 
     def attach(self, axis: Any) -> None:
         super().attach(axis)
@@ -121,8 +121,10 @@ class SettingsDrive(Drive):
         return self.axis.trigger  # type: ignore[no-any-return]
 
     def initialise(self) -> None:
-        for name, value in self._kept:
+        # The station may have been reset: also restore the settings that were read last.
+        for name, value in (dict(self._kept) | dict(self._before)).items():
             setattr(self.axis, name, value)
+        self._before = ()
 
     @property
     def speeds(self) -> Speeds:
