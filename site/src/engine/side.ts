@@ -125,7 +125,7 @@ export function words(ports: readonly Port[]): number {
   return ports.reduce((sum, port) => sum + Math.ceil(port.width / 32), 0);
 }
 
-export function joined(parts: readonly number[]): bigint {
+function joined(parts: readonly number[]): bigint {
   return parts.reduce((sum, part, n) => sum | (BigInt(part >>> 0) << BigInt(32 * n)), 0n);
 }
 
