@@ -301,9 +301,16 @@ const checks = {
     await connect(page);
     await page.click("text=Self-test");
     await phase(page, "confirm");
+    // The page itself presses Stop: a click by the test may arrive after the next session has begun.
+    await page.evaluate(() => {
+      const board = document.querySelector(".pg-board");
+      new MutationObserver((_, observer) => {
+        if (board.dataset.phase !== "comparing") return;
+        observer.disconnect();
+        document.querySelector(".pg-board-stop").click();
+      }).observe(board, { attributeFilter: ["data-phase"] });
+    });
     await page.click(".pg-board-go");
-    await phase(page, "comparing");
-    await page.click(".pg-board-stop");
     await phase(page, "ready");
     const sent = port.moving.length;
     await page.waitForTimeout(500);
