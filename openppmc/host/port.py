@@ -213,6 +213,12 @@ def _how_to_get_permission(path: str) -> str:
     return f"add yourself to its group ({group}): sudo usermod -aG {group} $USER, then log in again"
 
 
+def virtual(spec: str) -> str:
+    """Return the port without `char:` if it is `sim:…` or `model:…`, else "". It need not have its colon."""
+    inner = spec.removeprefix(CHAR)
+    return inner if f"{inner}:".startswith((MODEL, SIM)) else ""
+
+
 def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
     """Open a port: device path, `sim:plant text`, `model:plant text` or `char:port`. Raises PortError."""
     if spec.startswith(CHAR):

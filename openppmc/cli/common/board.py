@@ -48,9 +48,9 @@ class Board:
     @property
     def virtual(self) -> bool:
         """True if the port is a virtual board."""
-        from ...host.port import MODEL, SIM
+        from ...host.port import virtual
 
-        return self.port.startswith((MODEL, SIM))
+        return ":" in virtual(self.port)
 
     @property
     def spec(self) -> str:
@@ -64,12 +64,11 @@ class Board:
     def planned(self) -> Capabilities:
         """Part for a plan, which needs no board: from --part, else from a virtual port, else USUAL."""
         from ...host.capabilities import capabilities_of
+        from ...host.port import virtual
 
         if self.part is not None:
             return capabilities_of(self.part)
-        if not self.virtual:
-            return capabilities_of(USUAL)
-        words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
+        words = virtual(self.port).replace(" ", "").lower().partition(":")[2].split(",")
         named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
         return capabilities_of(named[-1] if named and named[-1] in NAMES else USUAL)
 

@@ -27,7 +27,7 @@ from ...host.capabilities import Capabilities
 from ...host.link import DEFAULT_BAUD
 from ...host.motion import Progress
 from ...host.part import AnyAxis, Device, Part
-from ...host.port import MODEL, SIM
+from ...host.port import virtual
 from ...host.script import Build
 from ...host.stopping import NO_MOTION, arrived, handled, name_of, print_line, stop_motors
 from ...streams import StdoutLost
@@ -52,7 +52,7 @@ def state_folder() -> Path:
 
 def stores_setup(port: str) -> bool:
     """Return True if set-ups may be stored for this port. A virtual board starts in reset each time."""
-    return bool(port) and not f"{port}:".startswith((MODEL, SIM))
+    return bool(port) and not virtual(port)
 
 
 def _file(port: str, axis: int) -> Path:

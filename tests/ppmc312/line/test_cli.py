@@ -106,6 +106,8 @@ def test_init_stop_reset(run: Run, tmp_path: Path) -> None:
         load_setup(PORT) == {}
         and not stores_setup("sim")
         and not stores_setup("model:x")
+        and not stores_setup("char:sim:bridge=0")
+        and stores_setup("char:/dev/ttyUSB1")
         and stores_setup("simple")
     )
 
