@@ -14,6 +14,9 @@ const common = {
   logLevel: "warning",
   legalComments: "none",
 };
+// uPlot formats numbers for the browser's language. Without a system language, Chromium names one that is invalid.
+const validLanguage = `try { new Intl.NumberFormat(navigator.language) }
+catch { Object.defineProperty(navigator, "language", { value: "en" }) }`;
 const worker = await build({ ...common, entryPoints: ["src/worker.ts"], format: "iife", write: false });
 await build({
   ...common,
@@ -22,6 +25,7 @@ await build({
   format: "iife",
   jsx: "automatic",
   jsxImportSource: "preact",
+  banner: { js: validLanguage },
   define: { WORKER: JSON.stringify(worker.outputFiles[0].text) },
 });
 // The tests use the engine without the page.

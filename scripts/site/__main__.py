@@ -39,7 +39,6 @@ title: Playground
 <div id="openppmc-playground" markdown="0"><p>The playground needs JavaScript and WebAssembly.</p></div>
 <link rel="stylesheet" href="playground/playground.css">
 <link rel="preload" as="script" href="playground/parts/ppmc104.js">
-<script>document.body.classList.add("playground-page")</script>
 <script src="playground/parts.js"></script>
 <script src="playground/playground.js"></script>
 

@@ -68,8 +68,11 @@ def run_links(source: str, markdown: str) -> str:
 def on_post_page(output: str, page: Any, **_: Any) -> str:
     """Load the shim of the search from this site instead of another host. MkDocs calls this for each page.
 
-    The row of each rule gets an anchor, to which the log of the playground links.
+    The row of each rule gets an anchor, to which the log of the playground links. The body of the playground
+    has a class from the first paint on, so that nothing moves while the page loads.
     """
+    if page.file.src_uri == "playground.md":
+        output = output.replace("<body ", '<body class="playground-page" ', 1)
     output = RULE.sub(lambda cell: f'<td id="{cell[1].lower()}">{cell[1]}</td>', output).replace(*SEARCH)
     return output.replace(SHIM, os.path.relpath("iframe-worker.js", os.path.dirname(page.file.src_uri)))
 

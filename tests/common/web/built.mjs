@@ -29,6 +29,7 @@ const fromFile = pathToFileURL(`${html}/`).href;
 fs.mkdirSync(shots, { recursive: true });
 const PATIENCE = 30_000;
 const MOST_FRAME = 33; // maximum CPU time of the page in ms; other processes do not count
+const MOST_SHIFT = 0.05; // cumulative layout shift, a number without a unit; Lighthouse calls up to 0.1 good
 const MOST_PAUSE = 200; // maximum CPU time of the page in ms
 const MOST_WAITING = 2; // frames in transit to the page: the one that it draws, and that of Pause
 const equal = (got, wanted, what) => {
@@ -163,6 +164,29 @@ const checks = {
       await rest(page);
       equal(await position(page), 1000, from);
     }
+    return [page];
+  },
+  async "nothing moves while the playground loads"() {
+    delays = { "playground.css": 500 };
+    const page = await open(`${base}playground.html`);
+    delays = {};
+    await page.waitForFunction(() => Number(document.querySelector(".pg-position")?.textContent) > 0);
+    const shift = await page.evaluate(
+      () =>
+        new Promise((done) => {
+          const sum = (list) => list.getEntries().reduce((all, { value }) => all + value, 0);
+          new PerformanceObserver((list) => done(sum(list))).observe({ type: "layout-shift", buffered: true });
+          setTimeout(() => done(0), 1000); // there was no shift
+        }),
+    );
+    if (shift > MOST_SHIFT) throw new Error(`cumulative layout shift: ${shift}`);
+    return [page, `cumulative layout shift of the playground while it loads: ${shift.toFixed(3)}`];
+  },
+  async "a browser without a valid language"() {
+    const page = await open(`${base}playground.html`, {}, () =>
+      Object.defineProperty(navigator, "language", { value: "en-US@posix", configurable: true }),
+    );
+    await page.waitForFunction(() => Number(document.querySelector(".pg-position")?.textContent) > 0);
     return [page];
   },
   async "the layout of the playground at three sizes"() {
