@@ -20,7 +20,7 @@ module ppmc_pulse_shaper #(
     input  wire logic                arm_i,    // strobe: start the set-up time, without a pulse
     input  wire logic                pulse_i,  // strobe: a pulse
     input  wire logic                full_i,   // with pulse_i; 1: full pulse, which is never cut
-    input  wire logic                halve_i,  // 1: low times of half an interval apply
+    input  wire logic                halve_i,  // 1: at rates below HalfRates, low time is half an interval
     input  wire logic [RateBits-1:0] rate_i,   // rate of the interval after the pulse
     input  wire logic                cut_i,    // 1: end the low time now, unless the pulse is a full pulse
     output logic                     low_o,    // 1: a pulse is active

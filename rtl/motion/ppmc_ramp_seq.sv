@@ -17,7 +17,7 @@
 module ppmc_ramp_seq #(
     parameter int unsigned CountBits = 24,  // bits of the pulse count
     parameter int unsigned RateBits  = 8,
-    parameter int unsigned StepBits  = 14,  // bits of ramp_level; must store acceleration pulses PA + 1
+    parameter int unsigned StepBits  = 14,  // bits of ramp_level (maximum: acceleration pulses + 1)
     parameter int unsigned LutBits   = 14   // bits of a word of the ramp table
 ) (
     input wire logic clk_i,

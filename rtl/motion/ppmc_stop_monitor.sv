@@ -11,7 +11,7 @@
 module ppmc_stop_monitor
   import ppmc_motion_pkg::*;
 #(
-    parameter bit StopAtSlow = 1'b0,  // 1: a deceleration request at the start-up rate is a stop
+    parameter bit StopAtSlow = 1'b0,  // 1: at the start-up rate, a deceleration request stops immediately
     parameter bit SlowAlways = 1'b0,  // 1: in POUT mode, slow-down limits also act outside the plateau
     parameter bit SlowOrigin = 1'b0   // 1: a slow-down limit ends an origin search immediately
 ) (
@@ -27,7 +27,7 @@ module ppmc_stop_monitor
     input  wire logic      dec_i,            // 1: the natural deceleration has begun
     input  wire logic      halt_i,           // strobe: immediate stop command
     input  wire logic      decel_i,          // strobe: deceleration stop command
-    input  wire logic      slow_i,           // slow_seen_o or a delayed copy; 1: act on a slow-down limit
+    input  wire logic      slow_i,           // slow_seen_o, directly or delayed; 1: act on a slow-down limit
     output logic           slow_seen_o,      // 1: a slow-down limit is effective; not valid with stop_o
     output logic           stop_o,           // 1: end the motion now, without a further pulse
     output logic           forced_o,         // 1: forced deceleration is requested; not valid with stop_o

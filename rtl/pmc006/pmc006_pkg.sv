@@ -106,7 +106,7 @@ package pmc006_pkg;
     logic [31:0]   data;
   } exec_cmd_t;
 
-  // ---- registers; the value is the address in pmc006_reply_ram ------------------------------------------
+  // ---- register numbers, which are the addresses in pmc006_reply_ram --------------------------------------
 
   // A reset of pmc006_reply_ram fills the addresses from 2 on.
   typedef enum logic [4:0] {

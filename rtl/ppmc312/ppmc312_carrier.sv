@@ -184,7 +184,7 @@ module ppmc312_carrier #(
     logic unused_bus;
     assign unused_bus = ^{rs, cs_n, oe_n, we_n, d_i};
   end else begin : g_host
-    // All recorded levels; the first pin is bit 0.
+    // All recorded levels; part_rst_n is bit 0.
     localparam int unsigned Watch = 63;
     logic [Watch-1:0] watch;
     assign watch = {

@@ -30,7 +30,7 @@ package ppmc312_link_pkg;
     SrcOverride = 2'b11
   } source_e;
 
-  localparam int unsigned PARAMS = 13;  // parameters of the longest instruction
+  localparam int unsigned PARAMS = 13;  // number of parameters of the longest instruction
 
   // An instruction block. Each parameter is stored at its position in the long form of the instruction; a
   // missing parameter is 0. If an initial setting has no separate sides, the deceleration side has the
@@ -110,7 +110,7 @@ package ppmc312_link_pkg;
     logic             counted;    // strobe: a pulse has been counted in pos
     logic             lock;       // interlock control is active
     logic [1:0]       window_on;  // monitor is enabled, [0]: in-position, [1]: encode
-    logic [1:0]       outside;    // monitor is enabled, and the position is outside
+    logic [1:0]       outside;    // monitor is enabled, and the position is outside its range
   } axis_state_t;
 
   // ---- reports of the motor side ------------------------------------------------------------------
@@ -131,7 +131,7 @@ package ppmc312_link_pkg;
   // Monitors, classes 7 and 8: [0] in-position, [1] encode.
   typedef struct packed {
     logic [1:0] pending;  // a report is pending
-    logic [1:0] outside;  // contents of the report; 1: outside, 0: inside
+    logic [1:0] outside;  // contents of the report; 1: outside the range, 0: inside
   } monitor_req_t;
 
   typedef struct packed {

@@ -45,7 +45,7 @@ module ppmc_single
     // motion
     input wire logic clock_pin_i,  // external base clock, asynchronous
     input wire switches_t switches_i,  // switches, synchronised
-    input wire logic slow_i,  // slow_seen_o or a delayed copy; 1: act on a slow-down limit
+    input wire logic slow_i,  // slow_seen_o, directly or delayed; 1: act on a slow-down limit
     output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     output motion_t motion_o,  // state of the motion
     output logic [7:0] rate_o,  // rate of the running interval

@@ -67,7 +67,7 @@ module pmc006_eeprom
     StSource,  // device address of the read
     StData,
     StStop,
-    StWipe,    // clears the program
+    StWipe,    // clears the program if it is invalid
     StLoad,    // loads the registers from the page
     StSettle,
     StIdle

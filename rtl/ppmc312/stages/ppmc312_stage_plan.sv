@@ -42,7 +42,7 @@ module ppmc312_stage_plan
     output logic op_start_o,  // strobe: start the operation
     output logic op_mul_o,  // 1: multiply, 0: divide
     output logic [23:0] op_lo_o,  // multiplier
-    output logic [24:0] operand_o,  // product: 0, then multiplicand; division: divisor
+    output logic [24:0] operand_o,  // product: 0 with op_start_o, then multiplicand; division: divisor
     input wire logic op_busy_i,  // 1: the result is not valid yet
     input wire logic [23:0] lo_i  // low bits of the product, or quotient
 );
@@ -204,7 +204,7 @@ module ppmc312_stage_plan
 
   assign op_start_o = !wait_q && state_q inside {StMultiply, StDivide};
   assign op_mul_o = state_q == StMultiply;
-  // A product starts with h = 0, and then uses over_q as the multiplicand.
+  // Product: operand_o is 0 (the summand) in the cycle of op_start_o, and then over_q (the multiplicand).
   assign operand_o = (over_q & {25{op_mul_o && wait_q}}) | (sum_q & {25{!op_mul_o}});
   assign op_lo_o = acc_kept_q;
   assign op_done = wait_q && !op_busy_i;

@@ -26,8 +26,8 @@ module ppmc_bank_interval_rom_fv
   );
 
   // A base clock has 8 quanta (fast) or 32 quanta (slow). With extra_time = 1 (vsel low), an interval has
-  // 30 more quanta. The low time has 20 quanta. With the fast base clock, extra_time = 0 and a rate of 0 to
-  // 2, it is half of the interval.
+  // 30 more quanta. The low time has 20 quanta. Exception: with the fast base clock, extra_time = 0 and a
+  // rate of 0 to 2, the low time is half of the interval.
   interval_t interval_q, interval_q2;
   logic [1:0] valid_q;  // 1: the registers of the block are filled
   logic [TimeBits-1:0] base_clocks, interval_cycles, low_cycles;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_excitation_fv: proves that the phases are always a row of the tables in the manual, and that a step
-// selects the next row.
+// ppmc_excitation_fv: proves that the phases are always off or a row of the tables in the manual, and that
+// each step moves by one row in its direction.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -40,7 +40,7 @@ module ppmc_excitation_fv
 
   // Even rows have two adjacent phases. Odd rows have one phase (3- and 4-phase motors) or three phases
   // (5-phase motors).
-  logic [3:0] one, two, three;  // one, two or three adjacent phases, from the phase of the index on
+  logic [3:0] one, two, three;  // numbers of three adjacent phases; `one` is the phase of the index
 
   assign one   = {1'b0, index_q[3:1]};
   assign two   = (one + 4'd1 == (length >> 1)) ? 4'd0 : one + 4'd1;

@@ -99,7 +99,7 @@
 
   logic homed_q, positive_q;
   logic [3:0] index_q, length, stride;  // row of the half-step table
-  logic [3:0] one, two, three;  // adjacent phases of this row
+  logic [3:0] one, two, three;  // numbers of three adjacent phases; `one` is the phase of the index
   logic [4:0] row, row_q, lines;
 
   assign length = 4'd2 * (4'(setup.motor) + 4'd2);
