@@ -330,7 +330,7 @@ module ppmc_bank_engine
     read_data_o <= clear_i[4] ? '0 : read_data;
     read_data_we_o <= clear_i[4] || decision_s4_q.read;
     pin_cmd_o <= clear_i[4] ? '0 : pin_cmd;
-    // set_pins without chop_edge acts in the first possible cycle, other actions cycles_left cycles later.
+    // set_pins without chop_edge acts in the first possible cycle. Others follow cycles_left cycles later.
     at_cycle_o     <= axis_i[0] + axis_t'(2)
         + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
     irq_set_o <= irq_set && !clear_i[4];

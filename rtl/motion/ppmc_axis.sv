@@ -31,7 +31,7 @@ module ppmc_axis
     parameter bit StopAtSlow = 1'b0,  // 1: at the start-up rate, a deceleration request stops immediately
     parameter bit SlowAlways = 1'b0,  // 1: in POUT mode, slow-down limits also act outside the plateau
     parameter bit SlowOrigin = 1'b0,  // 1: a slow-down limit ends an origin search immediately
-    parameter bit OriginAtPulse = 1'b0,  // a search ends 1: with a pulse at the origin, 0: immediately there
+    parameter bit OriginAtPulse = 1'b0,  // 1: a search ends with a pulse at the origin, 0: without a pulse
     parameter bit PulsePin = 1'b1  // 0: no pulse output; low_o stays 0, the last pulse ends the motion
 ) (
     input wire logic clk_i,
@@ -305,8 +305,8 @@ module ppmc_axis
           base: base_q
       };
 
-  // The assertions check that no pulse occurs at or after an immediate end, that a motion without a cause of
-  // the end completes its count, and that no pulse is missed because a low time was not cut.
+  // The assertions check that no pulse occurs at or after an immediate end, that a motion that no cause ends
+  // completes its count, and that no pulse is missed because a low time was not cut.
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
   // External clock edges less than 4 cycles apart are too fast (P104-BAD-14, P2104-BAD-19): the cut may be

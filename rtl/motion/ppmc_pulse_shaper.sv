@@ -3,8 +3,8 @@
 //         set-up is as long as a full pulse.
 // Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
 //         changed).
-// Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i on, unless it is cut.
-//         past_o rises WidthCycles cycles after arm_i.
+// Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i on, unless halve_i or cut_i
+//         ends it earlier. past_o rises WidthCycles cycles after arm_i.
 `default_nettype none
 
 module ppmc_pulse_shaper #(

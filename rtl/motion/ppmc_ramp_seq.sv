@@ -9,7 +9,7 @@
 //         - First deceleration step: rate_o changes one cycle later (rising_o = 1), to the rate of the
 //           interval before the last acceleration step.
 //         - Further deceleration steps: the look-up runs in the new interval, also for 3 n + 1 cycles.
-//           During the look-up, rate_o rises from the previous rate. It is valid when rising_o falls.
+//           During the look-up, rate_o rises from the previous rate, and is valid when rising_o falls.
 // Assumes: pulses are at least 3 cycles apart; pulse 1 is at least 4 cycles after load_i.
 `include "ppmc_assert.svh"
 `default_nettype none

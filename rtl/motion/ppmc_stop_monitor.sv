@@ -48,8 +48,8 @@ module ppmc_stop_monitor
   assign stop_o = hard || (StopAtSlow && at_start_rate_i && (slow_now || decel_now));
 
   // A deceleration can be requested only once. An immediate end at the same edge has priority, but
-  // slow_seen_o and forced_o do not include this priority. They are only evaluated together with a pulse,
-  // and no pulse occurs at an immediate end.
+  // slow_seen_o and forced_o do not include this priority. They are evaluated only together with a
+  // pulse, and no pulse occurs at an immediate end.
   assign can_request = armed_i && op_i.ramp && !flagged_o && !dec_i;
   assign slow_seen_o = can_request && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = can_request && slow_i;

@@ -4,8 +4,8 @@
 // Rules:  HOST = "UART": docs/uart_bridge.md. Strap outputs 0, 1, 2 of the bridge are ANDed with run,
 //         evt0_n, evt1_n.
 //         HOST = "BUS": the pins of the parallel bus.
-//         HOST = "SERIAL": the serial station. It receives frames from both lines (only one may have a
-//         master) and sends replies to both. Wiring: docs/boards.md.
+//         HOST = "SERIAL": the serial station. It receives frames from uart_rxd and rs485_rxd (only one of
+//         these lines may have a master) and sends replies to both lines. Wiring: docs/boards.md.
 // Timing: same as ppmc312. With RECORD != 0, inputs other than those of the host act 2 cycles later. No input
 //         needs an external synchroniser.
 `default_nettype none

@@ -157,7 +157,7 @@ package ppmc312_link_pkg;
 
   typedef struct packed {
     logic                valid;           // strobe: a response is complete
-    logic                host;            // the response is for the host
+    logic                host;            // the response is to an instruction of the host
     trigger_result_e     trigger_result;  // valid if host = 0: result of the triggered instruction
     logic [BLOCK_BITS:0] size;            // bytes of the response, 3 .. 32
   } response_done_t;
@@ -165,13 +165,13 @@ package ppmc312_link_pkg;
   // State of the two-entry queue of class 2.
   typedef struct packed {
     logic full;       // a response can be read
-    logic full_host;  // the response that can be read is for the host
+    logic full_host;  // the response that can be read is to an instruction of the host
     logic pending;    // another, newer response waits
   } response_queue_t;
 
   // Result of a block from the host, for the serial station.
   typedef struct packed {
-    logic       valid;  // strobe: the block is executed
+    logic       valid;  // strobe: the block has been executed
     logic [7:0] code;   // code of the response, one cycle later
     logic [2:0] first;  // bits 2:0 of the first byte after the code, one cycle later
   } host_result_t;

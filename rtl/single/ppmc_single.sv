@@ -33,7 +33,7 @@ module ppmc_single
     output logic int_no,  // low: a motion has ended
     // decoding of the bytes by the device
     output rx_byte_t rx_byte_o,  // current byte from the host
-    input wire decoded_byte_t decoded_byte_i,  // decoded byte
+    input wire decoded_byte_t decoded_byte_i,  // rx_byte_o.data, decoded
     output command_req_t command_req_o,  // command that the host requests with the current byte
     input wire check_result_t check_result_i,  // result of the check of command_req_o
     input wire logic stops_only_i,  // 1: only stop commands may be accepted

@@ -45,7 +45,8 @@ module eeprom_24c32 #(
   logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;  // 1: the data line is held low
   int unsigned writing  /* verilator public_flat_rw */ = 0;  // remaining cycles of a write
 
-  // Page writes since power-on: first address, number of bytes, and the bytes (32 words of log_data each).
+  // Page writes since power-on: first address, number of bytes, and the bytes (32 elements of log_data for
+  // each write).
   int unsigned writes  /* verilator public_flat_rw */ = 0;
   logic [11:0] log_address[Log]  /* verilator public_flat_rw */;
   logic [5:0] log_count[Log]  /* verilator public_flat_rw */;
@@ -101,7 +102,7 @@ module eeprom_24c32 #(
     rest();
   endfunction
 
-  // Acknowledges after the eighth bit, until the next falling edge.
+  // Processes a byte after its eighth bit. Drives the acknowledge until the next falling edge of SCL.
   function automatic void take();
     unique case (state)
       StDevice: begin

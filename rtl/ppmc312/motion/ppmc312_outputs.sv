@@ -20,7 +20,7 @@ module ppmc312_outputs #(
     input  wire logic       aclr_i,            // alarm clear
     input  wire logic       clamp_i,           // zero clamp
     input  wire logic       aux_i,             // generalized output
-    input  wire logic [5:0] aux_data_i,        // with aux_i; 1: pin low
+    input  wire logic [5:0] aux_data_i,        // with aux_i; [n] = 1: pin n is low
     // state of the motor side
     input  wire logic       launch_i,          // strobe: a motion starts (t0)
     input  wire logic       output_end_i,      // strobe: pulse output has ended

@@ -5,8 +5,8 @@
 // Timing: ready_o is combinational. For pulse 1, it is asserted CYC(WidthXtal) cycles after arm_i. Each
 //         later pulse can fire exactly ceil(n * T) cycles after pulse 1, where n is the number of base clocks
 //         between both pulses, and T is the period of the base clock in cycles. With the external clock, a
-//         pulse can fire in the cycle of its edge. Two pulses are at least 4 cycles apart. A late pulse does
-//         not shorten later intervals.
+//         pulse can fire in the cycle of the edge that ends the interval. Two pulses are at least 4 cycles
+//         apart. A late pulse does not shorten later intervals.
 // Note:   a base clock may last one cycle. Therefore this module cannot use ppmc_base_clock and
 //         ppmc_rate_counter, which need 3 cycles per base clock.
 `include "ppmc_assert.svh"

@@ -35,8 +35,8 @@ module ppmc312_stage_builder
     output logic [23:0] op_lo_o,  // multiplication: multiplier; division: low part of the dividend
     output logic [39:0] word_o,  // with op_start_o: summand or upper dividend; then the operand
     input wire logic op_busy_i,  // 1: the result is not valid yet
-    input wire logic [39:0] hi_i,  // result; remainder
-    input wire logic [23:0] lo_i  // low bits of the result; quotient
+    input wire logic [39:0] hi_i,  // multiplication: high bits of the result; division: remainder
+    input wire logic [23:0] lo_i  // multiplication: low bits of the result; division: quotient
 );
 
   localparam logic [6:0] Last = 7'd126;

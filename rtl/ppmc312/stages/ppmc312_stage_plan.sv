@@ -21,7 +21,7 @@ module ppmc312_stage_plan
     input wire logic start_i,  // strobe: start
     input wire logic ramp_i,  // 1: look up and plan, 0: look up only
     input wire logic endless_i,  // 1: the operation runs until it is stopped
-    input wire logic [15:0] rate_i,  // base clocks; this input and all below: stable while busy
+    input wire logic [15:0] rate_i,  // rate in base clocks; stable while busy_o = 1, like the inputs below
     input wire logic [31:0] count_i,  // pulses, at least 1
     input wire logic [6:0] first_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
@@ -173,9 +173,9 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_some: dec_pulses_o is loaded. If the search for the start of the deceleration has just begun
-  // (begins_q), it is the number of pulses that remain for the deceleration. Otherwise it is the number of
-  // pulses of the complete deceleration. dec_none: dec_pulses_o is cleared.
+  // dec_some: dec_pulses_o is loaded. In the first cycle of the search for the start of the deceleration
+  // (begins_q), the new value is the number of pulses that remain for the deceleration. Otherwise it is the
+  // number of pulses of the complete deceleration. dec_none: dec_pulses_o is cleared.
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 

@@ -30,7 +30,7 @@ module ppmc312_stage_seq
     output table_addr_t table_addr_o,  // read port of the table
     input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
-    input wire logic load_i,  // strobe: start profile_i
+    input wire logic load_i,  // strobe: start the operation profile_i
     input wire profile_t profile_i,  // sampled with load_i; target also 2 cycles after change_i
     input wire logic single_i,  // with load_i; 1: one pulse, regardless of dec_pulses
     // requests
@@ -46,7 +46,7 @@ module ppmc312_stage_seq
     output logic [15:0] next_rate_o,  // rate of the next interval, base clocks
     input wire logic step_i,  // strobe: boundary, and a pulse begins
     // running interval
-    output logic [15:0] rate_o,  // base clocks; before pulse 1: planned rate, registered
+    output logic [15:0] rate_o,  // rate of this interval in base clocks; before pulse 1: planned rate
     output logic const_rate_o,  // 1: constant rate
     output logic final_decel_o,  // 1: deceleration to the end
     output logic first_o,  // 1: before pulse 1
@@ -71,7 +71,7 @@ module ppmc312_stage_seq
     logic const_rate;
     logic down;
     logic final_decel;
-    logic last;     // deceleration that ends with the last pulse of the count
+    logic last;     // 1: the deceleration ends with the last pulse of the count
     logic changed;
   } interval_mode_t;
 

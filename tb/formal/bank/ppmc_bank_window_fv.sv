@@ -22,7 +22,7 @@ module ppmc_bank_window_fv
     input wire logic three_bytes_i,  // 1: the response has three bytes
     input wire logic [23:0] read_data_bytes_i,
     input wire logic [6:0] other_status_i,  // status of all axes, except ack_seq of the watched axis
-    input wire logic [1:0] position_i,  // positions
+    input wire logic [1:0] position_i,  // position of every axis
     input wire logic [3:0] map_i  // pending interrupts
 );
 
