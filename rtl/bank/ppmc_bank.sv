@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank: 4 to 64 axes that share one engine. For the host, each axis is a PPMC-104.
 // Rules:  BANK-GEN-01..05; the instantiated blocks implement all others. Manual: docs/bank/README.md.
-// Timing: the engine serves (visits) each axis once in every round of R = max(AXES, 8) cycles. The edges of
-//         the motor pins are exact to the cycle. d_o is valid 5 cycles after the start of a read strobe.
+// Timing: the engine serves (visits) each axis once in every round of R = max(AXES, 8) cycles. The motor pins
+//         change in exactly the cycles that the rules specify. d_o is valid 5 cycles after the start of a
+//         read strobe.
 `default_nettype none
 
 module ppmc_bank
@@ -81,7 +82,8 @@ module ppmc_bank
   // ---- host, engine --------------------------------------------------------------------------------
 
   localparam int unsigned Quantum = 4 * CLK_HZ / XTAL_HZ;  // quantum (4 crystal cycles) in clock cycles
-  localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);  // bits of an interval in cycles
+  // Bits of the number of cycles of the longest interval.
+  localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);
 
   logic go, go_active, stop, stop_active, read_data_we, irq_set, irq_clear;
   logic [5:0][RoundBits-1:0] axis;
@@ -178,8 +180,8 @@ module ppmc_bank
 
   pin_status_t axis_pin_status[AXES];
 
-  // AND and OR gates select the status, because a multiplexer needs twice the number of cells. last_stage
-  // marks the axis in stage 5. The status of the axis in stage 2 is needed; its index is greater by 3.
+  // Selects the status of the axis in stage 2. last_stage marks the axis in stage 5, whose index is lower by
+  // 3. The selection uses AND and OR gates, because a multiplexer needs twice the number of cells.
   always_comb begin
     pin_status = '0;
     for (int unsigned i = 0; i < AXES; i++)

@@ -11,7 +11,7 @@
 module ppmc_bank_axis_port (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,    // reset of the bank; selects axis 0
-    // host, synchronous to clk_i; rd_n, wr_n and write data are connected directly to the bank
+    // host, synchronous to clk_i; its strobes and write data are also connected directly to the bank
     input  wire logic       cs_ni,     // chip select
     input  wire logic       wr_ni,     // write strobe
     input  wire logic [3:0] a_i,       // register

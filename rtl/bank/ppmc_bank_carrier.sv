@@ -126,12 +126,12 @@ module ppmc_bank_carrier #(
     assign unused   = uart_rxd ^ part_oe;
   end else begin : g_uart
     localparam int unsigned AxisBits = $clog2(AXES);
-    localparam int unsigned Watch = 32 + 14 * AXES;  // number of recorded levels; the first pin is bit 0
+    localparam int unsigned Watch = 32 + 14 * AXES;  // number of recorded levels; bit 0 is part_rst_n
 
     logic host_cs_n;
     logic [3:0] host_a;
     logic [7:0] to_host, axis, straps;
-    logic [AxisBits-1:0] pins_axis;  // axis that operation PINS reads
+    logic [AxisBits-1:0] pins_axis;  // axis whose pins the bridge operation PINS reads
 
     logic [Watch-1:0] watch;
 

@@ -15,14 +15,14 @@ module ppmc_bank_engine
   import ppmc_code_pkg::init_code_t;
 #(
     parameter int unsigned Quantum   = 25,    // quantum (4 crystal cycles) in clock cycles
-    parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
+    parameter int unsigned TimeBits  = 18,    // width of interval values, which are numbers of cycles
     parameter bit          PhaseIdle = 1'b1,  // level of s before the first initialisation
     parameter int unsigned RoundBits = 5      // a round is 2^RoundBits cycles
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [5:0][RoundBits-1:0] axis_i,  // axes in stages 0 to 5
-    input wire logic [4:3] clear_i,  // 1: reset the axes of the visits in stages 3 and 4
+    input wire logic [4:3] clear_i,  // [i] = 1: reset the axis in stage i
     // from the window
     input wire in_buf_t in_buf_i,  // stage 1: input buffer
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
@@ -37,7 +37,7 @@ module ppmc_bank_engine
     output logic read_data_we_o,  // strobe: write read_data_o
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which pin_cmd_o is executed
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which the pin block executes pin_cmd_o
     output logic irq_set_o,  // set the pending interrupt of the axis
     output logic irq_clear_o  // clear the pending interrupt of the axis
 );
@@ -47,7 +47,7 @@ module ppmc_bank_engine
   localparam int unsigned HoldBits = $clog2(HoldRounds);
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
-  // Small FPGAs have few block RAMs. Therefore, if there are few axes, logic replaces the smallest one.
+  // Small FPGAs have few block RAMs. With up to 8 axes, the smallest memory therefore consists of logic.
   // verilator lint_off UNUSEDPARAM
   localparam string IntervalStyle = (Round > 8) ? "block" : "logic";
   // verilator lint_on UNUSEDPARAM
@@ -108,7 +108,7 @@ module ppmc_bank_engine
     last_cmd_s1_q <= last_cmd_mem[axis_i[0]];
     ramp_s1_q <= ramp_mem[axis_i[0]];
     chop_units_s3_q <= chop_units_mem[axis_i[2]];
-    // During deceleration (interval_s0_q.decel = 1), the threshold of the next slower rate is compared.
+    // During deceleration (decel = 1), ramp_level is compared with the threshold of the next slower rate.
     interval_s0_q <= interval_pre_q;
     lookup_rate_s0_q <= interval_pre_q.rate + 8'(interval_pre_q.decel);
     interval_s1_q <= interval_s0_q;
@@ -330,7 +330,7 @@ module ppmc_bank_engine
     read_data_o <= clear_i[4] ? '0 : read_data;
     read_data_we_o <= clear_i[4] || decision_s4_q.read;
     pin_cmd_o <= clear_i[4] ? '0 : pin_cmd;
-    // A pin command is executed in the first possible cycle, or cycles_left cycles after this first cycle.
+    // set_pins without chop_edge acts in the first possible cycle. Others follow cycles_left cycles later.
     at_cycle_o     <= axis_i[0] + axis_t'(2)
         + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
     irq_set_o <= irq_set && !clear_i[4];

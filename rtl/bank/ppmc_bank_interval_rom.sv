@@ -15,7 +15,7 @@ module ppmc_bank_interval_rom
 ) (
     input wire logic clk_i,
     input wire interval_t interval_i,  // interval; the field decel is not used
-    output logic [TimeBits-1:0] after_low_o  // end of low time to next pulse in cycles, minus Round
+    output logic [TimeBits-1:0] after_low_o  // cycles from end of low time to next pulse, minus Round
 );
 
   // Word at address i = {slow_base, extra_time, rate}: cycles from the end of the low time to the next

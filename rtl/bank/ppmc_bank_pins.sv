@@ -3,8 +3,9 @@
 //         loads in a visit. Outputs no pulse after a switch, STOP or a halt has ended the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
-//         cycle in which cycle_i = at_cycle_q. Only the field halt takes effect at the end of the first cycle
-//         in which it is valid. A switch acts in the cycle in which it is active on switches_i.
+//         cycle in which cycle_i = at_cycle_q. The field halt does not wait for this cycle. It takes effect
+//         at the end of the first cycle in which it is valid. A switch acts in the cycle in which it is
+//         active on switches_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -2,9 +2,9 @@
 // ppmc_bank_scheduler: selects the axis of each visit. In a round, each axis is visited once. The block
 //         extends reset, GO and STOP to at least one round, so that they act on all axes.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
-// Timing: axis 0 is in stage 0 in the first cycle after reset. clear_o is high for one visit of every axis.
-//         go_o is high for one round from the cycle after go_i on. stop_o is high for one round plus one
-//         cycle from the cycle after stop_i on.
+// Timing: axis 0 is in stage 0 in the first cycle after reset. clear_o is high during the first visit of
+//         every axis. go_o rises one cycle after go_i and is high for one round. stop_o rises one cycle after
+//         stop_i and is high for one round plus one cycle.
 `default_nettype none
 
 module ppmc_bank_scheduler #(

@@ -2,8 +2,8 @@
 // ppmc_bank_window: host interface of a bank. Contains strobe logic and registers, and for each axis one
 //         input buffer and one output queue.
 // Rules:  BANK-WIN-01..08, BANK-HSK-01/03/04, BANK-GEN-04/05, BANK-GRP-01..04.
-// Timing: a write acts at the first edge after the end of its strobe has passed the synchronisers. d_o is
-//         valid from the third edge after the start of a read strobe has passed the synchronisers.
+// Timing: counted from the strobe at the output of the synchronisers: a write acts at the first edge after
+//         the end of its strobe, and d_o is valid from the third edge after the start of a read strobe.
 //         in_buf_o, read_progress_o and config_no are valid one cycle after axis_i.
 // How:    the RAM words of the addressed axis are read in every cycle. If a visit writes one of these words
 //         in the same cycle, the words from the previous cycle are kept. The registers of the bank
@@ -45,8 +45,8 @@ module ppmc_bank_window
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
-  // With few axes, only the positions use block RAM, because small FPGAs have few block RAMs. A status has
-  // only few bits, so the synthesis tool selects its memory. Only attributes use these parameters;
+  // Small FPGAs have few block RAMs. With up to 8 axes, only the positions use them: the responses use
+  // logic, and the synthesis tool selects the memory of the status. Only attributes use these parameters;
   // simulation ignores them.
   // verilator lint_off UNUSEDPARAM
   localparam string ReadDataStyle = (Slots > 8) ? "block" : "logic";
@@ -213,7 +213,7 @@ module ppmc_bank_window
   logic [7:0] data, status, value;
   logic ibf, obf, axis_exists;
   logic [23:0] position_latch_q;  // bytes 1..3 of the position, latched when byte 0 is read
-  logic ready_q;  // ready_i in the cycle of the read data
+  logic ready_q;  // ready_i, one cycle later
 
   assign axis_exists = 32'(a_s2[9:4]) < Axes;
 

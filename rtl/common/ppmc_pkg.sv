@@ -26,7 +26,7 @@ package ppmc_pkg;
     return 32'((64'd2 * product + 64'(xtal_hz)) / (64'd2 * 64'(xtal_hz)));
   endfunction
 
-  // Bits of a counter that must store 0 .. `top`; at least 1.
+  // Number of bits of a counter with the values 0 .. `top`; at least 1.
   function automatic int unsigned cnt_width(int unsigned top);
     return (top < 2) ? 1 : 32'($clog2(64'(top) + 64'd1));
   endfunction

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ram: block RAM with one write and one read port.
-// Timing: read latency two cycles, because the slow block RAM has an output register.
+// Timing: the read latency is two cycles. Block RAM is slow, so its output has an additional register.
 // Assumes: no address is read in the cycle in which it is written (the read would return either word).
 // Note:   the contents are not reset. They are initially 0, and every user writes a word before reading it.
 `default_nettype none

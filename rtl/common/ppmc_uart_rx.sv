@@ -56,9 +56,9 @@ module ppmc_uart_rx #(
     assign unused_wrap = &{1'b0, wrap_i};
     assign {middle, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
   end else begin : g_modulus
-    // The phase starts at an offset, so that each carry marks the end of a bit time. The step after a carry
-    // restores the offset. The phase is set at the end of a character, because the next character may begin
-    // in the next cycle.
+    // The phase has the offset -Modulus, so that a carry occurs every Modulus phases. The step after a carry
+    // (wrap_i) restores this offset. The phase is set to Half at the end of a character, because the next
+    // character may begin in the next cycle.
     logic wrapped_q, char_ends;
     logic [Width-1:0] sum;
 

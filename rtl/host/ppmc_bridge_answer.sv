@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_answer: stores the data of an answer in the answer buffer. The data are single bytes, and
 //         blocks for IDENT, VERSION, RECORDED and COUNT.
-// Rules:  UB operations IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
+// Rules:  docs/uart_bridge.md: operations IDENT, VERSION, RECORDED and COUNT; UB-ANS-02 (256 bytes),
+//         UB-ANS-05 (free space).
 // Timing: put_i stores a byte at the next edge. A block takes one cycle per byte. The block of COUNT is
 //         restarted if its counter has changed while the block was stored. The full flags are valid two
 //         cycles after the last byte.
@@ -23,8 +24,8 @@ module ppmc_bridge_answer
     input  wire logic   [        7:0] data_i,     // byte; valid with put_i
     input  wire logic                 ident_i,    // strobe: begin a block of 16 bytes
     input  wire block_e               block_i,    // block to be stored; stable while busy_o = 1
-    input  wire logic   [       63:0] info_i,     // data of RECORDED; the block appends zeros
-    input  wire logic                 count_i,    // strobe: begin a block of COUNT
+    input  wire logic   [       63:0] info_i,     // data of RECORDED, 8 bytes; zeros follow them
+    input  wire logic                 count_i,    // strobe: begin a block of 4 bytes for COUNT
     input  wire logic                 second_i,   // 1: COUNT of axis 2; stable while busy_o = 1
     input  wire logic   [Axes*32-1:0] counter_i,  // pulse counters; axis 1 is in bits 31:0
     output logic                      busy_o,     // 1: a block is being stored

@@ -78,7 +78,7 @@ module ppmc_bridge_exec
   logic [7:0] pos_q;
   // n_q: operand 1, then remaining bytes of the op; left_q: remaining bytes of the script
   logic [7:0] op_q, n_q, value_q, left_q;
-  logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2, the results of the byte are valid
+  logic [1:0] age_q;  // 00: a byte was just accepted or stored; 1x: two cycles later, its results are valid
   logic script_end_q, too_short_q, is_zero_q, bad_arg_q, hit_q, compare_q, timeout;
   logic first_q, written_q, has_read_q;
   logic [3:0] group, low;

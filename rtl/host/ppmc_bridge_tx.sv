@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_tx: sends messages as frames with flags, escapes and CRC.
 // Rules:  UB-FRM-01 .. 03.
-// Timing: a message begins in a cycle in which start_i and idle_o are high. take_o accepts byte_i. more_i =
-//         1 indicates that another byte is available. It is sampled one character time after the previous
-//         take_o. idle_o rises when the last stop bit has ended.
+// Timing: a message begins in a cycle in which start_i and idle_o are high. more_i is sampled one character
+//         time after the previous take_o. If more_i is high, take_o accepts byte_i; otherwise the CRC and
+//         the end flag follow. idle_o rises when the last stop bit has ended.
 `default_nettype none
 
 module ppmc_bridge_tx

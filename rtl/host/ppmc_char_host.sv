@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_char_host: UART host interface for small FPGAs. For each access to the device, the PC sends one or two
-//         characters and receives one as the answer. The PC executes the scripts of the wire protocol.
+//         characters and receives one as the answer. This block executes no scripts (docs/uart_bridge.md);
+//         software on the PC does.
 // Rules:  docs/char_host.md.
 // Timing: rxd_i is synchronised in this block. A strobe begins 2 cycles after the last character of its
 //         request was received, and lasts 8 cycles. The answer begins 2 cycles after the last strobe cycle.
@@ -124,8 +125,8 @@ module ppmc_char_host
 
   // ---- answers -------------------------------------------------------------------------------------
 
-  // pins_i needs no synchroniser: the transmitter samples each bit in one flip-flop, and sends it at least one
-  // bit time later.
+  // pins_i needs no synchroniser: the transmitter samples each bit in one flip-flop, and sends it at least
+  // one bit time later.
   logic [7:0] info;
   logic answer_q, ready;
 

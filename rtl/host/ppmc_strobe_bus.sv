@@ -4,9 +4,9 @@
 // Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02; P2104-BUS-01..10.
 // Timing: write: when the end of a write strobe is first sampled at edge 0, wr_o is high in the cycle before
 //         edge 2.
-//         Read: when the start of a read strobe is sampled at edge 0, d_oe_o and d_o respond at edge 0; only
-//         these registers sample asynchronous pins. d_o is loaded again at edge 1, and is then stable until
-//         the next read.
+//         Read: when the start of a read strobe is sampled at edge 0, d_oe_o and d_o respond at edge 0,
+//         because they use the strobes before the synchroniser. d_o is loaded again at edge 1, and is then
+//         stable until the next read.
 // Note:   bus style 0: read strobe rd_ni and write strobe wr_ni. Style 1: data strobe wr_ni, direction
 //         rd_ni (1: read).
 `include "ppmc_assert.svh"

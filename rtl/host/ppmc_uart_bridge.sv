@@ -9,7 +9,7 @@ module ppmc_uart_bridge
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned ClkHz     = 24_000_000,  // at least 5 * Baud
-    parameter int unsigned XtalHz    = 16_000_000,  // in Hz; only IDENT uses XtalHz, Part and Datasheet
+    parameter int unsigned XtalHz    = 16_000_000,  // crystal in Hz; only IDENT uses XtalHz, Part, Datasheet
     parameter int unsigned Baud      = 115_200,     // baud rate after reset
     parameter int unsigned Part      = 104,
     parameter int unsigned Axes      = 1,           // number of pulse counters, 1 or 2

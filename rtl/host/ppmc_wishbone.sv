@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_wishbone: Wishbone B4 slave (classic cycles, 32 bits) for the strobe bus of a device.
 // Rules:  register map and responses: docs/integration.md; strobes: UB-BUS-01.
-// Timing: a device register responds 6 cycles (write) or 8 cycles (read) after the first cycle of CYC and
-//         STB. If another access directly precedes it, the response is one cycle later. The bridge register
-//         and masked accesses respond 1 cycle after that first cycle. A master may abort an access: then
-//         there is no response, but a strobe that has begun is completed.
+// Timing: latencies from the first cycle of CYC and STB to the response: write to a device register 6 cycles,
+//         read of a device register 8 cycles, each one cycle longer directly after another access; bridge
+//         register and accesses with sel_i[0] = 0: 1 cycle. A master may abort an access: then there is no
+//         response, but a strobe that has begun is completed.
 `default_nettype none
 `include "ppmc_assert.svh"
 
@@ -18,7 +18,7 @@ module ppmc_wishbone #(
     input  wire logic                stb_i,   // 1: transfer of the bus cycle
     input  wire logic                we_i,    // 1: the transfer is a write, 0: a read
     input  wire logic [AddrBits+2:2] adr_i,   // register
-    input  wire logic [         3:0] sel_i,   // bit 0: bits 7:0 are used
+    input  wire logic [         3:0] sel_i,   // byte enables; bit 0: bits 7:0 are used
     input  wire logic [        31:0] dat_i,   // write data in bits 7:0
     output logic      [        31:0] dat_o,   // read data in bits 7:0
     output logic                     ack_o,   // strobe: the transfer is complete

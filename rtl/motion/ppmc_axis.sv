@@ -22,16 +22,16 @@ module ppmc_axis
     parameter int unsigned CountBits = 24,
     parameter int unsigned RateBits = 8,
     parameter int unsigned StepBits = 14,
-    parameter int unsigned LevelBits = StepBits,  // bits of ramp_level; must store acceleration pulses PA + 1
+    parameter int unsigned LevelBits = StepBits,  // bits of ramp_level (maximum: acceleration pulses + 1)
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up time in crystal cycles
     parameter int unsigned FastQuanta = 8,  // period of the fast internal base clock in quanta
     parameter int unsigned SlowQuanta = 32,  // period of the slow internal base clock in quanta
     parameter int unsigned ExtraQuanta = 30,  // extra time in quanta if base_i.extra = 1; 0: no extra time
     parameter int unsigned HalfRates = 3,  // number of rates whose pulse width is half an interval
-    parameter bit StopAtSlow = 1'b0,  // 1: a deceleration request at the start-up rate is a stop
+    parameter bit StopAtSlow = 1'b0,  // 1: at the start-up rate, a deceleration request stops immediately
     parameter bit SlowAlways = 1'b0,  // 1: in POUT mode, slow-down limits also act outside the plateau
     parameter bit SlowOrigin = 1'b0,  // 1: a slow-down limit ends an origin search immediately
-    parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last pulse; 0: immediate end
+    parameter bit OriginAtPulse = 1'b0,  // 1: a search ends with a pulse at the origin, 0: without a pulse
     parameter bit PulsePin = 1'b1  // 0: no pulse output; low_o stays 0, the last pulse ends the motion
 ) (
     input wire logic clk_i,
@@ -51,7 +51,7 @@ module ppmc_axis
     input wire logic halt_i,  // strobe: immediate stop command
     input wire logic decel_i,  // strobe: deceleration stop command
     input wire switches_t switches_i,  // switches, synchronised
-    input wire logic slow_i,  // slow_seen_o or a delayed copy; 1: act on a slow-down limit
+    input wire logic slow_i,  // slow_seen_o, directly or delayed; 1: act on a slow-down limit
     output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 must wait
@@ -66,7 +66,7 @@ module ppmc_axis
     output logic low_o,  // 1: a pulse is active
     output motion_event_t event_o,  // events at the next edge
     output stop_cause_t cause_o,  // causes of the end; valid with event_o.done
-    output logic [CountBits-1:0] left_o  // remaining pulses, in the form that the host reads
+    output logic [CountBits-1:0] left_o  // remaining pulses minus 1, at least 0; the host reads this number
 );
 
   localparam int unsigned ShortPeriodXtal = 128;  // P104-TIM-05, rate 0: 8 us at 16 MHz
@@ -305,8 +305,8 @@ module ppmc_axis
           base: base_q
       };
 
-  // The assertions check that no pulse occurs at or after an immediate end, that a motion without a cause of
-  // the end completes its count, and that no pulse is missed because a low time was not cut.
+  // The assertions check that no pulse occurs at or after an immediate end, that a motion that no cause ends
+  // completes its count, and that no pulse is missed because a low time was not cut.
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
   // External clock edges less than 4 cycles apart are too fast (P104-BAD-14, P2104-BAD-19): the cut may be

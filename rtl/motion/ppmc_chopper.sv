@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_chopper: switches the phases of a motor on and off at standstill.
-// Rules:  P104-SW-01..06, P104-AUX-03. An ON or OFF phase lasts base + UnitQuanta * units quanta. The inputs
-//         with its base and its units are loaded when the phase begins.
+// Rules:  P104-SW-01..06, P104-AUX-03. An ON or OFF phase lasts base + UnitQuanta * units quanta. The block
+//         loads the base and the units of a phase from its inputs when this phase begins.
 // Timing: on_o changes at the edge that ends the cycle of a quantum tick. restart_i acts at the next edge.
 //         While run_i = 0, on_o is 1 (combinational).
 `default_nettype none

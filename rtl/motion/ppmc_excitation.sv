@@ -16,7 +16,7 @@ module ppmc_excitation
     input  wire logic         phase_init_i,  // strobe: set the phases to index 0 (S1 and S2 on)
     input  wire logic         off_i,         // strobe: switch all phases off until phase_init_i
     input  wire logic         step_i,        // strobe: make one step
-    input  wire logic         ccw_i,         // direction of the step, 1: down the table
+    input  wire logic         ccw_i,         // 1: step to the previous index, 0: to the next index
     output logic        [5:1] pattern_o      // 1: energised
 );
 

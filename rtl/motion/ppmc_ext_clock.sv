@@ -49,7 +49,7 @@ module ppmc_ext_clock #(
     if (!rst_ni) begin
       last_q <= 1'b1;
       high_q <= 1'b1;
-      not_short_q <= 1'b1;  // there is no previous edge, so the period is infinite
+      not_short_q <= 1'b1;  // until the first edge, the period counts as long
       long_period_o <= 1'b1;
     end else begin
       last_q <= level;

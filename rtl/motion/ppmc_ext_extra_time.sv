@@ -17,7 +17,7 @@ module ppmc_ext_extra_time #(
     input  wire logic en_i,           // 0: no extra time, fire_o = hit_i
     input  wire logic restart_i,      // strobe: a pulse
     input  wire logic edge_i,         // strobe: an edge of the base clock
-    input  wire logic long_period_i,  // with edge_i: long base period, the interval gets no extra time
+    input  wire logic long_period_i,  // with edge_i; 1: long period, so the interval has no extra time
     input  wire logic hit_i,          // strobe: this base edge ends the count of the interval
     output logic      count_o,        // 1: base edges are counted
     output logic      fire_o          // strobe: the interval ends

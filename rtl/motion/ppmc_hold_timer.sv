@@ -2,9 +2,9 @@
 // ppmc_hold_timer: asserts hold_o when the motor has been at standstill for the hold time. This time is
 //         fixed, or a number of units set by the host.
 // Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05; STMC-HLD-01.
-// Timing: hold_o is deasserted one cycle after busy_i rises. hold_o is asserted 1 + RestCycles cycles after
-//         quantum tick number n, counted from the fall of busy_i. n is Quanta or, with units, Quanta *
-//         (units_i + 1). units_i is sampled while busy_i is high.
+// Timing: hold_o is deasserted one cycle after busy_i rises. The fall of busy_i starts a count of quantum
+//         ticks. hold_o is asserted 1 + RestCycles cycles after tick number n of this count. n is Quanta, or
+//         Quanta * (units_i + 1) if UnitBits is not 0. units_i is sampled while busy_i is high.
 `default_nettype none
 
 module ppmc_hold_timer #(

@@ -70,8 +70,8 @@ package ppmc_motion_pkg;
     logic done;      // the motion has ended
   } motion_event_t;
 
-  // Times of the chopper. A phase lasts its base time plus its units. Both are sampled when the phase
-  // begins.
+  // Times of the chopper. A phase lasts its base time plus its units. The base time and the units are
+  // sampled when the phase begins.
   typedef struct packed {
     logic [31:0] on_base;    // base time of the ON phase in quanta, at least 1
     logic [31:0] off_base;   // base time of the OFF phase in quanta, at least 1

@@ -3,8 +3,8 @@
 //         set-up is as long as a full pulse.
 // Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
 //         changed).
-// Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i on, unless it is cut.
-//         past_o rises WidthCycles cycles after arm_i.
+// Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i on, unless halve_i or cut_i
+//         ends it earlier. past_o rises WidthCycles cycles after arm_i.
 `default_nettype none
 
 module ppmc_pulse_shaper #(
@@ -20,7 +20,7 @@ module ppmc_pulse_shaper #(
     input  wire logic                arm_i,    // strobe: start the set-up time, without a pulse
     input  wire logic                pulse_i,  // strobe: a pulse
     input  wire logic                full_i,   // with pulse_i; 1: full pulse, which is never cut
-    input  wire logic                halve_i,  // 1: low times of half an interval apply
+    input  wire logic                halve_i,  // 1: at rates below HalfRates, low time is half an interval
     input  wire logic [RateBits-1:0] rate_i,   // rate of the interval after the pulse
     input  wire logic                cut_i,    // 1: end the low time now, unless the pulse is a full pulse
     output logic                     low_o,    // 1: a pulse is active

@@ -9,7 +9,7 @@
 //         - First deceleration step: rate_o changes one cycle later (rising_o = 1), to the rate of the
 //           interval before the last acceleration step.
 //         - Further deceleration steps: the look-up runs in the new interval, also for 3 n + 1 cycles.
-//           During the look-up, rate_o rises from the previous rate. It is valid when rising_o falls.
+//           During the look-up, rate_o rises from the previous rate, and is valid when rising_o falls.
 // Assumes: pulses are at least 3 cycles apart; pulse 1 is at least 4 cycles after load_i.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -17,7 +17,7 @@
 module ppmc_ramp_seq #(
     parameter int unsigned CountBits = 24,  // bits of the pulse count
     parameter int unsigned RateBits  = 8,
-    parameter int unsigned StepBits  = 14,  // bits of ramp_level; must store acceleration pulses PA + 1
+    parameter int unsigned StepBits  = 14,  // bits of ramp_level (maximum: acceleration pulses + 1)
     parameter int unsigned LutBits   = 14   // bits of a word of the ramp table
 ) (
     input wire logic clk_i,

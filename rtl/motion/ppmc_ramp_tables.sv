@@ -2,8 +2,8 @@
 // ppmc_ramp_tables: ramp tables of two axes in two block RAMs, with one builder that fills both.
 // Rules:  P2104-RMP-01/02, P2104-HSK-05 (a build waits for at most one other build).
 // Timing: see ppmc_ramp_builder. A build begins at the edge of start_i or, if another build is running, at
-//         the end of that build. It takes two cycles longer than in ppmc_ramp_builder alone. data_o is
-//         valid two cycles after addr_i.
+//         the end of that build. A build takes two cycles longer than in ppmc_ramp_builder alone.
+//         data_o is valid two cycles after addr_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -11,7 +11,7 @@
 module ppmc_stop_monitor
   import ppmc_motion_pkg::*;
 #(
-    parameter bit StopAtSlow = 1'b0,  // 1: a deceleration request at the start-up rate is a stop
+    parameter bit StopAtSlow = 1'b0,  // 1: at the start-up rate, a deceleration request stops immediately
     parameter bit SlowAlways = 1'b0,  // 1: in POUT mode, slow-down limits also act outside the plateau
     parameter bit SlowOrigin = 1'b0   // 1: a slow-down limit ends an origin search immediately
 ) (
@@ -27,7 +27,7 @@ module ppmc_stop_monitor
     input  wire logic      dec_i,            // 1: the natural deceleration has begun
     input  wire logic      halt_i,           // strobe: immediate stop command
     input  wire logic      decel_i,          // strobe: deceleration stop command
-    input  wire logic      slow_i,           // slow_seen_o or a delayed copy; 1: act on a slow-down limit
+    input  wire logic      slow_i,           // slow_seen_o, directly or delayed; 1: act on a slow-down limit
     output logic           slow_seen_o,      // 1: a slow-down limit is effective; not valid with stop_o
     output logic           stop_o,           // 1: end the motion now, without a further pulse
     output logic           forced_o,         // 1: forced deceleration is requested; not valid with stop_o
@@ -48,8 +48,8 @@ module ppmc_stop_monitor
   assign stop_o = hard || (StopAtSlow && at_start_rate_i && (slow_now || decel_now));
 
   // A deceleration can be requested only once. An immediate end at the same edge has priority, but
-  // slow_seen_o and forced_o do not include this priority. They are only evaluated together with a pulse,
-  // and no pulse occurs at an immediate end.
+  // slow_seen_o and forced_o do not include this priority. They are evaluated only together with a
+  // pulse, and no pulse occurs at an immediate end.
   assign can_request = armed_i && op_i.ramp && !flagged_o && !dec_i;
   assign slow_seen_o = can_request && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = can_request && slow_i;

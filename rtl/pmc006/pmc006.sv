@@ -11,7 +11,7 @@ module pmc006
 #(
     parameter int unsigned CLK_HZ     = 16_000_000,    // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,    // no effect
-    parameter              TIMING     = "FAST",        // or "DATASHEET", which behaves the same
+    parameter              TIMING     = "FAST",        // or "DATASHEET", which has the same effect
     parameter              STEP_ACK   = "MANUAL",      // or "ECHO": instruction s returns its data, not 3
     parameter int unsigned BAUD       = 9600,          // baud rate of the line, 1200 .. 115 200
     parameter int unsigned I2C_HZ     = 400_000,       // clock of the EEPROM in Hz, 10e3 .. 400e3

@@ -8,7 +8,7 @@ package pmc006_pkg;
   // A design uses only some of the items of this package.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instruction codes (comment: ASCII); bit 7 = 0: of a frame, bit 7 = 1: only of the user program -----
+  // ---- instruction codes (comment: ASCII); bit 7 = 0: frame, bit 7 = 1: only the user program ------------
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -106,7 +106,7 @@ package pmc006_pkg;
     logic [31:0]   data;
   } exec_cmd_t;
 
-  // ---- registers; the value is the address in pmc006_reply_ram ------------------------------------------
+  // ---- register numbers, which are the addresses in pmc006_reply_ram --------------------------------------
 
   // A reset of pmc006_reply_ram fills the addresses from 2 on.
   typedef enum logic [4:0] {
@@ -190,11 +190,11 @@ package pmc006_pkg;
     logic [2:0]  dec;       // deceleration coefficient, 0 .. 5
     logic        autodec;   // 1: reduce the current at standstill
     logic [2:0]  att;       // attenuation coefficient, 1 .. 4
-    logic [11:0] vstart;    // pps, 65 .. 3000
-    logic [11:0] vstop;     // pps, 65 .. 3000
-    logic [10:0] ccomp;     // 100 .. 1200
-    logic [10:0] scomp;     // 300 .. 2000
-    logic [13:0] vmax;      // pps, 0 .. 16000
+    logic [11:0] vstart;    // start speed in pps, 65 .. 3000
+    logic [11:0] vstop;     // stop speed in pps, 65 .. 3000
+    logic [10:0] ccomp;     // current compensation, 100 .. 1200
+    logic [10:0] scomp;     // speed compensation, 300 .. 2000
+    logic [13:0] vmax;      // maximum speed in pps, 0 .. 16000
     logic        dir;       // 1: forward
     logic        regulate;  // 1: analog speed (VMAX scaled by the converter)
     logic        free;      // 1: motor released
@@ -219,13 +219,13 @@ package pmc006_pkg;
 
   // Settings used only by the control.
   typedef struct packed {
-    logic [7:0] addr;     // address on the line, 1 .. 120, 255
-    logic [1:0] trigm;    // trigger edge, 1: rising; [0]: EXT1
-    logic [1:0] exten;    // 1: emergency input enabled; [0]: EXT1
+    logic [7:0] addr;     // address on the line, 1 .. 120 or 255
+    logic [1:0] trigm;    // edge of the emergency input, 1: rising; [0]: EXT1, [1]: EXT2
+    logic [1:0] exten;    // 1: emergency input enabled; [0]: EXT1, [1]: EXT2
     logic       offline;  // 1: start the user program after the boot
-    logic [6:0] stlen;    // stall length in samples, 0 .. 63; reset value 64
+    logic [6:0] stlen;    // stall length in samples, 0 .. 63, or 64 (reset value)
     logic [2:0] stcfg;    // [0]: detect a stall, [1]: stop the motion, [2]: drive GPO5
-    logic [8:0] stlvl;    // stall level; compared with bemf_i.level
+    logic [8:0] stlvl;    // stall level, compared with the samples of the back EMF
   } control_settings_t;
 
   localparam control_settings_t CONTROL_RESET = '{

@@ -65,7 +65,7 @@ module ppmc104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
-  // in_…: input pins as ppmc104 receives them. watch: all recorded levels; the first pin is bit 0.
+  // in_…: input pins as ppmc104 receives them. watch: all recorded levels; part_rst_n is bit 0.
   localparam int unsigned Watch = 49;
   logic in_csel, in_vsel, in_clock, in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_alm_n;
   logic [3:0] in_auxi;

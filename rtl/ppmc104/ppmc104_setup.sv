@@ -46,7 +46,7 @@ module ppmc104_setup
     end
   end
 
-  // Fixed part of the chopper times. The chopper samples it at the start of each phase.
+  // Fixed part of the chopper times. The chopper samples these values at the start of each phase.
   always_comb begin
     chop_o.on_units  = on_q;
     chop_o.off_units = off_q;

@@ -65,7 +65,7 @@ module ppmc2104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
-  // in_…: input pins as ppmc2104 receives them. watch: all recorded levels; the first pin is bit 0.
+  // in_…: input pins as ppmc2104 receives them. watch: all recorded levels; part_rst_n is bit 0.
   localparam int unsigned Watch = 63;
   logic in_errint_n;
   logic [2:1] in_csel, in_run, in_extck, in_fl_n, in_bl_n, in_fhl_n, in_bhl_n, in_org_n, in_alm_n;

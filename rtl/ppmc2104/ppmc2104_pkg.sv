@@ -44,7 +44,7 @@ package ppmc2104_pkg;
     ErrRates     = 4'd9,   // RL < RH + 2, PA too small, or rate 0 with the internal clock
     ErrSteps     = 4'd10,  // PA too large
     ErrSwitching = 4'd11,
-    ErrRateOne   = 4'd12,  // too fast for one operating axis
+    ErrRateOne   = 4'd12,  // too fast, even if only this axis operates
     ErrRateTwo   = 4'd13   // too fast while the other axis operates
   } cmd_error_e;
 
@@ -138,7 +138,7 @@ package ppmc2104_pkg;
     logic exc_off;
     logic switching;
     logic hold_delay;
-    logic read;        // axis read, or error code read
+    logic read;        // read of end status, inputs, outputs, remaining pulses or error code
   } axis_action_t;
 
   // Actions of a byte: those of each axis, and the auxiliary instructions, which belong to no axis.

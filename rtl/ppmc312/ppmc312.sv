@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312: intelligent stepper controller for one axis; replaces the PPMC-312.
 // Rules:  P312-GEN-01, P312-PRT-01..03, P312-CMD-FF; the instantiated blocks implement all other rules.
-// Timing: inputs act two cycles after the pin; with TIMING = "DATASHEET" the filter times are added. Two
-//         cycles (DATASHEET: 1.6 ms) after the release of the reset, out_oe is asserted and the core leaves
-//         reset.
+// Timing: an input acts two cycles after its pin changes; with TIMING = "DATASHEET", the filter time is
+//         added. Two cycles (DATASHEET: 1.6 ms) after the release of the reset, out_oe is asserted and the
+//         core leaves reset.
 // Note:   mode = 1 selects the parallel bus, mode = 0 a station on a serial line. The core uses the level
 //         of mode at the end of the last reset. The front end that is not selected is idle.
 `default_nettype none

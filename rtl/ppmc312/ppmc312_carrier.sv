@@ -4,8 +4,8 @@
 // Rules:  HOST = "UART": docs/uart_bridge.md. Strap outputs 0, 1, 2 of the bridge are ANDed with run,
 //         evt0_n, evt1_n.
 //         HOST = "BUS": the pins of the parallel bus.
-//         HOST = "SERIAL": the serial station. It receives frames from both lines (only one may have a
-//         master) and sends replies to both. Wiring: docs/boards.md.
+//         HOST = "SERIAL": the serial station. It receives frames from uart_rxd and rs485_rxd (only one of
+//         these lines may have a master) and sends replies to both lines. Wiring: docs/boards.md.
 // Timing: same as ppmc312. With RECORD != 0, inputs other than those of the host act 2 cycles later. No input
 //         needs an external synchroniser.
 `default_nettype none
@@ -184,7 +184,7 @@ module ppmc312_carrier #(
     logic unused_bus;
     assign unused_bus = ^{rs, cs_n, oe_n, we_n, d_i};
   end else begin : g_host
-    // All recorded levels; the first pin is bit 0.
+    // All recorded levels; part_rst_n is bit 0.
     localparam int unsigned Watch = 63;
     logic [Watch-1:0] watch;
     assign watch = {

@@ -30,7 +30,7 @@ package ppmc312_link_pkg;
     SrcOverride = 2'b11
   } source_e;
 
-  localparam int unsigned PARAMS = 13;  // parameters of the longest instruction
+  localparam int unsigned PARAMS = 13;  // number of parameters of the longest instruction
 
   // An instruction block. Each parameter is stored at its position in the long form of the instruction; a
   // missing parameter is 0. If an initial setting has no separate sides, the deceleration side has the
@@ -110,7 +110,7 @@ package ppmc312_link_pkg;
     logic             counted;    // strobe: a pulse has been counted in pos
     logic             lock;       // interlock control is active
     logic [1:0]       window_on;  // monitor is enabled, [0]: in-position, [1]: encode
-    logic [1:0]       outside;    // monitor is enabled, and the position is outside
+    logic [1:0]       outside;    // monitor is enabled, and the position is outside its range
   } axis_state_t;
 
   // ---- reports of the motor side ------------------------------------------------------------------
@@ -131,7 +131,7 @@ package ppmc312_link_pkg;
   // Monitors, classes 7 and 8: [0] in-position, [1] encode.
   typedef struct packed {
     logic [1:0] pending;  // a report is pending
-    logic [1:0] outside;  // contents of the report; 1: outside, 0: inside
+    logic [1:0] outside;  // contents of the report; 1: outside the range, 0: inside
   } monitor_req_t;
 
   typedef struct packed {
@@ -157,7 +157,7 @@ package ppmc312_link_pkg;
 
   typedef struct packed {
     logic                valid;           // strobe: a response is complete
-    logic                host;            // the response is for the host
+    logic                host;            // the response is to an instruction of the host
     trigger_result_e     trigger_result;  // valid if host = 0: result of the triggered instruction
     logic [BLOCK_BITS:0] size;            // bytes of the response, 3 .. 32
   } response_done_t;
@@ -165,13 +165,13 @@ package ppmc312_link_pkg;
   // State of the two-entry queue of class 2.
   typedef struct packed {
     logic full;       // a response can be read
-    logic full_host;  // the response that can be read is for the host
+    logic full_host;  // the response that can be read is to an instruction of the host
     logic pending;    // another, newer response waits
   } response_queue_t;
 
   // Result of a block from the host, for the serial station.
   typedef struct packed {
-    logic       valid;  // strobe: the block is executed
+    logic       valid;  // strobe: the block has been executed
     logic [7:0] code;   // code of the response, one cycle later
     logic [2:0] first;  // bits 2:0 of the first byte after the code, one cycle later
   } host_result_t;

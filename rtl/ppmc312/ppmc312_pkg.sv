@@ -78,8 +78,8 @@ package ppmc312_pkg;
     logic       has_count;      // parameters 3 .. 6 are a number of pulses
     logic [5:0] states_ov0;     // statuses that accept the code with OV = 0
     logic [5:0] states_ov1;     // statuses that accept the code with OV = 1
-    logic [4:0] len_long;       // longer valid length of code and parameters
-    logic [4:0] len_short;      // shorter valid length; at most len_long
+    logic [4:0] len_long;       // longer valid length of code and parameters in bytes
+    logic [4:0] len_short;      // shorter valid length in bytes; at most len_long
   } instr_info_t;
 
   localparam logic [5:0] STATES_STANDSTILL = StatusIni | StatusNor;

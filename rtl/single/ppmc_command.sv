@@ -37,7 +37,7 @@ module ppmc_command
     output action_t act_o,  // actions of the accepted byte
     output logic [7:0] code_o,  // code of the action
     output logic [31:0] params_o,  // parameters of code_o; the last one is in bits 31:24
-    output logic [7:0] code_held_o,  // code_o after the C-event; valid until the next byte is accepted
+    output logic [7:0] code_held_o,  // code_o of the last C-event; valid until the next byte is accepted
     output logic [31:0] params_held_o  // parameters of code_held_o
 );
 

@@ -26,7 +26,7 @@ module ppmc_proc_time
     // command unit, at the C-event
     input  wire action_t                act_i,          // actions requested by the byte
     input  wire logic    [         7:0] code_i,         // code of act_i
-    input  wire logic    [        31:0] params_i,       // parameters; shifted right by 8 in the next cycle
+    input  wire logic    [        31:0] params_i,       // parameters of code_i; valid only at the C-event
     input  wire logic    [         7:0] code_held_i,    // code_i of the last C-event
     input  wire logic    [        31:0] params_held_i,  // parameters of code_held_i
     input  wire logic    [         2:0] base_i,         // base clock that is currently selected

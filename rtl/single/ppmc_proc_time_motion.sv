@@ -5,9 +5,10 @@
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: a time starts at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i
 //         with last_i. The event that the time delays occurs one cycle after the nominal time.
-// How:    a part of some times is proportional to a number: 209 crystal cycles per step of PA, 123/16 per
-//         pulse of a triangular profile. This part is subtracted from the count in portions, at most one
-//         per cycle, as soon as the count is large enough. The subtraction always keeps up with the count.
+// How:    a part of some times is proportional to a number: 209 crystal cycles per step of PA, or 123/16
+//         crystal cycles per pulse of a triangular profile. This part is subtracted from the count in
+//         portions, at most one portion per cycle, as soon as the count is large enough. The subtraction
+//         always keeps up with the count.
 //         number_i is PA one cycle after init_i, which is early enough for the first portion.
 `include "ppmc_assert.svh"
 `default_nettype none

@@ -28,7 +28,8 @@ module ppmc_setup
   assign unused_bits = &{1'b0, code_i};
   assign first = init_i && !initialised_o;
 
-  // Only the first initialisation loads these settings. They then keep their values until Excitation OFF.
+  // Only the first initialisation loads half, motor and positive, which then do not change until Excitation
+  // OFF. Every initialisation loads external and chop.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       setup_o.external <= 1'b0;

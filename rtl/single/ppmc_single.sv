@@ -33,7 +33,7 @@ module ppmc_single
     output logic int_no,  // low: a motion has ended
     // decoding of the bytes by the device
     output rx_byte_t rx_byte_o,  // current byte from the host
-    input wire decoded_byte_t decoded_byte_i,  // decoded byte
+    input wire decoded_byte_t decoded_byte_i,  // rx_byte_o.data, decoded
     output command_req_t command_req_o,  // command that the host requests with the current byte
     input wire check_result_t check_result_i,  // result of the check of command_req_o
     input wire logic stops_only_i,  // 1: only stop commands may be accepted
@@ -45,7 +45,7 @@ module ppmc_single
     // motion
     input wire logic clock_pin_i,  // external base clock, asynchronous
     input wire switches_t switches_i,  // switches, synchronised
-    input wire logic slow_i,  // slow_seen_o or a delayed copy; 1: act on a slow-down limit
+    input wire logic slow_i,  // slow_seen_o, directly or delayed; 1: act on a slow-down limit
     output logic slow_seen_o,  // 1: a slow-down limit is active and effective
     output motion_t motion_o,  // state of the motion
     output logic [7:0] rate_o,  // rate of the running interval

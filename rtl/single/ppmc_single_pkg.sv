@@ -4,8 +4,8 @@
 // Rules:  see ppmc_single.
 // How:    ppmc_single outputs the current byte (rx_byte_t). The device returns the decoded byte
 //         (decoded_byte_t). ppmc_single then outputs the command with all its parameters (command_req_t).
-//         The device checks it and returns the result (check_result_t). There are four structs instead of
-//         two, so that no struct depends combinationally on itself.
+//         The device checks this command and returns the result (check_result_t). There are four structs
+//         instead of two, so that no struct depends combinationally on itself.
 `default_nettype none
 
 package ppmc_single_pkg;
@@ -51,7 +51,7 @@ package ppmc_single_pkg;
 
   // Command that the host requests with the current byte.
   typedef struct packed {
-    logic [7:0]  code;    // code of an action; valid in FAST or at the C-event
+    logic [7:0]  code;    // code of the action; with DATASHEET valid only at the C-event
     logic [31:0] params;  // parameters of code; the last one is in bits 31:24
   } command_req_t;
 
@@ -60,7 +60,7 @@ package ppmc_single_pkg;
     cmd_error_e  error;       // error of command_req_t.params; ErrUndefined: no error
     logic        is_checked;  // 1: error applies to code_held
     logic [2:0]  select;      // data that the read code selects
-    logic [31:0] setup;       // rx_byte_t.params in the form of an initialisation
+    logic [31:0] setup;       // rx_byte_t.params as RL, RH and PA of an initialisation
   } check_result_t;
 
   // Pins of the motor; each is a register.

@@ -54,7 +54,7 @@ module stmc_carrier #(
   logic part_oe;
   logic [7:0] part_d, straps;
 
-  // in_…: input pins as stmc receives them. watch: all recorded levels; the first pin is bit 0.
+  // in_…: input pins as stmc receives them. watch: all recorded levels; part_rst_n is bit 0.
   localparam int unsigned Watch = 36;
   logic in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_mon;
   logic [Watch-1:0] watch;

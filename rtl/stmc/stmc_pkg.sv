@@ -21,8 +21,8 @@ package stmc_pkg;
 
   localparam int unsigned STEP_XTAL = 1_280;  // period of the internal step clock in crystal cycles
 
-  // Data that a read command selects. The headings of the data sheet number the data 0, 2, 3, 4; related
-  // devices use 0, 1, 2, 3.
+  // Returns the data that read code `number` selects, numbered 0, 1, 2, 3 as in related devices. sheet_map =
+  // 1: `number` is 0, 2, 3 or 4, as in the headings of the data sheet.
   function automatic logic [2:0] read_select(logic sheet_map, logic [2:0] number);
     return (sheet_map && number != 3'd0) ? number - 3'd1 : number;
   endfunction
@@ -65,8 +65,8 @@ package stmc_pkg;
     return is_bad ? ErrRates : ErrUndefined;
   endfunction
 
-  // Converts the data of an initialisation for the core: without a ramp, there is one rate and there are no
-  // acceleration steps.
+  // Converts the data of an initialisation for the core. There is no ramp if PA is 0 or if both rates are
+  // equal. Then both rates become the high-speed rate, and PA becomes 0.
   function automatic logic [31:0] normalise_rates(logic [31:0] data);
     logic [31:0] out;
     out = data;

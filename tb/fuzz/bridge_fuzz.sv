@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // bridge_fuzz: the deframer of the UART bridge, for tb/fuzz/main.cpp.
-// For a request, what_o is 1, followed by SEQ, length and digest of the script. For a NAK, it is 2,
-// followed by the code.
+// The first (highest) byte of what_o is 1 for a request, followed by SEQ, length and digest of the script.
+// The first byte is 2 for a NAK, followed by the code of the NAK.
 `default_nettype none
 
 module bridge_fuzz

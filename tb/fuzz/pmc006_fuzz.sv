@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_fuzz: the deframer of the PMC006B4 with address 3, for tb/fuzz/main.cpp.
-// For an instruction, what_o is 1, followed by code and data.
+// The first (highest) byte of what_o is 1, followed by the code and the data of the instruction.
 `default_nettype none
 
 module pmc006_fuzz (

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fuzz: the deframer of the PPMC-312 in serial mode, with the table of its codes and address 5, for
 // tb/fuzz/main.cpp.
-// For a poll, what_o is 1. For an instruction, it is 2, followed by the code, the number of data bytes and
-// the digest of the data. For a wrong checksum, it is 3. For an unknown code, it is 4, followed by the code.
+// The first (highest) byte of what_o is 1 for a poll; 2 for an instruction, followed by the code, the number
+// of data bytes and the digest of the data; 3 for a wrong checksum; 4 for an unknown code, followed by the
+// code.
 `default_nettype none
 
 module ppmc312_fuzz

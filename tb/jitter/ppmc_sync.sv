@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_sync: simulation model of the synchroniser with metastability, for `make test JITTER=1`.
-// Timing: like rtl/common/ppmc_sync.sv, but the first stage samples each change of a bit one cycle late with a
-//         probability of one half. The first edge after a reset samples the pins without delay.
+// Timing: like rtl/common/ppmc_sync.sv, but the first stage samples each change of a bit one cycle late with
+//         a probability of one half. The first edge after a reset samples the pins without delay.
 // How:    the decision depends only on the seed of the simulation, the instance, the bit and the number of
 //         edges since the reset, so that a repeated stimulus has the same delays.
 `default_nettype none
@@ -17,14 +17,14 @@ module ppmc_sync #(
     output logic      [Width-1:0] q2_o
 );
 
-  logic [Width-1:0] late_q  /*verilator public_flat_rd*/;  // bits that the last edge sampled late, for the bench
+  logic [Width-1:0] late_q  /*verilator public_flat_rd*/;  // bits that the last edge sampled late
   logic [Width-1:0] stage_q;
   logic [Width-1:0] last_q;  // pins at the last edge
   logic [Width-1:0] changed, late;
   logic is_running_q;
   int unsigned key, edges_q;
 
-  initial key = $urandom;  // follows the seed of the simulation
+  initial key = $urandom;  // depends on the seed of the simulation
 
   function automatic int unsigned draw(int unsigned number);
     int unsigned mixed;

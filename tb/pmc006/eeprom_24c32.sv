@@ -12,7 +12,7 @@ module eeprom_24c32 #(
     parameter bit [6:0] Device = 7'h50,
     parameter int unsigned WriteCycles = 80_000,  // duration of a write in cycles
     parameter int unsigned StretchCycles = 0,  // cycles for which SCL is held low after each acknowledge
-    parameter bit Missing = 1'b0
+    parameter bit Missing = 1'b0  // 1: the device does not respond
 ) (
     input  wire logic clk_i,
     input  wire logic on_i,      // 1: power is on
@@ -36,7 +36,7 @@ module eeprom_24c32 #(
 
   logic [7:0] memory[4096]  /* verilator public_flat_rw */;
 
-  // Options of this model.
+  // Options of this model. The first four begin with the values of the parameters.
   logic [6:0] device  /* verilator public_flat_rw */ = Device;
   int unsigned write_cycles  /* verilator public_flat_rw */ = WriteCycles;
   int unsigned stretch_cycles  /* verilator public_flat_rw */ = StretchCycles;
@@ -45,7 +45,8 @@ module eeprom_24c32 #(
   logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;  // 1: the data line is held low
   int unsigned writing  /* verilator public_flat_rw */ = 0;  // remaining cycles of a write
 
-  // Page writes since power-on: first address, number of bytes, and the bytes (32 words of log_data each).
+  // Page writes since power-on: first address, number of bytes, and the bytes (32 elements of log_data for
+  // each write).
   int unsigned writes  /* verilator public_flat_rw */ = 0;
   logic [11:0] log_address[Log]  /* verilator public_flat_rw */;
   logic [5:0] log_count[Log]  /* verilator public_flat_rw */;
@@ -101,7 +102,7 @@ module eeprom_24c32 #(
     rest();
   endfunction
 
-  // Acknowledges after the eighth bit, until the next falling edge.
+  // Processes a byte after its eighth bit. Drives the acknowledge until the next falling edge of SCL.
   function automatic void take();
     unique case (state)
       StDevice: begin

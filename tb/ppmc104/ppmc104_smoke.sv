@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_smoke: minimal test of an imported PPMC-104: initialise, output 14 pulses CW, read the finish
-//         status.
+// ppmc104_smoke: minimal test for a project that imports the PPMC-104: initialise, output 14 pulses CW, read
+//         the finish status.
 // Timing: prints "ppmc104_smoke: PASS" or "ppmc104_smoke: FAIL …", and ends. Only this line is checked.
 `default_nettype none
 

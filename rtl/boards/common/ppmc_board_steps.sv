@@ -10,7 +10,7 @@
 
 module ppmc_board_steps (
     input  wire logic       clk_i,
-    input  wire logic       rst_ni,   // reset of the device; after it, the next pattern is the first
+    input  wire logic       rst_ni,   // reset of the device; the first pattern after it is no step
     input  wire logic [5:1] s_i,
     output logic            pout_no,
     output logic            dir_o     // 0: CW, 1: CCW

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_clock_icebreaker: PLL at the clock pad of an iCEBreaker. Generates at most 24 MHz from the 12 MHz
-//         oscillator.
-// Rules:  PLL settings from icepll for 12 MHz; the VCO has 32 times the frequency of clk_o, 533 .. 1066
-//         MHz.
+// ppmc_clock_icebreaker: PLL at the clock pad of an iCEBreaker. Generates 16.875 .. 33 MHz (default: 24 MHz)
+//         from the 12 MHz oscillator.
+// Rules:  PLL settings from icepll for an input of 12 MHz; the VCO has 32 times the frequency of clk_o,
+//         533 .. 1066 MHz.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_clock_tangnano: PLL of a Tang Nano. Generates 54 MHz from the 27 MHz oscillator.
-// Rules:  divisors from gowin_pll for 27 MHz in, 54 MHz out. Tang Nano 9K (GW1NR-9C): output divider 8, VCO
-//         432 MHz. Tang Nano 20K (GW2A-18C): output divider 16, VCO 864 MHz.
+// Rules:  divisors from gowin_pll for an input of 27 MHz and an output of 54 MHz. Tang Nano 9K
+//         (GW1NR-9C): output divider 8, VCO 432 MHz. Tang Nano 20K (GW2A-18C): output divider 16, VCO
+//         864 MHz.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_clock_ulx3s: PLL (ECP5) of a ULX3S. Generates 100, 75 or 50 MHz from the 25 MHz oscillator.
-// Rules:  divisors from ecppll for 25 MHz in; VCO 600 MHz, feedback from CLKOP.
+// Rules:  divisors from ecppll for an input of 25 MHz; VCO 600 MHz, feedback from CLKOP.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 

@@ -5,9 +5,9 @@
 // Timing: a computation takes 32 cycles; the first begins in the first cycle after reset. All inputs except
 //         base_i are sampled at the same edge, base_i one cycle later. The four outputs change together 24
 //         cycles after that edge.
-// How:    the peak code (RB + B) is shifted right by the attenuation. A serial multiplier then
-//         multiplies the result by the sine of phase A and by the sine of phase B, in 8 cycles each. The
-//         first of these 8 cycles also adds the rounding constant.
+// How:    the peak code is RB + B, at most 255. If decay_i is high, the peak code is shifted right by att_i
+//         bits. A serial multiplier then multiplies the result by the sine of phase A and by the sine of
+//         phase B, in 8 cycles each. The first of these 8 cycles also adds the rounding constant.
 `default_nettype none
 
 module pmc006_refs (

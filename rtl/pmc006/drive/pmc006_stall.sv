@@ -15,7 +15,7 @@ module pmc006_stall
     input  wire sample_t       sample_i,  // sample of the back EMF
     input  wire logic    [2:0] config_i,  // STCFG; [0]: detect, [1]: stop, [2]: drive GPO5
     input  wire logic    [6:0] length_i,  // STLEN in samples; 0 has the effect of 1
-    input  wire logic    [8:0] limit_i,   // STLVL: a sample below it is low
+    input  wire logic    [8:0] limit_i,   // STLVL; a sample below limit_i is low
     input  wire logic          busy_i,    // 1: a motion is in progress
     input  wire logic          steady_i,  // 1: constant speed above 0
     input  wire logic          start_i,   // strobe: a motion starts

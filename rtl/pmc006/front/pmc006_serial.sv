@@ -37,8 +37,8 @@ module pmc006_serial
   localparam logic [Width-1:0] Step = Width'(BitUnits);
   localparam logic [Width-1:0] Wrap = Width'(BitUnits + WrapOffset);
   localparam logic [Width-1:0] WrapHalf = Width'(BitUnits + WrapOffset + Modulus / 64'd2);
-  // Initial phases. They are loaded in the cycle of valid, two cycles after the stop bit was sampled. With
-  // PhaseZero, a bit ends one bit time after this sample. With PhaseHalf, it ends half a bit time after it.
+  // Initial phases. They are loaded in the cycle of valid, two cycles after the stop bit was sampled. The
+  // bit ends one bit time (PhaseZero) or half a bit time (PhaseHalf) after this sample.
   localparam logic [Width-1:0] PhaseZero = Width'(WrapOffset + 64'd2 * BitUnits);
   localparam logic [Width-1:0] PhaseHalf = Width'(WrapOffset + 64'd2 * BitUnits + Modulus / 64'd2);
   // Silence after which the next byte begins a new frame: 192 bits until the start bit of this byte, plus 9.5

@@ -14,7 +14,7 @@ module pmc006_data_check
     input  wire logic            program_i,  // with read_i; 1: op_i is a program code, 0: a frame code
     input  wire logic      [7:0] op_i,       // with read_i: instruction code
     input  wire exec_cmd_t       cmd_i,      // instruction with code op_i, from the cycle after read_i on
-    output reg_access_t          access_o,   // register of the instruction that was read last
+    output reg_access_t          access_o,   // register of op_i at the last read_i
     output logic                 ok_o        // 1: the data of cmd_i are accepted
 );
 

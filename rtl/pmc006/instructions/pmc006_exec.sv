@@ -21,7 +21,7 @@ module pmc006_exec
     input  wire logic          cancel_i,        // 1: discard the program instruction in progress
     output logic               instr_ack_o,     // strobe: execution of the program instruction begins
     output logic               claim_o,         // 1: the executor addresses the buffer
-    output logic               word1_o,         // word to be addressed, 1: W1, 0: W0
+    output logic               word1_o,         // 1: address word W1 of the instruction, 0: W0
     output logic               use_pp_o,        // 1: address the instruction at PP
     input  wire logic   [31:0] word_i,          // word of the buffer, two cycles after the address
     // EEPROM

@@ -20,7 +20,7 @@ module pmc006_program
     input  wire logic            instr_ack_i,   // strobe: execution of the requested instruction begins
     output logic                 instr_req_o,   // level: execute the instruction of the current line
     output logic                 cancel_o,      // 1: discard the program instruction in progress
-    input  wire logic            word1_i,       // word to be addressed, 1: W1, 0: W0
+    input  wire logic            word1_i,       // 1: address word W1 of the line, 0: W0
     input  wire logic            use_pp_i,      // 1: address the instruction at PP
     output logic           [7:0] word_addr_o,   // address of a word in the buffer
     output logic                 try_accept_o,  // strobe: instruction E is accepted

@@ -28,7 +28,7 @@ module pmc006_eeprom
     output logic                         burning_o,        // 1: the program is being written
     output logic                         boot_o,           // 1: boot in progress
     output logic                         autostart_o,      // strobe: start the user program
-    output logic                         rst_settings_no,  // reset of the registers (restore at boot)
+    output logic                         rst_settings_no,  // low: reset the registers (restore at boot)
     // registers
     input  wire motor_settings_t         settings_i,       // parameter registers
     input  wire control_settings_t       control_i,        // settings used only by the control
@@ -67,7 +67,7 @@ module pmc006_eeprom
     StSource,  // device address of the read
     StData,
     StStop,
-    StWipe,    // clears the program
+    StWipe,    // clears the program if it is invalid
     StLoad,    // loads the registers from the page
     StSettle,
     StIdle

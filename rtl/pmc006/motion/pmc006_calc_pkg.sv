@@ -60,10 +60,10 @@ package pmc006_calc_pkg;
     MU      = 7'h01,  // progress of the ramp
     MDu     = 7'h02,  // increment of MU; 0 represents 2^32
     MV1     = 7'h03,  // first speed of the ramp
-    MDv     = 7'h04,  // height of the ramp
+    MDv     = 7'h04,  // difference between the last and the first speed of the ramp
     MLeft   = 7'h05,  // R at this update tick
-    MT      = 7'h06,
-    MX      = 7'h07,
+    MT      = 7'h06,  // intermediate result
+    MX      = 7'h07,  // intermediate result
     MWay1   = 7'h08,  // acceleration distance, steps
     MWay2   = 7'h09,  // deceleration distance, steps
     MSlack  = 7'h0a,  // margin(VT) + 3
@@ -110,14 +110,14 @@ package pmc006_calc_pkg;
     CondPlan,      // a motion is being planned (run started by plan_i)
     CondEnding,    // phase STOP or END
     CondRamp,      // phase RAMP, DEC or STOP
-    CondLive,      // phase CRUISE or RAMP
+    CondLive,      // phase CRUISE or RAMP, and not a short move
     CondUp,        // the ramp rises
     CondSmooth,    // the ramp is an S-curve
     CondAcc5,      // na = 5
     CondDec5       // nd = 5
   } cond_e;
 
-  // Bit 2 = 1: a ramp. Bit 2 = 0: the phase that follows the ramp whose bits 1:0 are the same.
+  // Bit 2 = 1: a ramp. The phase that follows this ramp has the same bits 1:0, and bit 2 = 0.
   typedef enum logic [2:0] {
     PhCruise = 3'b000,
     PhCreep  = 3'b001,

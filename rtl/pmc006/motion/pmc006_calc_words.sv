@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_words: memory of pmc006_calc. Contains words that the program writes, constants and tables.
+// pmc006_calc_words: memory of pmc006_calc. Contains constants, tables, and words that the program writes.
 // Rules:  P006-MOT-10..23, which define the constants.
 // Timing: word_o follows raddr_i by one cycle.
 // Assumes: no address is read in the cycle in which it is written.

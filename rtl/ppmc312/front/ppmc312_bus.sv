@@ -89,7 +89,7 @@ module ppmc312_bus #(
   end
 
   // If a data access begins less than T_WRQ after the end of the previous data access, the wait request
-  // stretches it for the remaining time.
+  // stretches the new access for the rest of T_WRQ.
   logic [Width-1:0] age_q;  // cycles since the end of the last data access
   logic [Width-1:0] wait_q;  // remaining cycles of the wait
   logic early;

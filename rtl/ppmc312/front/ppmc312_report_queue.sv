@@ -47,7 +47,7 @@ module ppmc312_report_queue
   logic hold, load, done;
   logic [3:0] lowest, class_q, class_done;
   trigger_result_e trigger_result_q;
-  logic class2_pending_q;  // serial mode: class 2 is pending
+  logic class2_pending_q;  // serial mode: a report of class 2 is pending
   logic loaded_q, bank_q, value, value_q, aux_busy, shift, host_q;
   logic [1:0] alarm_q;
   logic [5:3] once_q, once, once_done;

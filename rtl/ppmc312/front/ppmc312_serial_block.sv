@@ -40,8 +40,9 @@ module ppmc312_serial_block
     if (info_i.has_inner) size_o = too_long_q ? InvalidSize : (BLOCK_BITS + 1)'(inner_q) + InnerOverhead;
   end
 
-  // The serial mode has no split tables (bits 7:4 are 0), and its monitors always continue after a report
-  // (bit 1 is 1).
+  // Serial instruction 00 cannot set up a separate deceleration side, so bits 7:4 of its first parameter are
+  // 0 (bit 4 is LE). The monitors of serial instructions 02 and 03 always continue after a report, so bit 1
+  // (RES) of their first parameter is 1.
   always_comb begin
     data_o = data_i;
     if (generated_i) begin

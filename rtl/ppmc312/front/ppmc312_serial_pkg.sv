@@ -33,7 +33,7 @@ package ppmc312_serial_pkg;
     ppmc312_pkg::end_cause_t           cause;           // class 5: cause of the end; determines the END code
     logic                              discarded;       // class 6: a change was discarded
     logic [7:0]                        data;            // class 6: changed bits of the input
-    logic                              outside;         // classes 7, 8; 1: outside, 0: inside
+    logic                              outside;         // classes 7, 8; 1: outside the range, 0: inside
   } poll_result_t;
 
   function automatic logic [7:0] end_code(ppmc312_pkg::end_cause_t c);

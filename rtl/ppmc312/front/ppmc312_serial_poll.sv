@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_poll: selects the reply to a poll. The reply is the first pending report. If no report is
-//         pending, it is "busy" or "ready".
+// ppmc312_serial_poll: selects the reply to a poll. The reply is the first pending report or, if no report
+//         is pending, "busy" or "ready".
 // Rules:  P312-SER-20, P312-SER-30.
 // Timing: combinational.
 `default_nettype none

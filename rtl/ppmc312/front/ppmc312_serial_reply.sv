@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_reply: generates one reply to each frame. Polls, local reads and faults are answered
-//         immediately, other instructions after the core has executed them.
+// ppmc312_serial_reply: generates one reply to each frame. Replies immediately to polls, faults and local
+//         reads (codes 40, 4E, 4F), and to other instructions after the core has executed them.
 // Rules:  P312-SER-14, P312-SER-17..20, P312-SER-30, P312-SER-45/46, P312-STA-01 (4E, 4F).
 // Timing: a frame ends in cycle n. In cycle n + 2, either it is offered to the core, or its reply is valid.
 `include "ppmc_assert.svh"

@@ -31,7 +31,7 @@ module ppmc312_instr_check
   logic [7:0] flags, inner, value_error, size_error;
   logic [15:0] rate, range, start_rate, stop_rate, high_rate, bound;
   logic [16:0] above_q;  // a rate minus its bound
-  logic [1:0] turn_q, above_turn_q;  // current comparison; comparison to which above_q belongs
+  logic [1:0] turn_q, above_turn_q;  // turn_q: number of this comparison; above_turn_q: of that in above_q
   logic above, near, slow_bad_q, fast_bad_q, given_q, acc_slowest_q;
   logic [1:0] order_q, near_q;
   logic [31:0] count;

@@ -16,7 +16,7 @@ module ppmc312_response_format
     input  wire logic          [7:0] error_i,         // error number of response F0; byte s of response F1
     input  wire status_e             status_i,        // status of the device
     // processing step of the instruction; at most one of these inputs is 1
-    input  wire logic                at_boot_i,       // no instruction: report a reset instruction
+    input  wire logic                at_boot_i,       // no instruction: report the reset by an instruction
     input  wire logic                at_act_i,        // the check is complete
     input  wire logic                at_setup_i,      // the set-up is in progress
     input  wire logic                at_copy_i,       // the instruction is being copied into the queue

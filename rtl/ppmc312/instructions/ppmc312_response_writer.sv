@@ -34,7 +34,7 @@ module ppmc312_response_writer
 );
 
   logic [BLOCK_BITS:0] at_q;
-  logic [BLOCK_BITS:0] beyond_q;  // position in the echo; negative before the echo
+  logic [BLOCK_BITS:0] beyond_q;  // index of the current byte in the echo; negative before the echo
   logic run_q;
   logic [BLOCK_BITS:0] len_q;  // length byte: bytes of the response minus two
   logic [3:0] rest;  // bytes after the current byte, except the echo

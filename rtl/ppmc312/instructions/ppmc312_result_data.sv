@@ -33,7 +33,7 @@ module ppmc312_result_data
   response_tail_e tail;
 
   assign n = block_i.par[0][0];
-  // Inverting all 7 bits of n computes 127 - n.
+  // Inverting all 7 bits of a stage number computes 127 minus this number.
   assign counts[0] = {1'b0, ~first_i};
   assign counts[1] = {1'b0, ~table_i.first_acc};
   assign counts[2] = table_i.split ? {1'b0, ~table_i.first_dec} : 8'd0;

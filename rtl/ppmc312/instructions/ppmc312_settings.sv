@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_settings: stores settings for motions, which instructions change: the high-speed limit, and whether
-//         END and RUN are monitored.
+// ppmc312_settings: stores the motion settings that instructions change. These are the high-speed limit, and
+//         whether END and RUN are monitored.
 // Rules:  P312-CMD-05/06/45, P312-CMD-00, P312-GEN-12.
 // Timing: outputs follow execute_i and built_i by one cycle.
 `default_nettype none

@@ -3,9 +3,10 @@
 //         gate, the pulses, both phases of a zero return, the cause of the end and the status of the
 //         device.
 // Rules:  P312-MOT-01/06/30/34/35, P312-MOT-40..43, P312-STA-01..04, P312-INP-10/12/20/30/32, P312-OVR-12.
-// Timing: t0 is the edge that ends the cycle of motion_req_i.start, or of the end of the start gate. A pin
-//         or a stop acts in the cycle in which it is sampled: no pulse begins in this cycle. pout_o and
-//         dir_o are registered. counted_o is high in the first cycle after the rise of pout_o.
+// Timing: t0 is the edge that ends the cycle of motion_req_i.start or, for a start that the gate holds, the
+//         cycle in which the gate opens. A pin or a stop acts in the cycle in which it is sampled: no pulse
+//         begins in this cycle. pout_o and dir_o are registered. counted_o is high in the first cycle after
+//         the rise of pout_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -216,7 +217,7 @@ module ppmc312_motion
           op_q.origin <= 1'b1;
         end
       end else begin
-        // A request is cleared when it has been evaluated at a boundary.
+        // A request is cleared when it has been evaluated at a boundary (end of an interval).
         decel_q <= (decel_i && state_q == StPulses) || (decel_q && !(fire && next_slow && by_decel_q[1]));
         org_q   <= at_origin && !(fire && next_slow && by_origin_q[1]);
         if (fire && next_final_decel)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_move: executes a motion or a rate change that has passed the check. First checks the limits, then
-//         looks up the rate or plans the operation, then starts or changes the motion.
+// ppmc312_move: executes an instruction that starts a motion or changes the rate, after ppmc312_instr_check
+//         has accepted it. First tests the limit switches (only for a start), then the planner looks up the
+//         rate and plans the operation, then the motion starts or changes.
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (check 8), P312-STA-04.
-// Timing: result_o.done follows begin_i by 4 cycles for a single step, which needs no look-up. Otherwise
-//         the time of the planner is added. start_o or change_o is asserted together with result_o.done.
-//         Rate and number of pulses are held until t0, when the motion starts, even if other instructions are
-//         executed before t0.
+// Timing: result_o.done follows begin_i by 2 cycles if a limit prevents the start, and by 3 cycles for a
+//         single step, which does not use the planner. Otherwise this block waits for the planner. With
+//         Datasheet = 1, a start also waits for elapsed_i. start_o or change_o is asserted together with
+//         result_o.done. Rate and number of pulses are held until t0, when the motion starts, even if other
+//         instructions are executed before t0.
 `default_nettype none
 
 module ppmc312_move

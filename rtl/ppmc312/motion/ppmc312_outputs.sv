@@ -20,7 +20,7 @@ module ppmc312_outputs #(
     input  wire logic       aclr_i,            // alarm clear
     input  wire logic       clamp_i,           // zero clamp
     input  wire logic       aux_i,             // generalized output
-    input  wire logic [5:0] aux_data_i,        // with aux_i; 1: pin low
+    input  wire logic [5:0] aux_data_i,        // with aux_i; [n] = 1: pin n is low
     // state of the motor side
     input  wire logic       launch_i,          // strobe: a motion starts (t0)
     input  wire logic       output_end_i,      // strobe: pulse output has ended
@@ -28,8 +28,8 @@ module ppmc312_outputs #(
     input  wire logic       lock_i,            // 1: interlock control is active
     input  wire logic       alm_ni,            // alarm, active low
     input  wire logic       end_ni,            // END, active low
-    input  wire logic       coupled_inside_i,  // 1: coupled_i = 1, and the position is inside
-    input  wire logic       coupled_i,         // 1: in-position is evaluated and coupled to the zero clamp
+    input  wire logic       coupled_inside_i,  // 1: coupled_i = 1, and the position is in range
+    input  wire logic       coupled_i,         // 1: the in-position monitor controls the zero clamp
     output logic            abn_end_o,         // strobe: the abnormal status ends
     // pins, active low
     output logic            intlk_no,          // interlock

@@ -38,13 +38,13 @@ module ppmc312_position
     output logic unlock_o,  // strobe: report E1, interlock control ends
     // monitors, [0]: in-position, [1]: encode
     output logic [1:0] window_on_o,  // monitor is enabled
-    output logic [1:0] outside_o,  // monitor is enabled, and the position is outside
+    output logic [1:0] outside_o,  // monitor is enabled, and the position is outside its range
     output logic [1:0] pending_o,  // a report is pending
-    output logic [1:0] value_o,  // contents of the report; 1: outside, 0: inside
+    output logic [1:0] value_o,  // contents of the report; 1: outside the range, 0: inside
     input wire logic [1:0] load_i,  // strobes: the report is being loaded
     input wire logic [1:0] read_i,  // strobes: the report has been read
-    output logic coupled_inside_o,  // 1: coupled_o = 1, and the position is inside
-    output logic coupled_o  // 1: in-position is evaluated and coupled to the zero clamp
+    output logic coupled_inside_o,  // 1: coupled_o = 1, and the position is inside the in-position range
+    output logic coupled_o  // 1: the in-position monitor is evaluated, and controls the zero clamp
 );
 
   logic epin_q, couple_q, hit, settled;

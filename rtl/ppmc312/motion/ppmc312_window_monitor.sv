@@ -16,9 +16,9 @@ module ppmc312_window_monitor (
     input  wire logic evaluate_i,  // 1: update the state from inside_i
     input  wire logic inside_i,    // 1: the position is within the range
     output logic      enabled_o,   // 1: the monitor is active
-    output logic      outside_o,   // 1: active, and the position is outside
+    output logic      outside_o,   // 1: active, and the position is outside the range
     output logic      pending_o,   // 1: a report is pending
-    output logic      value_o,     // contents of the report; 1: outside, 0: inside
+    output logic      value_o,     // contents of the report; 1: outside the range, 0: inside
     input  wire logic load_i,      // strobe: the report is being loaded
     input  wire logic read_i       // strobe: the report has been read; may coincide with load_i
 );

@@ -3,9 +3,10 @@
 //         base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
 // Timing: ready_o is combinational. For pulse 1, it is asserted CYC(WidthXtal) cycles after arm_i. Each
-//         later pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1, where a tick is a
-//         base clock. With the external clock, a pulse can fire in the cycle of its tick. Two pulses are at
-//         least 4 cycles apart. A late pulse does not shorten later intervals.
+//         later pulse can fire exactly ceil(n * T) cycles after pulse 1, where n is the number of base clocks
+//         between both pulses, and T is the period of the base clock in cycles. With the external clock, a
+//         pulse can fire in the cycle of the edge that ends the interval. Two pulses are at least 4 cycles
+//         apart. A late pulse does not shorten later intervals.
 // Note:   a base clock may last one cycle. Therefore this module cannot use ppmc_base_clock and
 //         ppmc_rate_counter, which need 3 cycles per base clock.
 `include "ppmc_assert.svh"

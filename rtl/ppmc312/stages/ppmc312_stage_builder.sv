@@ -8,8 +8,8 @@
 // How:    the speed of stage i is D_i = K*RH + (Rs-RH)*W_i. W_i is the weight of the stage, K is the weight
 //         of the last stage, RH is the high-speed rate, and Rs is the larger of start_rate and stop_rate.
 //         The first pass computes the rates R[i] = C/D_i, rounded, with C = K*Rs*RH. It also finds the first
-//         stage of each side, and adds up the D_i of each side. The second pass divides P*D_i plus the
-//         remainder of the stage before by this sum, where P is the number of pulses of the side. The
+//         stage of each side, and S, the sum of the D_i of each side. The second pass divides
+//         (P*D_i + remainder of the previous stage) by S, where P is the number of pulses of the side. The
 //         quotient is the number of pulses of stage i. The multiplier computes all products and sums as
 //         summand + operand * multiplier (ppmc312_muldiv). A small RAM stores the intermediate values.
 `include "ppmc_assert.svh"
@@ -35,8 +35,8 @@ module ppmc312_stage_builder
     output logic [23:0] op_lo_o,  // multiplication: multiplier; division: low part of the dividend
     output logic [39:0] word_o,  // with op_start_o: summand or upper dividend; then the operand
     input wire logic op_busy_i,  // 1: the result is not valid yet
-    input wire logic [39:0] hi_i,  // result; remainder
-    input wire logic [23:0] lo_i  // low bits of the result; quotient
+    input wire logic [39:0] hi_i,  // multiplication: high bits of the result; division: remainder
+    input wire logic [23:0] lo_i  // multiplication: low bits of the result; division: quotient
 );
 
   localparam logic [6:0] Last = 7'd126;

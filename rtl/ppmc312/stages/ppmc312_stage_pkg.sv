@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_pkg: types of motions along a stage table.
+// ppmc312_stage_pkg: types for motions along a stage table.
 // Rules:  P312-GEN-06 (t(x)), P312-MOT-20.
 `default_nettype none
 

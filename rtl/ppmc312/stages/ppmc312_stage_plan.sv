@@ -21,7 +21,7 @@ module ppmc312_stage_plan
     input wire logic start_i,  // strobe: start
     input wire logic ramp_i,  // 1: look up and plan, 0: look up only
     input wire logic endless_i,  // 1: the operation runs until it is stopped
-    input wire logic [15:0] rate_i,  // base clocks; this input and all below: stable while busy
+    input wire logic [15:0] rate_i,  // rate in base clocks; stable while busy_o = 1, like the inputs below
     input wire logic [31:0] count_i,  // pulses, at least 1
     input wire logic [6:0] first_acc_i,  // first stage of the acceleration side
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
@@ -42,7 +42,7 @@ module ppmc312_stage_plan
     output logic op_start_o,  // strobe: start the operation
     output logic op_mul_o,  // 1: multiply, 0: divide
     output logic [23:0] op_lo_o,  // multiplier
-    output logic [24:0] operand_o,  // product: 0, then multiplicand; division: divisor
+    output logic [24:0] operand_o,  // product: 0 with op_start_o, then multiplicand; division: divisor
     input wire logic op_busy_i,  // 1: the result is not valid yet
     input wire logic [23:0] lo_i  // low bits of the product, or quotient
 );
@@ -173,9 +173,9 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_some: dec_pulses_o is loaded. If the search for the start of the deceleration has just begun
-  // (begins_q), it is the number of pulses that remain for the deceleration. Otherwise it is the number of
-  // pulses of the complete deceleration. dec_none: dec_pulses_o is cleared.
+  // dec_some: dec_pulses_o is loaded. In the first cycle of the search for the start of the deceleration
+  // (begins_q), the new value is the number of pulses that remain for the deceleration. Otherwise it is the
+  // number of pulses of the complete deceleration. dec_none: dec_pulses_o is cleared.
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 
@@ -204,7 +204,7 @@ module ppmc312_stage_plan
 
   assign op_start_o = !wait_q && state_q inside {StMultiply, StDivide};
   assign op_mul_o = state_q == StMultiply;
-  // A product starts with h = 0, and then uses over_q as the multiplicand.
+  // Product: operand_o is 0 (the summand) in the cycle of op_start_o, and then over_q (the multiplicand).
   assign operand_o = (over_q & {25{op_mul_o && wait_q}}) | (sum_q & {25{!op_mul_o}});
   assign op_lo_o = acc_kept_q;
   assign op_done = wait_q && !op_busy_i;

@@ -2,7 +2,7 @@
 // ppmc312_stage_seq: for a motion along a stage table, selects the rate of the next pulse, or ends the
 //         motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
-// Timing: next_* are valid from 4 cycles after a pulse on.
+// Timing: the outputs next_* become valid 4 cycles after each pulse.
 //         A deceleration request acts at a boundary if slow_i is high 2 cycles before the boundary. A change
 //         acts at a boundary if change_i occurs at least 5 cycles (constant rate) or 9 cycles (change along
 //         the table) before the boundary.
@@ -11,9 +11,9 @@
 //         the earliest 136 cycles after this boundary, a deceleration to the end 132 cycles after it. Such a
 //         deceleration is possible only with a table that is not monotonic: the constant rate is the rate of
 //         a stage below first_dec_i, but it is faster than the rate of stage first_dec_i.
-// How:    the running interval is a stage (up or down) or a constant rate. Counts and stages are compared
-//         in the first cycle of an interval. The decision follows; it is delayed by two cycles, in which
-//         the table reads the stage that the decision needs.
+// How:    the running interval has the rate of a stage (up or down the table) or a constant rate. Counts and
+//         stages are compared in the first cycle of an interval. The decision follows; it is delayed by two
+//         cycles, in which the table reads the stage that the decision needs.
 // Note:   a boundary is the end of an interval. With step_i = 1, a pulse begins at the boundary.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -30,7 +30,7 @@ module ppmc312_stage_seq
     output table_addr_t table_addr_o,  // read port of the table
     input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
-    input wire logic load_i,  // strobe: start profile_i
+    input wire logic load_i,  // strobe: start the operation profile_i
     input wire profile_t profile_i,  // sampled with load_i; target also 2 cycles after change_i
     input wire logic single_i,  // with load_i; 1: one pulse, regardless of dec_pulses
     // requests
@@ -46,7 +46,7 @@ module ppmc312_stage_seq
     output logic [15:0] next_rate_o,  // rate of the next interval, base clocks
     input wire logic step_i,  // strobe: boundary, and a pulse begins
     // running interval
-    output logic [15:0] rate_o,  // base clocks; before pulse 1: planned rate, registered
+    output logic [15:0] rate_o,  // rate of this interval in base clocks; before pulse 1: planned rate
     output logic const_rate_o,  // 1: constant rate
     output logic final_decel_o,  // 1: deceleration to the end
     output logic first_o,  // 1: before pulse 1
@@ -71,7 +71,7 @@ module ppmc312_stage_seq
     logic const_rate;
     logic down;
     logic final_decel;
-    logic last;     // deceleration that ends with the last pulse of the count
+    logic last;     // 1: the deceleration ends with the last pulse of the count
     logic changed;
   } interval_mode_t;
 

@@ -42,15 +42,15 @@ module ppmc_bank_fv
   `FV_ASSUME(one_axis, watched_i == $past(watched_i))
 
   pin_cmd_t pin_cmd_q;  // current command of the watched axis
-  logic [2:0] at_cycle_q;  // cycle of the round in which pin_cmd_q is executed
+  logic [2:0] at_cycle_q;  // cycle of the round in which the pin block executes pin_cmd_q
   logic [3:0] cycles_q;  // cycles since reset, saturates at 15
   logic pending_q, pout_q, dir_q, hold_q;
   logic [4:0] s_q;
   // cmd_executed_q: pin_cmd_q was executed one cycle ago; had_pulse_q: this command had a pulse
   logic cmd_executed_q, had_pulse_q;
   logic [2:0] alarm_q, cw_q;  // alarm and CW limit of the watched axis in the last three cycles
-  logic irq_changed_q;  // 1: an interrupt has begun or ended
-  logic ends, visited_q;  // ends: visit of the watched axis in its last stage; visited_q: it has ended
+  logic irq_changed_q;  // 1: the interrupt of the watched axis has been set or cleared
+  logic ends, visited_q;  // ends: last stage of a visit of the watched axis; visited_q: a visit has ended
 
   assign ends = dut.axis[5] == {1'b0, watched_i} && cycles_q == '1;
 

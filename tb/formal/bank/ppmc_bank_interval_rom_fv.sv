@@ -11,7 +11,7 @@ module ppmc_bank_interval_rom_fv
     input wire interval_t interval_i
 );
 
-  localparam int unsigned Quantum = 1, Round = 8, TimeBits = 14;  // cycles
+  localparam int unsigned Quantum = 1, Round = 8, TimeBits = 14;  // Quantum and Round in cycles
 
   logic [TimeBits-1:0] after_low_o;
 
@@ -25,9 +25,9 @@ module ppmc_bank_interval_rom_fv
       .*
   );
 
-  // A base clock has 8 quanta (fast) or 32 quanta (slow). With extra_time = 1 (vsel low), an interval has
-  // 30 more quanta. The low time has 20 quanta. With the fast base clock, extra_time = 0 and a rate of 0 to
-  // 2, it is half of the interval.
+  // A period of the base clock has 8 quanta (fast) or 32 quanta (slow). With extra_time = 1 (vsel low), an
+  // interval has 30 more quanta. The low time has 20 quanta. Exception: with the fast base clock, extra_time
+  // = 0 and a rate of 0 to 2, the low time is half of the interval.
   interval_t interval_q, interval_q2;
   logic [1:0] valid_q;  // 1: the registers of the block are filled
   logic [TimeBits-1:0] base_clocks, interval_cycles, low_cycles;

@@ -30,7 +30,7 @@ module ppmc_bank_tables_fv (
 
   `FV_ASSUME(only_when_idle, !(build_start_i && build_busy_o))
 
-  logic axis_q, written_q;  // axis_q: axis of the build; written_q: the word was written
+  logic axis_q, written_q;  // axis_q: axis of the build; written_q: the build has written its word
   logic [7:0] slow_q;
   logic [1:0] steps_q;
   logic [3:0] age_q;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_update_fv: decision and update of a visit, for any state of the axis. Proves that a visit
-// issues at most one pin action, that the position changes by one per pulse, that an aborted or
-// halted motion has no pulse, and that an axis without a motion has neither the beginning nor the
-// end of a pulse.
+// issues at most one pin action, that the position changes by one per pulse, that a visit that aborts or
+// halts a motion begins no pulse, and that no pulse begins or ends on an axis without a motion.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -22,7 +22,7 @@ module ppmc_bank_window_fv
     input wire logic three_bytes_i,  // 1: the response has three bytes
     input wire logic [23:0] read_data_bytes_i,
     input wire logic [6:0] other_status_i,  // status of all axes, except ack_seq of the watched axis
-    input wire logic [1:0] position_i,  // positions
+    input wire logic [1:0] position_i,  // position of every axis
     input wire logic [3:0] map_i  // pending interrupts
 );
 
@@ -180,7 +180,7 @@ module ppmc_bank_window_fv
   read_queue_t
       queue_q,
       queue_s1_q,
-      queue_s2_q;  // queue_q: current state; queue_s1_q, queue_s2_q: copies of it during a read
+      queue_s2_q;  // queue_q: current state; queue_s1_q, queue_s2_q: copies of queue_q during a read
   // data_loaded: a data byte is loaded; unread_left: an unread byte is left; current_q: the loaded byte
   // belongs to the last response
   logic data_loaded, unread_left, current_q;
@@ -209,7 +209,7 @@ module ppmc_bank_window_fv
   `FV_ASSERT(bank_hsk_04_valid_until_all_read, !data_loaded_q || dut.data_shown_q == unread_left_q)
   `FV_ASSERT(bank_hsk_04_in_order, !(data_loaded_q && unread_left_q) || d == byte_q)
   `FV_ASSERT(bank_hsk_04_no_more_than_stored, queue_q.read <= queue_q.bytes)
-  // ---- registers at edge 2 of the read ---------------------------------------------------------------
+  // ---- registers that a read returns -----------------------------------------------------------------
 
   // A visit writes its status one cycle before the first edge at which its pins can change. Pending
   // interrupts change in the same cycle. A read that loads d_o two cycles later returns the registers of this

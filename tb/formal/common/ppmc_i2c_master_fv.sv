@@ -15,7 +15,7 @@ module ppmc_i2c_master_fv
     input wire logic       sda_i
 );
 
-  localparam int unsigned Bound = 9 * (4 + 1) + 2;  // in ticks: 9 bits of at most 4 + 1 ticks
+  localparam int unsigned Bound = 9 * (4 + 1) + 2;  // ticks of 9 bits: 4 ticks and 1 tick of stretching each
 
   i2c_cmd_e cmd_i;
   logic tick_o, first_o, done_o, fail_o, nack_o, scl_oe_o, sda_oe_o;

@@ -10,7 +10,7 @@ module ppmc_reset_fv (
 );
 
   logic rst_no;
-  logic [1:0] high_q;  // edges that sampled the pin high after the last low, saturates at 2
+  logic [1:0] high_q;  // consecutive edges that sampled the pin high, saturates at 2
 
   `FV_RESET
 

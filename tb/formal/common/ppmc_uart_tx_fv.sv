@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_tx_fv: with 8 cycles per bit, proves that ppmc_uart_rx receives every accepted byte unchanged,
-// once and in time.
+// ppmc_uart_tx_fv: with 16/3 cycles per bit, proves that ppmc_uart_rx receives every accepted byte
+// unchanged, once and in time.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_cycles_fv: with 10 crystal cycles in 7 clock cycles, proves in every cycle that the reported
-// number of crystal cycles equals the number that has passed.
+// ppmc_xtal_cycles_fv: with 10 crystal cycles in 7 clock cycles, proves that after any number of clock
+// cycles since the restart, the sum of cycles_o is the number of crystal cycles that have passed.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_timer_fv: for every limit, proves in every cycle that past_o is high if and only if this number
-// of crystal cycles has passed.
+// ppmc_xtal_timer_fv: proves for every limit_i up to 14 that past_o is high if and only if limit_i crystal
+// cycles have passed since the last restart.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_axil_fv: proves the handshake rules of an AXI4-Lite subordinate for any manager that follows the
-// rules for managers. Each request gets one response in time. If a read and a write both wait, they
-// alternate.
+// rules for managers. Each request gets one response in time, even if reads and writes wait at the same
+// time.
 `include "ppmc_fv.svh"
 `default_nettype none
 

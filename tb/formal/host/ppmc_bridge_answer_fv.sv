@@ -57,7 +57,7 @@ module ppmc_bridge_answer_fv (
   `FV_ASSUME(clear_at_rest, !(clear_i && (busy_o || put_i || ident_i || count_i)))
   `FV_ASSUME(cleared_first, begun_q || !(put_i || ident_i || count_i))
 
-  logic [4:0] age_q;  // cycles of the current block
+  logic [4:0] age_q;  // cycles since the beginning of the current block
   logic [8:0] before_q;  // length at the beginning of the current block
   logic counting_q;
   logic [31:0] read_q;  // bytes of the current block that have been written

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_decode_fv: proves that an op may begin if and only if the table contains it and the answer
-// has space for the bytes that the op returns immediately. Proves that exactly the ops that return
-// a block begin a block.
+// has space for the bytes that the op returns immediately. Proves that ident_o and count_o are high
+// for exactly the ops that return a block of this kind.
 `include "ppmc_fv.svh"
 `default_nettype none
 

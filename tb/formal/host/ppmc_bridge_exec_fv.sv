@@ -22,7 +22,7 @@ module ppmc_bridge_exec_fv
 
   localparam int unsigned Idle = 0, Decode = 2, Arg = 3, Arg2 = 4, Loop = 6, Poll = 7, Judge = 8, Write = 9,
       WriteEnd = 10;  // values of state_q
-  localparam int unsigned Longest = 40;  // bound of the cycles in a state; the longest are RESET and IDENT
+  localparam int unsigned Longest = 40;  // bound of the cycles in a state; RESET and IDENT need the most
 
   logic [7:0] raddr_o, waddr_o, wdata_o, d_o;
   logic script_o, answer_o, we_o, rec_next_o, part_rst_no, cs_no, rd_no, wr_no;
@@ -50,7 +50,7 @@ module ppmc_bridge_exec_fv
   logic [5:0] stay_q;  // cycles in the current state
   logic [7:0] loop_q;  // remaining bytes at the last StLoop of the op
   logic looped_q;
-  logic [3:0] over_q;  // cycles since the end of a wait
+  logic [3:0] over_q;  // cycles for which a wait continues after its time limit
 
   always_ff @(posedge clk_i) begin
     counter_q <= counter_q;

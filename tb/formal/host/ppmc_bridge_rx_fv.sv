@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_rx_fv: proves that the deframer never hangs, accepts only complete frames with a correct CRC,
-// and reports a reason for each rejection. Assumes that characters are at least 4 cycles apart.
+// and keeps a NAK until it is sent. Assumes that characters are at least 4 cycles apart.
 `include "ppmc_fv.svh"
 `default_nettype none
 

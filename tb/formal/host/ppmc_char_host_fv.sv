@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_char_host_fv: for any characters, proves that each complete request to the device causes exactly one
-// strobe of 8 cycles with its address and data, that nothing else causes a strobe, and that only a write to
-// the block itself changes the straps and the reset of the device.
+// strobe of 8 cycles with its address and data, that nothing else causes a strobe, and that only a write of
+// the control byte changes the straps and the reset of the device.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -27,8 +27,8 @@ module ppmc_char_host_fv (
       .*
   );
 
-  // Characters are at least 16 cycles apart. In fact, the receiver needs at least 9 bit times of 40 cycles for
-  // each character.
+  // Characters are at least 16 cycles apart. In fact, the receiver needs at least 9 bit times of 40 cycles
+  // for each character.
   logic [3:0] gap_q;
   `FV_ASSUME(chars_apart, !(dut.received || dut.error) || gap_q == '0)
 
@@ -39,7 +39,7 @@ module ppmc_char_host_fv (
   assign own      = dut.char[7] ? dut.char[5] : first_q[5];
   assign write    = !dut.char[7];
 
-  logic [1:0] device_q;  // [0]: 1 one cycle after a complete request to the device; [1]: 1 two cycles after
+  logic [1:0] device_q;  // [n]: a request to the device was completed n + 1 cycles ago
   logic own_write_q;
   logic write_q;
   logic [3:0] length_q;  // cycles of the strobe so far

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_host_port_fv: from the pins to the mailbox and back. Proves that every complete write is accepted
-// once and unchanged, and that a read consumes a byte only if one was available.
+// ppmc_host_port_fv: the path from the pins to the mailbox and back. Proves that every complete write is
+// accepted once and unchanged, and that a read consumes a byte only if one was available.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_fv: proves that a running recorder writes one record for each change of the levels, and one
-// record whenever the time reaches its maximum without a change. It writes no other records. The recording
-// ends when the memory is full, and no record is written past the end.
+// ppmc_recorder_fv: proves that a running recorder writes one record at the beginning, at the end, for each
+// change of the levels, and whenever the time reaches its maximum without a change. It writes no other
+// records. The recording ends when the memory is full, and no record is written past the end.
 `include "ppmc_fv.svh"
 `default_nettype none
 

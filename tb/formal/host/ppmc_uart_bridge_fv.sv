@@ -45,7 +45,7 @@ module ppmc_uart_bridge_fv (
       if (dut.start) {own_q, seq_q} <= {dut.seq != '0, dut.seq};
     end
 
-  // Assumptions in the proofs of exec, wait, rx and msg.
+  // These assertions are assumptions in the proofs of ppmc_bridge_exec, _wait, _rx and _msg.
   `FV_ASSERT(start_in_idle, !((dut.start || dut.resend) && active_o) && !(dut.start && dut.resend))
   `FV_ASSERT(answer_of_something, !dut.resend || begun_q)
   `FV_ASSERT(ms_apart, !dut.ms_q || since_ms_q >= 3'(MsCycles - 2))

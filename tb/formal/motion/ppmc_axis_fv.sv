@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_axis_fv: a complete motion. Proves the number of pulses, their times and low times, and that no
-// pulse follows the end. Times are short: the width is 6 cycles, quanta are at least 4 cycles
+// pulse follows the end. Times are short: the pulse width is 6 cycles, quanta are at least 4 cycles
 // apart, and a period of the base clock has 2 or 3 quanta.
 // Assumes: rising edges of the clock pin are at least 8 cycles apart. Table entries are at most PA, and the
 // entry of the high-speed rate is PA. Rates and PA are stable during a motion. Stops, switches and
@@ -150,7 +150,8 @@ module ppmc_axis_fv
 
   // ---- set-up, direction, low time -----------------------------------------------------------------
 
-  // setup_q: cycles since the start or the end of the gate; age_q: cycles since a pulse; both saturate at 7
+  // setup_q: cycles since the start or the end of the RUN gate; age_q: cycles since a pulse; both saturate
+  // at 7
   logic [2:0] setup_q, age_q;
 
   always_ff @(posedge clk_i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_excitation_fv: proves that the phases are always a row of the tables in the manual, and that a step
-// selects the next row.
+// ppmc_excitation_fv: proves that the phases are always off or a row of the tables in the manual, and that
+// each step moves by one row in its direction.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,7 +25,7 @@ module ppmc_excitation_fv
 
   ppmc_excitation dut (.*);
 
-  // Index of the half-step table, which has two entries per full step. Row 0 is S1 and S2.
+  // Row of the half-step table, which has two rows per full step. In row 0, S1 and S2 are on.
   logic on_q;
   logic [3:0] index_q, length, stride;
 
@@ -40,7 +40,7 @@ module ppmc_excitation_fv
 
   // Even rows have two adjacent phases. Odd rows have one phase (3- and 4-phase motors) or three phases
   // (5-phase motors).
-  logic [3:0] one, two, three;  // one, two or three adjacent phases, from the phase of the index on
+  logic [3:0] one, two, three;  // numbers of three adjacent phases (0: S1); `one` follows from index_q
 
   assign one   = {1'b0, index_q[3:1]};
   assign two   = (one + 4'd1 == (length >> 1)) ? 4'd0 : one + 4'd1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_clock_fv: proves that each rising edge of the pin is reported once, that a falling edge is reported
-// at least 2 cycles after the rising edge, and that the period of the pin is classified correctly.
+// ppmc_ext_clock_fv: proves that each rising edge of the pin is reported once, that a falling edge is
+// reported at least 2 cycles after the rising edge, and that the period of the pin is classified correctly.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -33,8 +33,8 @@ module ppmc_ext_clock_fv (
     end
 
   `FV_ASSERT(p104_bck_04_rise, rise_o == (pin_q[2:1] == 2'b01))
-  // If the pin was sampled high only once, its falling edge is reported one cycle later; it is not reported if
-  // the pin is high again by then.
+  // If the pin was sampled high only once, its falling edge is reported one cycle later; it is not reported
+  // if the pin is high again by then.
   `FV_ASSERT(p104_bck_04_fall, fall_o == (pin_q[3:1] == 3'b110 || pin_q[4:1] == 4'b0100))
   `FV_ASSERT(p104_tim_05_two_cycles, !(fall_o && rose_q))
   `FV_ASSERT(p104_int_03_long, !rise_o || long_period_o == (age_q > 5'd9))

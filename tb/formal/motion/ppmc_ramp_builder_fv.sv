@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_builder_fv: proves that a build ends within its bound, and that it writes each word of the
-// table once and in order, with PA first. Rates have 2 bits, PA has 3 bits. The stub shortens each
-// pass to 2 cycles; ppmc_ramp_serial_fv proves the real length.
+// table once and in order, with PA first. Rates have 2 bits, PA has 3 bits. The stub of
+// ppmc_ramp_serial shortens each pass to 2 cycles; ppmc_ramp_serial_fv proves the real length.
 `include "ppmc_fv.svh"
 `default_nettype none
 

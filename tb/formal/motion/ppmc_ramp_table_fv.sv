@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_table_fv: proves that the table contains the words of the builder from the fall of busy_o until
-// the next build, and that the outputs then are the parameters of this table.
+// ppmc_ramp_table_fv: proves that from the fall of busy_o until the next build, the table contains the words
+// of the builder, and slow_o, fast_o and steps_o are the parameters of this table.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -29,7 +29,7 @@ module ppmc_ramp_table_fv (
              ({slow_i, fast_i, steps_i}))
   `FV_ASSUME(once, !(start_i && busy_o))
 
-  // The stub writes one word: PA at the start-up rate.
+  // The stub of the builder writes one word: PA at the start-up rate.
   logic [1:0] at_q, fast_q, word_q, addr1_q, addr2_q, rest_q;  // rest_q: cycles since the build, <= 3
 
   always_ff @(posedge clk_i) begin

@@ -13,7 +13,7 @@ module ppmc_ramp_tables_fv (
     input wire logic [2:1][1:0] addr_i
 );
 
-  localparam int unsigned Build = 5 + 2;  // cycles of one build with the stub
+  localparam int unsigned Build = 5 + 2;  // cycles of one build with the stub of the builder
 
   logic [2:1] busy_o;
   logic [2:1][1:0] data_o;

@@ -21,8 +21,8 @@ module pmc006_debounce_fv (
       .*
   );
 
-  // ticks_q: ticks for which the input has had, without interruption, the level that changes armed_q (low while
-  // armed, high while not armed)
+  // ticks_q: ticks for which the input has had, without interruption, the level that changes armed_q (low
+  // while armed, high while not armed)
   logic armed_q, first_q;
   logic [1:0] ticks_q;
   logic change;

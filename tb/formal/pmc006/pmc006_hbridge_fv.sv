@@ -28,7 +28,7 @@ module pmc006_hbridge_fv (
 
   assign high = high0_o || high1_o;
 
-  logic [3:0] off_q, on_q;  // off_q: cycles with both high sides off; on_q: cycles with one on; max. 15
+  logic [3:0] off_q, on_q;  // cycles with both high sides off, and with one on; both saturate at 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {off_q, on_q} <= '0;

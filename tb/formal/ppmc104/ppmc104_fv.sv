@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_fv: proves a whole PPMC-104 from its bus pins to its motor pins, with TIMING = "FAST", a clock of
-// 8 MHz and a crystal of 16 MHz (a pulse has 40 cycles, a quantum 2 cycles). A word of the ramp table may have
-// any value in every cycle, and a table build takes five cycles. Host, switches, clock pin and reset pin are
-// unconstrained.
+// ppmc104_fv: proves a complete PPMC-104 from its bus pins to its motor pins, with TIMING = "FAST", a clock
+// of 8 MHz and a crystal of 16 MHz (a pulse has 40 cycles, a quantum 2 cycles). A word of the ramp table may
+// have any value in every cycle, and a table build takes five cycles. Host, switches, clock pin and reset
+// pin are unconstrained.
 `include "ppmc_fv.svh"
 `default_nettype none
 

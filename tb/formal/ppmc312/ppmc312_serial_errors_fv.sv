@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_errors_fv: compares each error count of the block with the number of its errors since the last
-// read, limited to 255.
+// ppmc312_serial_errors_fv: compares each error count of the block with the number of its errors since the
+// last read, limited to 255.
 `include "ppmc_fv.svh"
 `default_nettype none
 

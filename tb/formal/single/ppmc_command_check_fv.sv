@@ -29,14 +29,14 @@ module ppmc_command_check_fv
 
   ppmc_command_check dut (.*);
 
-  // Register of the parser state, and a motion that the byte starts.
+  // Models of the surrounding blocks: the register of the parser state, and a motion that the byte starts.
   always_ff @(posedge clk_i) busy_i <= rst_ni && (act_o.start || (busy_i && !ended_i));
   always_ff @(posedge clk_i) parser_i <= rst_ni ? parser_o : '0;
 
   `FV_ASSUME(known_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)
   `FV_ASSUME(params_fit_the_kind,
              decoded_i.params == '0 || decoded_i.kind inside {CmdInit, CmdOperation, CmdSwitching, CmdAuxOut})
-  // During a motion, the only code with parameters is AUX OUT.
+  // Of the codes with parameters, only operations have bit 6 = 1. AUX OUT has bits 7 and 1 = 1.
   `FV_ASSUME(codes_with_parameters,
              !(command_i && decoded_i.params != '0 && decoded_i.kind == CmdOperation) || byte_i[6])
   `FV_ASSUME(other_codes,

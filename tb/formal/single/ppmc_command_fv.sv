@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command_fv: proves that a byte is accepted if and only if it is available and the mailbox is open,
-// and that it was decoded one cycle before.
+// ppmc_command_fv: proves that a byte is accepted only if it is available and the mailbox is open, and that
+// this byte was decoded one cycle before.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_proc_time_fv: with DATASHEET times, proves that each action takes effect once and in order, and that
-// the mailbox opens again. The ratio of the clocks reduces the times to 1/64.
+// the mailbox opens again. A clock cycle has 3 crystal cycles, so that the times are short.
 `include "ppmc_fv.svh"
 `default_nettype none
 

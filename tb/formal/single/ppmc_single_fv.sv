@@ -56,8 +56,8 @@ module ppmc_single_fv
 
   always_ff @(posedge clk_i) init_open_q <= on && (act.init || (init_open_q && !dut.u_single.ready_init));
 
-  // Assumptions in the proofs of axis, finish status, table, builder, setup, mailbox, command and command
-  // check.
+  // These assertions are assumptions in the proofs of axis, finish status, table, builder, setup, mailbox,
+  // command and command check.
   `FV_ASSERT(start_at_rest, !on || !act.start || !(busy || dut.u_single.event_now.done || building))
   `FV_ASSERT(table_once, !on || !(act.init && building))
   `FV_ASSERT(ramp_stands, !$past(on) || !busy || rates == $past(rates))

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // verilog_syntax: parse-as-module-body
 // Properties of a whole part with one axis, from the bus pins to the motor pins. The modules ppmc104_fv and
-// stmc_fv include this file. They define dut, IdleLevel, and these signals: pin_rst_n, limit_cw_n, limit_ccw_n,
-// alarm_n (pins), s, ccw (direction of the pulse), moved (a pulse begins at the pins in this cycle), is_read
-// (the byte that the host has just written is a read code), and pins_at_rest.
-// A level of a switch pin allows or prevents a pulse that begins at the pins four cycles later: two cycles for
-// the synchroniser, one for the axis, and one for the output register. Some properties read strobes of blocks;
-// the proofs of these blocks relate the strobes to the bus and to the motion.
+// stmc_fv include this file. They define dut, IdleLevel, and these signals: pin_rst_n, limit_cw_n,
+// limit_ccw_n, alarm_n (pins), s, ccw (direction of the pulse), moved (a pulse begins at the pins in this
+// cycle), is_read (the byte that the host has just written is a read code), and pins_at_rest.
+// A level of a switch pin allows or prevents a pulse that begins at the pins four cycles later: two cycles
+// for the synchroniser, one for the axis, and one for the output register. Some properties read strobes of
+// blocks; the proofs of these blocks relate the strobes to the bus and to the motion.
 
   logic on;  // 1: the part is out of reset
   motion_t motion;
@@ -69,8 +69,8 @@
 
   // ---- number of pulses: as written by the host, or fewer with a cause --------------------------------
 
-  logic [7:0] byte_q, code_q;  // last byte written by the host; last command that was accepted
-  logic command_q, complete_q;  // byte_q is a command; the pulse that completes the count has occurred
+  logic [7:0] byte_q, code_q;  // byte_q: last byte written by the host; code_q: last accepted command
+  logic command_q, complete_q;  // command_q: byte_q is a command; complete_q: the count is complete
   logic [23:0] data_q;  // last three data bytes that were accepted
   logic [23:0] wanted, wanted_q, left_q;
   logic [2:0] op;
@@ -98,8 +98,8 @@
   // ---- excitation ----------------------------------------------------------------------------------
 
   logic homed_q, positive_q;
-  logic [3:0] index_q, length, stride;  // row of the half-step table
-  logic [3:0] one, two, three;  // adjacent phases of this row
+  logic [3:0] index_q, length, stride;  // index_q: row of the half-step table; stride: rows of a step
+  logic [3:0] one, two, three;  // numbers of three adjacent phases (0: S1); `one` follows from index_q
   logic [4:0] row, row_q, lines;
 
   assign length = 4'd2 * (4'(setup.motor) + 4'd2);
@@ -155,8 +155,9 @@
 
   // ---- no lock-up ----------------------------------------------------------------------------------
 
-  // ibf_age_q: cycles for which the same byte has waited, without a table build. alarm_age_q: cycles for which
-  // the alarm has been active since the last start. pulse_age_q: cycles since the last start or pulse event.
+  // ibf_age_q: cycles for which the same byte has waited, without a table build. alarm_age_q: cycles for
+  // which the alarm has been active since the last start. pulse_age_q: cycles since the last start or
+  // pulse event.
   localparam int unsigned Age = ppmc_lfsr_pkg::width(40 - 1);
   logic [1:0] ibf_age_q;
   logic [5:0] alarm_age_q, pulse_age_q;

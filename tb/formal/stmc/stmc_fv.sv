@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// stmc_fv: proves a whole STMC from its bus pins to its motor pins, with TIMING = "FAST", a clock of 8 MHz and
-// a crystal of 16 MHz (a pulse width of 40 cycles, a quantum of 2 cycles). A word of the ramp table may have
+// stmc_fv: proves a complete STMC from its bus pins to its motor pins, with TIMING = "FAST", a clock of 8 MHz
+// and a crystal of 16 MHz (a pulse has 40 cycles, a quantum 2 cycles). A word of the ramp table may have
 // any value in every cycle, and a table build takes five cycles. Host, switches, clock pin and reset pin are
 // unconstrained. The part has no pulse output: a pulse is a change of the phases from one row of the phase
 // table to another.

@@ -10,14 +10,14 @@ module ppmc_bank_engine
   import ppmc_code_pkg::init_code_t;
 #(
     parameter int unsigned Quantum   = 25,    // quantum (4 crystal cycles) in clock cycles
-    parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
+    parameter int unsigned TimeBits  = 18,    // width of interval values, which are numbers of cycles
     parameter bit          PhaseIdle = 1'b1,  // level of s before the first initialisation
     parameter int unsigned RoundBits = 5      // a round is 2^RoundBits cycles
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [5:0][RoundBits-1:0] axis_i,  // axes in stages 0 to 5
-    input wire logic [4:3] clear_i,  // 1: reset the axes of the visits in stages 3 and 4
+    input wire logic [4:3] clear_i,  // [i] = 1: reset the axis in stage i
     // from the window
     input wire in_buf_t in_buf_i,  // stage 1: input buffer
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
@@ -32,7 +32,7 @@ module ppmc_bank_engine
     output logic read_data_we_o,  // strobe: write read_data_o
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which pin_cmd_o is executed
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which the pin block executes pin_cmd_o
     output logic irq_set_o,  // set the pending interrupt of the axis
     output logic irq_clear_o  // clear the pending interrupt of the axis
 );

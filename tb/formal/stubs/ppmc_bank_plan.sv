@@ -11,7 +11,7 @@ module ppmc_bank_plan
 #(
     parameter int unsigned Quantum  = 25,  // quantum (4 crystal cycles) in clock cycles
     parameter int unsigned Round    = 32,  // time between two visits of an axis (a round) in cycles
-    parameter int unsigned TimeBits = 20   // bits of an interval in cycles
+    parameter int unsigned TimeBits = 20   // width of interval values, which are numbers of cycles
 ) (
     // axis
     input wire motion_state_t motion_i,  // state of the motion
@@ -35,7 +35,7 @@ module ppmc_bank_plan
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
     input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the time since GO, in cycles
-    input wire logic [TimeBits-1:0] after_low_i,  // end of low time to next pulse in cycles, minus Round
+    input wire logic [TimeBits-1:0] after_low_i,  // cycles from end of low time to next pulse, minus Round
     output decision_t decision_o,  // decisions of the visit
     output logic restart_time_o,  // 1: clear cycles_left before add_cycles_o is added
     output logic [TimeBits-1:0] add_cycles_o  // cycles that are added to cycles_left

@@ -43,7 +43,7 @@ module ppmc_board_host #(
     input  wire logic [    Axes-1:0] pout_ni,
     input  wire logic [    Axes-1:0] dir_i,
     input  wire logic [   Watch-1:0] watch_i,      // all pins of the device, synchronous to clk_i
-    output logic                     link_o        // 1: a script is running or an answer is pending
+    output logic                     link_o        // UART: 1 during scripts and answers; BUS: !cs_ni
 );
 
 endmodule

@@ -4,8 +4,9 @@
 // Timing: each rising edge samples the levels that master and stations drive before this edge. A reset
 //         takes effect at an edge.
 // Note:   the stations are compiled separately (`line_station`, station.cpp), so all use the same code.
-//         Each station receives the master. With hear_others, a station also receives the other stations;
-//         with hear_self, it also receives itself. noise inverts the level that a station receives.
+//         Each station receives the level of the master. With hear_others = 1, a station also receives the
+//         levels of the other stations; with hear_self = 1, also its own level. noise[i] = 1 inverts the
+//         level that station i receives.
 `default_nettype none
 
 module ppmc312_line #(
