@@ -10,7 +10,7 @@ from cocotb_tests.harness.collect import Item
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
 PART_TESTS, PMC006 = "cocotb_tests.gates.tb_parts", "cocotb_tests.pmc006.tb_bits"
-# Clock frequency of the bitstream for the iCEBreaker.
+# Build with the clock frequency of the bitstream for the iCEBreaker.
 B24 = Config("b24m", clk_hz=24_000_000)
 
 

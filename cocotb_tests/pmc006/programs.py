@@ -31,12 +31,12 @@ def rot(count: int) -> Op:
 
 
 def out(number: int, level: int) -> Op:
-    """Return an OUT instruction for GPO `number`."""
+    """Return an OUT instruction that sets GPO `number` to a level."""
     return Op(0x11, number, level)
 
 
 def goto(target: int, code: int = 0x0D) -> Op:
-    """Return a JMP instruction, or a JNE (0x0E) or JEQ (0x0F)."""
+    """Return a JMP instruction to `target`; with `code` 0x0E a JNE, with 0x0F a JEQ."""
     return Op(code, 0, target)
 
 
@@ -67,7 +67,9 @@ def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x
 
 
 def page(**changes: int) -> bytes:
-    """Return the factory page with other bytes at the addresses a00 to a1e; its checksum is correct."""
+    """Return the factory page with the bytes at some addresses (a00 to a1e) replaced; its checksum is
+    correct.
+    """
     content = bytearray(FACTORY_PAGE)
     for name, value in changes.items():
         content[int(name[1:], 16)] = value

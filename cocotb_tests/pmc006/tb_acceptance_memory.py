@@ -142,8 +142,8 @@ async def p006_ac_66(dut: Any) -> None:
 
 @directed("P006-AC-41", "P006-EEP-23")
 async def p006_a_program_that_never_rests_blocks_nothing(dut: Any) -> None:
-    """If a program that jumps to itself has started automatically, frames are served, and F 0 and t (save)
-    end the program permanently.
+    """If a program that jumps to itself has started automatically, the part still answers frames. F 0 and
+    then t (save) end the program permanently.
     """
     host = await Host.start(dut, chip=Chip(image(page(a0B=1), [Op(0x0D, 0, 0)]), write_us=500))
     assert await host.ask("W", 5) == 0 and await host.ask("z") == 0
