@@ -48,7 +48,7 @@ def probe(
         jitter: maximum error of each edge in ps.
         begin, until: start and end of the capture in s.
         without: ports that are not connected.
-        ppm: by how much the analyser's clock is too slow.
+        ppm: deviation of the analyser's clock in ppm; a positive value makes it too slow.
     """
     step = round(PS / rate)
     stretch = 1 - ppm * 1e-6

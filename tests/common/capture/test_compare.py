@@ -29,7 +29,7 @@ WRITERS: dict[str, Callable[[Seen, Path], Path]] = {
 }
 CORE = {"CLK_HZ": CLK_HZ}
 SHORT = ("mon_step",)
-"""Outputs of our core whose pulses are shorter than a sample; the original chip does not have them."""
+"""Outputs whose pulses are shorter than a sample period; only our core has them, not the original chip."""
 
 
 @cache

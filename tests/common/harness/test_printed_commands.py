@@ -68,7 +68,9 @@ def _blocks(text: str) -> Iterator[tuple[str, bool]]:
 
 
 def printed() -> dict[tuple[str, str, bool], str]:
-    """Return (kind of command, arguments, whether it is a whole line) -> the first page that contains it."""
+    """Return (kind of command, arguments, True if it is a whole line) -> the first page that contains the
+    command.
+    """
     found: dict[tuple[str, str, bool], str] = {}
     for page in PAGES:
         for text, whole in _blocks(page.read_text(encoding="utf-8")):
@@ -185,7 +187,9 @@ WITHOUT_HELP = {
 
 
 def test_help_of_scripts() -> None:
-    """Each script that can be started has a parser, so --help prints its usage. The others have a reason."""
+    """Each script that can be started has a parser, so --help prints its usage; for each exception, this file
+    states a reason.
+    """
     found = {
         str(path.relative_to(ROOT)): text
         for path in sorted((ROOT / "scripts").rglob("*.py"))
