@@ -1,7 +1,6 @@
 """Coverage crosses of the manual, counted in the golden model.
 
-There are three crosses: operation with cause, phase and clock; error with state of the axis; and GO with
-state of
+There are three crosses: operation with cause, phase and clock; error with state of the axis; GO with state of
 the axis.
 """
 

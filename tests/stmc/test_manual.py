@@ -32,8 +32,8 @@ int outp(unsigned short port, int byte) { return on_outp(port, byte); }
 
 
 class Board:
-    """The board with access by INP and OUT. `switches` lists (number of steps, levels): the levels change
-    after this number of steps.
+    """The board, accessed by INP and OUT. `switches` lists (number of steps, levels): the levels of the
+    switches change after this number of steps.
     """
 
     def __init__(self, **parameters: object) -> None:
@@ -47,8 +47,8 @@ class Board:
 
     @property
     def steps(self) -> list[int]:
-        """Edges of the steps since `mark`, also that of an initialisation after `mark`; no phases are chopped
-        here.
+        """Edges of the steps since `mark`. Each change of the phases is a step, because no phases are chopped
+        here; a change by an initialisation is included.
         """
         fresh = self.model.edges[self._looked :]
         self._looked += len(fresh)
@@ -57,7 +57,7 @@ class Board:
 
     @property
     def lost(self) -> bool:
-        """True if the host polls indefinitely."""
+        """True if the host has made more than MOST bus accesses, so it polls indefinitely."""
         return self.cycles > MOST
 
     def cycle(self, strobe: str, port: int, **data: int) -> int:

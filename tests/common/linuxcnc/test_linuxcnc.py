@@ -104,7 +104,7 @@ class Session:
 
 
 def true(value: str) -> bool:
-    """Return True for a BIT that is set."""
+    """Return True if the text of a BIT pin means 1."""
     return value == "TRUE"
 
 

@@ -121,7 +121,9 @@ def test_three_byte_answer():
 
 
 def test_read_command_beats_a_byte_on_its_way_out():
-    """If a data read is just consuming a byte, a new answer replaces this byte (P104-HSK-08)."""
+    """If a read command is accepted while a data read consumes a byte, the new answer replaces this byte
+    (P104-HSK-08).
+    """
     for wait in range(6):
         host = ModelHost()
         host.run("c 81")
