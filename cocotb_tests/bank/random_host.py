@@ -43,7 +43,7 @@ def in_motion(seed: int) -> bool:
 class BankHost(RandomHost):
     """Constrained-random host.
 
-    Its actions depend on the data that it reads. The golden model reports which axes are at standstill.
+    Its actions depend on the data that it reads. It uses the golden model only to find axes at standstill.
     """
 
     def __init__(self, seed: int) -> None:

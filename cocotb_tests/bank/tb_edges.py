@@ -114,7 +114,8 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
         await env.mask(axis.n)
         await axis.go(0x42)
         await env.mask()
-        g = axis.visit(env.bench.now + 60) - 4 - env.round  # the last visit that checks for the first GO
+        # chosen so that g + 4 + R is the last visit that checks for the first GO
+        g = axis.visit(env.bench.now + 60) - 4 - env.round
         g += env.round * (g < env.bench.now + 20)
         member = g + 2 * env.round - 2  # MASK = 1 only for the visits of the second GO
         for edge, address, byte in (

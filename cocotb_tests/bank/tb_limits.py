@@ -32,8 +32,8 @@ PINS = {"limit": ("l1_n", "l2_n"), "alarm": ("alm_n", "alm_n"), "origin": ("cnp_
 
 @dataclass(frozen=True)
 class Case:
-    """Case for one axis: the cause of its end, which is detected `offset` cycles after pulse `pulse`, and the
-    number of cycles for which the pin is low.
+    """Case for one axis: the cause that ends its motion, which is detected `offset` cycles after pulse
+    `pulse`, and the number of cycles for which the pin of the cause is low.
     """
 
     cause: str
@@ -104,13 +104,13 @@ class Waves:
             await self.judge(axis, case, come, finish, total)
 
     async def over(self, edges: list[int]) -> None:
-        """Wait until all axes must be at standstill."""
+        """Wait until the motions of all axes must have ended."""
         await self.env.bench.until(
             max(self.env.bench.now, edges[-1] + self.env.cfg.w + 2 * self.env.round + 10)
         )
 
     async def judge(self, axis: Axis, case: object, come: list[int], finish: int, total: int = N) -> None:
-        """Check pulses, finish status, remaining pulses, position and phases."""
+        """Check the result of one case: pulses, finish status, remaining pulses, position and phases."""
         env, what = self.env, f"axis {axis.n}, {case}, rate {self.rate}"
         ccw = axis.level("dir")
         self.positions[axis.n] += -len(come) if ccw else len(come)

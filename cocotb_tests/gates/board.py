@@ -34,7 +34,7 @@ def items() -> list[Item]:
 
 
 def part_test(part: str, config: Config) -> Item:
-    """Return the test of a bitstream with a part."""
+    """Return the test of a bitstream that contains a part."""
     if part == "pmc006":
         return Item(PMC006, "board_pmc006", config, part, ())
     return Item(PART_TESTS, "board_bank" if part == "bank" else "board_selftest", config, part, ())

@@ -223,7 +223,7 @@ class AxisDriver:
             self.check(rule, "remaining value", await self.remaining(), remaining)
 
     def check_train(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
-        """Check that each pulse of the last `go` occurs in the cycle set by the rates (P104-BCK-03)."""
+        """Check that each pulse of the last `go` occurs in the cycle that `rates` implies (P104-BCK-03)."""
         pulses = self.pulses
         got = [t - pulses[0] for t in pulses]
         expected = offsets(self.cfg, rates, csel, vsel)

@@ -112,7 +112,7 @@ class BlockDriver:
     LIMIT, FREE = 250_000, 1_500_000
     """Limits in cycles: about twice the duration of the longest tests, or 30 s."""
     _limited: FrameType | None = None
-    """Frame of the test that already has a limit."""
+    """Stack frame of the test whose duration is already limited."""
 
     def __init__(
         self, dut: Any, name: str, blocks: Mapping[str, Block], watch: str = "", limit: int = LIMIT

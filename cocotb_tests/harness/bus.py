@@ -68,7 +68,7 @@ OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
 
 
 class HostBus:
-    """A bus host. `bench.accesses` keeps the history.
+    """A bus host. `bench.accesses` contains all its accesses.
 
     Args:
         strobe, read_strobe, gap: lengths of write strobe, read strobe and pause after an access, in cycles

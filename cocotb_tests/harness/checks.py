@@ -10,9 +10,10 @@ from random import Random
 
 from .axis_driver import NO_PULSES_DONE, AxisDriver, Ramp, differences, forced, indices, rates
 
-# For intervals of at least this number of cycles, the rules apply to the exact cycle (P104-BCK-05).
+# Intervals of this number of cycles or more must be exact to the cycle (P104-BCK-05).
 EXACT = 16
-# If edges are at least this number of cycles apart, low times are also exact (chapter 9.2 of the manuals).
+# If edges of the clock are at least this number of cycles apart, low times are also exact (chapter 9.2 of the
+# manuals).
 EXACT_LOW = 6
 # If the clock period is below this number of crystal cycles, a pulse of rate 0 ends with the high time of the
 # clock (P104-TIM-05).

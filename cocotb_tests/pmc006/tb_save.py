@@ -77,7 +77,7 @@ async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
 async def p006_burn(dut: Any) -> None:
     """Instruction B clears the mark, writes 25 pages, then writes checksum and mark.
 
-    During this time instruction W is rejected, a program runs, and the buffer does not change.
+    During this time the part rejects instruction W, a program can run, and the buffer does not change.
     """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await download(host, P1)

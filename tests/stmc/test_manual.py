@@ -66,7 +66,8 @@ class Board:
         """
         self.cycles += 1
         if self.lost:
-            return 0xFF * (self.cycles & 1)  # ends any loop of the host program
+            # the two values, returned in turn, end any loop of the host program
+            return 0xFF * (self.cycles & 1)
         self.model.pins(self.t, sa=port, **data)
         self.model.pins(self.t + 1, **{strobe: 0})
         self.model.run_until(self.t + 9)
@@ -90,7 +91,7 @@ class Board:
         return 0
 
     def poll(self, mask: int, level: int) -> int:
-        """Read the status until the bits match."""
+        """Read the status until its bits in `mask` equal `level`."""
         while (status := self.inp(COMMAND)) & mask != level:
             assert not self.lost, f"the status never shows {level:02X}, it is {status:02X}"
         return status

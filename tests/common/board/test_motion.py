@@ -30,7 +30,7 @@ def test_info(board: SimBoard, until: Wait) -> None:
         identity = axis.link.identity
         assert (identity.part, identity.clk_hz, identity.xtal_hz) == (104, 8_000_000, 16_000_000)
         assert (identity.version, identity.counter, identity.datasheet) == (1, True, False)
-        assert identity.best_rate == 4  # at least 5 cycles per bit
+        assert identity.best_rate == 4  # the highest rate with at least 5 cycles per bit
         assert board.status().rate == axis.link.baud == 1_000_000
     until(lambda: not board.status().open, "the board sees the port closed")
 

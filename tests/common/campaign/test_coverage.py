@@ -38,7 +38,7 @@ def row(file: str, line: int, column: int, kind: str, what: str, span: str, coun
 
 
 def points(folder: Path, *rows: str) -> Points:
-    """Return the points of a file with these lines."""
+    """Return the coverage points of a coverage.dat that contains these lines."""
     (folder / "one.dat").write_text("\n".join(["# SystemC::Coverage-3", *rows]), encoding="utf-8")
     return read([folder / "one.dat"])
 

@@ -98,7 +98,7 @@ def devices(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
 
 class Axis:
-    """Pins of one axis, with _ in place of - and a prefix."""
+    """Pins of one axis as attributes: without the prefix of the axis, and with _ in place of -."""
 
     def __init__(self, pins: Component, number: int) -> None:
         vars(self).update(pins=pins, number=number, prefix=f"{number}.")

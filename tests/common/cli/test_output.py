@@ -134,7 +134,7 @@ def test_columns_stay_aligned() -> None:
     assert attempted and not failed
 
 
-# Tables, each with one of its headings.
+# Command that prints a table -> one of the headings of this table.
 TABLES = {
     "ppmc312-serial scan": "line faults",
     "ppmc312-serial status": "line faults",

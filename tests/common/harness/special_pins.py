@@ -16,7 +16,9 @@ class Kind(Enum):
     # another chip on the board can drive the pin: not usable as an output, or as a limit or alarm input
     DRIVEN = auto()
     SOCKET = auto()  # in a socket or a section of the header that can be left empty
-    LOADED = auto()  # LED, converter, amplifier, other bank voltage, a function during configuration
+    # connected to an LED, converter or amplifier, in a bank with another voltage, or used during
+    # configuration
+    LOADED = auto()
     NEAR_5V = auto()  # next to a header pin that carries 5 V
 
 

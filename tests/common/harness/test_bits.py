@@ -1,4 +1,6 @@
-"""Bitstreams as netlists: differences from the reports are errors, and a flipped bit must be detected."""
+"""Conversion of bitstreams to netlists: a difference from the reports of the tools is an error, and a flipped
+bit must be detected.
+"""
 
 from __future__ import annotations
 

@@ -116,7 +116,7 @@ def test_make(words: list[str], whole: bool, page: str) -> None:
     if own.parent != ROOT and own.exists() and all("=" in word for word in words):
         assert all(word.split("=")[0] in own.read_text(encoding="utf-8") for word in words)
         return
-    # `make test T=…` would pass its variables on.
+    # MAKEFLAGS of a surrounding `make test T=…` would pass the variables of that make on.
     env = {name: value for name, value in os.environ.items() if name != "MAKEFLAGS"}
     done = subprocess.run(
         ["make", "-n", *words], cwd=ROOT, env=env, capture_output=True, text=True, check=False

@@ -257,7 +257,8 @@ def test_a_reset_between_two_moves_is_refused(
             ends.append(end.pulses)
     assert ends == [2, -3, 4][: number - 1] and len(codes) == number
     monkeypatch.undo()
-    if number > 1 and isinstance(axis, BankAxis):  # the counter of a bank is in the part, so it is cleared
+    # a bank counts in the part, so the reset has cleared its counter
+    if number > 1 and isinstance(axis, BankAxis):
         with pytest.raises(ProtocolError, match="now reads 0, because the part was reset"):
             axis.initialise(5000, 9000, 4)
     axis.initialise(5000, 9000, 4)

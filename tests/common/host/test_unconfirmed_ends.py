@@ -1,7 +1,7 @@
 """The end of a motion is reported only if the device confirms it.
 
-Its status must name this motion, and the count of pulses must agree. Otherwise EndUnknown is raised
-(P104-RD-03, P104-END-05, P2104-END-05, STMC-FIN-01).
+The status of the device must name this motion, and the pulse count must agree. Otherwise the driver raises
+EndUnknown (P104-RD-03, P104-END-05, P2104-END-05, STMC-FIN-01).
 """
 
 from __future__ import annotations

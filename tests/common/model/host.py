@@ -136,7 +136,7 @@ class ModelHost:
         return self.model.log.falls("pout_n", self.mark)
 
     def intervals(self) -> list[int]:
-        """Return the distances between these pulses in cycles."""
+        """Return the distances between the pulses since `mark` in cycles."""
         pulses = self.pulses()
         return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
 

@@ -124,7 +124,7 @@ class Made:
 
 
 def undisturbed(target: int) -> Callable[[int], LiveRegisters]:
-    """Return constant registers with this target."""
+    """Return a function that returns constant registers with this target at any time."""
     return lambda t: LiveRegisters(target)
 
 
