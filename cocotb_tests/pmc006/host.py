@@ -1,4 +1,4 @@
-"""Host on the link of a PMC006, which reacts to the replies of the part.
+"""Host on the link of a PMC006; its actions depend on the replies of the part.
 
 The host has a separate UART model: it decodes replies from the levels of txd and de, and checks every edge
 (docs/pmc006/README.md, 3).

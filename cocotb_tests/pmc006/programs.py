@@ -61,7 +61,9 @@ def words(program: Iterable[Op]) -> list[int]:
 
 
 def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x5A) -> bytes:
-    """Return the content of an EEPROM with a parameter page and a program."""
+    """Return the content of an EEPROM with a parameter page and a program; `mark` is the byte at 0x342, which
+    is 5A if the program is complete.
+    """
     code = b"".join(word.to_bytes(4, "little") for word in words(program)).ljust(800, b"\0")
     return page + code + (sum(code) & 0xFFFF).to_bytes(2, "little") + bytes([mark])
 

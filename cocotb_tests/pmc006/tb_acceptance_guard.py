@@ -114,7 +114,7 @@ async def to_cruise(host: Host, y: int) -> None:
         await set_constant_speed(host, 2900)
     await run(host)
     await cruise(host, 312.5 if host.literal else 345)
-    # The S-curve is flat near its end.
+    # The S-curve is flat near its end, so the last intervals change only slowly.
     await host.ms(host.pick(20, 1))
 
 

@@ -124,7 +124,8 @@ async def p006_ac_66(dut: Any) -> None:
     await host.ok(F=0)
     assert await host.ask("I") == 0
     assert await host.ask("A", 0) == 0 and await host.ask("W", 0) == 0 and await host.ask("B") == 1
-    # The part writes the mark, then pages of the program. The reset occurs during the fourth write.
+    # The part writes 0 to the mark, then pages of the program (P006-EEP-11). The reset occurs during the
+    # fourth write.
     while len(host.eeprom.writes) < 4:
         await host.wait_us(500)
     await host.pins(rst_n=0)

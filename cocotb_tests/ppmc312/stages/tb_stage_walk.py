@@ -236,8 +236,8 @@ class CollisionRun(SequencerRun):
             n = plan.up + sum(table.pd[table.sd : table.stage(rate) + 1]) + rand.randint(12, 18)
             plan = ramped(table, rate, n)
             if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
-                # often, only the acceleration ramp contains some stages; no final deceleration starts in
-                # these
+                # in many of these tables, the first stages belong only to the acceleration ramp, so no final
+                # deceleration starts in them
                 break
         run = cls(u, table, plan, rand)
         run.jump, run.ramp, run.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
