@@ -47,8 +47,8 @@ def build(name: str, axes: int, mhz: int, phase_idle: int = 1) -> Config:
 
 B8 = build("b8", 8, 16)
 B32 = build("b32", 32, 32)
-"""Build with 32 axes at their lowest clock frequency: the shortest interval between pulses is two rounds
-long.
+"""Build with 32 axes at the lowest clock frequency for this number of axes: the shortest interval between
+pulses is two rounds long.
 """
 F100 = build("f100", 32, 100)
 B4 = build("b4", 4, 8, phase_idle=0)

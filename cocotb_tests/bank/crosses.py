@@ -1,6 +1,7 @@
 """Coverage crosses of the manual, counted in the golden model.
 
-The crosses are operation, cause, phase and clock; error and state; and GO and state of the axis.
+There are three crosses: operation with cause, phase and clock; error with state of the axis; GO with state of
+the axis.
 """
 
 from __future__ import annotations

@@ -44,12 +44,12 @@ NAMES = {
 }
 """(kind of access, address) -> name of the register in reports."""
 WRITE_EVENT = 2
-"""Edges from edge 0 of a write to its write event (BANK-WIN-06)."""
+"""Number of edges from edge 0 of a write to its write event (BANK-WIN-06)."""
 SNAPSHOT = 2
-"""Edges from edge 0 of a read to the edge whose state it returns (BANK-WIN-05)."""
+"""Number of edges from edge 0 of a read to the edge whose state the read returns (BANK-WIN-05)."""
 SYNC = 2
-"""Edges from the first edge that samples a level of a pin to the edge on which this level takes effect
-(BANK-MOT-02).
+"""Number of edges from the first edge that samples a level of a pin to the edge on which this level takes
+effect (BANK-MOT-02).
 """
 
 
@@ -68,8 +68,8 @@ class WindowBus(HostBus):
 class Axis(AxisDriver):
     """Axis number `n` of a bank: its codes, pins and status.
 
-    A visit is an edge on which the bank serves the axis, once in each round of R cycles. The visits follow
-    from `released`, the edge on which the reset was released, and from R.
+    A visit is an edge on which the bank serves the axis, once in each round of R cycles. The edges of the
+    visits are calculated from R and from `released`, the edge on which the reset was released.
     """
 
     def __init__(self, bench: DutBench, n: int) -> None:
@@ -111,7 +111,9 @@ class Axis(AxisDriver):
         return [(t, value) for t, value in found if t >= start]
 
     def stretches(self, since: int) -> list[tuple[int, int]]:
-        """Return (S5..S1, duration in cycles) of each phase pattern, as the base class does."""
+        """Return (S5..S1, duration in cycles) of each phase pattern since an edge, except the pattern that is
+        still active.
+        """
         edges = self.patterns(since)
         return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
 
@@ -170,7 +172,7 @@ class Axis(AxisDriver):
         return await self.host.status()
 
     async def refused(self, rule: str, what: str, error: int, code: int, *data: int) -> None:
-        """Send an instruction and check the error number that it sets in ERR (-1: no error)."""
+        """Send an instruction; check that it sets ERR to the error number `error` (-1: no error)."""
         status = await self.host.send(code, data)
         got = status >> 4 & 7 if status & 0x80 else -1
         self.check(rule, f"error of {what}", got, error)

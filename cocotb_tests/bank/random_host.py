@@ -3,8 +3,8 @@ switches.
 
 `build(seed)` returns the build of a seed, and `play(dut, seed)` runs the seed. In one of four seeds the host
 sends many instructions and starts few motions. In all other seeds the host keeps all axes in fast motions
-until the golden model has output INTERVALS intervals. If the RTL outputs fewer, the comparison reports the
-missing one.
+until the golden model has output INTERVALS intervals. If the RTL outputs fewer intervals, the comparison with
+the golden model reports the first missing one.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def in_motion(seed: int) -> bool:
 class BankHost(RandomHost):
     """Constrained-random host.
 
-    Its actions depend on the data that it reads. The golden model reports which axes are at standstill.
+    Its actions depend on the data that it reads. It uses the golden model only to find axes at standstill.
     """
 
     def __init__(self, seed: int) -> None:
@@ -133,9 +133,9 @@ class BankHost(RandomHost):
         return self.rng.randrange(self.env.size)
 
     async def send(self, n: int, code: int, *data: int) -> None:
-        """Send an instruction; poll IBF = 0 before most bytes.
+        """Send an instruction. Before nine of ten bytes, poll until IBF = 0, at most 30 times.
 
-        A host that stops polling is legal, too.
+        A host that does not poll, or that stops polling, is legal, too.
         """
         bus = self.env.axes[n].host
         for reg, byte in ((STATUS, code), *((DATA, byte) for byte in data)):

@@ -37,7 +37,7 @@ async def bank_mot_03_requests_around_an_end(dut):
     requests = ((0x40, 0x46), (0x40, 0x45), (0x41, 0x45), (0x41, 0x46), ("slow", 0x46))
     for (request, code), late, plus in product(requests, range(-2, 7), (100, 0)):
         await axis.go(code, rate=9)
-        await axis.pulse(6, plus)  # pout_n is high or low
+        await axis.pulse(6, plus)  # plus = 100: pout_n is high again; plus = 0: still low
         visit = axis.visit(env.bench.now + (60 if plus else 12))
         blip(axis, visit - late, alm_n=0)
         if request == "slow":
@@ -114,7 +114,8 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
         await env.mask(axis.n)
         await axis.go(0x42)
         await env.mask()
-        g = axis.visit(env.bench.now + 60) - 4 - env.round  # the last visit that checks for the first GO
+        # chosen so that g + 4 + R is the last visit that checks for the first GO
+        g = axis.visit(env.bench.now + 60) - 4 - env.round
         g += env.round * (g < env.bench.now + 20)
         member = g + 2 * env.round - 2  # MASK = 1 only for the visits of the second GO
         for edge, address, byte in (
@@ -170,7 +171,8 @@ async def bank_ini_01_duration_of_a_build(dut):
         await axis.host.poll(IBF, 0)
         visit = axis.accepting_visit(await axis.host.write(DATA, pulses >> 8))
         complete = axis.visit(visit + build_cycles(slow, fast) + 3)
-        await env.bench.until(max(visit, env.bench.now))  # a byte written earlier would replace the last one
+        # before `visit`, a byte would replace the last byte of the initialisation
+        await env.bench.until(max(visit, env.bench.now))
         read = axis.accepting_visit(await axis.host.write(STATUS, 0x82))
         # The visit that completes the initialisation accepts no byte.
         accepting_visit, offset = max(complete + env.round, read), number % 2 - 1

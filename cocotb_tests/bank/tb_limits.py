@@ -32,8 +32,8 @@ PINS = {"limit": ("l1_n", "l2_n"), "alarm": ("alm_n", "alm_n"), "origin": ("cnp_
 
 @dataclass(frozen=True)
 class Case:
-    """Case for one axis: the cause of its end, which is detected `offset` cycles after pulse `pulse`, and the
-    number of cycles for which the pin is low.
+    """Case for one axis: the cause that ends its motion, which is detected `offset` cycles after pulse
+    `pulse`, and the number of cycles for which the pin of the cause is low.
     """
 
     cause: str
@@ -49,8 +49,8 @@ class Case:
 
 
 class Waves:
-    """Waves of cases: a wave runs one case on each axis. `rate` sets the low time: half of an interval, or
-    W.
+    """Waves of cases; a wave runs one case on each axis. `rate` determines the low time of the pulses: half
+    of an interval, or W.
     """
 
     def __init__(self, env: Env, rate: int) -> None:
@@ -78,7 +78,7 @@ class Waves:
         return self.edges(g)
 
     async def held(self, axis: Axis, code: int) -> None:
-        """Start an operation that is held, with N pulses or without a pulse count."""
+        """Start an operation with N pulses (code 4) or without a pulse count; the axis holds it until GO."""
         await (axis.go(code, N, self.rate) if code & 7 == 4 else axis.go(code, rate=self.rate))
 
     async def play(self, cases: list[Case]) -> None:
@@ -104,13 +104,13 @@ class Waves:
             await self.judge(axis, case, come, finish, total)
 
     async def over(self, edges: list[int]) -> None:
-        """Wait until all axes must be at standstill."""
+        """Wait until the motions of all axes must have ended."""
         await self.env.bench.until(
             max(self.env.bench.now, edges[-1] + self.env.cfg.w + 2 * self.env.round + 10)
         )
 
     async def judge(self, axis: Axis, case: object, come: list[int], finish: int, total: int = N) -> None:
-        """Check pulses, finish status, remaining pulses, position and phases."""
+        """Check the result of one case: pulses, finish status, remaining pulses, position and phases."""
         env, what = self.env, f"axis {axis.n}, {case}, rate {self.rate}"
         ccw = axis.level("dir")
         self.positions[axis.n] += -len(come) if ccw else len(come)
@@ -249,9 +249,9 @@ async def bank_mot_02_two_causes(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
-    """If L1 and ALM fall on the same edge, both finish bits are set, for each operation, while accelerating,
-    at constant speed and while decelerating. If a slow-down limit occurs before the last pulse of an
-    operation with a pulse count, the end of the count sets no bit (BANK-MOT-02, BANK-MOT-05).
+    """If L1 and ALM fall on the same edge, both finish bits are set. This holds for each operation, while
+    accelerating, at constant speed and while decelerating. If a slow-down limit occurs before the last pulse
+    of an operation with a pulse count, the end of the count sets no bit (BANK-MOT-02, BANK-MOT-05).
     """
     env = await Env.start(dut)
     axis = await env.ready(3)

@@ -223,7 +223,8 @@ async def bank_mot_05_only_the_first_request(dut):
         await axis.idle()
         axis.set(l3_n=1)
         env.check("BANK-MOT-05", f"finish status, {n} pulses", await axis.finish(), finish)
-    # Both levels fall while pout_n is high, or during its low time, which delays the end of the motion.
+    # L1 and L3 fall together, either while pout_n is high or during its low time, which delays the end of the
+    # motion.
     for early, plus in product((7, 6, 5, 4, 3, 2), (100, 0)):
         await axis.go(0x46)
         await axis.pulse(6, plus)

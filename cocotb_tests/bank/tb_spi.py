@@ -113,7 +113,7 @@ class Host:
         return bytes(seen)
 
     async def _together(self, sck: int, mosi: int, skew: float) -> None:
-        """Output an edge of sck, and a change of mosi `skew` cycles from it."""
+        """Output an edge of sck, and a change of mosi `skew` cycles after it (negative: before it)."""
         steps = [("sck", sck), ("mosi", mosi)]
         for name, level in steps if skew >= 0 else steps[::-1]:
             getattr(self.dut, name).value = level
@@ -185,8 +185,9 @@ async def spi_moves(dut):
 @cocotb.test()
 @configs(CONFIG)
 async def spi_read_back_finds_a_wrong_mode(dut):
-    """Only the correct mode lets the host read MASK back as written; in mode 1 the status does not reveal a
-    wrong mode. A frame in a wrong mode moves no motor (docs/bank/spi.md).
+    """MASK reads back as written in modes 0 and 3, and in mode 1 unless mosi changes after the edge of sck;
+    in mode 2 it never does. The status reveals a wrong mode only in mode 2. A frame in a wrong mode moves no
+    motor (docs/bank/spi.md).
     """
     host = Host(dut)
     await host.start()
@@ -197,8 +198,8 @@ async def spi_read_back_finds_a_wrong_mode(dut):
             got.append((await host.raw(mode, skew, 0x00, 0x08, 0xFF, 0x00)).hex())
         what = f"mode {mode}, mosi {skew:+} cycles from sck"
         right = got == ["80000005", "80000000"]
-        # In mode 1, if mosi changes before the edge of sck, the bridge samples the bits that the master
-        # sends.
+        # In mode 1, if mosi changes together with the edge of sck or before it, the bridge samples the bits
+        # that the master sends.
         same(f"MASK is read back as written, {what}", right, mode in (0, 3) or (mode == 1 and skew <= 0))
         same(f"pulses, {what}", int(dut.pout_n.value), (1 << AXES) - 1)
         same(f"sign of the status, {what}", [word[0] for word in got], ["c" if mode == 2 else "8"] * 2)

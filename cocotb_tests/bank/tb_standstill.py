@@ -77,7 +77,7 @@ async def bank_chp_01_settings(dut):
         ordered = axis.visit(edge - env.round + 1)
         await env.write_at(ordered - early, axis.n << 4 | CONFIG, 1)
         await env.bench.clocks(env.cfg.quanta(200))
-        # `level` ends on `edge`; the next phase has the other level.
+        # The phase with the level `level` ends on `edge`; the next phase has the other level.
         follows = (132, 115) if level else (108, 100)
         nexts = [t for t, _ in axis.patterns(edge)]
         want = follows[1 if early >= 7 else 0] * quantum

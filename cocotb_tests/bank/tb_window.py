@@ -170,8 +170,8 @@ async def bank_win_05_snapshot(dut):
 
 @directed("BANK-WIN-06", "BANK-HSK-01", builds=(B8, F100))
 async def bank_win_06_last_sample(dut):
-    """If d_i changes during the strobe, the last sample is written; the write event is on edge 2
-    (BANK-WIN-06).
+    """If d_i changes during the strobe, the value of the last sample with the strobe is written. The write
+    event is on edge 2 after the first edge that samples the strobe inactive (BANK-WIN-06).
     """
     env = await Env.start(dut)
     bench = env.bench

@@ -30,8 +30,8 @@ async def clocks_to_release(unit: BlockDriver, limit: int) -> int:
 
 @cocotb.test()
 async def board_reset_release(dut):
-    """After power-on, loss of lock, or a bouncing button, the reset ends HoldUs to 2 HoldUs after all inputs
-    are inactive.
+    """After power-on, loss of lock, or a bouncing button, the reset ends HoldUs to 2 * HoldUs µs after all
+    inputs are inactive.
     """
     random = rng()
     for i, (clk_hz, hold_us) in enumerate(RESETS):

@@ -18,7 +18,7 @@ LIT = {
     "stmc": ("l1_n", "l2_n", "l3_n", "l4_n", "mon"),
     "ppmc312": ("fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n"),
 }
-"""Pins that light led_switch when any of their bits is active."""
+"""Part -> pins that light led_switch while any of their bits is active."""
 DARK = {"ppmc104": ("cnp_n",), "ppmc2104": ("org_n",), "stmc": ("cnp_n",), "ppmc312": ("org_n", "end_n")}
 STROBES = {"ppmc104": "wr_n", "stmc": "wr_n", "ppmc2104": "ds_wrs_n"}
 RAMP = (9, 4, 4, 0)  # RL, RH, PA

@@ -63,7 +63,7 @@ async def xfails(dut):
 
 @cocotb.test(expect_fail=True)
 async def expected(dut):
-    """The test fails, as its decorator states."""
+    """The decorator states that the test is expected to fail, and the test fails."""
     assert await _clk(dut) == 2
 
 
@@ -165,7 +165,7 @@ async def pries(dut):
 @cocotb.test()
 @probe("u_inner.count")
 async def looks(dut):
-    """The test reads a signal that it has requested."""
+    """The test reads an inner signal that its decorator `probe` names."""
     first = int(dut.u_inner.count.value)
     await _clk(dut)
     assert int(dut.u_inner.count.value) == (first + 1) % 16

@@ -10,7 +10,7 @@ from cocotb_tests.harness.collect import Item
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
 PART_TESTS, PMC006 = "cocotb_tests.gates.tb_parts", "cocotb_tests.pmc006.tb_bits"
-# Clock frequency of the bitstream for the iCEBreaker.
+# Build with the clock frequency of the bitstream for the iCEBreaker.
 B24 = Config("b24m", clk_hz=24_000_000)
 
 
@@ -34,7 +34,7 @@ def items() -> list[Item]:
 
 
 def part_test(part: str, config: Config) -> Item:
-    """Return the test of a bitstream with a part."""
+    """Return the test of a bitstream that contains a part."""
     if part == "pmc006":
         return Item(PMC006, "board_pmc006", config, part, ())
     return Item(PART_TESTS, "board_bank" if part == "bank" else "board_selftest", config, part, ())

@@ -27,7 +27,7 @@ RESET_MS = 3
 
 
 def present(dut: Any, part: Part) -> Part:
-    """Return a part with those of its pins that this board has."""
+    """Return the part with only those of its pins that this board has."""
     inputs, outputs = (
         {name: pin for name, pin in pins.items() if hasattr(dut, name)}
         for pins in (part.inputs, part.outputs)

@@ -71,7 +71,9 @@ class LinePort(UartBfm):
 
 @cocotb.test()
 async def board_selftest(dut: Any) -> None:
-    """In the self-test, the registers and each kind of move do not differ from the golden model."""
+    """The self-test finds no difference between the board and the golden model, in the registers and in each
+    kind of move.
+    """
     port = LinePort(dut)
     name = dut._name.split("_", 2)[2]
     bench = await RtlBench.start(dut, present(dut, PARTS[name]))
@@ -84,7 +86,7 @@ async def board_selftest(dut: Any) -> None:
         for section in test.sections(switches=False):
             if section.what in (REGISTERS, MOVES):
                 outcome = test.play(section)
-                # A recorder that is full has only the first edges of the section.
+                # If the recorder is full, it contains only the first edges of the section.
                 assert outcome.full or not (outcome.difference or outcome.skipped), outcome
         assert test.results.edges > 1000, test.results.edges
         cocotb.log.info("%d edges compared in %.3f s", test.results.edges, port.clock())

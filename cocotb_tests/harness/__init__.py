@@ -24,10 +24,10 @@
     def test_ppmc104(item, sim_options):
         run_item(item, sim_options)
 
-An import of a name loads only the modules that this name needs. The modules import each other, but never this
-package. The first line of each module states its purpose (`head -qn1 cocotb_tests/harness/*.py`);
-docs/testing.md describes how the modules work together. No module depends on a device: the `bench.py` of a
-device lists its pins (`PARTS`).
+Importing a name from this package loads only the modules that this name needs. The modules import each other,
+but never this package. The first line of each module states its purpose (`head -qn1
+cocotb_tests/harness/*.py`); docs/testing.md describes how the modules work together. No module depends on a
+device: the `bench.py` of a device lists its pins (`PARTS`).
 
 Times are counted in rising edges of `clk`; edge 0 is the first that samples rst_n = 1. Input pins change on
 falling edges. The stamp of an input change is the first rising edge that samples it; the stamp of an output

@@ -35,7 +35,7 @@ def steps(name: str, positive: bool = True) -> list[int]:
 
 
 def rate(rl: int, rh: int, pa: int, k: int) -> int:
-    """Return the exact rate of ramp index k, rounded half up (P104-RMP-01).
+    """Return the rate of ramp index k, rounded half up from its exact value (P104-RMP-01).
 
     x(k)^2 = A·B·PA / (B·PA + (A - B)·k) with A = (RL + 1)^2 and B = (RH + 1)^2; the rate plus one is the
     largest n with n - 1/2 <= x.
@@ -51,7 +51,7 @@ def indices(n: int, pa: int) -> list[int]:
 
 
 def forced(n: int, pa: int, j: int) -> list[int]:
-    """Return the interval indices if deceleration is forced after pulse j is output (P104-FDC-02/03)."""
+    """Return the interval indices of a move of n pulses that decelerates after pulse j (P104-FDC-02/03)."""
     done = indices(n, pa)[:j]
     return done + list(range(done[-1] - 1, -1, -1)) if done else []
 
@@ -127,8 +127,8 @@ class AxisDriver:
     async def go(self, code: int, n: int | None = None, rate: int | None = None, poll: bool = True) -> int:
         """Send an operation of n pulses (None: an operation without a pulse count).
 
-        Returns the status after the last byte, or edge 0 of the write of this byte if `poll` is False. This
-        method sets `since`; pulses from this edge on count for the operation.
+        Return the status after the last byte, or edge 0 of the write of this byte if `poll` is False. The
+        method sets `since`: pulses on this edge or later count for the operation.
         """
         self.since = self.bench.now
         data = ([] if rate is None else [rate]) + ([] if n is None else bytes_of(n - 1))
@@ -149,7 +149,7 @@ class AxisDriver:
         return await self.host.wait_idle(timeout, self.busy)
 
     async def command(self, code: int, poll: bool = True) -> int:
-        """Send a code to this axis and poll until IBF = 0; return that status.
+        """Send a code to this axis, poll until IBF = 0, and return the status that was read last.
 
         Without `poll`, return edge 0 of the write.
         """
@@ -223,7 +223,7 @@ class AxisDriver:
             self.check(rule, "remaining value", await self.remaining(), remaining)
 
     def check_train(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
-        """Check that each pulse of the last `go` occurs in the cycle set by the rates (P104-BCK-03)."""
+        """Check that each pulse of the last `go` occurs in the cycle that `rates` implies (P104-BCK-03)."""
         pulses = self.pulses
         got = [t - pulses[0] for t in pulses]
         expected = offsets(self.cfg, rates, csel, vsel)
@@ -243,7 +243,7 @@ class AxisDriver:
         return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
 
     def outputs(self) -> dict[str, int]:
-        """Return the present levels of all outputs, without the host bus and free-running outputs."""
+        """Return the present levels of all outputs except the host bus and free-running outputs."""
         return {
             name: self.bench.level(name) for name in self.bench.part.watched if name not in ("d_o", "d_oe")
         }
@@ -281,7 +281,7 @@ class AxisDriver:
         return await self.bench.edge(output) - edge0
 
     async def status_after(self, byte: int, register: int = COMMAND) -> int:
-        """Write one byte and poll until IBF = 0; return that status."""
+        """Write one byte and poll until IBF = 0; return the status that was read last."""
         return await (self.host.command(byte) if register == COMMAND else self.host.data(byte))
 
     async def statuses(self, script: str) -> list[int]:

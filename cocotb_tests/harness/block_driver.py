@@ -85,7 +85,7 @@ def same(what: str, got: object, want: object) -> None:
 
 
 def _test_frame() -> FrameType:
-    """Return the outermost frame of this project's code in the running test."""
+    """Return the outermost stack frame of this project's code in the running test."""
     frame = sys._getframe(1)
     while frame.f_back is not None and FOLDER in Path(frame.f_back.f_code.co_filename).parents:
         frame = frame.f_back
@@ -93,7 +93,7 @@ def _test_frame() -> FrameType:
 
 
 async def _end(test: FrameType, clk: int) -> None:
-    """Fail the running test after `clk` cycles of two time steps each; name the line that waits."""
+    """Fail the running test after `clk` cycles (two time steps each); name the line that waits."""
     await Timer(2 * clk, "step")
     file, line = test.f_code.co_filename, test.f_lineno
     waiting = linecache.getline(file, line).strip()
@@ -112,7 +112,7 @@ class BlockDriver:
     LIMIT, FREE = 250_000, 1_500_000
     """Limits in cycles: about twice the duration of the longest tests, or 30 s."""
     _limited: FrameType | None = None
-    """Frame of the test that already has a limit."""
+    """Stack frame of the test whose duration is already limited."""
 
     def __init__(
         self, dut: Any, name: str, blocks: Mapping[str, Block], watch: str = "", limit: int = LIMIT
@@ -179,7 +179,7 @@ class BlockDriver:
 
         Use it for long waits: it is thirty times as fast as `clk`.
         """
-        await self.settle()  # makes the low level of the previous cycle effective
+        await self.settle()  # lets the low level of clk_i, set in the previous cycle, take effect
         clock = Clock(self.pins["clk_i"], 2, "step", impl="gpi")
         clock.start()
         since = get_sim_time("step")

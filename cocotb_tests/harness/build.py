@@ -88,7 +88,7 @@ ICARUS = "icarus"
 
 
 def sim_main() -> str:
-    """Return the main program that SIM_MAIN selects; raise ValueError if it does not exist."""
+    """Return the main program that SIM_MAIN selects; raise ValueError if SIM_MAIN has another value."""
     name = os.environ.get("SIM_MAIN") or "own"
     if name not in (*MAINS, ICARUS):
         raise ValueError(f"SIM_MAIN={name}: there are {', '.join(MAINS)} and {ICARUS}")
@@ -300,7 +300,7 @@ def _forget_old_builds(days: float = 7.0) -> None:
 
 
 def simulator(main: str) -> Any:
-    """Return a runner of cocotb without log output, for a main program and the output of `build`."""
+    """Return cocotb's runner for the simulator of a main program; the runner writes no log."""
     runner = get_runner("icarus" if main == ICARUS else "verilator")
     runner.log.setLevel(logging.CRITICAL + 1)
     return runner

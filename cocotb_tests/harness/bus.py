@@ -1,6 +1,6 @@
 """Hosts of directed tests: `HostBus` drives the A0/CS/RD/WR bus, `BlockHost` the registers of blocks.
 
-`DutHost` is the common base class of the hosts: a bench, the pins of a device, its output levels.
+Their base class `DutHost` works on a bench: it sets pins of the device and returns levels of outputs.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .rtl_bench import RtlBench
 class DutHost:
     """A host that works on `bench`: the RTL or the golden model.
 
-    Pulses and edges count from edge `mark` on.
+    Methods that count pulses or edges begin at edge `mark`.
     """
 
     def __init__(self, bench: DutBench) -> None:
@@ -68,10 +68,11 @@ OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
 
 
 class HostBus:
-    """A bus host. `bench.accesses` keeps the history.
+    """A bus host. `bench.accesses` contains all its accesses.
 
     Args:
-        strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: at least 2, 4 and 2 in a synchronous bench).
+        strobe, read_strobe, gap: lengths of write strobe, read strobe and pause after an access, in cycles
+            (P104-BUS-03: at least 2, 4 and 2 in a synchronous bench).
         lead: number of cycles for which the address is valid before a strobe.
         base: number that is added to every register number.
         pause: function that is called before each access; it returns the number of extra idle cycles.
@@ -188,7 +189,7 @@ class HostBus:
         return await self.read(STATUS)
 
     async def poll(self, mask: int, value: int, timeout: int | None = None, dense: int = 16) -> int:
-        """Read status until (status & mask) == value; return that status.
+        """Read the status until (status & mask) == value; return the status that was read last.
 
         The first `dense` polls follow each other without a pause, later polls with increasing pauses (up to
         256 cycles). Raises TimeoutError.
@@ -211,7 +212,7 @@ class HostBus:
                 await bench.clocks(wait)
 
     async def command(self, code: int, poll: bool = True) -> int:
-        """Write a command byte; poll until IBF = 0 and return that status.
+        """Write a command byte, poll until IBF = 0, and return the status that was read last.
 
         Without `poll`, return edge 0 of the write.
         """
@@ -219,7 +220,7 @@ class HostBus:
         return await self.poll(IBF, 0) if poll else edge0
 
     async def data(self, byte: int, poll: bool = True) -> int:
-        """Write a data byte; poll until IBF = 0 and return that status.
+        """Write a data byte, poll until IBF = 0, and return the status that was read last.
 
         Without `poll`, return edge 0 of the write.
         """
@@ -232,7 +233,7 @@ class HostBus:
         return await self.read(DATA)
 
     async def send(self, code: int | str, data: Iterable[int] = (), poll: bool = True) -> int:
-        """Send a command (int or hex text such as "0A") and its data bytes; return the last result."""
+        """Send a command (int, or hex text such as "0A") and its data; return the result of the last byte."""
         result = await self.command(int(code, 16) if isinstance(code, str) else code, poll)
         for byte in data:
             result = await self.data(byte, poll)
@@ -278,7 +279,7 @@ class HostBus:
         return await self.send(code, [*head, d & 0xFF, d >> 8 & 0xFF, d >> 16 & 0xFF])
 
     async def wait_idle(self, timeout: int | None = None, busy: int = BUSY) -> int:
-        """Poll until all bits of `busy` are 0; return that status."""
+        """Poll the status until all bits of the mask `busy` are 0 in it; return this last status."""
         return await self.poll(busy, 0, timeout)
 
 
@@ -290,7 +291,7 @@ _WRITES = {CSR: "CSR :=", WCR: "WCR :=", WAR: "WAR :=", DWR: "DWR :="}
 _READS = {CSR: "CSR read", RCR: "RCR read", RAR: "RAR read", DRR: "DRR read"}
 NAMES = {("write", reg): name for reg, name in _WRITES.items()}
 NAMES |= {("read", reg): name for reg, name in _READS.items()}
-"""Return the names of the accesses in a list of accesses."""
+"""(kind of access, register) -> name of the access in a list of accesses."""
 
 
 def clean(text: str) -> str:

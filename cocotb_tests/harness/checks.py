@@ -10,9 +10,10 @@ from random import Random
 
 from .axis_driver import NO_PULSES_DONE, AxisDriver, Ramp, differences, forced, indices, rates
 
-# For intervals of at least this number of cycles, the rules apply to the exact cycle (P104-BCK-05).
+# Intervals of this number of cycles or more must be exact to the cycle (P104-BCK-05).
 EXACT = 16
-# If edges are at least this number of cycles apart, low times are also exact (chapter 9.2 of the manuals).
+# If edges of the clock are at least this number of cycles apart, low times are also exact (chapter 9.2 of the
+# manuals).
 EXACT_LOW = 6
 # If the clock period is below this number of crystal cycles, a pulse of rate 0 ends with the high time of the
 # clock (P104-TIM-05).
@@ -112,7 +113,10 @@ class ExtMoves:
     async def of(
         cls, axis: AxisDriver, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
     ) -> ExtMoves:
-        """Measure `delay` on the active ramp: 2 to 3 cycles until an edge acts, plus the delay to the pin."""
+        """Return an object for this axis, whose `delay` was measured with a move on the active ramp.
+
+        The delay is 2 to 3 cycles until an edge acts, plus the delay to the pin.
+        """
         moves = cls(axis, slow_pin, lows, rate_of, 0)
         train = await moves._train(Move(2, (64,), 32, ramp))
         moves.delay = train.pulses[0] - max(t for t in train.edges if t < train.pulses[0] - 1)
@@ -151,7 +155,7 @@ class ExtMoves:
 
 
 def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
-    """Yield moves on a ramp with edges 4 to 17 cycles apart, with and without a plateau, some with a limit.
+    """Yield moves on a ramp with edges 4 to 17 cycles apart; some moves have a plateau or a slow-down limit.
 
     N determines where a move begins to decelerate and whether it holds its index before that (P104-PRO-03). A
     slow-down limit occurs where the move can still decelerate.
@@ -203,7 +207,7 @@ def check_delays(axis: AxisDriver, rule: str, what: str, delays: Sequence[int], 
 
 
 BOTH = 0xB0
-"""Finish status of an operation that a limit and an alarm have ended, without the code of the operation."""
+"""Bits of the finish status after a limit and an alarm have ended an operation; without its code."""
 MOVES = (
     (0x43, 24, None, (2, 10, 22)),
     (0x44, 24, 9, (6,)),
@@ -211,7 +215,7 @@ MOVES = (
     (0x46, None, None, (2, 10)),
     (0x47, None, 9, (6,)),
 )
-"""Operation code, its pulses and rate, and the numbers of the pulses after which both causes occur.
+"""Operation code, number of pulses, rate, and the numbers of the pulses after which both causes occur.
 
 These pulses lie in the acceleration, the constant speed and the deceleration of a ramp of 4 steps.
 """

@@ -37,7 +37,7 @@ class Config:
     def params(self) -> dict[str, Any]:
         """Parameters of the top module.
 
-        A device that lacks some of these parameters selects the others (`Part.params`).
+        If a device lacks some of these parameters, `Part.params` selects those that it has.
         """
         return {
             "CLK_HZ": self.clk_hz,
@@ -101,7 +101,7 @@ CONFIGS: dict[str, Config] = {config.name: config for config in ALL_CONFIGS}
 
 
 def configs(*builds: Config) -> Callable[[F], F]:
-    """Set the build configurations under which a cocotb test runs (decorator; default: only `F16`)."""
+    """Return a decorator that sets the build configurations of a cocotb test (default: only `F16`)."""
     if not builds:
         raise ValueError("configs() needs at least one Config")
 
@@ -126,5 +126,5 @@ async def each_seed(test: str, play: Callable[[int], Awaitable[Any]]) -> None:
 
 
 def last_seed(log: str) -> list[str]:
-    """Return the line about the last seed in the log of a batch, or "" if the log is not of a batch."""
+    """Return the line about the last seed in the log of a batch; an empty list if there is no batch."""
     return _ALONE.findall(log)[-1:]

@@ -26,7 +26,7 @@ _hooked: set[str] = set()
 
 @dataclass(frozen=True)
 class Cross:
-    """Table of combinations.
+    """Table of the combinations of two properties of an event.
 
     `rows` and `columns` contain all values of the data sheet, under the names that are counted.
 
@@ -55,7 +55,7 @@ class Crosses:
 
 
 def watch(part: str) -> None:
-    """Count in each golden model of a device that has crosses, from now on, if coverage is requested."""
+    """If coverage is requested, count from now on in each golden model of a device that has crosses."""
     if os.environ.get(COVERAGE) and part not in _hooked and parts.part(part).crosses:
         _hooked.add(part)
         found: Crosses = parts.part(part).load("crosses")
@@ -153,7 +153,7 @@ MOTION = (
 
 
 def without(crosses: Iterable[Cross], columns: Sequence[str], why: str) -> tuple[Cross, ...]:
-    """Return the crosses with `why` as the reason why these columns cannot occur in a device."""
+    """Return these crosses, in which the `columns` cannot occur for the reason `why`."""
     never = {("*", column): why for column in columns}
     return tuple(
         replace(cross, never={**cross.never, **never}) if set(columns) <= set(cross.columns) else cross
@@ -177,7 +177,7 @@ ERRORS = Cross("error and state", tuple(error.name for error in Error), STATES, 
 
 
 def phase(motion: Any) -> str:
-    """Return the phase in which an operation is."""
+    """Return the phase of an operation, such as acceleration or constant speed."""
     if not motion.done:
         return FIRST
     if not motion.is_ramp:
@@ -196,7 +196,8 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
     """Count the end of each operation of any axis.
 
     Args:
-        own: classes of the device that decide an end without a call of the method of `Motion`.
+        own: classes of the device whose own method `_end_now` can end an operation, in addition to that of
+            `Motion`.
     """
     came: dict[int, str] = {}
 
@@ -228,7 +229,7 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
 
 
 def hook_errors(count: Count) -> None:
-    """Count the error of each byte by the state in which the device received the byte."""
+    """Count each error of a byte, together with the state in which the device received the byte."""
 
     def on_read(unit: Any, result: Any, t: int, *rest: Any) -> None:
         if unit.error is not None:

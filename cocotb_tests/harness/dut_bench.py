@@ -31,13 +31,13 @@ def new_model(part: str, params: Mapping[str, object]) -> Any:
 
 
 class StimulusLog:
-    """Collector of pin changes. `changes` is in order of time; later additions follow the earlier ones."""
+    """Collector of pin changes: `changes` contains those of each call of `add` in order of time."""
 
     def __init__(self) -> None:
         self.changes: list[Change] = []
         self._driven = 0
         self._made: dict[str, tuple[int, tuple[int, int]]] = {}
-        """Name -> number of its rows that have been appended, and the last of these rows."""
+        """Name -> number of its rows that have been appended, and the last row that has been appended."""
 
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
         """Append the rows that both arguments have gained since the previous call; return all rows so far.
@@ -80,13 +80,14 @@ class DutBench(ABC):
     """A device under test.
 
     Attributes: `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of
-    each input and of rst_n), `stimulus` (list[Change]: driven changes), `accesses` (list[Access]: accesses of
-    a host), `stage_log` (with JITTER=1: the changes that the synchronisers sampled), `initial` (level of each
-    recorded output before its first edge), `follower` (the model of `golden`, after its first use).
+    each input and of rst_n), `stimulus` (list[Change]: driven changes), `accesses` (list[Access]: host
+    accesses), `stage_log` (with JITTER=1: converts driven changes to those that the synchronisers sampled),
+    `initial` (level of each recorded output before its first edge), `follower` (the model that `golden`
+    returns; None before its first use).
     """
 
     simulated: ClassVar[bool] = True
-    """Whether this is the RTL, whose output edges can be compared with those of the golden model."""
+    """True if the bench contains the RTL, whose output edges can be compared with the golden model."""
 
     def __init__(self, part: Part, config: Config, seed: int) -> None:
         self.part = part.built(part.params(config))
@@ -140,8 +141,8 @@ class DutBench(ABC):
     def drive(self, changes: Iterable[PinChange]) -> Handle:
         """Schedule pin changes in order of time, none in the past; the iterable is read as time advances.
 
-        The test continues meanwhile. cancel() of the result stops the changes; awaiting the result waits for
-        the last change.
+        The test continues during the changes. cancel() of the returned handle stops them; awaiting the handle
+        waits for the last change.
         """
 
     @abstractmethod
@@ -178,9 +179,9 @@ class DutBench(ABC):
         return self.follower.catch_up(self.pin_changes(), self.now - 1)
 
     def pin_changes(self) -> list[Change]:
-        """Return the changes at the inputs of the device: driven ones, and those made by the bench's top.
+        """Return the changes at the inputs of the device: those of the test and those of the bench's top.
 
-        Edge t + 1 is the first to sample a change that the top makes at edge t.
+        Edge t + 1 is the first to sample a change that the top module of the bench makes at edge t.
         """
         part, changes = self.part, self.stimulus
         if part.fed:
@@ -195,7 +196,7 @@ class DutBench(ABC):
 
     @property
     def slack(self) -> int:
-        """Number of cycles by which the sample of a pin may be late: 1 with JITTER=1, else 0."""
+        """Number of cycles by which a pin change may be sampled late: 1 with JITTER=1, else 0."""
         return int(self.stage_log is not None)
 
     def close(self) -> None:
@@ -215,11 +216,11 @@ class DutBench(ABC):
         return self.drive([(edge, levels)])
 
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
-        """Run the external clock: each item is the number of cycles from one rising edge to the next.
+        """Run the external clock; `intervals` yields the cycles from one rising edge to the next.
 
         The clock is on `pin` (default: the clock pin of a device with one axis). The first rising edge occurs
-        immediately, and the clock stops at the end of the iterable. Each high time is `high` cycles. The
-        result is that of `drive`.
+        immediately, and the clock stops at the end of the iterable. Each high time is `high` cycles. Return
+        the handle of `drive`.
         """
         name, start = pin or self.part.clock, self.now
 
@@ -273,7 +274,7 @@ class DutBench(ABC):
         return [t for t, v in bit_changes(rows, place or 0, before) if v == level]
 
     def _levelled(self, pin: str, level: int) -> tuple[str, int]:
-        """Return the port of a pin, and the level of the port when the pin has `level`."""
+        """Return the port that contains a pin, and the level of this port if the pin has `level`."""
         port, place = self.part.locate(pin)
         return port, level if place is None else self.pins[port] & ~(1 << place) | level << place
 
@@ -372,7 +373,7 @@ class DutBench(ABC):
         assert low <= got <= high, f"{rule}: {what}: expected {low}..{high}, got {got}\n{self.context()}"
 
     def recording(self) -> Recording:
-        """Return all changes until now, for `compare`; the last complete edge of `clk` is `now` - 1."""
+        """Return all changes until now, for the comparison; the last complete edge of `clk` is `now` - 1."""
         return Recording(
             part=self.part.name,
             params=self.part.params(self.config),

@@ -25,14 +25,14 @@ class PartTests:
     On netlists, the ITEMS of the directed module run.
 
     Attributes:
-        sample: functions that return the item of a random seed -> seeds. All hosts of a sample together use
-            every configuration from which random hosts choose.
+        sample: function that returns the item of a random seed -> seeds that run. All hosts of a sample
+            together use every configuration from which random hosts choose.
         builds: names of the configurations that have netlists (empty: all); `why` is the reason why others
             have no netlist.
         simulating: test functions that run simulations.
         not_applicable: test functions that cannot run on a netlist -> reason.
         too_long: directed tests, or modules of them, that would take far too long on a netlist -> reason.
-        quick: tests of the quick sample, which runs in the build `quick_build`.
+        quick: names of the tests in the quick sample, which runs only in the build `quick_build`.
         four_state: tests that also run on a four-state simulator (with X), which is a hundred times slower.
         netlists: whether the device has netlists; if not, its tests run on plain Verilog only.
         pins: pins of the top, if the `bench.py` of the folder does not list them.

@@ -1,4 +1,4 @@
-"""Reads the parameters of a module from its header, the only place where they are listed."""
+"""Reads the parameters of a module from its header, the only place that lists them."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class Times:
     Attributes:
         setup: time from the address to the command.
         command: time for which IOR or IOW is low.
-        late: time from the fall of IOW to valid write data.
+        late: delay of the write data after the fall of IOW.
         hold: time for which address and write data are valid after the rise of IOW.
         gap: time to the next access.
     """
@@ -103,7 +103,7 @@ class IsaMaster:
 
 
 class IsaHost(HostBus):
-    """`HostBus` on the ISA bus, for the device whose data register has the address `base`."""
+    """`HostBus` on the ISA bus, for a device whose data register has the address `base`."""
 
     def __init__(self, master: IsaMaster, base: int) -> None:
         super().__init__(master.bench)

@@ -1,10 +1,10 @@
 """`make test JITTER=1`: every synchroniser samples each change of a pin one cycle late with probability 1/2.
 
-The build replaces rtl/common/ppmc_sync.sv by tb/jitter/ppmc_sync.sv. `StageLog` reads which changes the first
-stages have sampled late, and passes the levels as sampled to the golden model. Thus the comparison is exact.
-A pin that two registers sample (the strobes of the host bus, a serial line) has two names in the model:
-"<pin>" for the first register, and "stage.<pin>" for the second one. If only "stage.<pin>" belongs to a
-synchroniser, the first register samples the pin directly.
+The build replaces rtl/common/ppmc_sync.sv by tb/jitter/ppmc_sync.sv. `StageLog` determines which changes the
+first stages have sampled late; the golden model receives the levels as sampled. Thus the comparison is exact.
+Two registers may sample the same pin (a strobe of the host bus, a serial line). Such a pin has two names in
+the model: "<pin>" for the first register, and "stage.<pin>" for the second one. If only "stage.<pin>" belongs
+to a synchroniser, the first register samples the pin directly.
 """
 
 from __future__ import annotations
@@ -24,7 +24,9 @@ JITTER = "OPENPPMC_JITTER"
 """Environment variable: if set, the synchronisers of a simulation have the random extra cycle."""
 MODELS = {ROOT / "rtl/common/ppmc_sync.sv": ROOT / "tb/jitter/ppmc_sync.sv"}
 LATE = "late_q"
-"""Register of the simulated synchroniser: bits that the last edge sampled late."""
+"""Name of a register in the simulated synchroniser: its bits mark the levels that the last edge sampled
+late.
+"""
 SECOND = "stage."
 Rows = Sequence[tuple[int, int]]
 

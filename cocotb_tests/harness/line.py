@@ -73,8 +73,8 @@ class LineTimes:
         t: first edge at which the next character may begin.
         bit: bit time of the line in cycles.
         error: relative error of the host's bit time, 0.02 = 2 % too long.
-        middle: edge at the middle of the last stop bit, for a receiver with the correct bit time that
-            measures from the change of the pin.
+        middle: edge at the middle of the last stop bit, for a receiver that measures its bit times, without
+            an error, from the change of the pin.
     """
 
     t: int
@@ -84,7 +84,7 @@ class LineTimes:
     _free: Fraction
 
     def open_line(self, bit: Fraction, error: float | Fraction = 0) -> None:
-        """Set the bit time and its error; the line is idle."""
+        """Set the bit time of the line and the relative error of the host; the line is idle."""
         self.bit, self.error = bit, Fraction(error)
         self.middle = self._free = Fraction(0)
 
@@ -127,7 +127,7 @@ class SerialLine(LineTimes):
     """Sender for hosts on a `DutBench`.
 
     A character begins at `t`, where the previous one ended. A method returns at the last change of the pin,
-    so that the test can do something else within the stop bit.
+    so that the test can act during the stop bit.
     """
 
     bench: DutBench

@@ -53,7 +53,7 @@ class _Later:
 
 
 class ModelBench(DutBench):
-    """Bench with a golden model just after its reset, at `now` = `settle` (0 or more).
+    """Bench with a golden model `settle` cycles (0 or more) after its reset.
 
     `pins` are as for `RtlBench.start`. Time begins with edge 0: the first reset itself is not visible.
     """
@@ -96,7 +96,7 @@ class ModelBench(DutBench):
         return edge
 
     async def align(self) -> int:
-        """Return `now`; the bench is always at the falling edge before `now`."""
+        """Return `now`; time is always at the falling edge before edge `now`."""
         return self._now
 
     def _go(self, edge: int) -> None:

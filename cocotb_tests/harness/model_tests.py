@@ -3,8 +3,8 @@
     # tests/ppmc104/model/test_acceptance.py
     globals().update(model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves"))
 
-`p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. Thus the
-same check applies to RTL and model, exact to the cycle.
+The cocotb test `p104_ac_09_trapezoid` becomes the pytest `test_ac_09_trapezoid`, with the same rules and
+builds. Thus RTL and model pass the same checks, exact to the cycle.
 """
 
 from __future__ import annotations
@@ -50,9 +50,9 @@ def run_on_model(item: Item, seed: int | None) -> None:
 
 
 def model_tests(module: str, package: str, *names: str, builds: Sequence[Config] = ()) -> dict[str, Any]:
-    """Return the tests of `package`'s modules on the golden model, by name, for the globals of `module`.
+    """Return pytest functions, by name, that run the tests of `package`'s modules on the golden model.
 
-    Raises ValueError if two tests share a name.
+    The caller adds them to the globals of `module`. Raises ValueError if two tests share a name.
 
     Args:
         builds: builds to use instead of those that the tests name.

@@ -69,12 +69,12 @@ class Part:
         widths: widths of the inputs wider than one bit.
         lowest: port -> number of its lowest bit, if this is not 0.
         parameters: parameters of the top module.
-        styles: styles of the host bus by the level of `style_pin`. A device with one style has no such pin,
-            and a device without a bus has no style.
+        styles: level of `style_pin` -> style of the host bus. A device with a single style has no
+            `style_pin`, and a device without a bus has no style.
         clock: pin of the external base clock.
         unwatched: free-running outputs; only tests that request them record their edges.
         defaults: parameters of a build that sets no parameters.
-        idle: one-bit parameters that select the level of an output in reset.
+        idle: one-bit parameter -> output whose level in reset it selects.
         shape: function that returns the pins for parameters that determine the widths of ports (see `built`).
 
     For `make test JITTER=1`, `stages` lists the synchronisers of the pins: path -> pins from the most
@@ -146,7 +146,7 @@ class Part:
         return self.outputs[pin][0] if pin in self.outputs else self.widths.get(pin, 1)
 
     def locate(self, pin: str) -> tuple[str, int | None]:
-        """Return the port of a pin name and the position of the bit in it; None for the port as a whole.
+        """Return the port of a pin, and the position of the pin in the port (None: `pin` is the whole port).
 
         Raises KeyError for a bit that the port does not have.
         """

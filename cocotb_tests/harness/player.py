@@ -54,7 +54,7 @@ class ExternalClock:
 
 
 def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> ExternalClock:
-    """Return a clock that is steady, jitters, pauses or changes its period; periods are at least 16 cycles.
+    """Return a steady clock, or one that jitters, pauses or changes its period (at least 16 cycles).
 
     Args:
         near: preferred periods in XTAL cycles.
@@ -106,7 +106,7 @@ class Scenario:
 class Player:
     """Plays a scenario on a bench.
 
-    When a poll reaches its time limit, the player continues: a host that does so is legal, too.
+    When a poll reaches its time limit, the player continues, because a host may do so.
     """
 
     def __init__(self, bench: DutBench, scenario: Scenario) -> None:

@@ -54,7 +54,7 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Deselect tests that do not match --clk-hz, --model or --jitter.
+    """Deselect tests that the options --clk-hz, --model and --jitter exclude.
 
     --clk-hz deselects plain Python tests and tests with other clocks; --model deselects all tests except
     directed ones; --jitter deselects all tests except compared ones of the devices that support it.
@@ -69,7 +69,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def _is_selected(item: Item | None, clk_hz: int | None, model: bool) -> bool:
-    """Return whether the options select a test: by its clock, and for the golden model."""
+    """Return whether a test has the selected clock and, with --model, runs on the golden model."""
     if item is None:
         return clk_hz is None and not model
     return clk_hz in (None, item.config.clk_hz) and not (model and item.uncompared is None)

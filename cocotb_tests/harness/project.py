@@ -31,7 +31,7 @@ class ProjectError(Exception):
 
 
 def part(name: str) -> Row:
-    """Return the device called `name` from the table of parts; ProjectError lists the existing ones."""
+    """Return the device called `name` from the table of parts; a ProjectError lists the existing devices."""
     if name not in PARTS:
         raise ProjectError(f"PART={name}: no such part (known: {', '.join(PARTS)})")
     return PARTS[name]
@@ -90,7 +90,7 @@ def relative(path: Path) -> str:
 
 
 def tool(name: str) -> str:
-    """Return the path of a program of this Python environment; else its name, to be found in PATH."""
+    """Return the path of a program in this Python environment; if it is not there, its name, for PATH."""
     return shutil.which(name, path=str(Path(sys.executable).parent)) or name
 
 

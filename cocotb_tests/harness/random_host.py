@@ -31,7 +31,7 @@ class MovingPins:
         self._level = 0
 
     def add(self, t: int, **levels: int) -> None:
-        """Set levels from edge t on."""
+        """Schedule levels of pins for edge t."""
         self._later.append(self._bench.at(max(t, self._bench.now), **levels))
 
     def blip(self, t: int, pin: str, level: int, clk: int) -> None:
@@ -72,12 +72,12 @@ UNCOMPARED = "levels change between two edges of clk, and either edge may sample
 
 
 class PinNoise:
-    """Drives random levels. A call of `make` continues where the previous call ended.
+    """Drives random levels. Each call of `make` continues the sequence of the previous call.
 
     Args:
         strobes: active-low bus pins; a pin that is listed more often is drawn more often.
         codes: bytes that are drawn often.
-        still: pins that keep their level. All other pins except the bus and the clock are drawn as switches.
+        still: pins that keep their level. All other pins except the bus and the clock are driven as switches.
     """
 
     def __init__(
@@ -142,7 +142,7 @@ def weighted(rng: random.Random, table: Iterable[tuple[T, float]]) -> T:
 
 
 class Builds:
-    """Selection of the build for a seed, for hosts whose actions do not depend on the build.
+    """Selects the build of a seed, for hosts whose actions do not depend on the build.
 
     Args:
         name: name of the device in the text of its seeds, such as "p312".
@@ -198,15 +198,15 @@ class RandomHost:
         return self.host.bench.golden
 
     def pick(self, actions: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:
-        """Draw a function of a table of (function, weight)."""
+        """Draw a function from a table of (function, weight) and return it."""
         return weighted(self.rng, actions)
 
 
 class HostWriter(RandomHost, ABC):
     """Writes action lists.
 
-    Attributes: rng, config, scale (cycles of `clk` per XTAL cycle), externals (for each clock pin, whether it
-    is used), limit_clk (time limit in cycles), actions (so far).
+    Attributes: rng, config, scale (cycles of `clk` per XTAL cycle), externals (for each clock pin: True if it
+    is used), limit_clk (time limit of a poll in cycles), actions (appended so far).
 
     Args:
         name: first word of the seed text.
@@ -240,7 +240,7 @@ class HostWriter(RandomHost, ABC):
         self.actions.append(action)
 
     def clk(self, low: int, high: int) -> int:
-        """Draw a time between two numbers of XTAL cycles; return it in cycles.
+        """Draw a time of `low` to `high` XTAL cycles; return it in cycles of `clk`.
 
         Short times are frequent.
         """

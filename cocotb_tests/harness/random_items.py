@@ -3,8 +3,8 @@
     random_item = RandomItems("stmc", "tb_random", "stmc_random_host", range(1, 151), build)
     pytest_generate_tests = generating(test_random=random_item)
 
-Several seeds share a simulation (`batches`), each after a reset. A failing simulation reports the shortest
-failing stimulus that was found (`shrink_report`).
+Several seeds share a simulation (`batches`); each seed begins with a reset. A failing simulation reports the
+shortest failing stimulus that was found (`shrink_report`).
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ def run_batch(item: Item, seeds: str, options: SimOptions, design: Design | None
 
 
 def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:
-    """Return all seeds of the batches in ascending order."""
+    """Return the seeds of all batches that `fixed` seeds form, in ascending order."""
     return sorted(int(word) for _, seeds in batches([make(seed) for seed in fixed]) for word in seeds.split())
 
 
@@ -158,7 +158,7 @@ Failure = tuple[int, str, str]
 
 @dataclass
 class Played:
-    """Result of some seeds; `compared` counts comparisons with the golden model by name."""
+    """Result of some seeds; `compared`: name -> count, summed over comparisons with the golden model."""
 
     failures: list[Failure] = field(default_factory=list)
     compared: Counter[str] = field(default_factory=Counter)
@@ -216,7 +216,7 @@ class RandomItems:
         seeds: seeds that `make test` plays; a simulation plays up to `batch` seeds of one build.
         build: function that returns the build of a seed.
         design: simulated design, if it is not the device alone.
-        takes: function that returns whether a seed belongs to this kind.
+        takes: function that returns True if a seed belongs to this kind.
     """
 
     part: str
@@ -250,7 +250,7 @@ class RandomItems:
         return play([self(seed) for seed in seeds], self._design, self.batch)
 
     def pins(self, seed: int) -> tuple[str, str]:
-        """Return the digest of all pin changes of a seed, on the RTL and on the golden model alone."""
+        """Return two digests of all pin changes of a seed: on the RTL, and on the golden model alone."""
         item = self(seed)
         folder = run_sim(self._design(item) or part_design(item.part, item.config), item, seed)
         found = re.search(r"edges compared, pins (\w+)", (folder / "log.txt").read_text(encoding="utf-8"))

@@ -22,7 +22,7 @@ from .shrink import Shrinker, Transaction, changes_of, report_lines, transaction
 async def rerun(bench: RtlBench, changes: Iterable[Change], end: int) -> list[Edge]:
     """Reset the device and make the changes; return all output edges up to edge `end`.
 
-    Times are counted in the same way as in `changes`.
+    The times of the edges have the same origin as those of `changes`.
     """
     await bench.align()
     bench.set(rst_n=0)
@@ -51,10 +51,9 @@ async def compared(bench: RtlBench, recording: Recording) -> Comparison:
 
 
 class Search:
-    """Searches for a short list of transactions that causes the difference `first` of a recording.
+    """Searches for a short list of transactions that causes a difference on the same output as `first`.
 
-    The difference must occur on the same output. The best list so far is always in recording.json and
-    short.txt in the bench's folder.
+    The best list so far is always in recording.json and short.txt in the bench's folder.
     """
 
     def __init__(self, bench: RtlBench, first: Comparison) -> None:
@@ -69,7 +68,7 @@ class Search:
         self.shrinker = Shrinker(transactions, self.fails, seconds=seconds, kept=self.keep)
 
     async def run(self) -> bool:
-        """Search; return whether the transactions cause the difference at all."""
+        """Search; return False if even all transactions together do not cause the difference."""
         if await self.fails(self.shrinker.transactions) is None:
             return False
         self.keep()
@@ -85,9 +84,9 @@ class Search:
         self.end = min(self.end, t + t // 8 + 2_000)
 
     async def fails(self, transactions: Sequence[Transaction]) -> int | None:
-        """Return the edge of the difference.
+        """Return the edge of the difference that these transactions cause.
 
-        Return None if these transactions do not cause it, or if another output differs first.
+        Return None if they do not cause it, or if another output differs first.
         """
         recording = replace(
             self.last.recording,
@@ -134,7 +133,7 @@ async def _begun() -> tuple[RtlBench, Comparison]:
 
 @cocotb.test()
 async def replay(dut: Any) -> None:
-    """All outputs change as in the golden model when the RTL receives the pin changes of a recording."""
+    """When the RTL receives the pin changes of a recording, all outputs change as in the golden model."""
     bench, comparison = await _begun()
     if comparison.mismatch is not None:
         raise AssertionError(write_report(comparison, bench.out, bench.repro))

@@ -66,7 +66,7 @@ class RtlBench(DutBench):
         seed: int | None = None,
         **pins: int,
     ) -> RtlBench:
-        """Start clk, pulse rst_n 1-0-1 and return with `now` = settle.
+        """Start clk, drive rst_n high, low and high, and return a bench with `now` = settle.
 
         The devices accept bytes from edge 4 on (P104-PORT-03). With settle = 0, the method returns before
         edge 0. `pins` replace idle input levels; these levels have the stamp 0. `reset_clk` is the length of
@@ -224,13 +224,13 @@ class RtlBench(DutBench):
     # ---------------------------------------------------------------- outputs
 
     def forget(self) -> None:
-        """Discard all output edges and pin changes recorded so far, for runs of many devices in turn."""
+        """Discard all recorded output edges and pin changes, so that a test can run devices one by one."""
         self.stimulus.clear()
         for changes in self._output_changes().values():
             changes.clear()
 
     def _index(self, time: int) -> int:
-        """Return the edge at which a change is visible; for asynchronous changes this is the next edge."""
+        """Return the edge that causes a change at a time; for an asynchronous change, the next edge."""
         return -((self._t0 - time) // self.period)
 
     def _output_changes(self) -> dict[str, list[tuple[int, int]]]:
@@ -267,7 +267,7 @@ class RtlBench(DutBench):
             fired = await First(handle.value_change, limit)
             if fired is limit:
                 break
-            # The change may affect other bits of the same port.
+            # If only other bits of the same port have changed, the wait continues.
             was, before = before, self.level(output)
             if before != was and level in (None, before):
                 t = self._index(self._time())

@@ -52,7 +52,7 @@ class RunContext:
         seed: seed of the benches of the test, if it is not that of the run.
 
     Attributes:
-        differs: True if a comparison has failed.
+        differs: True from the start of a comparison on; False again if it succeeds.
     """
 
     def __init__(self, compare: Comparer | None, seed: int | None = None) -> None:
@@ -99,7 +99,7 @@ def current_test() -> RunContext | None:
 
 @contextmanager
 def running_test(compare: Comparer | None, seed: int | None = None) -> Iterator[RunContext]:
-    """Provide the context of a test whose benches are compared by `compare`; see `RunContext`."""
+    """Provide the context of a running test; `compare` compares its benches (see `RunContext`)."""
     _running.append(RunContext(compare, seed))
     try:
         yield _running[-1]
@@ -113,7 +113,7 @@ def last_test() -> RunContext | None:
 
 
 async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> DutBench:
-    """Return an `RtlBench` on `dut`, or a `ModelBench` for `OnModel`; both with `now` = `settle`.
+    """Return a bench at edge `settle`: an `RtlBench` on `dut`, or a `ModelBench` if `dut` is an `OnModel`.
 
     A directed test may call it again: the recording of the previous bench is compared with the golden model,
     its scheduled pin changes stop, and the device starts again from a reset.
@@ -134,7 +134,7 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Dut
 def directed(
     *rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "", exact: str = ""
 ) -> Callable[[Any], Any]:
-    """Make a cocotb test that verifies `rules` (empty: sessions of a manual) in these builds.
+    """Make a cocotb test that verifies `rules` in these builds; no rule if it plays sessions of a manual.
 
     Raises ValueError for an invalid rule ID.
 
@@ -183,7 +183,7 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
     """Make a cocotb test that verifies `rules`, from a coroutine that plays one seed on one bench.
 
     Args:
-        least: minimum number of output edges in a seed; all edges are compared.
+        least: minimum number of output edges of a seed; a seed with fewer edges fails.
         uncompared: reason why the output edges are not compared.
     """
 

@@ -1,8 +1,8 @@
 """Runs cocotb tests: directed tests of a build share one process; each other test has a separate process.
 
 All simulations of the project use this module. A process is accepted only if results.xml contains exactly the
-requested tests (otherwise no test counts as run) and the exit code is 0. A fired assertion of the RTL is an
-error of the test in whose part of the log it is printed (`simulate`).
+requested tests (otherwise no test counts as run) and the exit code is 0. If an assertion of the RTL fires,
+the test in whose part of the log it is printed fails (`simulate`).
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def with_probes(design: Design, paths: tuple[str, ...], everything: bool = False
 
 
 def hint(text: str, design: Design) -> str:
-    """Return a hint if a failure names an unknown signal and the design has hidden signals; otherwise ""."""
+    """Return a hint if a failure text names an unknown signal and the design has hidden signals; else ""."""
     return HINT if design.ports and _UNKNOWN.search(text) else ""
 
 
@@ -85,7 +85,7 @@ def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int
 def write_views(vcd: Path, design: Design) -> list[Path]:
     """Write a GTKWave save file and a Surfer command file next to a VCD.
 
-    Return the paths of all three, if the VCD exists.
+    Return the paths of all three files; an empty list if the VCD does not exist.
     """
     if not vcd.is_file():
         return []
@@ -111,7 +111,7 @@ T = TypeVar("T")
 
 
 def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T, ...]]:
-    """Group items with the same key in order, at most MOST per group; an item whose key is None is alone."""
+    """Return groups of at most MOST items with the same key, in order; an item with key None is alone."""
     found: dict[Hashable, list[T]] = {}
     for number, thing in enumerate(things):
         found.setdefault((number,) if (name := key(thing)) is None else (None, name), []).append(thing)
@@ -126,8 +126,8 @@ def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T
 def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
     """Return the outcome of each item of a job, and the process in which it ran.
 
-    Items that did not run because of a crash run in a new process without the test that crashed. For a
-    mutant, the first failure ends the job.
+    If a test crashes, the items that have not run yet run in a new process without this test. For a mutant,
+    the first failure ends the job.
     """
     found: dict[Item, tuple[Outcome, Job]] = {}
     left: Sequence[Item] = job.items
@@ -149,9 +149,9 @@ def fails(job: Job, items: Sequence[Item]) -> bool:
 
 
 def shortest_prefix(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
-    """Return the smallest list of tests out of `before` after which `item` fails.
+    """Return a short list of tests out of `before` after which `item` fails.
 
-    The list is halved as long as one half is sufficient.
+    The list is halved as long as `item` fails after one of the halves.
     """
     culprits = list(before)
     while len(culprits) > 1:
@@ -197,7 +197,7 @@ def _message(
 
 
 def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> str:
-    """Return the message about a failure that `job` reproduces only with all items before `item`."""
+    """Return the message about a failure of the last item of `job`; it needs the other items of `job`."""
     reasons = [f"fails only after {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
     if unknown_name := hint(outcome.text, job.design):
         return _message(item, outcome, job, [*reasons, unknown_name], kept)
@@ -237,7 +237,7 @@ WAVES_IN = "waves in "
 
 
 def notes(item: Item | None) -> list[tuple[str, Any]]:
-    """Return the user properties that the summary needs, for the report of a test."""
+    """Return the user properties that `Summary` reads from the report of a test."""
     if item is None or item.uncompared is None:
         return []
     return [("directed", item.test), ("uncompared", item.uncompared)]
@@ -280,14 +280,14 @@ class Summary:
 
 @dataclass(frozen=True)
 class SimOptions:
-    """Options of the user on the command line. If `seed` is None, each test uses its fixed default.
+    """Options of the command line. If `seed` is None, each test uses its fixed default seed.
 
     `done` contains the outcomes of the groups that have run.
 
     Attributes:
         waves: True if a VCD of each test is kept, also of passing ones.
         probe: True if every signal is visible.
-        group: items that share a simulator process, in order.
+        group: items that share a simulator process with the item of the test, in order.
     """
 
     seed: int | None = None

@@ -1,9 +1,9 @@
 """Decides which pytest items share a simulator process; makes xdist send such a group to one worker.
 
 Tests with the same mark `xdist_group` also run in one worker, which builds their common data once. Groups are
-formed from the tests that remain to run (`-k`, a node's id, --lf), in their order. Each worker determines
-them from the tests that it collects. The controller, which collects nothing, reads them from a file whose
-path it passes to its workers.
+formed from the tests that remain to run (`-k`, a node's id, --lf), in their order. Each worker determines the
+groups from the tests that it collects. The controller collects no tests; it reads the groups from a file
+whose path it passes to its workers.
 """
 
 from __future__ import annotations
@@ -39,8 +39,9 @@ def item_of(test: pytest.Item) -> Item | None:
 def group_key(test: pytest.Item) -> Hashable:
     """Return a key that is equal for tests that may share a process: same test function, same build.
 
-    The test function determines the design. For tests that are not directed, the design may also depend on
-    their module.
+    None if the test may not share a process. A directed test is simulated in the design of its test function,
+    so tests of several modules may share a process. For other tests the design may also depend on the module,
+    so the key contains the module.
     """
     item = item_of(test)
     if item is None or not item.together or len(params_of(test)) > 1:
@@ -50,7 +51,7 @@ def group_key(test: pytest.Item) -> Hashable:
 
 
 class Groups:
-    """Groups of a session, in a worker or in a session without workers."""
+    """Groups of a session; used in a worker of xdist, or in a session without workers."""
 
     def __init__(self, options: SimOptions) -> None:
         self._options = options
@@ -61,7 +62,7 @@ class Groups:
         return replace(self._options, group=self._group.get(test.nodeid, ()))
 
     def pytest_collection_finish(self, session: pytest.Session) -> None:
-        """Form the groups; with waves, each test is in a separate process."""
+        """Form the groups; with waves, each group is a single test."""
         key = (lambda test: None) if self._options.waves else group_key
         scopes = {}
         for tests in groups_of(session.items, key):

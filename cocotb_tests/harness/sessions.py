@@ -39,7 +39,7 @@ class Sessions:
     """The sessions of one device.
 
     Args:
-        brief: codes of operations that may end before the status is read.
+        brief: codes of operations so short that they may end before the status is read.
     """
 
     def __init__(self, part: str, brief: Collection[int]) -> None:
@@ -49,7 +49,7 @@ class Sessions:
     def blocks(self, chapter: int) -> list[list[Step]]:
         """Return the code blocks of one chapter.
 
-        Raise ValueError, which contains the line, if a line is not an access.
+        Raises ValueError, whose text contains the line, if a line is not an access.
         """
         parts = re.split(r"^## ", self.page.read_text(encoding="utf-8"), flags=re.M)
         body = next(part for part in parts if part.startswith(f"{chapter} "))

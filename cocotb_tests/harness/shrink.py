@@ -241,12 +241,11 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
 
 
 PAUSE = 20
-"""Number of cycles left between two transactions if the pause between them is removed; enough for every bus.
-"""
+"""Number of cycles that remain between two transactions if their pause is removed; enough for every bus."""
 
 
 def messages(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
-    """Return runs of writes or of reads, and bursts of other pins.
+    """Return the transactions in groups: runs of writes, runs of reads, and bursts of changes of other pins.
 
     A run ends when the direction changes, or when its first register occurs again after other registers.
     Examples of a run are a command with its data, all registers of a block, a response, or several polls.
@@ -267,7 +266,7 @@ def messages(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
 
 
 def exchanges(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
-    """Return the exchanges (each message with the reads that follow it) and the bursts of other pins."""
+    """Return exchanges (each message with the reads that follow it) and bursts of changes of other pins."""
     found: list[list[Transaction]] = []
     exchange: list[Transaction] = []
     for message in messages(transactions):
@@ -298,7 +297,7 @@ def report_lines(transactions: Iterable[Transaction]) -> list[str]:
 
 
 def _continues(run: Sequence[Transaction], txn: Transaction) -> bool:
-    """Return whether an access belongs to a run of accesses."""
+    """Return whether the access `txn` continues a run of accesses (see `messages`)."""
     if not run or not run[-1].access or run[-1].reads != txn.reads:
         return False
     return txn.kind != run[0].kind or txn.kind == run[-1].kind
@@ -333,7 +332,7 @@ class Shrinker:
     Attributes:
         trials_at_most: maximum number of trials.
         seconds: limit of the CPU time of this process in s.
-        kept: function that is called after each trial with a shorter list that still fails.
+        kept: function that is called after each trial in which a shorter list still causes the difference.
     """
 
     transactions: list[Transaction]
@@ -363,7 +362,7 @@ class Shrinker:
             self.stopped = str(limit)
 
     async def _try(self, transactions: Sequence[Transaction]) -> bool:
-        """Return whether this list fails as well; if so, keep its transactions up to the difference."""
+        """Return whether this list also causes the difference; if so, keep it up to the difference."""
         if tuple(transactions) in self._tried:
             return False
         if self.trials >= self.trials_at_most:
@@ -380,7 +379,7 @@ class Shrinker:
         return True
 
     async def _keep_the_end(self) -> None:
-        """Try only the last exchanges, moved to just after the reset; add earlier ones until the list fails.
+        """Try only the last exchanges, moved to just after the reset; add earlier ones until these fail.
 
         Omitting exchanges from the middle would change later reads. Short lists from the end are quick to
         try.
@@ -399,8 +398,9 @@ class Shrinker:
     async def _leave_out_kinds(self) -> None:
         """Omit all transactions of a kind, the most frequent kind first.
 
-        Such kinds are polls, clocks, and changes of other pins. The later searches omit transactions of rare
-        kinds. The last message is kept, because it may be the poll that shows the difference.
+        Frequent kinds are polls, clocks, and changes of other pins. Kinds with less than 5 % of the
+        transactions are left to the later searches. The last message is kept, because it may be the poll that
+        shows the difference.
         """
         for kind, count in Counter(txn.kind for txn in self.transactions).most_common():
             if count < len(self.transactions) // 20:
@@ -422,7 +422,7 @@ class Shrinker:
             size //= 2
 
     async def _cap_pauses(self) -> None:
-        """Limit all pauses to the smallest value of CAPS with which the list still fails."""
+        """Limit all pauses to the smallest value of CAPS with which the difference still occurs."""
         for longest in CAPS:
             transactions: list[Transaction] = []
             saved = last = 0

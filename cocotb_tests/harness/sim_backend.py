@@ -1,7 +1,8 @@
-"""`SimBackend`: the frequent operations of a bench: clock, pins, levels, edges of outputs.
+"""`SimBackend`: the operations that a bench needs often: clock, pins, levels, edges of outputs.
 
-`sim_backend()` returns `CppBackend` with our main program and `CocotbBackend` with that of cocotb
-(`build.MAINS`). Both record the same changes; `CppBackend` is faster, `CocotbBackend` needs only cocotb.
+`sim_backend()` returns a `CppBackend` in a simulation with our main program, and a `CocotbBackend` in one
+with the main program of cocotb (`build.MAINS`). Both record the same changes; `CppBackend` is faster,
+`CocotbBackend` needs only cocotb.
 """
 
 from __future__ import annotations
@@ -115,7 +116,7 @@ _ROW = struct.Struct("=QQQ")
 _WORD = 64
 _ONES = (1 << _WORD) - 1
 _OTHER = 1 << 20
-"""Offset that is added to the numbers of the ports that a `CocotbBackend` handles."""
+"""Added to the numbers of those ports that `CppBackend` lets a `CocotbBackend` handle."""
 
 
 def _function(name: str, result: Any, *arguments: Any) -> Any:
@@ -125,15 +126,15 @@ def _function(name: str, result: Any, *arguments: Any) -> Any:
 
 
 class CppBackend:
-    """`SimBackend` with our main program. Clock and watches continue until the clock is started again."""
+    """`SimBackend` with our main program. Clock and watches last until the clock is started again."""
 
     def __init__(self) -> None:
         self._others = CocotbBackend()
         self._numbers: dict[str, int] = {}
         self._words: dict[int, int] = {}
-        """Number of words of the wide ports."""
+        """Number of a wide port -> number of its words."""
         self._levels: dict[int, int] = {}
-        """Last levels of the wide ports that are watched."""
+        """Number of a watched wide port -> its last level."""
         self._part_of: dict[int, tuple[int, int]] = {}
         """Number of a word -> (port of the word, position of the word in the port in bits)."""
         self.now = _function("openppmc_time", ctypes.c_uint64)
@@ -204,7 +205,7 @@ class CppBackend:
         return chain(self._whole(found) if self._levels else found, others)
 
     def _whole(self, rows: Iterable[tuple[int, int, int]]) -> Iterator[tuple[int, int, int]]:
-        """Yield rows in which the words of wide ports are combined to levels of these ports."""
+        """Yield the rows, but combine the words of each wide port to a level of the whole port."""
         part_of, levels = self._part_of, self._levels
         for row in rows:
             time, number, value = row

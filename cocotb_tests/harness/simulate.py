@@ -34,7 +34,7 @@ _TABLE = re.compile(r"^[^\n]*\*{20,}", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Outcome:
-    """Outcome of one test: `kind`, and in `text` the failure or the reason of a skip or expected failure."""
+    """Outcome of one test: its `kind`; `text` is the failure, or the reason of a skip or expected failure."""
 
     kind: str
     text: str = ""
@@ -84,7 +84,7 @@ def _abridged(rows: list[str], lines: int) -> list[str]:
 
 
 def _parts(text: str) -> Iterator[tuple[str, str]]:
-    """Yield (full name, its part of the log) of each test that was started.
+    """Yield (full name, part of the log) of each test that was started.
 
     The text before the first start belongs to the first test.
     """
@@ -158,7 +158,7 @@ ERRORS = 1_000_000
 
 @dataclass(frozen=True)
 class Job:
-    """One run of a simulator process, which can be repeated. `env` is the environment of the simulation."""
+    """One run of a simulator process, which can be repeated. `env` contains environment variables for it."""
 
     design: Design
     items: tuple[Item, ...]
@@ -194,7 +194,7 @@ def repro_line(items: Sequence[Item], seed: int) -> str:
 
 
 def tried(job: Job) -> dict[Item, Outcome]:
-    """Do the same as `simulate`, but remove the files of the run afterwards."""
+    """Run a job as `simulate` does, remove the files of the run, and return the outcome of each item."""
     try:
         return simulate(job)
     finally:

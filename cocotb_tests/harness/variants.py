@@ -45,7 +45,9 @@ def mutant_plusargs() -> list[str]:
 
 COVERAGE = "OPENPPMC_COVERAGE"
 COVERAGE_COPIES = "OPENPPMC_COUNTED"
-"""Folder with copies of rtl/ in which Verilator counts correctly (`scripts.measure.coverage.counted`)."""
+"""Environment variable that names the folder with the rewritten copy of rtl/, in which Verilator counts line
+coverage correctly (`scripts.measure.coverage.counted`).
+"""
 COVERAGE_FILE = "coverage.dat"
 """Name of the file with the counts in the folder of a run."""
 

@@ -1,9 +1,9 @@
-"""First import of each simulation: a wall-clock limit for every test, and a Python trace when it expires.
+"""Limits the wall-clock time of every test of a simulation; prints a Python trace when the limit expires.
 
-`simulate` names this module before the modules with tests; it contains no tests. Each test restarts the
-limit, and so does each bench of a test that has many benches (a batch of seeds). When the limit ends the
-process or the process crashes, the log states which line was waiting. A simulation of a mutant ends with the
-first test that fails.
+This module contains no tests; each simulation imports it before the modules with tests (`simulate`). Each
+test restarts the limit. In a test with many benches (a batch of seeds), each bench restarts it, too. When the
+limit ends the process or the process crashes, the log states which line was waiting. A simulation of a mutant
+ends with the first test that fails.
 """
 
 from __future__ import annotations

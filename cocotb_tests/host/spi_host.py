@@ -19,8 +19,8 @@ COUNT = 1024
 
 @dataclass(frozen=True)
 class Pace:
-    """Times in cycles: low and high time of sck, cs_n to the first rise of sck, cs_n high. sck idles at
-    `idle`.
+    """Times in cycles: low and high time of sck, time from the fall of cs_n to the first rise of sck, high
+    time of cs_n. `idle` is the level of sck between frames.
     """
 
     low: float = 4.0
@@ -87,7 +87,7 @@ class SpiHost:
     async def frame(self, bits: list[int], pace: Pace = Pace(), short: int = -1) -> list[int]:
         """Send one frame; return the level of miso before each rising edge of sck.
 
-        The low time of sck before bit number `short` is 2 cycles.
+        The low time of sck before bit number `short` is only 2 cycles.
         """
         put, seen = self.unit.put, []
         put(sck_i=pace.idle)

@@ -101,7 +101,7 @@ class Line:
         self.unit.put(rxd_i=1)
 
     async def ask(self, *request: int, rate: float = 1.0) -> int:
-        """Send a request and return the only character of its answer."""
+        """Send a request and return its answer, which must be a single character."""
         for byte in request:
             await self.send(byte, rate=rate)
         await self.clk(11 * BIT)
@@ -169,7 +169,7 @@ async def char_own_bytes(dut):
 @cocotb.test()
 async def char_damaged(dut):
     """A second character without a first one is ignored. A first character replaces an incomplete write. A
-    character with a low stop bit is ignored, and ends an incomplete write.
+    character with a low stop bit is ignored, and an incomplete write before it is discarded.
     """
     line = await start(dut)
     await line.send(0x12)

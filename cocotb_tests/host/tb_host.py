@@ -90,7 +90,7 @@ async def bus_short_strobe(dut):
 async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, gap: int, early: bool) -> None:
     """Check one read of `length` cycles and the gap after it.
 
-    If `early` is set, d_o must also load on edge 0.
+    If `early` is set, also check that d_o loads on edge 0.
     """
     a0 = rand.randrange(2)
     sampled: list[tuple[int, int, int]] = []
@@ -112,8 +112,8 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
         same(f"{where}: rd_done", done, taken and n == length + 2)
         if n < 2 and n < length:
             shown = status if a0 else data
-        # A byte that arrives on edge 0 is output on edge 1, because d_o loads again; a later byte is not
-        # read.
+        # d_o loads again on edge 1, so it contains a byte that arrives on edge 0. A byte that arrives later
+        # is not output, so it is not consumed.
         unseen = unseen or bool(new and (n or length == 1))
         if n == 1:
             taken = bool(valid and not a0)
@@ -122,8 +122,8 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
 
 @cocotb.test()
 async def bus_read(dut):
-    """In a read, d_o loads on edges 0 and 1 and is then stable. A byte is consumed if it was valid and was
-    output.
+    """In a read, d_o loads on edges 0 and 1 and is then stable. A byte is consumed only if it was valid and
+    is the one that was output.
     """
     rand = rng()
     u = BlockDriver(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")

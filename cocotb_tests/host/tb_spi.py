@@ -33,7 +33,7 @@ BLOCKS = {
     ),
 }
 LEGAL = Pace()
-"""A period of sck is 8 cycles."""
+"""The default times: a period of sck is 8 cycles."""
 
 
 async def start(dut: Any) -> tuple[SpiHost, PageReference]:
@@ -89,8 +89,8 @@ async def spi_random_frames(dut):
 
 @cocotb.test()
 async def spi_frames_close_together(dut):
-    """No flag is missed if cs_n is high for only 2 cycles between frames, also after truncated and rejected
-    frames.
+    """If cs_n is high for only 2 cycles between frames, each flag is still reported, also after truncated and
+    rejected frames.
     """
     rand = rng()
     host, book = await start(dut)
@@ -136,7 +136,9 @@ async def spi_bursts(dut):
 
 @cocotb.test()
 async def spi_fastest(dut):
-    """The fastest legal sck works at all phases to clk, and a slightly faster one is reported."""
+    """The fastest legal sck works at all phases to clk; a slightly faster sck sets a flag in the next
+    status.
+    """
     for step in range(0, 16):
         host, book = await start(dut)
         await host.wait(step / 16)
@@ -147,7 +149,7 @@ async def spi_fastest(dut):
         bits = bits_of(*header(WRITE | 0x155), 0x77)
         book.frame(bits)
         seen = await host.frame(bits, Pace(2, 2, lead=6))
-        if step:  # at phase 0, miso would change just before the host samples it
+        if step:  # not at phase 0, where miso changes just before the host samples it
             same(f"phase {step}/16: first bits", seen[:4], [1, 1, 0, 0])
         await host.wait(16)
         same("accesses", host.slave.accesses(), book.accesses)

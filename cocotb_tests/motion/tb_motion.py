@@ -11,7 +11,7 @@ from openppmc.model.motion.excitation import step_list
 
 from ..harness import Block, BlockDriver, rng, same
 
-BASES = [(8, 32, 30), (1, 5, 7), (2, 3, 1)]  # fast, slow and extra in quanta; fast is never greater than slow
+BASES = [(8, 32, 30), (1, 5, 7), (2, 3, 1)]  # fast, slow and extra time in quanta; fast is at most slow
 EXTERNAL = [(136, 128), (20, 13), (9, 9), (940, 885)]
 LAGS = [120, 83, 5]
 SHAPES = [  # ClkHz, XtalHz, WidthXtal, HalfXtal, HalfRates
@@ -136,8 +136,8 @@ async def base_clock_quanta(dut):
 
 @cocotb.test()
 async def rate_counter_hit(dut):
-    """hit_o is asserted at base clock number rate + 1; half_o is asserted from base clock number floor((rate
-    + 1) / 2) on.
+    """From the restart, hit_o is asserted at base clock number rate + 1, and half_o from base clock number
+    floor((rate + 1) / 2) on.
     """
     rand = rng()
     for bits in (8, 10):
@@ -164,7 +164,7 @@ async def rate_counter_hit(dut):
 @cocotb.test()
 async def rate_counter_wait(dut):
     """While the rate is still rising, neither hit_o nor half_o is asserted. The base clocks during this time
-    are counted, up to the rate at that time.
+    are counted; the count does not exceed the rate of that moment.
     """
     rand = rng()
     u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")
@@ -184,7 +184,7 @@ async def rate_counter_wait(dut):
         for number in range(count, rate + 1):
             await u.clk(restart_i=0, tick_i=0, wait_i=0, rising_i=0)
             for _ in range(2):
-                # If the base clock with the number `half` has already occurred, half_o is asserted
+                # If enough base clocks for half of the interval have already occurred, half_o is asserted
                 # immediately.
                 same("no tick", await u.clk(), (0, 2 * number >= rate))
             hit, _ = await u.clk(tick_i=1)
@@ -193,8 +193,8 @@ async def rate_counter_wait(dut):
 
 @cocotb.test()
 async def rate_counter_final_rate(dut):
-    """If the rate is final but the interval must not end yet, half_o is asserted at its base clock, and hit_o
-    is delayed until the interval may end.
+    """If the rate is final but wait_i = 1, half_o is asserted at its base clock, and hit_o is delayed until
+    wait_i = 0.
     """
     u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")
     await u.reset()
@@ -249,8 +249,8 @@ async def ext_clock_thresholds(dut):
 
 @cocotb.test()
 async def ext_lag_sum(dut):
-    """If the first base clock edge occurs d cycles after the pulse, the interval ends ExtraCycles - d cycles
-    after hit_i.
+    """If the first edge of the base clock is d cycles after the pulse, the interval ends ExtraCycles - d
+    cycles after hit_i.
     """
     rand = rng()
     for lag in LAGS:
@@ -299,7 +299,9 @@ async def pulse_shaper_width(dut):
 
 @cocotb.test()
 async def hold_timer_quanta(dut):
-    """hold_o falls one cycle after busy_i rises. It rises one cycle after the last cycle of the rest time."""
+    """hold_o falls one cycle after busy_i rises. It rises one cycle after the end of the hold time, which
+    follows the motion.
+    """
     rand = rng()
     for quanta, rest in HOLDS:
         u = BlockDriver(dut, f"hold{quanta}", BLOCKS, "hold_o")
@@ -355,7 +357,7 @@ async def hold_timer_units(dut):
 
 @cocotb.test()
 async def chopper_phases(dut):
-    """If the times change at random, each phase has the length that was set when the phase began."""
+    """Although the set times change at random, each phase has the length that was set when it began."""
     rand = rng()
     for unit, _ in CHOPS:
         u = BlockDriver(dut, f"chop{unit}", BLOCKS, "on_o")
@@ -473,7 +475,8 @@ async def motor_port_pins(dut, idle):
 def guard(
     p: dict[str, int], flagged: int, variant: int = 0
 ) -> tuple[int, int, int, tuple[int, int, int, int]]:
-    """Return slow_seen, stop, forced and the causes (stop, alarm, limit, slow) of one cycle.
+    """Return slow_seen, stop, forced and the causes (stop, alarm, limit, slow) that one cycle of levels `p`
+    sets.
 
     Variant 1: slow-down limits always count, and a deceleration at the start-up rate ends immediately.
     Variant 2: as variant 1, and a slow-down limit ends an origin search.
@@ -499,7 +502,7 @@ PLAIN = ("armed", "top", "at_start_rate", "dec", "halt", "decel", "slow")
 
 
 def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
-    """Return the input port that contains the level `name`, with the value of the port (structures are
+    """Return the input port that contains the level `name`, with the value of the whole port (structures are
     packed).
     """
     for pin, names in (("op_i", OP), ("switches_i", SWITCHES)):

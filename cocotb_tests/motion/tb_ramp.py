@@ -39,7 +39,8 @@ BLOCKS = {
         " left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
-    # A step number has one bit more than a word of the table, for the longest ramp that the table can store.
+    # A step number has one bit more than a word of the table. This is necessary for the longest ramp that the
+    # table can store.
     "wide": Block(
         "ppmc_ramp_seq",
         "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
@@ -49,7 +50,7 @@ BLOCKS = {
     ),
 }
 LONGEST_BUILD = 40_000
-# (slow, fast, steps). The ramp 4, 0, 8 is the tie case of P104-RMP-03.
+# (slow, fast, steps). In the ramp (4, 0, 8), rounding is a tie (P104-RMP-03).
 CORNERS = [
     (255, 0, 1),
     (255, 0, 4),
@@ -64,7 +65,7 @@ CORNERS = [
 
 
 def threshold(slow: int, fast: int, steps: int, r: int) -> int:
-    """Return the first step whose rate is below r, found by bisection over the exact rates of the model."""
+    """Return the number of the first step whose rate is below r, by bisection of the model's exact rates."""
     low, high = 0, steps  # rate(high) < r <= rate(low)
     while high - low > 1:
         middle = (low + high) // 2
@@ -297,7 +298,7 @@ async def ramp_seq_walks(dut):
 
 @cocotb.test()
 async def ramp_seq_longest(dut):
-    """A move on the longest ramp of the table accelerates, holds its speed and decelerates correctly."""
+    """A move on the longest ramp that the table can store has the correct rates in all three phases."""
     rand = rng()
     u = BlockDriver(dut, "wide", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()

@@ -1,4 +1,6 @@
-"""Test bench of the PMC006B4: build defaults. Names and levels of the pins are those of the golden model."""
+"""Test bench of the PMC006B4: defaults of the builds. Names and levels of the pins are those of the golden
+model.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
-"""Builds in which the tests of the PMC006B4 run, and a `directed` that uses the most frequent build.
+"""Builds in which the tests of the PMC006B4 run, and the decorator `directed` with the usual build as its
+default.
 
-Most tests run at 8 MHz and 115200 baud, which needs the fewest cycles. A few tests run with the default
-parameters, or at a clock that is not a multiple of 1 MHz, or with the other timing mode and the other reply
-to instruction s.
+Most tests run at 8 MHz and 115200 baud, which needs the fewest cycles. A few tests use another build: the
+default parameters, a clock that is not a multiple of 1 MHz, or the other timing mode together with the other
+reply to instruction s.
 """
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
-"""EEPROM of a PMC006 under test: a device in the top of the bench, or the Python model for the golden model.
+"""EEPROM of a PMC006 under test: for the RTL, a device in the top of the bench; for the golden model, a
+Python model.
 
 Tests describe the EEPROM (`Chip`), load it, read its bytes and its log of writes, and inject faults.
 """
@@ -95,7 +96,7 @@ class _Bussed:
 
     @property
     def next_event(self) -> int | None:
-        """Next edge at which the model or the bus has an event."""
+        """Next edge at which the model or the bus has an event; None if there is no such edge."""
         return min((t for t in (self._model.next_event, self._bus.due) if t is not None), default=None)
 
 

@@ -20,11 +20,12 @@ CURRENT = 1500
 WAY = 64
 """Number of full steps of a move."""
 SPEED, START, LEAD = 300, 75, 20
-"""Full steps per second (maximum, start and end), and full steps from the start back to the switch."""
+"""Speeds in full steps per second (maximum; start and end); full steps from the start back to the switch."""
 MOVES = ((4, 2), (16, 4), (32, 5))
-"""Microsteps, and the acceleration coefficient for 1700 full steps/s^2 with these microsteps."""
+"""Microsteps per full step, and the acceleration coefficient that results in 1700 full steps/s^2 with them.
+"""
 FINE = 8
-"""Microsteps in the program."""
+"""Microsteps per full step in the program."""
 LONG = 2_000_000
 """Longest wait in microseconds."""
 PROGRAM = f"""\

@@ -6,7 +6,7 @@ HEAD, REPLY = 0xA5, 0x7A
 
 
 def number(code: str | int) -> int:
-    """Return an instruction code as a number; `code` is the letter or the number of the instruction."""
+    """Return an instruction code as a number; the argument is the letter or the number of the instruction."""
     return ord(code) if isinstance(code, str) else code
 
 
@@ -16,7 +16,7 @@ def checked(*content: int) -> bytes:
 
 
 def command(address: int, code: str | int, data: int = 0) -> bytes:
-    """Return a command frame; `data` has 32 bits, signed or not."""
+    """Return a command frame; `data` is a signed or unsigned 32-bit number."""
     return checked(HEAD, address, number(code), *(data & 0xFFFFFFFF).to_bytes(4, "little"))
 
 

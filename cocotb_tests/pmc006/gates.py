@@ -1,4 +1,4 @@
-"""Selection of the PMC006B4 tests that `make test-gates` runs, with a reason for each omission."""
+"""The PMC006B4 tests that `make test-gates` runs, and those that it omits, with the reasons."""
 
 from __future__ import annotations
 

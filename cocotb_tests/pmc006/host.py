@@ -1,4 +1,4 @@
-"""Host on the link of a PMC006, which reacts to the replies of the part.
+"""Host on the link of a PMC006; its actions depend on the replies of the part.
 
 The host has a separate UART model: it decodes replies from the levels of txd and de, and checks every edge
 (docs/pmc006/README.md, 3).
@@ -23,7 +23,7 @@ from .view import View
 H = TypeVar("H", bound="Host")
 
 SYNC = 2
-"""Cycles from a change of a pin to its effect in the part."""
+"""Cycles from a change of an input pin to its effect in the part."""
 STARTS = tuple(b"szN")
 NEAR = 8
 """Tolerance of the edges of de and txd in cycles."""
@@ -40,9 +40,9 @@ START = 1024
 class Host(View, SerialLine):
     """Host of one part; create it with `await Host.start(dut)`.
 
-    `t` is the next free edge; every method advances it. Codes are letters or numbers. Data and answers are
-    numbers; an answer is the 32-bit reply data, unsigned. `wire` is the last reply as received from the line,
-    `frame_start` the edge at which the last frame began.
+    `t` is the next free edge; every method advances it. Instruction codes are letters or numbers. Data and
+    answers are numbers; an answer is the 32-bit reply data, unsigned. `wire` contains the bytes of the last
+    reply as received from the line, `frame_start` the edge at which the last frame from the host began.
 
     Attributes:
         params: parameters of the part.
@@ -94,7 +94,7 @@ class Host(View, SerialLine):
     # ------------------------------------------------------------------ time
 
     def pick(self, literal: int, short: int) -> int:
-        """Return a number or time: `literal` on the golden model, `short` on the RTL."""
+        """Return `literal` if the test runs on the golden model, `short` if it runs on the RTL."""
         return literal if self.literal else short
 
     @property
@@ -105,7 +105,7 @@ class Host(View, SerialLine):
 
     @property
     def literal(self) -> bool:
-        """Whether the test uses the numbers of the manual, as on the golden model."""
+        """Whether the test uses the long times and counts of the manual, as it does on the golden model."""
         return not self.bench.simulated
 
     async def sync(self) -> None:
@@ -138,7 +138,7 @@ class Host(View, SerialLine):
         return await self.until("bridge_a_en", 1)
 
     async def reset(self, clk: int = 12, **levels: int) -> None:
-        """Apply a pulse on rst_n; `levels` change at the end of the pulse. Return before BOOT ends."""
+        """Apply a pulse on rst_n, and set pins to `levels` at its end. Return before BOOT ends."""
         await self.pins(rst_n=0)
         await self.pause(clk)
         await self.pins(rst_n=1, **levels)
@@ -186,7 +186,7 @@ class Host(View, SerialLine):
         return round(self.middle) + SYNC
 
     async def next_de_rise(self) -> int | None:
-        """Return the edge of the first rise of de after the last reply, or None if there is no such rise."""
+        """Return the edge of the first rise of de after the last received reply; None if de has not risen."""
         await self.sync()
         return next((t for t, level in self.edges("de", self._reply_end) if level), None)
 

@@ -8,7 +8,7 @@ from openppmc.model.carrier.eeprom import Eeprom24C32
 
 
 class I2cBus:
-    """Replacement of `model.run_until` that adds the EEPROM.
+    """The lines, with a `run_until` that replaces that of the model and also runs the EEPROM.
 
     If the part or the device pulls a line at edge t, the line is low from edge t + 1 on. The levels of the
     lines reach the model through `model.pins`.

@@ -1,4 +1,4 @@
-"""Two PMC006 on one pair of wires. rxd of each is the AND of the host's level and of all txd.
+"""Two PMC006 on one pair of wires. rxd of each part is the AND of the host's level and the txd of all parts.
 
 One of them is the part under test; the other is a golden model.
 """
@@ -29,7 +29,7 @@ class Line:
         """Return two nodes just out of reset.
 
         Args:
-            first: whether the first node is the part under test.
+            first: True if the first node is the part under test, False if it is the second.
         """
         part = await start_bench(dut, PMC006, settle=0, sda_i=0)
         other = ModelBench(PMC006, OnModel(part.config), 0, sda_i=0)
@@ -48,7 +48,9 @@ class Line:
         self._settle()
 
     async def until(self, t: int) -> None:
-        """Run all parts to edge t. Each transmission of a part begins with an event of its golden model."""
+        """Run all parts to edge t, from event to event, because each transmission of a part begins with an
+        event of its golden model.
+        """
         while self.now < t:
             events = [bench.golden.next_event for bench in self.benches]
             edge = min([t, *(event + 1 for event in events if event is not None)])

@@ -48,7 +48,7 @@ async def run(host: Host, on: int = 1) -> None:
 
 
 async def wait_stopped(host: Host, limit_us: float = 10_000_000) -> int:
-    """Run to the end of the motion; return its edge."""
+    """Run to the end of the motion; return the edge of this end."""
     return await host.until("mon_busy", 0, limit_us)
 
 

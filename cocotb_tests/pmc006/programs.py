@@ -31,12 +31,12 @@ def rot(count: int) -> Op:
 
 
 def out(number: int, level: int) -> Op:
-    """Return an OUT instruction for GPO `number`."""
+    """Return an OUT instruction that sets GPO `number` to a level."""
     return Op(0x11, number, level)
 
 
 def goto(target: int, code: int = 0x0D) -> Op:
-    """Return a JMP instruction, or a JNE (0x0E) or JEQ (0x0F)."""
+    """Return a JMP instruction to `target`; with `code` 0x0E a JNE, with 0x0F a JEQ."""
     return Op(code, 0, target)
 
 
@@ -61,13 +61,17 @@ def words(program: Iterable[Op]) -> list[int]:
 
 
 def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x5A) -> bytes:
-    """Return the content of an EEPROM with a parameter page and a program."""
+    """Return the content of an EEPROM with a parameter page and a program; `mark` is the byte at 0x342, which
+    is 5A if the program is complete.
+    """
     code = b"".join(word.to_bytes(4, "little") for word in words(program)).ljust(800, b"\0")
     return page + code + (sum(code) & 0xFFFF).to_bytes(2, "little") + bytes([mark])
 
 
 def page(**changes: int) -> bytes:
-    """Return the factory page with other bytes at the addresses a00 to a1e; its checksum is correct."""
+    """Return the factory page with the bytes at some addresses (a00 to a1e) replaced; its checksum is
+    correct.
+    """
     content = bytearray(FACTORY_PAGE)
     for name, value in changes.items():
         content[int(name[1:], 16)] = value

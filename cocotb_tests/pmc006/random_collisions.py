@@ -17,7 +17,7 @@ SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
 EASY = (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("o", 5))
 MOVE = (("v", 3000), ("L", 3000), ("S", 3000))
 RUN = (("v", 300), ("L", 300), ("S", 65))
-"""Settings with which the part accepts most motions (moves and speed runs), and these motions end soon."""
+"""Settings with which the part accepts most motions (moves and runs of the speed mode), which end soon."""
 
 Course = tuple[tuple[str, int], ...]
 
@@ -36,13 +36,13 @@ class CollisionHost(MotionHost):
                 await self.frame(code, data)
         await host.ignore_replies()
         begin, e = await self._start(course)
-        # A complete frame must fit between the reply and the edge.
+        # Between the reply and the edge there must be time for a complete frame.
         least = e + ceil(82 * host.bit) + e - host.frame_start + 2 * NEAR
         with suppress(TimeoutError):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.bench.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
-        # The start of a microsecond has the same phase to `clk` again after `period` cycles.
+        # After `period` cycles, the phase of `clk` to the start of a microsecond is the same again.
         period = host.clk_hz // gcd(host.clk_hz, 1_000_000)
         for _ in range(4):
             if await host.busy() or not found["mon_busy"]:
@@ -53,8 +53,8 @@ class CollisionHost(MotionHost):
             await self._collide(course, rng.choice(times))
 
     async def _collide(self, course: Course, after: int) -> None:
-        """Repeat the motion and send a frame about `after` cycles after the end of the motion's last
-        frame.
+        """Repeat the motion `course`, and send another frame whose effect is about `after` cycles after the
+        end of the last frame of `course`.
         """
         rng, host = self.rng, self.host
         _, e = await self._start(course)

@@ -9,7 +9,7 @@ from .random_frames import FrameHost
 
 
 class FaultHost(FrameHost):
-    """Random host that sends invalid frames, or nothing for a time."""
+    """Random host that sends invalid frames, disturbs the line, pauses, or resets the part."""
 
     async def bad_frame(self) -> None:
         """Send an invalid frame: wrong check byte, too short, too long, random bytes, or wrong first byte."""

@@ -1,4 +1,4 @@
-"""Frames of random hosts of the PMC006: registers, reads, outputs and saves, and the wait for the replies."""
+"""Frames of random hosts of the PMC006: settings, reads, outputs and saves; and the wait for the reply."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class FrameHost(RandomHost):
     noisy: bool
 
     async def frame(self, code: str | int, data: int = 0) -> None:
-        """Send a valid frame, with wrong levels if the host is noisy, then wait for the reply."""
+        """Send a valid frame, then wait for the reply. If the host is noisy, spikes may damage the frame."""
         rng, host = self.rng, self.host
         self.left -= 1
         if rng.random() < 0.5:
@@ -62,7 +62,9 @@ class FrameHost(RandomHost):
         await self.await_reply()
 
     async def put(self, line: bytes) -> None:
-        """Send bytes, in some cases with spikes or gaps."""
+        """Send bytes, some of them followed by a gap; if the host is noisy, some with a spike or a low stop
+        bit.
+        """
         rng, host = self.rng, self.host
         for byte in line:
             spikes = []
@@ -73,8 +75,8 @@ class FrameHost(RandomHost):
                 await host.pause(rng.choice((5, 70, 900)))
 
     async def await_reply(self) -> None:
-        """Wait for a reply, if there is one; in a few cases do not wait, so the end of the reply is
-        unknown.
+        """Wait for the end of the reply, if there is one; in a few cases do not wait, so that the next action
+        may occur during the reply.
         """
         host = self.host
         await host.go(max(host.t, host.e + ceil(host.bit) + 9))

@@ -40,7 +40,9 @@ def with_chip(seed: int) -> bool:
 
 
 class RandomSerialHost(CollisionHost, PinHost, FaultHost):
-    """One random host. It reacts to received data; the golden model only decides when the host acts."""
+    """One random host. Its actions depend on the data that it receives; it uses the golden model only to
+    decide when to act.
+    """
 
     def __init__(self, seed: int) -> None:
         super().__init__("p006", seed)

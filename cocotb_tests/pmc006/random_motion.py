@@ -57,7 +57,9 @@ class MotionHost(FrameHost):
             await self.host.pause(rng.choice((2_000, 9_000)))
 
     async def analog(self) -> None:
-        """Set a voltage on GPI1, and start the following motion with instruction E."""
+        """Set the voltage on GPI1, let instruction E switch the analog speed on in half of the cases, and
+        start a motion.
+        """
         rng = self.rng
         t = self.host.t + 1
         self.background.add(t, adc_data=rng.choice((0, 1, 300, 512, 1023)), adc_valid=1)

@@ -11,8 +11,8 @@ class PinHost(FrameHost):
     """Random host with changing input pins."""
 
     async def ext(self) -> None:
-        """Operate emergency switches: presses, bounces, an edge near the end of a frame; then mostly clear
-        the flags.
+        """Operate emergency switches (presses, bounces, an edge near the end of a frame); in most cases,
+        clear the flags afterwards.
         """
         rng, t = self.rng, self.host.t
         pin = rng.choice(("ext1", "ext2"))

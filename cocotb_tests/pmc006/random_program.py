@@ -11,7 +11,7 @@ SPEEDS = (3000, 3000, 2999, 5000, 9000, 16_000, 1, 0, 500, 16_001, -5)
 
 
 def random_op(rng: random.Random, size: int) -> Op:
-    """Return one instruction for a program of `size` instructions; one in ten has an illegal part."""
+    """Return one instruction for a program of `size` instructions; some operands and options are illegal."""
     target = rng.randrange(size) if rng.random() < 0.9 else rng.choice((99, 100, -1, 200))
     bit = rng.choice((0, 1, 1, 0, rng.randrange(-3, 9)))
     source = rng.choice((*range(1, 10), 8, 8, 0, 10, 255))

@@ -11,8 +11,8 @@ HOME = 64
 
 
 def sines(angle: int, peak: int) -> tuple[int, int, int, int]:
-    """Return the reference and the sign of phase A, then of phase B, at an angle (512 units per period,
-    P006-EXC-10..12).
+    """Return reference and sign of phase A, then reference and sign of phase B, at an angle (512 units per
+    electrical period, P006-EXC-10..12).
     """
 
     def one(units: int) -> tuple[int, int]:
@@ -38,10 +38,10 @@ def increment(microstepping: int) -> int:
 
 
 def boost(current: int, speed: int, microstepping: int, factor: int) -> int:
-    """Return B, the current compensation (P006-EXC-22)."""
+    """Return B, the current compensation, as an addend of the peak code (P006-EXC-22)."""
     return code(current) * factor * (speed // max(1, microstepping)) // 2**22
 
 
 def lead(speed: int, microstepping: int, factor: int) -> int:
-    """Return W, the lead angle (P006-EXC-23)."""
+    """Return W, the lead angle, in angle units (P006-EXC-23)."""
     return min(64, factor * (speed // max(1, microstepping)) // 2**16)

@@ -39,7 +39,7 @@ class Stepping(Host):
 
 
 class _PartView:
-    """The part as the motor model uses it: outputs, and times at which they may change."""
+    """The part as the motor model sees it: its outputs, and the times at which they may change."""
 
     def __init__(self, bench: DutBench) -> None:
         self._bench = bench

@@ -28,7 +28,7 @@ STOP = 5
 
 
 async def stopped(host: Host, edge: int) -> bool:
-    """Return whether no step is made more than 5 cycles after this edge."""
+    """Return whether the motor stops: no step is made more than STOP cycles after this edge."""
     return await is_stopped(host, host.us(5_000)) and not host.steps(edge + STOP + 1)
 
 
@@ -114,7 +114,7 @@ async def to_cruise(host: Host, y: int) -> None:
         await set_constant_speed(host, 2900)
     await run(host)
     await cruise(host, 312.5 if host.literal else 345)
-    # The S-curve is flat near its end.
+    # The S-curve is flat near its end, so the last intervals change only slowly.
     await host.ms(host.pick(20, 1))
 
 
@@ -193,7 +193,9 @@ async def p006_ac_55(dut: Any) -> None:
 
 
 async def towards_the_switch(host: Host, count: int) -> int:
-    """Run AC-56 up to its second instruction b; return the number of steps."""
+    """Run AC-56 up to its second instruction b, with the switch closed after `count` steps; return the number
+    of steps made.
+    """
     await set_constant_speed(host, 2500, f=1, d=0)
     assert (await host.exchange("A5 FF 73 FF FF FF 7F 93"))[
         9:20

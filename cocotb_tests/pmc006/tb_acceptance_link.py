@@ -89,7 +89,7 @@ async def p006_ac_09(dut: Any) -> None:
 
 @directed("P006-AC-10", "P006-UART-05")
 async def p006_ac_10(dut: Any) -> None:
-    """The edges of de and txd belong to the reply; `receive_reply` checks each of them."""
+    """Each edge of de and txd belongs to a reply; `receive_reply` checks all of them."""
     host = await ready(dut)
     assert await host.ask("j") == 8
     (up, _), (down, _) = host.edges("de", host.frame_start)

@@ -124,7 +124,8 @@ async def p006_ac_66(dut: Any) -> None:
     await host.ok(F=0)
     assert await host.ask("I") == 0
     assert await host.ask("A", 0) == 0 and await host.ask("W", 0) == 0 and await host.ask("B") == 1
-    # The part writes the mark, then pages of the program. The reset occurs during the fourth write.
+    # The part writes 0 to the mark, then pages of the program (P006-EEP-11). The reset occurs during the
+    # fourth write.
     while len(host.eeprom.writes) < 4:
         await host.wait_us(500)
     await host.pins(rst_n=0)
@@ -142,8 +143,8 @@ async def p006_ac_66(dut: Any) -> None:
 
 @directed("P006-AC-41", "P006-EEP-23")
 async def p006_a_program_that_never_rests_blocks_nothing(dut: Any) -> None:
-    """If a program that jumps to itself has started automatically, frames are served, and F 0 and t (save)
-    end the program permanently.
+    """If a program that jumps to itself has started automatically, the part still answers frames. F 0 and
+    then t (save) end the program permanently.
     """
     host = await Host.start(dut, chip=Chip(image(page(a0B=1), [Op(0x0D, 0, 0)]), write_us=500))
     assert await host.ask("W", 5) == 0 and await host.ask("z") == 0

@@ -17,7 +17,7 @@ STEEP = {"v": 16_000, "L": 65, "S": 65, "u": 5}
 """Settings for a motion with a constant rate, and for a motion whose rate changes for a long time."""
 LONG = 1_000_000
 LOOP, OUT = 0, 2
-"""Program pointer for a jump to itself, and for an instruction that the host may execute."""
+"""Program pointer: index of a jump to itself, and of an instruction that the host may execute."""
 PROGRAM = (goto(0), out(1, 1))
 
 
@@ -50,7 +50,7 @@ REPLIES: dict[str, int | None] = {
     **{"P": 1250, "Q": 1, "R": 0x123, "T": 64, "U": 1, "V": 0, "W": PROGRAM[1].words[0], "X": 0, "Y": 0},
     **{"Z": 0, "a": 1, "b": 0, "d": 1, "e": 800, "f": 0, "g": 0, "h": 0, "i": 5, "k": 16, "l": 0, "m": 16},
     **{"n": 800, "o": 0, "p": 0, "t": 1, "w": 0xFF, "y": 0, "z": 1, "H": 0},
-    # The replies to these codes depend on the state; the golden model checks them.
+    # The replies to these codes depend on the state, and the comparison with the golden model checks them.
     **dict.fromkeys("OcjxLSuvqrs"),
 }
 """Code -> reply to the code with its data at standstill. Code H is undefined."""

@@ -26,7 +26,9 @@ from .programs import END, Op, rot
 
 
 async def regulated(dut: Any, full: int, value: int) -> Host:
-    """Return a host of a part with ANALOG = 1, which instruction E has set; `value` is the last sample."""
+    """Return the host of a part whose analog speed instruction E has switched on, with full scale `full`;
+    `value` is the last sample of the converter.
+    """
     host = await constant_speed_host(dut)
     await host.ok(u=5, o=5)
     await download(host, [Op(0x08, 1, full)])
@@ -56,9 +58,10 @@ async def p006_targets(dut: Any, value: int) -> None:
 
 @directed("P006-MOT-21", "P006-STA-04", "P006-MOT-20", "P006-MOT-52")
 async def p006_move_below_its_start_speed(dut: Any) -> None:
-    """A move below the start speed has no acceleration or deceleration: exactly N steps at the target.
+    """A move whose analog target is below the start speed has no acceleration or deceleration: exactly N
+    steps at the target.
 
-    Instruction s is checked with VMAX.
+    The check of instruction s uses the operand of VSET, not this target.
     """
     host = await regulated(dut, 3000, 990)
     await start(host, 256)
@@ -72,9 +75,9 @@ async def p006_move_below_its_start_speed(dut: Any) -> None:
 
 @directed("P006-MOT-31", "P006-MOT-51", "P006-STA-10", "P006-BAD-20")
 async def p006_voltage_of_zero(dut: Any) -> None:
-    """At a voltage of 0, no steps are made, and BUSY stays set.
+    """At a voltage of 0, no steps are made, and BUSY stays set until instruction I ends the motion.
 
-    The voltage is sampled every 10 ms; instruction I ends the motion.
+    The part samples the voltage every 10 ms.
     """
     host = await regulated(dut, 3000, 0)
     await start(host, 400)
@@ -83,7 +86,8 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     await host.strobe(adc_data=800)
     await cruise(host, 1_000_000 / target(3000, 800), 90_000)
     begun = host.steps(mark)[0] - host.edges("mon_busy", mark)[0][0]
-    # The first step occurs when a t² / 2 reaches 1 step, 6 ms after the acceleration begins.
+    # After the sample, the first step occurs when a t² / 2 reaches 1 step: 6 ms after the acceleration
+    # begins.
     assert host.us(15_500) < begun < host.us(17_500)
     await host.strobe(adc_data=0)
     await host.ms(12)
@@ -94,7 +98,8 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     assert await host.busy()
     assert await host.ask("I") == 0
     assert not await host.busy()
-    # A short move does not use the voltage. Without a sample since the reset, there is no voltage to use.
+    # A move of 5 steps does not use the voltage. Without a sample since the reset, there is no voltage to
+    # use.
     await start(host, 5)
     await wait_stopped(host)
     assert host.step_count() == 5

@@ -29,9 +29,10 @@ def references_at(host: Host, t: int) -> tuple[int, ...]:
     "P006-EXC-01", "P006-EXC-02", "P006-EXC-10", "P006-EXC-11", "P006-EXC-12", "P006-EXC-13", "P006-EXC-15"
 )
 async def p006_angle_of_every_step(dut: Any, m: int) -> None:
-    """The references follow each step within 64 cycles, and all four outputs change in the same cycle.
+    """The references follow each step within 64 cycles; the two references and their two signs change in the
+    same cycle.
 
-    The test makes at least a full step in both directions.
+    The test makes 9 steps in each direction.
     """
     host = await set_constant_speed(
         await Host.start(dut), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300
@@ -104,7 +105,7 @@ async def p006_nothing_but_steps_moves_the_angle(dut: Any) -> None:
 
 @directed("P006-EXC-20", "P006-CMD-26", "P006-CMD-35")
 async def p006_currents(dut: Any) -> None:
-    """Each current selects the drive index of its range.
+    """Each current setting selects the drive index in whose range it is.
 
     The test uses both ends of several ranges.
     """
@@ -132,8 +133,8 @@ async def p006_currents(dut: Any) -> None:
 )
 @directed("P006-EXC-21", "P006-EXC-22", "P006-EXC-23", "P006-EXC-24", "P006-CMD-10", "P006-CMD-13")
 async def p006_compensation(dut: Any, case: Any) -> None:
-    """The compensation is 0 until the first update tick, then that of the active speed, and 0 at
-    standstill.
+    """The compensation of current and angle is 0 until the first update tick, then that of the present speed,
+    and 0 at standstill.
     """
     m, e, ccomp, scomp, speed, forward = case
     host = await set_constant_speed(await Host.start(dut), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
@@ -175,7 +176,7 @@ async def p006_factors_act_at_once(dut: Any) -> None:
 
 @directed("P006-EXC-30", "P006-EXC-31", "P006-EXC-32", "P006-CMD-14", "P006-CMD-22", "P006-STA-03")
 async def p006_decay(dut: Any) -> None:
-    """The current is reduced by the selected coefficient 100 ms after the fall of BUSY.
+    """The current is reduced by the selected coefficient when 100 ms have passed since the fall of BUSY.
 
     Instructions a and Q and an accepted motion take effect immediately; a rejected instruction s has no
     effect.

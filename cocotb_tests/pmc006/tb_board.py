@@ -21,7 +21,7 @@ LINE, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
 class Host(UartBfm):
-    """PC on one of the two lines."""
+    """The PC on one of the two lines of the board."""
 
     def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
         super().__init__(rxd, txd, BAUD)
@@ -132,7 +132,9 @@ async def board006_motion_and_leds(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_converter(dut: Any) -> None:
-    """Of two strobes on one bus, the speed uses only the first and the stall detector only the second."""
+    """Two strobes share one data bus: the speed uses only the values of the first strobe, the stall detector
+    only those of the second.
+    """
     board = await start(dut)
     usb = board.usb
     # VSET selects the analog speed with full scale 1198. With the sample 512 the speed is 1198 * 513 // 1024
@@ -149,7 +151,7 @@ async def board006_converter(dut: Any) -> None:
     for _ in range(4):
         await with_timeout(RisingEdge(dut.mon_step), 10, "ms")
         times.append(get_sim_time("us"))
-        for _ in range(3):  # the levels are low, but the strobe of the other input is used
+        for _ in range(3):  # These values are low, too, but their strobe is that of the speed
             await board.strobe("adc_stb", 30)
     period = (times[-1] - times[0]) / 3
     assert abs(period - 1e6 / 600) <= 1, f"{period} us from step to step"

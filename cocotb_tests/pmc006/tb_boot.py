@@ -31,12 +31,12 @@ async def values(host: Host) -> dict[str | int, int]:
 
 
 async def booted(dut: Any, content: bytes, address: int = 0xFF, **more: Any) -> Host:
-    """Return a host of a part with this EEPROM."""
+    """Return the host of a part that has booted from an EEPROM with this content."""
     return await Host.start(dut, address=address, chip=Chip(content, write_us=500, **more))
 
 
 async def unread(host: Host) -> bool:
-    """Return whether no byte was written and the values of the page are not in the registers."""
+    """Return whether the registers have factory values, not those of the page, and no byte was written."""
     return not host.eeprom.writes and await host.ask("k") == 16 and host.replied == 0xFF
 
 
@@ -151,7 +151,8 @@ async def p006_last_instruction_and_high_bytes_are_loaded(dut: Any) -> None:
 @cocotb.parametrize(fault=["missing", "other", "scl"])
 @directed("P006-BAD-13", "P006-EEP-01", "P006-BAD-12")
 async def p006_without_a_device(dut: Any, fault: str) -> None:
-    """Without a device, the part works after 10 ms of unanswered transfers, or after 1 ms if SCL is held low.
+    """Without an EEPROM, the part is ready after 10 ms of transfers without a response, or after 1 ms if SCL
+    is held low.
 
     Save instructions are accepted and have no effect.
     """

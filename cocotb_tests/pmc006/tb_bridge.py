@@ -85,7 +85,7 @@ async def p006_lengths_of_the_pulses(dut: Any) -> None:
 
     async def cycle(rise: int, fall: int) -> tuple[int, int]:
         """Raise cmp_a `rise` cycles after an on state begins; lower it `fall` cycles after the next fast
-        decay begins.
+        decay begins. Return the lengths of this on state and of this fast decay.
         """
         await host.pins(cmp_a=1)
         await host.pause(2 * times.off + 2 * times.fast)
@@ -168,7 +168,7 @@ async def p006_reference_of_0(dut: Any) -> None:
     (first, _), (over, _), (second, _), (fall, _) = host.edges("m21", since)
     assert (over - first, second - over) == (times.fast, times.off)
     assert times.blank <= fall - second <= times.fast
-    # The comparator reports a current again, so fast decay begins at the next end of an off state.
+    # With cmp_b = 1 again, fast decay begins at the next end of an off state.
     await host.pins(cmp_b=1)
     await host.pause(times.off + 4)
     await host.pins(cmp_b=0)
@@ -202,8 +202,8 @@ async def p006_bridges_off(dut: Any) -> None:
 
 @directed("P006-CHP-03", "P006-CHP-04", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20", builds=BUILDS)
 async def p006_restless_comparators(dut: Any) -> None:
-    """With comparator edges at any time during a motion, the outputs equal the model, and no half-bridges
-    overlap.
+    """If comparators change at any time during a motion, the outputs equal those of the model, and the two
+    half-bridges of a bridge are never high together.
     """
     host, times = await ready(dut)
     await set_constant_speed(host, 2500, m=4)

@@ -31,7 +31,7 @@ BEYOND = (0x7FFFFFFF, -0x80000000, -1, 0x10000, 0x100)
 
 
 class Row(NamedTuple):
-    """For each register: code, factory value, accepted data, rejected data, code that reads the register."""
+    """One register: code, factory value, accepted data, rejected data, code that reads the register."""
 
     code: str
     factory: int
@@ -72,7 +72,9 @@ IDS += tuple(f"P006-CMD-{n:02}" for n in (30, 32, 34, 35, 36, 38, 39, 42, 43, 49
 @cocotb.parametrize(row=REGISTERS)
 @directed(*IDS, "P006-BAD-08", "P006-BAD-09")
 async def p006_register(dut: Any, row: Row) -> None:
-    """Accepted data is echoed. Rejected data does not change the register, whose value is the reply."""
+    """Accepted data is returned in the reply. Rejected data does not change the register; the reply contains
+    the value of the register.
+    """
     host = await Host.start(dut)
 
     async def check_value(value: int) -> None:

@@ -27,7 +27,7 @@ from .programs import Op, goto, out
 NEAR = range(-3, 4)
 """Distances of two events in cycles."""
 TICKS = 1001
-"""Number of microsecond ticks of a key filter."""
+"""Number of microsecond ticks in the filter time of a key."""
 HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D
 
 
@@ -61,9 +61,9 @@ def key_event(host: Host, edge: int) -> int:
 
 @directed("P006-STA-14", "P006-STA-10", "P006-EXT-02", "P006-STA-01", "P006-STA-18")
 async def p006_start_and_emergency_stop(dut: Any) -> None:
-    """An emergency stop near a start always sets the flag and stops the motor.
+    """An emergency stop near a start always sets the flag of its EXT pin and stops the motor.
 
-    The reply is 0 or the reply of an accepted start.
+    The reply to the start is either 0 or that to an accepted start.
     """
     host = await constant_speed_host(dut)
     await host.ok(f=1)
@@ -85,7 +85,7 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-EXT-08", "P006-CMD-23", "P006-CMD-27")
 async def p006_flag_and_its_clearing(dut: Any) -> None:
-    """If the flag is set and cleared in the same cycle, it is set afterwards.
+    """If the flag of an EXT pin is set and cleared in the same cycle, it is set afterwards.
 
     An edge in the cycle in which its input is enabled is detected, too.
     """
@@ -206,8 +206,8 @@ async def p006_keys_in_every_clk_of_an_instruction(dut: Any) -> None:
 
 @directed("P006-PRG-15", "P006-PRG-16", "P006-FRM-03", "P006-CMD-46")
 async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
-    """Instruction y between two OUT instructions of the program sets the pins; afterwards the last
-    instruction determines their levels.
+    """In any cycle of a program of OUT instructions, instruction y sets the outputs in time; those that the
+    program does not address keep these levels.
     """
     host = await Host.start(dut)
     await load(host, out(1, 1), out(2, 1), out(1, 0), out(2, 0), goto(0))
@@ -237,7 +237,9 @@ async def p006_single_try_and_emergency_stop(dut: Any) -> None:
 
 @directed("P006-BAD-12", "P006-EEP-22", "P006-EEP-20")
 async def p006_restore_and_save(dut: Any) -> None:
-    """If the FSET event occurs near instruction t (save), either both are executed or t is rejected."""
+    """If the FSET event occurs near instruction t (save), either the save and the factory restore are both
+    executed, or t is rejected.
+    """
     host = await Host.start(dut)
     await host.wait_us(100)
     replies = []

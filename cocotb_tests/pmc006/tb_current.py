@@ -1,4 +1,4 @@
-"""Choppers that regulate the current of a motor model, which replaces constant comparators."""
+"""Choppers that regulate the currents of a motor model, whose currents set the levels of the comparators."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""The EEPROM models of the benches in SystemVerilog and Python: if their lines have the same levels, both
-pull the same lines low.
+"""The two EEPROM models of the benches (SystemVerilog and Python): with equal levels on the lines, both pull
+the same lines low.
 """
 
 from __future__ import annotations

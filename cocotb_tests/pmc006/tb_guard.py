@@ -133,8 +133,8 @@ async def p006_locked_part_answers_everything_else(dut: Any) -> None:
 
 @directed("P006-EXT-10", "P006-EXT-08", "P006-EXT-07")
 async def p006_homing(dut: Any) -> None:
-    """After homing to the switch and a move of a fixed number of steps away from it, settings and position
-    are exact.
+    """After the motor has run onto the switch and has then moved a fixed number of steps off it, the position
+    is exact and the speed settings are unchanged.
     """
     host = await constant_speed_host(dut)
     await host.ok(f=1, d=0)

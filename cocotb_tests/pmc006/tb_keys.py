@@ -100,8 +100,9 @@ async def p006_reset_moves_to_its_target_after_the_release(dut: Any) -> None:
 
 @directed("P006-PRG-31")
 async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
-    """After a RESET, the counter is 1 in the second iteration, and FLAG still has the value of the first
-    one.
+    """RESET restarts the program; the counter and FLAG keep their values, and the keys stay armed.
+
+    Therefore the counter is 1 at the start of the second iteration, and FLAG has the value of the first one.
     """
     program = (
         reset_en(4),

@@ -28,7 +28,7 @@ async def go(host: Host, *program: Op) -> int:
 
 
 class Case(NamedTuple):
-    """An instruction, and the later reply to the code that reads the register of the instruction."""
+    """An instruction, and the value that its register has after it (for OUT, the level of the outputs)."""
 
     op: Op
     after: int
@@ -37,7 +37,9 @@ class Case(NamedTuple):
 READ = {0x02: "k", 0x03: "O", 0x04: "O", 0x05: "O", 0x08: "q", 0x09: "r", 0x0A: "K", OUT: "y"}
 RESTORE = {0x02: ("m", 16), 0x03: ("d", 1), 0x04: ("f", 0), 0x05: ("g", 0), 0x08: ("v", 1000)}
 RESTORE |= {0x09: ("u", 0), 0x0A: ("J", 0), OUT: ("y", 0)}
-"""Opcode -> code that reads the register; opcode -> code and data that restore the register."""
+"""`READ`: opcode -> code that reads the register of the instruction. `RESTORE`: opcode -> code and data that
+set this register to its factory value.
+"""
 
 
 def cases(opcode: int, *rows: tuple[int, int], option: int = 0) -> list[Case]:
@@ -64,7 +66,7 @@ CASES = (
 @cocotb.parametrize(part=range(2))
 @directed("P006-BAD-17", "P006-PRG-20", "P006-CMD-03", "P006-BAD-09", "P006-BAD-08")
 async def p006_operands(dut: Any, part: int) -> None:
-    """An instruction with an illegal operand also changes nothing if instruction E executes it; the reply is
+    """If instruction E executes an instruction with an illegal operand, nothing changes; the reply to E is
     1.
     """
     host = await Host.start(dut)

@@ -50,17 +50,16 @@ async def p006_save(dut: Any) -> None:
 async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
     """A save contains the old or the new VSTART, never a mixture, and its checksum is correct.
 
-    The test changes VSTART before, between and after the writes of its two bytes; the job reads VSTART
-    separately for each of the two pages. The device stretches the clock, so that a byte takes longer than a
-    frame.
+    The test changes VSTART before, between and after the writes of its two bytes. The job reads VSTART again
+    for the second of the two pages. The device stretches the clock, so that a byte takes longer than a frame.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     host.eeprom.stretch(host.us(900))
     old, seen = 600, []
     for place, new in ((13.4, 0x0A0B), (14.3, 0x0201), (14.8, 0x0A0B), (15.6, 0x0201)):
         assert await host.ask("t") == 1
-        # Three bytes precede the bytes of the page. Each byte takes 22.5 us longer than the stretch. Its
-        # value is read after the acknowledge of the previous byte, before the stretch.
+        # Three bytes precede the bytes of the page. Each byte takes 22.5 us longer than the stretch. The part
+        # reads the value of a byte after the acknowledge of the previous byte, before the stretch.
         await host.go(host.e + host.us(922.5 * place) - int(79.5 * host.bit))
         assert await host.ask("L", new) == new
         await host.ms(58)
@@ -78,7 +77,7 @@ async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
 async def p006_burn(dut: Any) -> None:
     """Instruction B clears the mark, writes 25 pages, then writes checksum and mark.
 
-    During this time instruction W is rejected, a program runs, and the buffer does not change.
+    During this time the part rejects instruction W, a program can run, and the buffer does not change.
     """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await download(host, P1)

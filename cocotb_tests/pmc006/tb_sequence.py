@@ -1,4 +1,4 @@
-"""A short sequence for the part, which also runs on netlists and on the default build."""
+"""A short test of the part, which also runs on netlists and on the build with default parameters."""
 
 from __future__ import annotations
 

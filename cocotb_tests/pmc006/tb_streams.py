@@ -1,4 +1,6 @@
-"""pwm_a_ref and pwm_b_ref, compared with the rule for them; they toggle all the time and are not recorded."""
+"""pwm_a_ref and pwm_b_ref, compared with rule P006-EXC-40. They toggle all the time, so the bench does not
+record them.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ from .moves import after_steps, run, set_constant_speed
 
 
 def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
-    """Return the changes of the carry of the running sum.
+    """Return the changes (edge, level) of a stream: the level is the carry of the running sum of the
+    reference.
 
     Args:
         refs: pairs (edge, reference) in order of time (P006-EXC-40).

@@ -24,8 +24,8 @@ AUX_ON, AUX_OFF = 0xC1, 0xC2
 
 
 async def build(host: HostBus, ramp: tuple[int, int, int]) -> int:
-    """Return the cycles from the end of the last data strobe to the execution of a command that waits in the
-    buffer.
+    """Build a ramp table; return the cycles from the end of the last data strobe to the execution of a
+    command that waits in the buffer.
     """
     bench, (slow, fast, pulses) = host.bench, ramp
     await host.send(INIT, [slow, fast, pulses & 0xFF])

@@ -1,6 +1,6 @@
 """Coverage crosses of the manual, counted in the golden model.
 
-The crosses are operation, cause, phase and clock; and error and state.
+There are two crosses: operation with cause, phase and clock; and error with state.
 """
 
 from __future__ import annotations

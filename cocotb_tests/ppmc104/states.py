@@ -7,7 +7,7 @@ from __future__ import annotations
 from .env import Env
 from .expected_timing import INIT_EXT
 
-# Ramp length PA of INIT_EXT: interval I(PA + 1), which follows pulse PA + 1, is the first on the plateau.
+# Number of the pulse with which the plateau begins: PA + 1, where PA is the ramp length of INIT_EXT.
 PLATEAU = INIT_EXT[3] + 1
 
 IDLE = ("UNINIT", "READY")

@@ -178,8 +178,8 @@ async def p104_bad_15_everything_active(dut):
 
 @directed("P104-BAD-19", "P104-PORT-03", builds=(F16, F100))
 async def p104_bad_19_reset_in_every_state(dut):
-    """After a reset in START, in a low pulse, between pulses or in a table build, the core is in UNINIT with
-    its reset levels (P104-BAD-19).
+    """After a reset in START, while pout_n is low, between pulses or during a table build, the core is in
+    UNINIT with its reset levels (P104-BAD-19).
     """
     env = await Env.start(dut, None)
     expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
@@ -209,7 +209,7 @@ async def p104_bad_19_reset_in_every_state(dut):
 
 @directed("P104-BAD-18", "P104-BUS-06")
 async def p104_bad_18_cs_ends_the_strobe(dut):
-    """If cs_n rises before wr_n or rd_n, the write is stored, or the read ends (P104-BAD-18)."""
+    """If cs_n rises before wr_n, the byte is stored; if it rises before rd_n, the read ends (P104-BAD-18)."""
     env = await Env.start(dut, None)
     bench = env.bench
     bench.set(a0=1, d_i=0xC1, cs_n=0, wr_n=0)

@@ -153,7 +153,7 @@ async def p104_ds_03_clock_of_the_c_event(dut):
 
 @directed("P104-DS-05", builds=(D16,))
 async def p104_ds_05_long_triangles(dut):
-    """With PA = 300, the delay of pulse 1 is proportional to N only for D below 2·PA (P104-DS-05).
+    """With PA = 300, the delay of pulse 1 increases with N only for D below 2·PA (P104-DS-05).
 
     The test uses D = 599, 600 and 300.
     """
@@ -225,8 +225,9 @@ async def p104_ds_07_normal_end(dut):
 
 @directed("P104-DS-08", "P104-DS-14", "P104-END-02", builds=(D16, D11))
 async def p104_ds_08_immediate_end(dut):
-    """If command 0x40, ALM, or command 0x41 at constant speed ends the motion, INT falls 26 or 200 us later,
-    and the mailbox opens 156 or 200 us later (P104-DS-08).
+    """If command 0x40, ALM, or command 0x41 at constant speed ends the motion, INT falls 200 us later in
+    operations 011 and 110, 26 us later in others. The mailbox opens 200 or 156 us after the cause
+    (P104-DS-08).
     """
     env = await DatasheetEnv.start(dut, INIT_A)
     for code, n, rate, quiet, closed in (
@@ -271,8 +272,8 @@ async def p104_ds_08_immediate_end(dut):
 
 @directed("P104-DS-08", "P104-LIM-07", "P104-DS-03", builds=(D16,))
 async def p104_ds_08_cause_at_start(dut):
-    """If ALM is low at the start, BUSY rises at its documented time, and the operation ends 26 or 200 us
-    later (P104-DS-08).
+    """If ALM is low at the start, BUSY rises at its documented time, and the operation ends 200 us later
+    (011) or 26 us later (others) (P104-DS-08).
     """
     env = await DatasheetEnv.start(dut, INIT_A)
     env.bench.set(alm_n=0)

@@ -119,7 +119,7 @@ async def p104_tim_05_end_in_the_low_time(dut):
 
 @directed("P104-TIM-05", "P104-END-03", "P104-FDC-02")
 async def p104_tim_05_last_pulse_of_a_deceleration(dut):
-    """If the ramp has high rates at both ends, the last low time of a forced deceleration is W
+    """If even the start-up rate is fast (RL = 1), the last low time of a forced deceleration is W
     (P104-TIM-05).
     """
     env = await Env.start(dut, (0x0A, 1, 0, 6))

@@ -7,7 +7,7 @@ from __future__ import annotations
 from cocotb_tests.harness import BusStyle, Part
 from openppmc.model.ppmc2104 import codes
 
-# Both styles of the PPMC-2104AFP use the same two pins: WRS* and RDS*, or DS* and R/W*.
+# The two styles use the same two pins of the PPMC-2104AFP: as WRS* and RDS*, or as DS* and R/W*.
 STROBES_WRS_RDS = BusStyle(
     write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
     write_off={"cs_n": 1, "ds_wrs_n": 1},
@@ -25,7 +25,7 @@ _LEVELS = ("run", "csel", "org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
 PPMC2104 = Part.of_model(
     "ppmc2104",
     codes,
-    # the pin is free-running and independent of all inputs, so it is not in the model
+    # clk_o is free-running and does not depend on any input, so the model omits it
     more={"clk_o": (1, 0)},
     styles=(STROBES_WRS_RDS, STROBES_DS_RW),
     style_pin="busc",

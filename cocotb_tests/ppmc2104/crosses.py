@@ -1,6 +1,6 @@
 """Coverage crosses of the manual, counted in the golden model.
 
-The crosses are operation, cause, phase and clock; error and state; and bus style and access.
+There are three crosses: operation with cause, phase and clock; error with state; and bus style with access.
 """
 
 from __future__ import annotations

@@ -11,7 +11,8 @@ from cocotb_tests.harness import IBF
 
 from .env import C_EVENT_LATEST, WRITE_EVENT, Axis, Env
 
-# Cycles by which a documented time may be exceeded, and cycles by which a pin may follow the internal event.
+# TOLERANCE: cycles by which a documented time may be exceeded. PIN: cycles by which a pin may follow the
+# internal event.
 TOLERANCE = 16
 PIN = 2
 # Maximum number of cycles from the fall of a status bit to the end of the read that returns it.
@@ -27,7 +28,7 @@ def detection(processing: int, first: int, second: int, period: int = 0) -> int:
     """Return T_max, the maximum time to detect a limit, in us (polling formula of the data sheet).
 
     Args:
-        processing: Ti in us.
+        processing: Ti, the processing time that delays the polling cycle, in us.
         first: T1 of the first axis in us.
         second: T2 of the second axis in us.
         period: period of the pulses in us; 0: no pulses.

@@ -107,7 +107,9 @@ class Axis(AxisDriver):
     async def outcome(
         self, rule: str, pulses: int, finish: int, total: int = ALL, rates: Sequence[int] | None = None
     ) -> None:
-        """Check the result of an operation of `total` pulses, and its pulse train."""
+        """Check the result of an operation of `total` pulses; if `rates` are passed, check its pulse train as
+        well.
+        """
         await self.result(rule, pulses, finish, max(total - pulses - 1, 0))
         if rates is not None:
             self.check_train(rule, rates)
@@ -178,7 +180,7 @@ class Env:
         self.check(rule, "outputs in reset", levels, {name: reset[name] for name in names})
 
     def quiet(self, rule: str, since: int, *others: str) -> None:
-        """Check that no motor pin, int_n or output in `others` has changed since that edge."""
+        """Check that no motor pin, int_n or output in `others` has changed since edge `since`."""
         names = ("pout_n", "dir", "hold", "s1_n", "s2_n", "int_n", *others)
         moved = {name: edges for name in names if (edges := self.bench.edges(name, since))}
         self.check(rule, f"edges of outputs since {since}", moved, {})

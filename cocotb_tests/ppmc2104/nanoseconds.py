@@ -11,7 +11,7 @@ from .env import Env
 # Limits of the old chip in ns (P2104-BUS-20).
 WIDTH, DATA_SETUP, DATA_HOLD, ADDRESS_SETUP, ADDRESS_HOLD = 120, 80, 10, 20, 5
 ACCESS, RELEASE = 100, 90
-# Times at which an access starts, in sixteenths of a cycle.
+# Times within a cycle at which an access starts, in sixteenths of a cycle.
 PHASES = range(16)
 
 

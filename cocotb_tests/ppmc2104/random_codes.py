@@ -54,7 +54,7 @@ class Codes:
         if kind < 0.65:
             rl = rng.choice((3, 5, 9, 12, 19, 25))
             return rl, rng.randint(lowest, rl - 2), rng.choice((4, 4, 5, 6, 8, 10, 15))
-        if kind < 0.75:  # the ramp begins flat: several indices have the rate RL
+        if kind < 0.75:  # the ramp begins flat: its first indices have the rate RL
             rl = rng.randint(4, 16)
             return rl, rl - 2, rng.randint(4, 24)
         if kind < 0.9 or self.datasheet:

@@ -127,7 +127,7 @@ class _Writer(HostWriter):
             self.setting(axis)
 
     def half_instruction(self) -> None:
-        """Omit the last data byte of an instruction before the next code, which is often a stop of a running
+        """Send an instruction without its last data byte, then another code, in many cases a stop of a moving
         axis.
         """
         code, data = self.codes.operation(self.axis())
@@ -192,7 +192,7 @@ class _Writer(HostWriter):
             self.release()
 
     def release(self) -> None:
-        """Release all switches and set RUN of both axes."""
+        """Set all switches to their idle levels and RUN of both axes to 1."""
         self.add("pins", {**dict.fromkeys(SWITCHES, 3), "run": 3})
 
     def disturbances(self, most: int = 5) -> None:

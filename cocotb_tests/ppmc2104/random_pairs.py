@@ -14,8 +14,8 @@ from cocotb_tests.ppmc2104.random_codes import Codes
 from cocotb_tests.ppmc2104.random_host import SWITCHES
 
 SLOT = 24_000
-# The instruction that begins a slot is complete long before this time of the slot. From this time on,
-# switches change and stops are sent.
+# The instruction that begins a slot is complete long before this time within the slot. From this time on,
+# switches change and stop codes are sent.
 FIRST_EVENT = 400
 
 Write = tuple[int, int]
@@ -72,7 +72,7 @@ def pair(seed: int) -> Pair:
 
 
 def traffic(seed: int, count: int) -> list[list[Write] | tuple[str, int]]:
-    """Return instructions for axis 1 with all their data bytes, and pin changes."""
+    """Return `count` actions for axis 1: instructions with all their data bytes, and pin changes."""
     rng = random.Random(f"ppmc2104 traffic {seed}")
     codes = Codes(rng, False, (False, False))
     made: list[list[Write] | tuple[str, int]] = [list(_writes(*codes.setting(1, wrong=0)))]

@@ -8,11 +8,11 @@ from __future__ import annotations
 from .env import Axis
 from .expected_timing import INIT_EXT
 
-# After pulse PA + 1 of the ramp of INIT_EXT, the motion is on the plateau.
+# Number of the pulse with which the plateau begins: PA + 1, where PA is the ramp length of INIT_EXT.
 PLATEAU = INIT_EXT[3] + 1
 NATURAL = 8
 
-# Columns of the table: first the states with BUSY = 0, then the states with BUSY = 1.
+# Columns of the table: the states with BUSY = 0, then those with BUSY = 1.
 RESTING = ("INITIAL", "INITP", "NORMAL")
 RAMP = ("START", "ACC", "HIGH")
 STEADY = ("START constant", "CONST", "FIN", "FIN ramp")

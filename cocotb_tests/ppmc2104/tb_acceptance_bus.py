@@ -69,7 +69,7 @@ async def p2104_ac_66_clk_o(dut: Any) -> None:
 
 @directed("AC-77", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-13")
 async def p2104_ac_77_strobes_together(dut: Any) -> None:
-    """If both strobes are low, there is no access; if cs_n rises before the strobe, the byte is stored
+    """If both strobes are low, there is no access; if cs_n rises before the write strobe, the byte is stored
     (AC-77).
     """
     env = await Env.start(dut)

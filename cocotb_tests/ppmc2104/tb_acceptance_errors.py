@@ -35,7 +35,9 @@ async def stop_after_pulse(axis: Axis, j: int, code: int = 0x41, n: int = 1000) 
 
 @directed("AC-22", "P2104-ERR-06", "P2104-STA-06")
 async def p2104_ac_22_error_bit(dut: Any) -> None:
-    """If both axes have an error, only the second of the two Error code reads clears ERROR (AC-22)."""
+    """If both axes have an error, two Error code reads are necessary to clear ERROR: one for each axis
+    (AC-22).
+    """
     env = await Env.start(dut)
     got = await env.run("c 87 c A7 s e1 s e2 s e2")
     env.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])

@@ -346,8 +346,8 @@ async def p2104_ac_20_only_its_own_read(dut: Any) -> None:
 
 @directed("AC-21", "P2104-INT-01", "P2104-INT-02", "P2104-LIM-08")
 async def p2104_ac_21_errint(dut: Any) -> None:
-    """An error that occurs while errint_n is high asserts int_n neither then nor later. An error that occurs
-    while errint_n is low asserts int_n, which stays low when errint_n rises (AC-21).
+    """An error that occurs while errint_n is high never asserts int_n, also not when errint_n falls later. An
+    error that occurs while errint_n is low asserts int_n, which stays low when errint_n rises (AC-21).
     """
     env = await Env.start(dut)
     await env.run("c 87")

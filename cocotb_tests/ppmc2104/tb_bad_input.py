@@ -54,8 +54,8 @@ async def p2104_bad_03_bytes_at_random(dut: Any) -> None:
 
 @directed("P2104-BAD-16", "P2104-BAD-20", "P2104-BAD-21", "P2104-BAD-22", "P2104-FDC-01")
 async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
-    """If inputs that are not evaluated change, a ramp is not affected; a limit that bounces takes effect once
-    (P2104-BAD-22).
+    """Inputs that bounce do not affect a ramp if the operation ignores them; a limit that bounces takes
+    effect once (P2104-BAD-22).
     """
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
@@ -143,7 +143,8 @@ async def p2104_bad_26_recovery(dut: Any) -> None:
         bench.set(**bench.part.inputs)
         await bench.clocks(8)
         await env.host.poll(IBF, 0, timeout=env.cfg.us(200_000))
-        # Any code ends a data wait; a code after that is executed and replaces the rest of the output queue.
+        # The first code may only end a data wait; the second one is executed, and its answer replaces the
+        # rest of the output queue.
         for _ in range(2):
             await env.host.command(0x86)
             await env.host.poll(CMND1, 0)

@@ -44,7 +44,7 @@ async def p2104_bus_01_all_combinations(dut: Any) -> None:
         env.check("P2104-BUS-01", f"d_oe, {what}", [v for _, v in bench.edges("d_oe", since)], [1, 0] * read)
         if read:
             env.check("P2104-BUS-03", f"register, {what}", got, (1, 0x01 if a0 else 0xCF))
-        # An unexpected data byte sets error 2; the code D1 drives AUXO0 low.
+        # An unexpected data byte sets error 2; code D1 sets AUXO0 to 0.
         status = OBF if not (read and not a0) else 0
         status |= 0x80 if write and not a0 else 0
         env.check("P2104-BUS-03", f"status after {what}", await env.host.status(), status)
@@ -195,7 +195,9 @@ async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
 
 @directed("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")
 async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
-    """If a read instruction is accepted near a data read, its answer is never discarded (P2104-BUS-08)."""
+    """If a read instruction is accepted near a data read, the answer to this instruction is never discarded
+    (P2104-BUS-08).
+    """
     env = await Env.start(dut)
     seen = set()
     for busc, length, gap in product(STYLES, (1, 2, 4, 7), range(1, 14)):
@@ -308,8 +310,8 @@ async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
     exact="R/W* changes together with DS*, without the set-up time of 20 ns",
 )
 async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
-    """If R/W* or a0 changes while DS* is low, a write that was in progress is stored, and a read returns the
-    register of its first a0 (P2104-BAD-12).
+    """If R/W* or a0 changes while DS* is low, a write in progress is stored, and a read in progress still
+    returns the register that a0 selected at first (P2104-BAD-12).
     """
     env = await Env.start(dut, busc=1)
     bench = env.bench

@@ -47,7 +47,7 @@ STOPS = ("immediate stop", "deceleration stop")
 
 
 def reaction(row: str, state: str) -> int | str:
-    """Return the response in P2104-FSM-01: an error number, "waits", or 0 for executed."""
+    """Return the response of P2104-FSM-01: an error number, "waits", or 0 if the code is executed."""
     if row in ALWAYS:
         return ALWAYS[row]
     if row in STOPS:
@@ -127,8 +127,8 @@ async def p2104_fsm_01_moving_axis_2(dut: Any) -> None:
 
 @directed("P2104-FSM-02", "P2104-OPR-10", "P2104-RD-08")
 async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
-    """For any states of the two axes, the response to a code depends only on the state of the addressed axis
-    (P2104-FSM-02).
+    """For any states of the two axes, the response to a code depends only on the state of the axis to which
+    it is sent (P2104-FSM-02).
     """
     env = await Env.start(dut)
     for axis, other in ((env.x1, env.x2), (env.x2, env.x1)):

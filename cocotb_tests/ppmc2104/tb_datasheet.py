@@ -123,7 +123,7 @@ async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
     axis.set(run=1)
     after(env, "P2104-DS-14", "pulse 1", await axis.pulse(1), edge0, 103, w)
     await rest(env)
-    # The start check uses the present level, without a delay.
+    # The start check uses the level of the input at this moment, without a delay.
     axis.set(alm_n=0)
     await env.bench.clocks(4)
     edge0 = await last_byte(axis, 0x42)
@@ -173,7 +173,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
 @directed("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", builds=(D16,))
 async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
     """Code 41 sets the deceleration flag after 32 us. If the rate is RL at that time, the motion ends
-    immediately; if the deceleration or the end has begun, the flag has no effect (P2104-DS-03).
+    immediately. If a deceleration or the end has already begun, the flag has no effect (P2104-DS-03).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -216,8 +216,8 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
 
 @directed("AC-74", "P2104-DS-10", "P2104-DS-12", "P2104-INT-03", builds=BOTH)
 async def p2104_ac_74_reads(dut: Any) -> None:
-    """OBF of each read instruction is set at the end of its window, and the values are those at that time
-    (AC-74).
+    """After each read instruction, OBF is set at the end of its window, and the answer contains the values at
+    that time (AC-74).
     """
     env = await Env.start(dut)
     env.bench.set(errint_n=0)
@@ -229,7 +229,7 @@ async def p2104_ac_74_reads(dut: Any) -> None:
         env.check("AC-74", f"status in the window of {code:#x}", await env.host.status() & 0x31, cmnd)
         nominal = env.cfg.us(micros)
         if code == 0x81:
-            # The values are sampled at the end of the window, not at the C-event.
+            # The change is after the C-event but before the end of the window, so the answer contains it.
             env.x1.set(org_n=0)
         await env.host.poll(OBF, OBF, dense=1000)
         late = env.bench.now - edge0
@@ -258,7 +258,8 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
     await env.bench.clocks(3_000)
     spans = {span for _, span in axis.stretches(env.bench.now - 2_500)}
     env.check("P2104-DS-13", "switching times", spans, {512})
-    # The value takes effect at the end of the window: a timer started during the window uses the old value.
+    # The value takes effect at the end of the window: a hold timer that starts during the window uses the old
+    # value.
     edge0 = await last_byte(axis, 0x85, 0x00)
     await opens(env, "P2104-DS-13", edge0, 32)
     await env.host.command(0xE1)
@@ -283,7 +284,7 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
 
 @directed("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ds_15_as_fast(dut: Any) -> None:
-    """Pulses, ends, hold and the release of int_n occur in complete moves at the same times as in FAST
+    """In complete moves, pulses, ends, hold and the release of int_n occur at the same times as in FAST
     (P2104-DS-15).
     """
     env = await Env.start(dut)

@@ -12,7 +12,8 @@ from .datasheet_timing import last_byte, opens, rest
 from .env import Axis, Env
 from .expected_timing import INIT_B
 
-# Minimum accepted rates by kind and csel: while the other axis is idle, and while it operates (P2104-DS-30).
+# (kind of operation, csel) -> minimum accepted rate while the other axis is idle, and while it operates
+# (P2104-DS-30).
 LIMITS = {
     ("pout", 1): (0x0C, 0x19),
     ("phase", 1): (0x12, 0x23),
@@ -30,8 +31,8 @@ def rate_error(kind: str, csel: int, rate: int, operating: bool) -> int:
 
 
 async def tried(env: Env, axis: Axis, code: int, error: int, rate: int | None = None, note: str = "") -> None:
-    """Start an operation and check that it sets the error `want` without BUSY, or runs if no error is
-    expected.
+    """Start an operation; check that it sets the error `error` and not BUSY, or that it runs if `error` is
+    0.
     """
     data = [] if rate is None else [rate]
     data += [99, 0, 0] if code & 7 in (3, 4) else []
@@ -126,7 +127,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
 
 @directed("AC-70", "P2104-DS-31", "P2104-DS-33", "P2104-DS-36", builds=(D16,))
 async def p2104_ac_70_switching_counts(dut: Any) -> None:
-    """If axis 2 is at standstill with S = 1, the rate limit of axis 1 is that of two axes (AC-70)."""
+    """If axis 2 is at standstill with S = 1, axis 1 has the rate limit for two operating axes (AC-70)."""
     env = await Env.start(dut)
     axis, other = await env.ready(1, INIT_B), env.x2
     await other.init(0x12, *INIT_B[1:])
@@ -138,7 +139,7 @@ async def p2104_ac_70_switching_counts(dut: Any) -> None:
     await axis.init(0x0A, *INIT_B[1:])
     clock = env.bench.external_clock(repeat(20), axis.clock, high=10)
     await tried(env, axis, 0x45, 0, 0x00, ", external clock")
-    # This rate is higher than the old chip could output; the core does not lock up.
+    # This rate is higher than the old chip could output; the core outputs it nevertheless.
     await axis.go(0x44, 50, 0)
     await axis.result("P2104-DS-36", 50, 0x84, 0)
     clock.cancel()
@@ -188,7 +189,7 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
             env.window("AC-75", "pin to the end", end - stamp, 2, us(35) + 8)
             env.check("AC-75", "end status", await axis.finish(), finish)
             await env.bench.clocks(us(50))
-    # While a window is open, no input is sampled; the level is detected at most 35 us after the end of the
+    # While a window is open, no input is sampled; the limit is detected at most 35 us after the end of the
     # window.
     await axis.go(0x45, rate=0xFF)
     await axis.pulse(1, 300)

@@ -46,7 +46,9 @@ async def p2104_end_01_normal_end(dut: Any) -> None:
 
 @directed("P2104-END-02", "P2104-END-03", "P2104-TIM-05", "P2104-END-08", builds=(F16, F48))
 async def p2104_end_02_pulse_finishes(dut: Any) -> None:
-    """An immediate end at any time in the low time does not shorten the pulse (P2104-END-02)."""
+    """An immediate end that occurs at any time in the low time of a pulse does not shorten this pulse
+    (P2104-END-02).
+    """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     w = env.cfg.w
@@ -67,7 +69,9 @@ async def p2104_end_02_pulse_finishes(dut: Any) -> None:
 
 @directed("P2104-END-07", "P2104-HLD-01", "P2104-HLD-02", "P2104-OPR-01")
 async def p2104_end_07_hold(dut: Any) -> None:
-    """Of all codes, only moves restart the hold timer (256 us) (P2104-END-07, P2104-HLD-02)."""
+    """Only accepted moves restart the hold timer (here 256 us); no other code does (P2104-END-07,
+    P2104-HLD-02).
+    """
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
         await axis.send(0x85, [1])

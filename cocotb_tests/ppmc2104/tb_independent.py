@@ -12,8 +12,8 @@ from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 from .bench import PPMC2104
 
 WAVES = ("pout_n[2]", "dir[2]", "hold[2]", "s2_n")
-# Longest legal table build of axis 2, and duration of an instruction of axis 1 with all its bytes, both in
-# cycles.
+# Longest legal table build of axis 2 (READY), and duration of an instruction of axis 1 with all its bytes
+# (INSTRUCTION), in cycles.
 READY, INSTRUCTION = 40_000, 80
 
 
@@ -56,7 +56,9 @@ class Run:
             await self.host.write(reg, byte, gap=8)
 
     async def fill(self, until: int) -> None:
-        """Send traffic to axis 1 as long as it is complete before edge `until`, then wait for this edge."""
+        """Send instructions to axis 1 as long as each is complete before edge `until`, then wait for this
+        edge.
+        """
         bench = self.bench
         while bench.now + INSTRUCTION + 70 < until:
             thing = next(self.beside, None)

@@ -25,7 +25,7 @@ async def p2104_ini_01_all_codes(dut: Any) -> None:
             continue
         code = chop << 4 | external << 3 | half << 2 | mm
         await axis.init(code, 9, 4, 4)
-        # The phases are long, so that the pattern is sampled between their edges.
+        # The phases of the chopper are long, so that the test samples the pattern between their edges.
         patterns = steps(f"{types[mm]} {'half' if half else 'full'}", positive=False)
         what = f"{code:#x}, axis {axis.n}"
         since = env.bench.now
@@ -80,7 +80,7 @@ async def p2104_ini_03_refused_settings(dut: Any) -> None:
                 env.check("P2104-INI-03", "phases", env.bench.edges(axis.phases, since), [])
                 await axis.refused("P2104-INI-03", "42: still INITIAL", 4, 0x42)
             await axis.command(0xC0)
-        # In NORMAL, the stored clock source is used, not C of the code.
+        # In NORMAL, the check of RH uses the stored clock source, not bit C of the code.
         await axis.init(*INIT_A)
         await axis.init(0x0A, 9, 0, 4)
         env.check("P2104-INI-03", "RH = 0, C = 1, internal in force", await axis.error(), 9)
@@ -301,8 +301,8 @@ async def p2104_aux_04_switching_times(dut: Any) -> None:
 
 @directed("P2104-AUX-05", "P2104-AUX-06", "P2104-END-07", "P2104-HLD-01")
 async def p2104_aux_05_running_timer(dut: Any) -> None:
-    """If code 85 changes the delay while the hold timer runs, only the next delay is different
-    (P2104-AUX-05).
+    """If code 85 changes the hold delay while the hold timer runs, the present delay does not change, only
+    the next one (P2104-AUX-05).
     """
     env = await Env.start(dut)
     first, second = await env.both(INIT_B)

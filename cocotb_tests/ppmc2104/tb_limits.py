@@ -291,7 +291,8 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
                 env.check("P2104-LIM-09", f"pulses, {pin} {before} cycles before", count, 3)
         env.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
         env.check("P2104-LIM-09", "both results occurred", set(outcomes), {3, 4})
-    # If the input falls at the end of START, the pulse at this transition is also suppressed.
+    # If the input falls at the end of START, pulse 1, which would begin at this moment, is also either output
+    # or suppressed.
     counts = []
     for after in range(env.cfg.w - 6, env.cfg.w + 10):
         edge0 = await axis.go(0x42, poll=False)

@@ -63,8 +63,8 @@ async def p2104_tim_01_starts(dut: Any) -> None:
 
 @directed("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", builds=(F16, F11, F100))
 async def p2104_tim_02_run(dut: Any) -> None:
-    """In RUN wait, pulse 1 occurs W to W + 6 cycles after run rises, even if run remains high for only 2
-    cycles (P2104-TIM-02).
+    """In RUN wait, pulse 1 occurs W to W + 6 cycles after run rises, even if run is high for only 2 cycles
+    (P2104-TIM-02).
     """
     env = await Env.start(dut)
     w = env.cfg.w
@@ -128,8 +128,8 @@ async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
 
 @directed("P2104-BCK-01", "P2104-BCK-03", "P2104-INTV-01", "P2104-TIM-05", "P2104-GEN-04", builds=CLOCKS)
 async def p2104_bck_01_intervals(dut: Any) -> None:
-    """For each core clock, crystal and csel, every pulse occurs at the accumulated time of the intervals
-    before it (P2104-BCK-01, P2104-INTV-01).
+    """For each core clock, crystal and csel, the time of every pulse is the sum of the exact intervals before
+    it (P2104-BCK-01, P2104-INTV-01).
     """
     env = await Env.start(dut)
     for axis, csel in product(await env.both((0x02, 30, 3, 9)), (1, 0)):
@@ -323,8 +323,8 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
 
 @directed("P2104-OPR-03", "P2104-OPR-05", "P2104-OPR-06", "P2104-RD-06", "P2104-END-06", "P2104-EX-10")
 async def p2104_opr_03_pulse_counts(dut: Any) -> None:
-    """If an operation is stopped after three pulses, the remaining pulses depend on N of this operation
-    (P2104-OPR-03).
+    """If an operation of N pulses is stopped after three pulses, the number of remaining pulses is that for
+    this N (P2104-OPR-03).
     """
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):

@@ -19,7 +19,7 @@ OFFSETS = (0, 9, 18, 27, 34)
 
 
 async def limit(env: Env, axis: Axis, longest: int, own: int) -> int:
-    """Hold the CW limit low until the operation ends; return the cycles until then.
+    """Hold the CW limit low until the operation ends; return the number of cycles from its fall to the end.
 
     Check that the operation ends within `longest` us (bound of the data sheet) and within `own` us (bound of
     P2104-DS-20).
@@ -36,8 +36,8 @@ async def limit(env: Env, axis: Axis, longest: int, own: int) -> int:
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
 async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
-    """While the other axis processes its setting, an axis in RUN wait, which outputs no pulses, detects its
-    limit within 71 035 us.
+    """While the setting of the other axis is processed, an axis in RUN wait, which outputs no pulses, detects
+    its limit within 71 035 us.
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
@@ -98,8 +98,8 @@ async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) ->
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
 async def p2104_polling_example_4_setting_during_20_kpps(dut: Any) -> None:
-    """While the other axis processes its setting, an axis that moves at 20 kpps detects its limit within 295
-    995 us.
+    """While the setting of the other axis is processed, an axis that moves at 20 kpps detects its limit
+    within 295 995 us.
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

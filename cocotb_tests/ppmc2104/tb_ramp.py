@@ -37,7 +37,7 @@ def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
 
 @directed("P2104-RMP-01", "P2104-RMP-02", "P2104-RMP-03", "P2104-RMP-05", "P2104-EX-01", "P2104-EX-06")
 async def p2104_rmp_01_every_index(dut: Any) -> None:
-    """For ramps of many shapes, each rate of a move is exact according to both forms of the rule
+    """For ramps of many shapes, each rate of a move is exact according to the formula and to the thresholds
     (P2104-RMP-01, P2104-RMP-02).
     """
     env = await Env.start(dut)
@@ -200,8 +200,8 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
 
 @directed("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", builds=(F16, F11))
 async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
-    """If FHL falls shortly before a pulse event, but at least 4 cycles before it, FHL takes effect for this
-    event (P2104-FDC-06).
+    """If FHL falls at least 4 cycles before a pulse event, the deceleration begins with this event
+    (P2104-FDC-06).
     """
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

@@ -18,8 +18,8 @@ CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3
 
 @directed("P2104-RD-01", "P2104-RD-02", "P2104-RD-03", "P2104-END-04", "P2104-END-05")
 async def p2104_rd_01_end_status(dut: Any) -> None:
-    """After each operation and each cause of its end, the first code 80 returns the bits of both together
-    with bit 7; the second code 80 returns them without bit 7 (P2104-RD-01).
+    """After each operation and each cause of its end, the first code 80 returns the bits of the operation and
+    of the cause, and bit 7 = 1; the second code 80 returns the same bits, but bit 7 = 0 (P2104-RD-01).
     """
     env = await Env.start(dut)
     for axis, (code, low) in product(await env.both(INIT_A), CODES):
@@ -154,7 +154,7 @@ async def p2104_int_03_release_window(dut: Any) -> None:
         (up, one), (down, zero) = env.bench.edges("int_n", since)
         env.check("P2104-INT-03", "levels", (one, zero), (1, 0))
         env.window("P2104-INT-03", "H with a cause left", down - up, w, w + 2)
-        # All causes are released; another cause follows `delay` cycles after the release.
+        # Code 80 releases all causes; another cause follows `delay` cycles after the release.
         edge0 = await env.host.command(0x80, poll=False)
         await env.bench.until(edge0 + delay)
         cause = await env.host.write(1, 0x87)

@@ -18,7 +18,7 @@ LARGEST = (0x02, 255, 1, 0x2BD4)
 
 @directed("P2104-STA-01", "P2104-STA-04", "P2104-STA-05", "P2104-STA-07")
 async def p2104_sta_01_every_bit(dut: Any) -> None:
-    """The status indicates the state of an axis only with its BUSY and CMND bits (P2104-STA-01)."""
+    """Of all status bits, only BUSY and CMND of an axis depend on the state of this axis (P2104-STA-01)."""
     env = await Env.start(dut)
     for axis, state in product(env.axes, (*RESTING, *MOVING)):
         await enter(axis, state)
@@ -34,8 +34,8 @@ async def p2104_sta_01_every_bit(dut: Any) -> None:
 
 @directed("P2104-STA-01", "P2104-STA-06", "P2104-STA-02")
 async def p2104_sta_01_all_at_once(dut: Any) -> None:
-    """If both axes are busy, with a data wait, an error and an answer, all status bits are set together
-    (P2104-STA-01).
+    """If both axes are busy and there are a data wait, an error and an answer, all status bits are set at the
+    same time (P2104-STA-01).
     """
     env = await Env.start(dut)
     for axis in await env.both(INIT_A):
@@ -205,7 +205,7 @@ async def p2104_hsk_04_what_waits(dut: Any) -> None:
 
 @directed("P2104-HSK-04", "P2104-ERR-02", "P2104-FSM-01")
 async def p2104_hsk_04_data_wait_during_a_table_build(dut: Any) -> None:
-    """If a code would wait for the table but is sent during a data wait, it sets error 3 (P2104-HSK-04)."""
+    """During a data wait, a code that otherwise would wait for a table build sets error 3 (P2104-HSK-04)."""
     env = await Env.start(dut)
     for axis, other in ((env.x1, env.x2), (env.x2, env.x1)):
         for code in (0x42, 0x45, 0x02, 0xC0):

@@ -1,6 +1,7 @@
 """Coverage crosses of the data sheet, counted in the golden model.
 
-The crosses are instruction × state, rejection × source of the instruction, and cause of the end × state.
+There are three crosses: instruction × state, rejection × source of the instruction, and cause of the end ×
+state.
 """
 
 from __future__ import annotations

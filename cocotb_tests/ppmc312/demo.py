@@ -16,7 +16,7 @@ from cocotb_tests.harness.sessions import DemoLog
 
 from .bench import PPMC312
 
-START, HIGH, RAMP = 320, 64, 1150  # at 8 MHz: 25 to 125 kpps
+START, HIGH, RAMP = 320, 64, 1150  # START and HIGH in ticks of 1/8 us: 25 and 125 kpps; RAMP in pulses
 PULSES = 3000
 # A curve for a motor with less torque at high speed, fastest stage first; it also has 1150 pulses.
 CURVE = ((64, 300), (70, 210), (78, 150), (88, 110), (100, 90), (116, 75), (136, 60), (162, 50),

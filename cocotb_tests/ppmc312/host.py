@@ -1,5 +1,5 @@
-"""Host of directed tests on the parallel pins of the PPMC-312. It reacts to the values that it reads
-there.
+"""Host of directed tests on the parallel pins of the PPMC-312. Its next accesses depend on the values that it
+has read.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class Host(DirectedHost):
         await self.bench.clocks(gap)
 
     async def put(self, text: str, war: int | None = None, gap: int = 3) -> None:
-        """Write a block without polling; return `gap` cycles after its last strobe."""
+        """Write a block without polling, then wait `gap` cycles after its last strobe."""
         block = bytes.fromhex(text)[::-1]
         await self.write(WCR, 0x20)
         await self.write(WAR, 0x20 - len(block) if war is None else war)
@@ -91,7 +91,7 @@ class Host(DirectedHost):
             await self.pause(every)
 
     async def issue(self, text: str) -> None:
-        """Write a block when MWEF allows it; count pulses and edges from this write on."""
+        """Write a block when MWEF allows it; pulses and edges are counted from this write on."""
         await self.ready()
         self.mark = self.t
         await self.put(text)

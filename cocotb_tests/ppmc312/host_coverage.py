@@ -1,8 +1,8 @@
 """Counts the events that random hosts cause in the golden model of the PPMC-312.
 
-The counts reveal a loss of coverage. Keys of the counts are texts: "pulses", "answer 82", "event 83",
-"override 80", "answer F0 20", "event F8 01", "report E0 SLOW", "trigger POSITION 87", "decel SLOW", "change
-88", "change in RAMP", "cycles ABN".
+The counts reveal a loss of coverage. Each count has a text as its key, for example "pulses", "answer 82",
+"event 83", "override 80", "answer F0 20", "event F8 01", "report E0 SLOW", "trigger POSITION 87", "decel
+SLOW", "change 88", "change in RAMP", "cycles ABN".
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ _BY_PARAMETER |= {Answer.EVENT_FAILED, Answer.OVERRIDE_FAILED}
 
 
 def name_of(block: bytes, source: Source | None) -> str:
-    """Return the key for a response block in logical order."""
+    """Return the key under which a response block (bytes in logical order) is counted."""
     code = block[2]
     who = _SOURCES[source] if source else "report"
     if code == Answer.STATUS:

@@ -1,6 +1,7 @@
 """Counts the events that random hosts on the line cause in the golden model of the PPMC-312.
 
-Keys of the counts are texts: "frame POLL", "reply A0", "reply B0 41", "overrun", "framing", "event", "FF".
+Each count has a text as its key: "frame POLL", "reply A0", "reply B0 41", "overrun", "framing", "event",
+"FF".
 """
 
 from __future__ import annotations

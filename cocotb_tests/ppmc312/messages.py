@@ -17,7 +17,7 @@ def message(code: int, *data: str, source: int = Source.HOST) -> str:
 
 
 def register(buffer: int, block: str) -> str:
-    """Return a block of instruction 49, which registers another block in an event buffer."""
+    """Return a block of instruction 49, which registers the block `block` in the event buffer `buffer`."""
     return message(Code.EVENT_SET, f"{buffer:02X} {block}")
 
 

@@ -1,6 +1,6 @@
 """Random host that misuses the PPMC-312: wrong order, unread answers, invalid blocks, resets, changing pins.
 
-The hosts of `reactive_host` use the same blocks, tables and times near a boundary.
+The hosts of `reactive_host` also use its blocks, tables and accesses near interval boundaries.
 """
 
 from __future__ import annotations
@@ -42,7 +42,9 @@ async def reset_by_bus(host: Host) -> None:
 
 
 class MisuseHost(StateAwareHost):
-    """One random host. It reacts to data that it reads; the golden model only decides when the host acts."""
+    """One random host. Its actions depend on the data that it reads; it uses the golden model only to decide
+    when to act.
+    """
 
     def __init__(self, host: Host, seed: int) -> None:
         super().__init__("p312", seed)
@@ -84,7 +86,7 @@ class MisuseHost(StateAwareHost):
     # ------------------------------------------------------------ host
 
     async def send(self, text: str) -> None:
-        """Write a block if the device accepts it; in some cases do not read the status first."""
+        """Write a block if the device accepts blocks; in some cases, write without reading the status."""
         host, rng = self.host, self.rng
         if not await host.read(CSR) & MWEF or rng.random() < 0.1:
             await host.put(text)
@@ -160,7 +162,7 @@ class MisuseHost(StateAwareHost):
         rng = self.rng
         clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
         if rng.random() < 0.08 and not self.slow:
-            # The last two tables have stages of 2 pulses; in them, R[1] = R[0] if the curve is a sigmoid.
+            # The last two tables have stages of 2 pulses; in a sigmoid curve with such stages, R[1] = R[0].
             self.rates, tail = rng.choice(
                 (
                     ([40, 120, 400], "09 00 {} 0190 0028 000480"),

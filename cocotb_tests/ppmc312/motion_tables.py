@@ -9,8 +9,9 @@ from openppmc.model.ppmc312.codes import Code
 
 STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")
 ALWAYS = "03 04 86 00"
-# Rates that are not monotonic, separate tables for both ramps: R[124..126] = 200 300 100; pulses of these
-# stages in the acceleration 3 4 5, in the deceleration - 7 6 (-: unused).
+# Rates that are not monotonic, separate tables for both ramps: R[124..126] = 200 300 100. These three stages
+# have 3, 4 and 5 pulses in the acceleration; in the deceleration, stage 124 is unused, and the others have 7
+# and 6 pulses.
 ODD = ("02 04 01 11 03 02", "00 06 0064 012C 00C8", "00 09 000005 000004 000003", "01 06 000006 000007")
 
 
@@ -19,7 +20,8 @@ def change(code: int, rate: int) -> str:
 
 
 async def run_out(host: Host, mark: int, cause: int, pulses: str, sign: int = 1) -> None:
-    """Check the stop report, all intervals except the last, and the time of the report.
+    """Wait for the end of a motion; check the stop report, all intervals except the last, and the time of the
+    report.
 
     The report follows the end of the last interval by less than 200 cycles.
     """

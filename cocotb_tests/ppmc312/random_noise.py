@@ -53,7 +53,7 @@ Changes = list[tuple[int, dict[str, int]]]
 
 
 def _bus(rng: random.Random, t: int) -> Changes:
-    """Return one strobe of any length, or both strobes together.
+    """Return the changes of one strobe of any length, or of both strobes together.
 
     Address and data may change during the strobe. At least 3 cycles without a strobe follow.
     """

@@ -28,7 +28,9 @@ SETTINGS = (0x02, 0x03, 0x04, 0x05, 0x06, 0x20, 0x21, 0x22, 0x23, 0x24, 0x28, 0x
 BLOCKS = ("0120", "0121", "022615", "022600", "028000", "028100", "028400", "0125", "0146", "0486000190")
 BLOCKS += ("08830001900000000A", "048800012C", "0487000190", "01FF", "0144", "022A00", "0404000000")
 TABLE = "00 00 01F4 00C8 0001BD"
-"""8 MHz, linear, 500 to 200, 445 pulses: the minimum, with stages of 2 pulses."""
+"""A table with the minimum number of pulses, so that some stages have 2 pulses: F = 8 MHz, linear, rates 500
+to 200, 445 pulses.
+"""
 
 
 async def play(dut: Any, seed: int) -> None:
@@ -37,7 +39,9 @@ async def play(dut: Any, seed: int) -> None:
 
 
 class RandomSerialHost(StateAwareHost):
-    """One random host. It reacts to received data; the golden model only decides when the host acts."""
+    """One random host. Its actions depend on the data that it receives; it uses the golden model only to
+    decide when to act.
+    """
 
     host: SerialHost
     background: MovingPins
@@ -136,7 +140,7 @@ class RandomSerialHost(StateAwareHost):
             await host.pause(rng.choice((5, 100, 1_500, 12_000)))
 
     async def put(self, line: bytes) -> None:
-        """Send characters, with wrong levels if the host is noisy."""
+        """Send characters; if the host is noisy, disturb some of them with short wrong levels."""
         rng, host = self.rng, self.host
         if not (self.noisy and rng.random() < 0.25):
             await host.send(line, rng.choice((0, 0, 0, 0, 0.4, 3)) if len(line) < 12 else 0)

@@ -159,7 +159,8 @@ class ScenarioHost(MisuseHost):
         """Return a block of instruction 80, 81, 87 or 88.
 
         Args:
-            trigger: trigger for which the instruction is registered; None for a direct instruction.
+            trigger: condition for which the instruction is registered; None: the device executes it
+                immediately.
             ahead: number of pulses from the present position to the position that triggers the instruction.
         """
         rng = self.rng
@@ -451,7 +452,7 @@ class ScenarioHost(MisuseHost):
         await self.attend(2_000)
 
     async def end_wait(self) -> None:
-        """Monitor the positioning end."""
+        """Enable the END terminal, make a move, and assert END after it in most cases."""
         host, rng = self.host, self.rng
         await self.send_block(message(Code.END_TERMINAL, "01"))
         await self.send_block(self.finite_block().hex())
@@ -476,7 +477,7 @@ class ScenarioHost(MisuseHost):
         await self.send_block(message(Code.ALARM_CLEAR))
 
     async def unread(self) -> None:
-        """Leave reports unread until their class has more reports than places (P312-RSP-20)."""
+        """Leave reports unread until their class has more reports than it can store (P312-RSP-20)."""
         host, rng = self.host, self.rng
         start_while_run_is_low = rng.random() < 0.4
         for _ in range(rng.randint(2, 3)):
@@ -486,7 +487,7 @@ class ScenarioHost(MisuseHost):
                 if not await host.read(CSR) & MWEF:
                     break
                 await host.pause(100)
-            # Read an answer as soon as possible, so that the next instruction is executed.
+            # Read an answer as soon as possible, so that the device executes the next instruction.
             if self.model.core.responses.answer:
                 await self.response()
             await host.put(message(Code.STEP, "00"))

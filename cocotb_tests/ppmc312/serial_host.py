@@ -1,4 +1,4 @@
-"""Master of a serial line with one PPMC-312, which reacts to the replies of the station.
+"""Master of a serial line with one PPMC-312. Its actions depend on the replies of the station.
 
 The master has a separate UART model: it decodes replies from the levels of txd and checks every edge.
 """
@@ -107,9 +107,7 @@ class SerialHost(SerialLine, DirectedHost):
     # ------------------------------------------------------------------ from the part
 
     def rise(self) -> int | None:
-        """Return the edge of the next rise of snd that `hear` has not used, or None if there is no such
-        rise.
-        """
+        """Return the edge of the next rise of snd that `hear` has not used yet; None if snd has not risen."""
         return next(iter(self.bench.rises("snd", self._heard)), None)
 
     async def begin(self, within: int = T_EXEC) -> int:

@@ -64,7 +64,7 @@ class Line:
         return [reply for _, reply in self.model.replies[before:]]
 
     def recovers(self) -> None:
-        """Check that the first poll after any stream has one valid reply."""
+        """Check that the first poll after a stream is answered with exactly one valid reply."""
         self.wait()
         replies = self.ask(summed(0x80 + self.adr, b"", self.sum_mode))
         assert len(replies) == 1, f"{len(replies)} replies to a poll"

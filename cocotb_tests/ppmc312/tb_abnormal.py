@@ -1,4 +1,6 @@
-"""Alarms, multiple occurrences and failed triggers of the PPMC-312, and hosts that do not read (2.3, 10)."""
+"""Alarms, multiple occurrences and failed triggers of the PPMC-312, and hosts that do not read
+(docs/ppmc312/README.md, 2.3 and 10).
+"""
 
 from __future__ import annotations
 
@@ -123,7 +125,8 @@ async def p312_second_stop_report_while_the_first_is_half_read(dut: Any) -> None
 
 @directed("P312-RSP-11", "P312-RSP-10", "P312-PAR-08", "P312-BAD-08", "P312-RSP-22")
 async def p312_reports_are_in_the_order_of_their_classes(dut: Any) -> None:
-    """While a report is being read, reports of all classes wait; then the lowest class is first.
+    """If reports of all classes wait while a report is being read, they are read afterwards from the lowest
+    class to the highest.
 
     The test creates the reports from the last class to the first.
     """

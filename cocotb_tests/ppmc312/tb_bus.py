@@ -51,14 +51,16 @@ async def p312_reads_drive_the_bus(dut: Any) -> None:
         assert rise - mark in range(0, 5) and fall - mark - 9 in range(0, 5)
         assert host.out("d_o") == value, reg
         assert len([edge for edge in host.bench.edges("d_o", mark) if edge[0] > mark + 4]) == 0
-    # After one byte was read, a rewind returns to this byte.
+    # After one byte was read, a read of RCR rewinds to this byte.
     assert await host.read(RAR) == 0x3D and await host.read(RCR) == 0 and await host.read(RAR) == 0x3C
     assert await host.response() == message(Code.VERSION, "12")
 
 
 @directed("P312-PAR-11", "P312-PAR-08")
 async def p312_one_value_a_strobe(dut: Any) -> None:
-    """If a response is loaded or discarded during a read of CSR, the value of the read does not change."""
+    """If a response is loaded or discarded during a read of CSR, the value on the bus does not change during
+    this read.
+    """
     host = await Host.start(dut, T1)
     await host.issue(message(Code.VERSION))
     mark = host.t

@@ -33,7 +33,8 @@ async def p312_searches_in_every_form(dut: Any) -> None:
                 await host.pins(index_n=0)
             count = 6 if index else 4
             assert await host.response() == stopped(0x20, count * sign)
-            # Instruction 11 returns at the rate R[sa]; there is no standstill between the two phases.
+            # Instruction 11 returns at the rate of the first stage of the acceleration. There is no
+            # standstill between the two phases.
             await host.pins(org_n=1, index_n=1)
             await host.ask(message(Code.POSITION_SET, "00 00000000"))
             assert host.out("zclmp_n") == 0

@@ -63,7 +63,8 @@ async def p312_rates_that_may_be_requested(dut: Any) -> None:
     "P312-GEN-10",
 )
 async def p312_forms_of_the_starts(dut: Any) -> None:
-    # Instruction 84 at the rate R[sa] ends one interval after its pulse.
+    # If instruction 84 makes its step at the rate of the first stage of the acceleration, the motion ends one
+    # interval after its pulse.
     for table, rate in ((TF, 400), (TG, 400), (TH, 200), (ODD, 200)):
         host = await Host.start(dut, *table)
         await host.ask(message(Code.STEP, "40"))
@@ -98,7 +99,7 @@ async def p312_forms_of_the_starts(dut: Any) -> None:
 
 @directed("P312-MOT-10", "P312-MOT-11", "P312-MOT-12", "P312-BAD-15", "P312-GEN-06")
 async def p312_plans_on_an_odd_table(dut: Any) -> None:
-    """t(x) is the last stage that is slow enough, regardless of the stages before it."""
+    """t(x) is the last stage that is not faster than x, regardless of the stages before it."""
     host = await Host.start(dut, *ODD)
     for n, rate, kind, pulses in (
         (30, 0, "00", "200x3 300x4 100x16 300x7"),
@@ -197,7 +198,7 @@ async def p312_every_start_is_held(dut: Any) -> None:
 async def p312_changes_that_wait_for_pulse_1(dut: Any) -> None:
     """If several changes wait for pulse 1, the newest is used.
 
-    It starts from the rate of the operation, not from that of a change that was replaced.
+    The change starts from the rate of the operation, not from the rate of a change that it replaced.
     """
     setting = ("02 03 01 06 03", "00 06 0008 000C 0010", "01 09 000003 000002 000003")
 

@@ -1,7 +1,7 @@
 """Motions through the stages of a table of the PPMC-312, and rate changes during them.
 
-R[i] is the rate of stage i, pa[i] and pd[i] are its pulses in the acceleration and the deceleration; - is an
-unused stage.
+R[i] is the rate of stage i; pa[i] and pd[i] are the numbers of its pulses in the acceleration and the
+deceleration (-: unused). sa and sd are the first stages in use of the two ramps.
 """
 
 from __future__ import annotations

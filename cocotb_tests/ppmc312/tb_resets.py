@@ -16,7 +16,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 @directed("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
 async def p312_a_read_during_the_software_reset(dut: Any) -> None:
-    """If a read strobe coincides with a software reset, one value is driven from the specified time to the
+    """If a read strobe coincides with a software reset, the bus has one value from the specified time to the
     end of the strobe.
 
     The strobes begin up to 40 cycles after the header of FF.
@@ -51,8 +51,8 @@ async def p312_a_read_during_the_software_reset(dut: Any) -> None:
 
 @directed("P312-PAR-11", "P312-PAR-10", "P312-PAR-12", "P312-CMD-FF")
 async def p312_a_write_during_the_software_reset(dut: Any) -> None:
-    """A write to CSR before the reset is cleared by it, and a write after the reset is kept, at any
-    distance.
+    """At any distance from the reset, it clears a value that was written to CSR before it, and keeps a value
+    that is written after it.
     """
     seen = []
     for after in range(1, 41):

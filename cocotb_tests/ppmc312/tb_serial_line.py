@@ -97,8 +97,8 @@ async def p312_serial_frames_back_to_back_with_a_slow_line_driver(dut: Any) -> N
 async def p312_serial_a_reply_that_is_ready_about_half_a_bit_after_the_frame(dut: Any) -> None:
     """snd rises after the end of the frame or of an instruction in progress, whichever is later.
 
-    Before the end of the frame an event occurs, one cycle later in each repetition; it is processed before
-    the frame.
+    In each repetition, an event occurs one cycle later, but before the end of the frame, and is processed
+    before the frame.
     """
     host = await SerialHost.start(dut, TS, "49 03 08 82 00 01 EE 00 00 00 28")
     waited = []
@@ -240,7 +240,9 @@ async def p312_serial_framing_errors(dut: Any) -> None:
 @cocotb.parametrize(bits=[9.3, 9.7, 10, 10.5, 15, 40, 300])
 @directed("P312-SER-15", "P312-BAD-16")
 async def p312_serial_breaks(dut: Any, bits: float) -> None:
-    """A break of any length is one framing error, or no error if it ends before the stop bit is sampled."""
+    """A break of any length causes one framing error. Exception: it causes none if it ends before the stop
+    bit is sampled.
+    """
     host = await SerialHost.start(dut)
     await host.raw("91 32")
     await host.low(bits)

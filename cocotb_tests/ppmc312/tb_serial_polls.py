@@ -18,14 +18,14 @@ ON, OFF, STOP, STEP = (f"03 {tail}" for tail in ("01 20", "01 21", "02 80 00", "
 
 
 def event(code: str, block: str) -> str:
-    """Return an instruction that registers a block of the parallel bus."""
+    """Return an instruction that registers `block`, which has the format of the parallel bus."""
     data = bytes.fromhex(block)
     return f"{code} {data.ljust(10, b'0').hex()}"
 
 
 @directed("P312-SER-30", "P312-CHK-67", "P312-RSP-10")
 async def p312_serial_everything_at_once(dut: Any) -> None:
-    """If reports of all classes are pending, each poll returns the first of them."""
+    """If reports of all classes are pending, each poll returns one of them, in the order of the classes."""
     host = await SerialHost.start(
         dut, TS, "02 01 0002", "03 01 0002", "04 00000004", "90 0000000A", "28 FF", "44"
     )
@@ -257,7 +257,7 @@ async def p312_serial_a_report_around_a_poll(dut: Any, pin: str) -> None:
 
 @directed("P312-OVR-10", "P312-SER-19", "P312-SER-22")
 async def p312_serial_an_event_around_an_instruction(dut: Any) -> None:
-    """An instruction has its reply, and an event near it is executed before or after it."""
+    """An instruction has its usual reply, and an event near it is executed either before or after it."""
     host = await SerialHost.start(
         dut, TS, event("49", message(Code.EXCITATION_ON)), event("49", message(Code.EXCITATION_OFF))
     )

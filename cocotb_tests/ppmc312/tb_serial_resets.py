@@ -129,7 +129,9 @@ async def p312_serial_software_reset_by_an_event(dut: Any, clk: int) -> None:
 
 @directed("P312-PRT-03", "P312-CMD-FF")
 async def p312_serial_pins_that_are_latched(dut: Any) -> None:
-    """Address and speed are sampled only at the end of a reset, by the pin or by instruction FF."""
+    """Address and speed are sampled only at the end of a reset, regardless of whether the pin or instruction
+    FF causes the reset.
+    """
     host = await SerialHost.start(dut)
     await host.pins(adr=5, mod=6)
     await host.pause(20)
@@ -228,7 +230,7 @@ async def p312_serial_hsp_has_no_function(dut: Any, hsp: int) -> None:
 
 @directed("P312-PRT-02", "P312-SER-15", builds=(D16,))
 async def p312_serial_frames_before_out_oe(dut: Any) -> None:
-    """Frames before out_oe have no reply and no effect, are not counted, and leave no state.
+    """Frames that arrive before out_oe = 1 have no reply and no effect, are not counted, and leave no state.
 
     The test sends a poll, a framing error, and most of an instruction.
     """

@@ -1,4 +1,6 @@
-"""Initial settings of the PPMC-312: tables read back, order of checks, and buffers that a setting clears."""
+"""Initial settings of the PPMC-312: the tables that result from them, the order of checks, and the buffers
+that a setting clears.
+"""
 
 from __future__ import annotations
 
@@ -62,7 +64,8 @@ async def p312_sigmoid_tables_keep_stages_that_rounding_makes_equal(dut: Any) ->
     )
     assert head[:3] == [127, 127, 0] and len(up) == 127 and sum(up) == 3000
     assert rates[:-9:-1] == [300, 300, 300, 299, 299, 298, 297, 296]
-    # The slower of the two ramps has all stages. The other ramp begins at the last stage that is slow enough.
+    # The ramp with the slower start or stop rate has all stages. The other ramp begins at the last stage that
+    # is not faster than its own rate.
     for rs, rp, counts in (
         (300, 300, [127, 127, 127]),
         (300, 299, [127, 127, 123]),
@@ -189,7 +192,8 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
     await host.ask(message(Code.STOP, "00"))
     await host.response()
     await host.pins(fhl_n=0)
-    # HSL is the value that was set. After instruction 00 or 01 sets a new table, HSL is RH of this table.
+    # Until the next table, HSL keeps the value that was set. After instruction 00 or 01 sets a new table, HSL
+    # is RH of this table.
     await host.ask(message(Code.SPEED_LIMIT, "00C8"))
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
     await host.ask(message(Code.STOP, "00"))

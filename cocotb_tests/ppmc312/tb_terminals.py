@@ -104,7 +104,8 @@ async def p312_times_of_the_crystal_at_another_clock(dut: Any) -> None:
 
 @directed("P312-OUT-01", "P312-CHK-45", "P312-MOT-06")
 async def p312_current_reduction_after_each_kind_of_end(dut: Any) -> None:
-    # The time is counted from the end of the pulse output; an immediate stop ends the output immediately.
+    # The time to the fall of cd_n is counted from the end of the pulse output, which an immediate stop ends
+    # immediately.
     host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.pulse(2, 2000)

@@ -12,7 +12,7 @@ from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import INPUTS, OUTPUTS, SPONTANEOUS, WIDTHS, Answer, Code, Source
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
-"""Rates 4, 400 and 800 at 8 MHz, which are 8, 800 and 1600 cycles."""
+"""Rates 4, 400 and 800 at F = 8 MHz: intervals of 8, 800 and 1600 cycles."""
 T_INIT, T_EXEC, T_TRIG, T_STOP, T_PIN = 65_536, 4_096, 512, 64, 4
 POLL = 40
 """Number of cycles that polling by the host adds to a measured time."""
@@ -108,7 +108,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
         position = f"{host.bench.golden.position:08X}"
         if answers[0] == message(
             Code.STOP, source=Source.OVERRIDE
-        ):  # the event was first, so there is no motion to change
+        ):  # the event was executed first, so there is no motion to change
             assert (
                 answers[1:]
                 == [

@@ -21,7 +21,7 @@ T1_8M = message(Code.INITIAL, "00 03E8 00C8 0007D0")
 
 
 async def sends(host: Host, text: str) -> None:
-    """Send a text `WAR; DWR bytes in bus order`."""
+    """Write a block; `text` contains the value for WAR, a semicolon, and the bytes for DWR in bus order."""
     war, data = (piece.strip() for piece in text.split(";"))
     while await host.read(CSR) & MWEF:
         await host.pause(20)
@@ -33,7 +33,7 @@ async def sends(host: Host, text: str) -> None:
 
 
 async def gets(host: Host) -> str:
-    """Return the next response as a text `RAR; DRR bytes in bus order`."""
+    """Return the next response as text: the value of RAR, a semicolon, and the bytes of DRR in bus order."""
     await host.wait()
     rar = await host.read(RAR)
     data = bytes([await host.read(DRR) for _ in range(0x40 - rar)])

@@ -282,8 +282,8 @@ async def proc_time_datasheet(dut, name):
 
     steps = low + 3
     await u.clk(act_i=action("init"), params_i=steps << 16, initialised_i=0)
-    # One cycle later the command unit outputs the parameters shifted down by one byte, with the present byte
-    # on top.
+    # In the next cycle the command unit outputs the parameters shifted down by one byte, with the present
+    # byte as the highest one.
     await u.clk(act_i=0, params_i=0xA5 << 24 | steps << 8)
     await u.settle(params_i=0)
     same("phases", await u.run_until("phase_init_o", 1), cyc(44) - 1)

@@ -42,7 +42,7 @@ async def results(host: IsaHost) -> None:
 
 
 async def step(bench: RtlBench, n: int, since: int) -> int:
-    """Wait for the n-th step from `since` on; return its edge."""
+    """Wait for the n-th step on edge `since` or later; return its edge."""
     seen = [(since, bench.level("drv"))]
     while len(steps([*seen, *bench.edges("drv", since)])) < n:
         await bench.edge("drv", timeout=LONG)

@@ -17,7 +17,7 @@ A: Ramp = (20, 5, 8)
 # clock.
 STANDARD: Init = (0x1A, *A)
 INTERNAL: Init = (0x0A, *A)
-# Crystal periods per tick of the internal clock, and from the start of a motion to step 0.
+# Crystal periods: per tick of the internal clock (TICK), and from the start of a motion to step 0 (T0).
 TICK, T0 = 1280, 80
 ALL = 1 << 24
 MOST = ALL - 1

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from .env import Env
 
-# D1 = 3 and D2 = 1 result in gaps of few ticks. The level is 1 from gap 3 on.
+# With D1 = 3 and D2 = 1, gaps have few ticks: 3, 2, and 1 from gap 2 on.
 SMALL = (0x1A, 3, 1, 4)
 RESTING = ("U", "W from U", "I", "W from I")
 RAMP = ("S", "S flagged", "A", "A top", "D", "D natural")

@@ -14,7 +14,7 @@ from .expected_timing import EXT, F10, F12, INTERNAL, STANDARD, T0
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]
-# A row contains the number that is sent, and the gaps of AC-06 and AC-07.
+# Moves of AC-06 and AC-07: number in the command, which is the number of steps minus 1 -> gaps in ticks.
 AC_06 = {
     0x0B: W2,
     0x0A: [20, 12, 9, 8, 7, 7, 8, 9, 12, 20],

@@ -167,7 +167,7 @@ async def stmc_ac_45_data_sheet_codes(dut: Any) -> None:
 
 @directed("AC-48", "STMC-DS-01", "STMC-DS-05", "STMC-DS-07", "STMC-DS-08", builds=(D16,))
 async def stmc_ac_48_datasheet_times(dut: Any) -> None:
-    """In DATASHEET, start, steps, end and answer of a two-step motion occur at their documented times
+    """In DATASHEET, start, steps, end and answer of a motion of two steps occur at their documented times
     (AC-48).
     """
     env = await Env.start(dut, INTERNAL, clock=0)

@@ -159,8 +159,8 @@ async def j105_07_drivers(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-05", "STMC-MOT-09")
 async def j105_05_interrupt(dut: Any) -> None:
-    """irq rises at the end of a motion only if bit 4 of its code is 0; code 80 deasserts it, not the read of
-    its byte (J105-05).
+    """irq rises at the end of a motion only if bit 4 of its code is 0; irq falls when code 80 is accepted,
+    not when the answer to this code is read (J105-05).
     """
     env = await BoardEnv.start(dut)
     await env.init(0x0A, 9, 3, 3)

@@ -34,8 +34,8 @@ def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> N
     period = env.cfg.cyc(4 * -(-on_xt // 4) + 4 * -(-off_xt // 4))
     total = begins[-1] - begins[0]
     count = len(begins) - 1
-    # In `period`, both times are rounded up to whole quanta of 4 crystal periods. The measured period may be
-    # up to 8 cycles shorter.
+    # `period` contains both times rounded up to whole quanta of 4 crystal periods, so the measured period may
+    # be up to 8 cycles shorter.
     env.window(rule, f"{count} periods", total, (period - 8) * count - 1, period * count + 1)
 
 

@@ -57,7 +57,9 @@ async def stmc_ini_02_small_and_flat(dut: Any) -> None:
 
 @directed("STMC-INI-04", "STMC-INI-05", "STMC-INI-06", "STMC-EXC-03")
 async def stmc_ini_04_frozen_bits(dut: Any) -> None:
-    """After the first initialisation, later ones do not change bits 3..0 until a reset (STMC-INI-04)."""
+    """Bits 3..0 of the first initialisation stay active until a reset; later initialisations do not change
+    them (STMC-INI-04).
+    """
     env = await Env.start(dut)
     await env.move(0x42)
     fin = await env.finish()
@@ -91,8 +93,8 @@ async def stmc_ini_04_data_loaded_again(dut: Any) -> None:
 
 @directed("STMC-INI-07", "STMC-FSM-03", "STMC-BUS-14")
 async def stmc_ini_07_build(dut: Any) -> None:
-    """A motion that waits for a table build of any length is checked after the build, and its steps are
-    correct (STMC-INI-07).
+    """A motion that is sent during a table build of any length waits, is checked after the build, and makes
+    the correct steps (STMC-INI-07).
     """
     env = await Env.start(dut)
     for d1, d2, pa in ((255, 1, 65535), (255, 254, 65535), (2, 1, 1), (200, 3, 255), (20, 20, 9), (9, 3, 0)):

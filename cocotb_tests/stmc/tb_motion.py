@@ -163,7 +163,9 @@ async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
 
 @directed("STMC-MOT-05", "STMC-MOT-10", "STMC-HLD-02")
 async def stmc_mot_05_times_without_a_step(dut: Any) -> None:
-    """While mon is low, a motion command sets BUSY for at most 8 cycles, and int_n falls (STMC-MOT-05)."""
+    """While mon is low, a motion command sets BUSY for at most 8 cycles and then asserts int_n
+    (STMC-MOT-05).
+    """
     env = await Env.start(dut)
     await env.pins(mon=0)
     for masked in (0, 0x10):
@@ -311,7 +313,7 @@ async def stmc_rmp_01_ramps(dut: Any) -> None:
 async def stmc_rmp_02_the_longest_ramp(dut: Any) -> None:
     """With PA = 65535, the speed stays at its maximum after all levels (STMC-INI-02, STMC-RMP-02)."""
     env = await Env.start(dut, (0x1A, 2, 1, 65_535))
-    # x(k) = 1 from the first k with 7 * 65535 <= 27 * (k - 1) on, which is the threshold form of the rule.
+    # Threshold form of the rule: x(k) = 1 from the first k on for which 7 * 65535 <= 27 * (k - 1).
     change = 1 + 7 * 65_535 // 27
     await env.go(0x46)
     await env.bench.clocks(EXT * (65_700 + change))

@@ -90,7 +90,7 @@ async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
 @directed("STMC-DEC-02", "STMC-STP-04", "STMC-FIN-03", "STMC-DEC-05")
 async def stmc_dec_02_second_requests(dut: Any) -> None:
     """After an accepted deceleration request, a further code 41 returns error 7, and a further slow-down
-    limit has no effect: only the first request counts (STMC-DEC-02).
+    limit has no effect (STMC-DEC-02).
     """
     env = await Env.start(dut)
     await env.go(0x43, 100)

@@ -1,4 +1,5 @@
-"""Second step clock of the board over ten seconds, cycle by cycle, in C++, because cocotb would take minutes.
+"""Step clock of the board, derived from the core clock: ten seconds, simulated in C++; cocotb would take
+minutes.
 
 The waveform is that of `ppmc_square` with the parameters of `j105_stmc`. The tests of `tb_board` compare the
 steps of the board with the golden model, which counts this waveform.

@@ -1,6 +1,6 @@
 """Limits for the modules, files and calls of a command or an import, each measured in a separate process.
 
-If a limit is exceeded, the command loads a module that it does not use, or a layer was added.
+If a limit is exceeded, the command may load a module that it does not use, or a layer may have been added.
 docs/architecture.md describes the path of a byte. Lower a limit when a change allows it.
 """
 
@@ -136,7 +136,7 @@ def test_few_files(folder: str, longest: int, bound: int) -> None:
     """A folder has few files, and only few of them are short.
 
     Args:
-        longest: only files with at most this number of lines count; 0 counts all files.
+        longest: only files with at most this number of lines are counted; 0: all files are counted.
     """
     found = sorted((ROOT / folder).rglob("*.py"))
     lines = {

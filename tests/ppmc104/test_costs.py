@@ -1,4 +1,4 @@
-"""The figures of docs/benchmarks.md that are numbers of cycles, which do not depend on the machine."""
+"""The cycle counts in docs/benchmarks.md, which do not depend on the computer."""
 
 from __future__ import annotations
 
@@ -14,6 +14,6 @@ def test_costs_in_benchmarks_are_those_of_the_rtl() -> None:
     printed = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]
     found = costs.measure()
     assert [row for row in printed if row[0] in found] == costs.rows(found)
-    # Five cycles pass from the strobe to the build, and five from the end of the build to the next command.
+    # Five cycles pass from the strobe to the start of the build, and five from its end to the next command.
     longest = next(cycles for what, cycles in found.items() if "longest" in what)
     assert longest == Latency().build(255, 0, 11_220) + 5

@@ -32,8 +32,8 @@ int outp(unsigned short port, int byte) { return on_outp(port, byte); }
 
 
 class Board:
-    """The board with access by INP and OUT. `switches` lists (number of steps, levels): the levels change
-    after this number of steps.
+    """The board, accessed by INP and OUT. `switches` lists (number of steps, levels): the levels of the
+    switches change after this number of steps.
     """
 
     def __init__(self, **parameters: object) -> None:
@@ -47,8 +47,8 @@ class Board:
 
     @property
     def steps(self) -> list[int]:
-        """Edges of the steps since `mark`, also that of an initialisation after `mark`; no phases are chopped
-        here.
+        """Edges of the steps since `mark`. Each change of the phases is a step, because no phases are chopped
+        here; a change by an initialisation is included.
         """
         fresh = self.model.edges[self._looked :]
         self._looked += len(fresh)
@@ -57,7 +57,7 @@ class Board:
 
     @property
     def lost(self) -> bool:
-        """True if the host polls indefinitely."""
+        """True if the host has made more than MOST bus accesses, so it polls indefinitely."""
         return self.cycles > MOST
 
     def cycle(self, strobe: str, port: int, **data: int) -> int:
@@ -66,7 +66,8 @@ class Board:
         """
         self.cycles += 1
         if self.lost:
-            return 0xFF * (self.cycles & 1)  # ends any loop of the host program
+            # the two values, returned in turn, end any loop of the host program
+            return 0xFF * (self.cycles & 1)
         self.model.pins(self.t, sa=port, **data)
         self.model.pins(self.t + 1, **{strobe: 0})
         self.model.run_until(self.t + 9)
@@ -90,7 +91,7 @@ class Board:
         return 0
 
     def poll(self, mask: int, level: int) -> int:
-        """Read the status until the bits match."""
+        """Read the status until its bits in `mask` equal `level`."""
         while (status := self.inp(COMMAND)) & mask != level:
             assert not self.lost, f"the status never shows {level:02X}, it is {status:02X}"
         return status

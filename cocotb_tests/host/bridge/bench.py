@@ -36,8 +36,8 @@ class Bench:
     """One bridge and its surroundings.
 
     `slave` responds to the accesses of the bridge. `got` contains the payloads received from the bridge,
-    `edges` every edge of txd. `baud` is the rate of the host, and `error` its deviation (0.02: the host is 2
-    % fast).
+    `edges` every edge of txd. `baud` is the nominal rate of the host, and `error` its relative deviation
+    (0.02: the host is 2 % fast).
     """
 
     def __init__(self, dut: Any, slave: RegisterModel | None) -> None:
@@ -80,7 +80,9 @@ class Bench:
 
     @classmethod
     async def of_carrier(cls, dut: Any, idle: Mapping[str, int], settle: int = 10) -> Bench:
-        """Start a carrier with the bridge as its host: idle pins, clock, reset, then `settle` cycles."""
+        """Return a bench for a carrier whose host is the bridge, after its reset and `settle` further
+        cycles.
+        """
         bench = cls(dut, None)
         dut.clk.set(Immediate(0))
         dut.rst_n.set(Immediate(1))
@@ -108,7 +110,7 @@ class Bench:
         await Timer(n * self.period, "ps")
 
     async def ms(self, n: float) -> None:
-        """Wait n milliseconds, as the bridge counts them from its ClkHz."""
+        """Wait n milliseconds of the bridge, which counts cycles and assumes the clock frequency ClkHz."""
         await Timer(round(n * self.config.clk_hz / 1000) * self.period, "ps")
 
     def bit_ps(self) -> float:
@@ -130,7 +132,7 @@ class Bench:
                 await Timer(max(1, round(start + (n + 1) * bit) - now()), "ps")
 
     async def send(self, data: bytes | list[int], stop: int = 1) -> None:
-        """Send characters without a pause; `stop` is the level of each stop bit."""
+        """Send characters back to back; each stop bit has the level `stop`."""
         bits = []
         for byte in bytes(data):
             bits += [0, *(byte >> n & 1 for n in range(8)), stop]

@@ -10,7 +10,7 @@ FAST = Config("fast8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000),))
 TWO = Config("two8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Axes", 2), ("Part", 2104)))
 # No pulse counter, as for a bank.
 NONE = Config("none8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Counter", 0), ("Part", 32)))
-# A bank with its bridge, and the shortest round in cycles that BANK-GEN-02 allows.
+# A bank with its bridge, and the shortest round, counted in cycles, that BANK-GEN-02 allows.
 BANK = Config("bank8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("AXES", 4)))
 # A recorder of 32 records. Each record has 3 bytes: 9 levels and 15 bits of time.
 REC = Config("rec8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Watch", 9), ("Record", 5)))

@@ -1,6 +1,6 @@
 """A mailbox part in Python whose behaviour depends only on its accesses, never on time.
 
-Therefore RTL and golden model can each use an instance, and both must make the same accesses.
+Therefore the RTL and the golden model can each have an instance, and both must make the same accesses.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ class RegisterModel:
     """Mailbox with 16 registers; register 1 is the status and register 0 the data.
 
     After a write to register 0 or 1, IBF stays 1 for up to `lag` status reads. A write to register 1 may
-    produce `answers` bytes; OBF is set after some further status reads. `refuse` is the probability of ERR.
-    `log` contains ("W" or "R", a, byte) of every access. `hold_ibf` and `hold_obf` replace the bits IBF and
-    OBF of the status, unless they are None.
+    produce answer bytes; OBF is set after some further status reads. `refuse` is the probability that it sets
+    ERR. `log` contains ("W" or "R", a, byte) of every access. `hold_ibf` and `hold_obf` replace the bits IBF
+    and OBF of the status, unless they are None.
     """
 
     def __init__(self, seed: int = 1, lag: int = 3, refuse: float = 0.0) -> None:
@@ -45,7 +45,7 @@ class RegisterModel:
             byte = self._queue.pop(0) if self._queue else 0xE7
         else:
             byte = self.registers[a]
-            self.registers[a] = (byte * 5 + 2 * a + 1) & 0xFF  # the register reads as every value in turn
+            self.registers[a] = (byte * 5 + 2 * a + 1) & 0xFF  # each register reads as every value in turn
         self.log.append(("R", a, byte))
         return byte
 
@@ -93,5 +93,5 @@ class RegisterModel:
 
 
 def without_polls(log: list[tuple[str, int, int]]) -> list[tuple[str, int, int]]:
-    """Return the log without repeated reads of the same byte, because their number depends on time."""
+    """Return the log without repeated reads of the same byte; their number depends on time."""
     return [entry for n, entry in enumerate(log) if entry[0] == "W" or n == 0 or log[n - 1] != entry]

@@ -1,4 +1,4 @@
-"""ppmc_bank_carrier: access to one axis of a bank at a time through its UART (docs/bank/carrier.md)."""
+"""ppmc_bank_carrier: its UART gives access to one axis of a bank at a time (docs/bank/carrier.md)."""
 
 from __future__ import annotations
 
@@ -56,8 +56,8 @@ async def bank_registers_of_an_axis(dut):
 @cocotb.test()
 @configs(BANK)
 async def bank_moves(dut):
-    """If two axes move one after the other, events, map, finish status and positions belong to the axis that
-    moved.
+    """If two axes move one after the other, events, map, finish status and position are those of the axis
+    that has moved.
     """
     bench = await start(dut)
     await bench.done("03 01")

@@ -1,4 +1,4 @@
-"""ppmc104_carrier: the part is initialised with one frame and moved with one frame through its UART."""
+"""ppmc104_carrier: through its UART, one frame initialises the part and another one starts a move."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ async def board_initialise_and_move(dut):
     pulses = pulses_of(dut)
     status = await bench.done(INITIALISE)
     same("initialised, no error", (len(status), status[0] & 0x82), (1, 0))
-    await bench.done("03 01 09")  # SEQ 2 is new: SEQ 1 was the move
+    await bench.done("03 01 09")  # SEQ 2 is new, because the move had SEQ 1
     before = len(bench.line)
     await bench.send(MOVE_LINE)
     await bench.message()

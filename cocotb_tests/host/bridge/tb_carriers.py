@@ -1,5 +1,5 @@
-"""Carriers with their bridge: reads do not drive the data pins, straps drive their pins, and the STMC has its
-step clock.
+"""Carriers with their bridge: during reads the data pins are not driven, straps drive their pins, and the
+STMC has its step clock.
 """
 
 from __future__ import annotations

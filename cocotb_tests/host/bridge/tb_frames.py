@@ -109,7 +109,7 @@ async def frames_faults(dut):
         await bench.silent("only one NAK, the frame's last flag begins the next")
         await bench.send(encode(b"\x00\x00")[1:])
         same("next frame", await bench.message(), b"\x00\x00")
-    # The NAK is sent before the end of the frame; all bytes up to the next flag are ignored.
+    # The bridge sends the NAK before the end of the frame, and ignores all bytes up to the next flag.
     await bench.send(encode(b"\x01" + script_of(254), limit=400)[:-1])
     same("257 bytes", await bench.message(), nak(3))
     await bench.send(encode(b"\x01\x00")[1:-1])
@@ -171,7 +171,7 @@ async def frames_while_busy(dut):
     long_script = bytes([0x32, 40])
     line = encode(b"\x01" + long_script)
     other = encode(b"\x02\x13\x01")
-    # Bytes that arrive while the bridge sends the answer have the same effect.
+    # Bytes that arrive while the bridge sends the answer cause NAK 7, as those during a script do.
     await bench.send(line)
     await bench.quiet(100)
     await bench.send(other[:-1])
@@ -181,18 +181,18 @@ async def frames_while_busy(dut):
     await bench.silent("hunt")
     await bench.send(other)
     same("next frame", await bench.message(), b"\x02\x00")
-    # Flags during a script are ignored, but the last of them may begin a frame.
+    # Flags during a script are ignored, but the last one may begin the next frame.
     await bench.send(encode(b"\x03" + long_script))
     await bench.send(b"\x7e" * 10)
     same("answer", (await bench.message())[:2], b"\x03\x00")
     await bench.send(encode(b"\x04\x13\x02")[1:])
     same("no NAK, no hunt", await bench.message(), b"\x04\x00")
-    # Bytes do not interrupt a script that does not wait; it is executed completely.
+    # A script without waits is executed completely, although a byte arrives during it.
     await bench.send(encode(b"\x05" + b"\x05" * 100 + b"\x13\x03"))
     await bench.send([0x42])
     same("answer", await bench.message(), b"\x05\x00")
     same("NAK", await bench.message(), nak(7))
-    # A character without a stop bit has the same effect as a byte.
+    # During a script, a character without a stop bit has the same effect as a byte.
     await bench.send(encode(b"\x06" + long_script))
     await bench.quiet(50)
     await bench.send([0x42], stop=0)
@@ -228,8 +228,8 @@ async def frames_garbage(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_nak_waits(dut):
-    """After many faults in succession, the bridge has sent some NAKs, each of them complete, and continues to
-    work (UB-FRM-08).
+    """If many faults occur in succession, the bridge sends NAKs for some of them, each NAK complete, and then
+    continues to work (UB-FRM-08).
     """
     bench = await Bench.start(dut)
     await bench.send(b"\x7e\x01" * 30 + b"\x7e")

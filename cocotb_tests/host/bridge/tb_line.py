@@ -1,4 +1,4 @@
-"""UB-LIN: characters, rates, breaks, and one frame in each direction whose bytes are written out."""
+"""UB-LIN: characters, rates, breaks, and two frames whose bytes are written out."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from openppmc.host.frames import encode
 from .bench import SECOND, Bench, now, same
 from .settings import ALL_RATES, FAST, SLOW, baud_of, rates_of
 
-# The string "123456789" has the check value 29B1 of this CRC. If it were a script, its ops would have 51 + 53
-# + 55 + 57 bytes.
+# The CRC of the string "123456789" has the known check value 29B1. The bridge executes the string as a
+# script, whose ops return 51 + 53 + 55 + 57 bytes.
 LITERAL = bytes.fromhex("7E 31 32 33 34 35 36 37 38 39 29 B1 7E")
 NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer (SEQ 0, RESULT 0) has the same bytes
 
@@ -37,8 +37,8 @@ async def line_literal_frames(dut):
 @cocotb.test()
 @configs(ALL_RATES, FAST)
 async def line_rates(dut):
-    """Each available code sets its rate after the answer; all other codes are rejected (UB-LIN-02, UB-LIN-03,
-    UB-LIN-07).
+    """Each available code sets its rate once the answer to the request has been sent; all other codes are
+    rejected (UB-LIN-02, UB-LIN-03, UB-LIN-07).
     """
     bench = await Bench.start(dut)
     rates = rates_of(bench.config)
@@ -151,8 +151,9 @@ async def line_framing_error(dut):
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_break(dut):
-    """A break restores the rate after reset, and the bridge waits for a flag. If a higher rate is selected, a
-    character 00 at the rate after reset is also a break (UB-LIN-05, UB-LIN-06, UB-FRM-08).
+    """A break restores the rate after reset, and the bridge waits for a flag. While a higher rate is
+    selected, a character 00 that is sent at the rate after reset is also a break (UB-LIN-05, UB-LIN-06,
+    UB-FRM-08).
     """
     bench = await Bench.start(dut)
     for code in (1, 4):
@@ -171,7 +172,7 @@ async def line_break(dut):
         await bench.send(line[3:-1])
         await bench.silent("hunt")
         await bench.done("00")
-    # The break occurs during a script that has requested another rate.
+    # The break occurs during a script that requests another rate.
     await bench.send(encode(b"\x70\x02\x04\x77\x00\x01"))
     await bench.quiet()
     await bench.send([0x00], stop=0)

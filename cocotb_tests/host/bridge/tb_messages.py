@@ -28,7 +28,7 @@ async def messages_repeat(dut):
         same("SEQ", first[0], seq)
         bench.accesses()
         for again in (script, b"\x12\x01", script + b"\x00", b""):
-            # Faults and NAKs before a repeated request have no effect.
+            # Faults and NAKs before a repeated request do not change the stored answer.
             await bench.send(b"\x7e\x01\x02\x03\x04\x7e")
             same("NAK", await bench.message(), b"\x81\x02")
             await bench.send(encode(b"\xff\x12\x01"))
@@ -42,7 +42,7 @@ async def messages_repeat(dut):
     for seq in (5, 6, 5):
         same("SEQ before the last", await bench.ask("12 01", seq=seq), b"\x00")
         same("executed", bench.accesses(), [("W", 2, 1)])
-    # SEQ 0 is a request like any other: after it, the previous SEQ is no longer the last one.
+    # SEQ 0 is a request like any other: after it, a request with the previous SEQ is not a repetition.
     await bench.ask("12 02", seq=0)
     await bench.ask("12 03", seq=5)
     same("executed", bench.accesses(), [("W", 2, 2), ("W", 2, 3)])

@@ -1,5 +1,5 @@
-"""Ops without waits, accesses to the part (UB-BUS-01), reset pulse, straps, counter, overflow of the
-answer.
+"""Ops without waits, accesses to the part (UB-BUS-01), reset pulse, straps, counter, and answers with too
+many data bytes.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ async def ops_bus_cycles(dut):
 
 
 def check_strobes(bench: Bench) -> int:
-    """Check UB-BUS-01 for all recorded pin changes; return the number of accesses."""
+    """Check that all recorded pin changes satisfy UB-BUS-01; return the number of accesses."""
     falls = {"rd_no": 0, "wr_no": 0, "cs_no": 0}
     last_rise = last_change = -(10**9)
     cycles = 0
@@ -153,7 +153,7 @@ async def ops_overflow(dut):
     same("256", len(await bench.done(fill + b"\x06")), 256)
     bench.accesses()
     # (data bytes of the fill op, ops after it, their read accesses, their data bytes, number of ops between
-    # the fill op and the failing op; each of these ops is one byte)
+    # the fill op and the op that fails). Each of the ops in between is one byte long.
     cases = [
         (255, "06 06", 0, 1, 1),
         (255, "22 22", 1, 1, 1),
@@ -174,7 +174,7 @@ async def ops_overflow(dut):
         answer = await bench.ask(bytes([0x32, size]) + bytes.fromhex(text))
         same(f"{size}, {text} has room", (answer[0], len(answer) - 1), (0, size + more))
     bench.accesses()
-    # The answer keeps the bytes of GET that fit.
+    # An answer contains those bytes of a GET that fit.
     bench.slave.hold_obf = 1
     answer = await bench.ask(bytes([0x32, 254]) + b"\x63")
     same("GET", (answer[:2], len(answer) - 3), (b"\x04\x02", 256))
@@ -184,8 +184,8 @@ async def ops_overflow(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_board(dut):
-    """PINS, STRAPS and ZERO have their effects, and COUNT returns one snapshot. RESET lasts 16 cycles, and a
-    pause follows (UB-OPS-02).
+    """PINS, STRAPS and ZERO have their effects, and COUNT returns one snapshot. RESET is active for 16
+    cycles; a pause follows (UB-OPS-02).
     """
     bench = await Bench.start(dut)
     for level in (0x00, 0x81, 0x7E, 0x55):
@@ -228,8 +228,8 @@ def watch(bench: Bench, pin) -> list[tuple[int, int]]:
 @cocotb.test()
 @configs(TWO)
 async def ops_two_counters(dut):
-    """COUNT and ZERO of axis 2 use the counter of axis 2; the op codes after them stay illegal (UB-OPS-02,
-    UB-ANS-05).
+    """COUNT and ZERO of axis 2 use the counter of axis 2; the op codes that follow these remain illegal
+    (UB-OPS-02, UB-ANS-05).
     """
     bench = await Bench.start(dut)
     for first, second in ((0, -1), (0x12345678, -0x80000000), (-2, 0x7D7E5A81)):

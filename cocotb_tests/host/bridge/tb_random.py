@@ -90,7 +90,7 @@ class Pair:
         self.bench.dut.pins_i.value = level
 
     async def exchange(self, what: str, data: bytes) -> None:
-        """Send data; the bytes on the line and the accesses must equal those of the model."""
+        """Send data; the bytes from the bridge and its accesses must equal those of the model."""
         bench = self.bench
         before = len(bench.line)
         want = self.model.receive(data)

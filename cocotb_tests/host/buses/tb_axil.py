@@ -140,8 +140,8 @@ async def axil_reads_and_writes_at_once(dut):
 
 @cocotb.test()
 async def axil_channel_order(dut):
-    """AW long before W, W long before AW, and a response that the master does not accept yet each cause
-    exactly one strobe.
+    """A write causes exactly one strobe, also if AW is long before W, W is long before AW, or the master does
+    not accept the response at first.
     """
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_axil_bus", COUNT, rng), make_master(dut, "model_axil")
@@ -167,7 +167,7 @@ async def axil_channel_order(dut):
     assert slave.accesses() == want and int(dut.model_axil_bvalid.value), "a write behind an answer not taken"
     assert (await read_word(master, 4 * 1))[1] == 1
     want.append(("r", 1, 1))
-    # The responses of these reads do not influence B.
+    # Errors of these reads do not change the response on B.
     assert (await read_word(master, BRIDGE + 4))[0] == AxiResp.SLVERR
     channel["b"].pause = False
     for event in events:

@@ -1,5 +1,5 @@
-"""Resets during an access, on both buses: all outputs become idle immediately, and the access has no later
-effect.
+"""Resets during an access, on both buses: all outputs become idle immediately, and the access has no effect
+after the reset.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ CALLS = {
     "model_axil": ({"awvalid": 1, "wvalid": 1, "wstrb": 15}, {"arvalid": 1}),
 }
 ADDRESS = {"model_wb": ("adr", 2), "model_axil": ("awaddr", 0)}
-"""Address pin, and the number of bits by which a byte address is shifted right."""
+"""Name of the address port, and the number of bits by which a byte address is shifted right for it."""
 LONGEST = 14
 """Maximum length of an access in cycles."""
 

@@ -65,8 +65,8 @@ async def wishbone_random_accesses(dut):
 
 @cocotb.test()
 async def wishbone_give_up(dut):
-    """If the master withdraws requests, strobes stay complete, and no later access receives the response of a
-    withdrawn request.
+    """If the master withdraws requests, each strobe that has begun is complete, and no later access receives
+    the response of a withdrawn request.
     """
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_wb_bus", COUNT, rng), WishboneMaster(dut, "model_wb")

@@ -41,7 +41,7 @@ ISA_4AXIS = Part(
         "clk_o": (1, 0),
         **{pin: (4, level) for pin, level in AXIS_OUTPUTS.items()},
         **{pin: (5, 0b11111) for pin in PHASES},
-        # Signals from the two parts to the slave; they are not pins.
+        # Signals between the two parts and the slave, which are not pins.
         "d": (16, 0),
         "d_oe": (2, 0b00),
         "int_n": (2, 0b11),

@@ -75,7 +75,7 @@ async def isa_other_addresses(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F8)
 async def isa_short_cycles(dut: Any) -> None:
-    """Accesses of 2 ns to 1.5 cycles, at any phase to `clk`, are executed completely or not at all."""
+    """Accesses of 2 ns to 1.5 cycles, at any phase to `clk`, are each executed completely or not at all."""
     setting = await Setting.start(dut)
     bench, master, rng = setting.bench, setting.master, setting.bench.rng
     # The data changes with the strobe, so only the length of the strobe matters.

@@ -18,8 +18,8 @@ RAMP_B = (0x63, 0x13, 0x0A)
 
 
 async def serve(setting: Setting, found: list[tuple[int, int]]) -> bool:
-    """Run the handler of docs/ppmc2104/isa.md, which repeats while it clears causes; append (axis, end
-    status).
+    """Run the handler of docs/ppmc2104/isa.md, which repeats as long as it can clear causes. Append (axis,
+    end status) of each end to `found`.
 
     Return False if a cause remains, because its axis moves again.
     """
@@ -43,7 +43,7 @@ async def serve(setting: Setting, found: list[tuple[int, int]]) -> bool:
 
 class Controller:
     """Edge-triggered interrupt input, like that of the 8259 in a PC: it stores a rising edge until the
-    service.
+    service begins.
     """
 
     def __init__(self, setting: Setting) -> None:
@@ -138,7 +138,7 @@ async def isa_write_makes_a_new_edge(dut: Any) -> None:
 @configs(F16, F25)
 async def isa_service_after_the_restart(dut: Any) -> None:
     """If axes are started again before a late handler reads their end statuses, the handler still returns
-    each time. If a periodic write to base + 4 causes a new edge of irq while a cause is left, the handler
+    each time. While a cause remains, a periodic write to base + 4 causes a new edge of irq; thus the handler
     finds the last end of every axis.
     """
     setting = await Setting.start(dut)
@@ -165,7 +165,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
                 services, idle = services + 1, 0
                 assert len(bench.accesses) - accesses < 200, "ISA-08: the handler goes round and round"
             else:
-                await bench.clocks(bench.config.us(400))  # wait until the periodic interrupt of a timer
+                await bench.clocks(bench.config.us(400))  # wait for the next periodic interrupt of a timer
                 if left:
                     left, ticks = False, ticks + 1
                     await setting.master.write(SOURCE, 0)

@@ -36,8 +36,8 @@ ACCESS = 64  # cycles between two bus accesses
 
 
 class Module:
-    """Two golden models at one base address, accessed by inp and outp of the program, and an interrupt
-    controller.
+    """Two golden models, which the program accesses by inp and outp from one base address on, and an
+    interrupt controller.
 
     One input of the controller (8259) stores a rising edge of irq while irq stays high. `enabled` is the
     interrupt flag of the processor; `handler` is called when the processor would execute the interrupt.
@@ -232,7 +232,7 @@ def test_handler_after_the_restart(program):
 
 
 def test_start_takes_the_end_before(program):
-    """Each move that the program starts at any time has an end with a separate edge of irq."""
+    """Each move that the program starts, at any time, ends with a separate edge of irq."""
     library, module, _ = program
     for axis in (1, 2, 3, 4):
         library.setup(axis)

@@ -34,8 +34,8 @@ def driven(edges: Mapping[str, list[tuple[int, int]]]) -> Iterator[tuple[int, in
 
 
 def stimulus(recording: Recording, outputs: Mapping[str, list[tuple[int, int]]]) -> list[list[Change]]:
-    """Return the pin changes of each station: its separate pins, and rxd with the levels of master and
-    stations.
+    """Return the pin changes of each station: those of its own pins, and those of its rxd, which master and
+    stations drive.
 
     The other stations receive a level one edge after a station drives it.
     """
@@ -94,7 +94,7 @@ def check_line(bench: RtlBench, at_least: int = 0) -> list[Comparison]:
     Raises AssertionError with a report for the first station that differs.
 
     Args:
-        at_least: minimum number of edges to compare in total.
+        at_least: minimum number of edges that all comparisons together must contain.
     """
     recording = line_recording(bench)
     comparisons = compare_line(recording)

@@ -21,7 +21,7 @@ from cocotb_tests.ppmc312.line.setting import LINE, STATIONS
 SETTING = "00 00 0140 00A0 000360"
 """Base clock 8 MHz, rates 320 to 160 (25 to 50 kpps), ramp of 864 pulses."""
 PULSES = [2080 - 112 * number for number in range(STATIONS)]
-"""An axis that starts later makes fewer pulses."""
+"""Number of pulses of each axis. An axis that starts later makes fewer pulses."""
 EVERY = range(STATIONS)
 ROUNDS = 12
 
@@ -40,7 +40,9 @@ def no_chapter(key: str, title: str) -> AbstractContextManager[None]:
 
 
 async def program(master: Master, chapter: Chapter = no_chapter) -> list[int]:
-    """Run the program of the master on RTL or models; return the positions that the master reads back."""
+    """Run the program of the master, on RTL or models; return the position of each axis that the master reads
+    at the end.
+    """
     with chapter("scan", "who is there"):
         for station in EVERY:
             reply = await master.poll(station)

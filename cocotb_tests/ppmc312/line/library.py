@@ -1,6 +1,7 @@
 """The station of `ppmc312_line`, compiled once for all sixteen: a Verilator library, cached by its sources.
 
-Sixteen instances of the part in one Verilator model take ten times as long to compile and run no faster.
+With sixteen instances of the part in one Verilator model, the compilation takes ten times as long, and the
+simulation is no faster.
 """
 
 from __future__ import annotations

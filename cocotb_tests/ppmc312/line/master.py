@@ -35,7 +35,7 @@ class Port(Protocol):
         """Set pins from edge `now` on."""
 
     async def fall(self, limit: int) -> int | None:
-        """Return the edge at which the line falls, or None if this does not happen within `limit` cycles."""
+        """Return the edge at which the line falls; None if it does not fall within `limit` cycles."""
 
     def line_at(self, edge: int) -> int:
         """Return the level of the line just after an edge."""
@@ -61,7 +61,7 @@ class RtlPort:
         return self.bench.set(**levels)
 
     async def fall(self, limit: int) -> int | None:
-        """Return the edge at which the line falls, or None if this does not happen within `limit` cycles."""
+        """Return the edge at which the line falls; None if it does not fall within `limit` cycles."""
         if self.bench.level("line"):
             try:
                 return await self.bench.edge("line", 0, limit)
@@ -204,7 +204,7 @@ class Master:
         return reply
 
     async def poll(self, station: int) -> Reply | None:
-        """Poll a station once."""
+        """Poll a station once; return its reply, or None if there is no reply."""
         return await self.exchange(self.frame(POLL | station))
 
 

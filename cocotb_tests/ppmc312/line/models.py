@@ -93,7 +93,7 @@ class ModelLine:
         """Wait until the line is low.
 
         Returns:
-            The edge at which it fell, or None if this does not happen within `limit` cycles.
+            The edge at which the line fell, or None if it is still high after `limit` cycles.
         """
         end = self.now + limit
         while self._line:

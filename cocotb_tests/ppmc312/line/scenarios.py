@@ -1,6 +1,7 @@
-"""Scenarios on a line of sixteen stations, valid and disturbed; each has a master and a random generator.
+"""Scenarios of valid and disturbed traffic on a line of sixteen stations.
 
-After each disturbance, the first poll recovers every station.
+A scenario is a function of a master and a random generator. After each disturbance, the first poll recovers
+every station.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ def check(got: object, want: object, what: str) -> None:
 
 
 async def all_back(master: Master, number: int = STATIONS) -> list[Reply]:
-    """Check that one poll recovers each station: each station answers its first poll."""
+    """Check that each station answers its first poll after a disturbance; return the replies."""
     await master.quiet()
     replies = []
     for station in range(number):
@@ -126,7 +127,7 @@ async def foreign(master: Master, rng: random.Random) -> None:
 
 
 async def two_masters(master: Master, rng: random.Random) -> None:
-    """After the frames of two masters overlap, at several distances, one poll recovers every station."""
+    """If the frames of two masters overlap, at several distances, one poll recovers every station."""
     for _ in range(4):
         a, b = rng.sample(EVERY, 2)
         one = master.frame(INSTRUCTION | a, b"\x26\x2a")
@@ -161,7 +162,7 @@ async def out_of_turn(master: Master, rng: random.Random) -> None:
 
 
 async def noise(master: Master, rng: random.Random) -> None:
-    """After noise at some or all stations, within and between characters, every station is recoverable."""
+    """After noise at some or all stations, within and between characters, one poll recovers every station."""
     port, bit = master.port, master.bit
     for _ in range(6):
         message = master.frame(INSTRUCTION | rng.randrange(STATIONS), b"\x26" + bytes([rng.randrange(64)]))
@@ -201,7 +202,7 @@ async def breaks(master: Master, rng: random.Random) -> None:
 
 
 async def babble(master: Master, rng: random.Random) -> None:
-    """After any characters, with and without pauses, every station is recoverable."""
+    """After any characters, with and without pauses, one poll recovers every station."""
     await master.send(rng.randbytes(30))
     await master.send(rng.randbytes(8), gap=rng.uniform(0, 3))
     await all_back(master)

@@ -11,9 +11,9 @@ from .library import FOLDER, station_library
 STATIONS = 16
 ALL = (1 << STATIONS) - 1
 FASTEST = 0b111
-"""Level of mod for 83 333 bps."""
+"""Levels of the pins mod for 83 333 bps."""
 BIT = 96
-"""Number of cycles per bit at this speed and 8 MHz."""
+"""Number of cycles per bit at 83 333 bps, with a clock of 8 MHz."""
 F8L = Config("f8m", clk_hz=8_000_000)
 
 IN_TURN = sum(number << 4 * number for number in range(STATIONS))

@@ -40,7 +40,7 @@ INSTRUCTIONS = (
         "7f 00",
     ),
 )
-"""Instructions whose rates are low enough for a simulation of sixteen models."""
+"""Instructions for the stream; their pulse rates are so low that sixteen models can be simulated."""
 PART = 60
 """Number of characters between two checks of the stations."""
 

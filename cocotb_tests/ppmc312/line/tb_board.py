@@ -105,8 +105,8 @@ async def board312_serial_open_straps(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_half_a_bit(dut: Any) -> None:
-    """DE is asserted half a bit after the master's stop bit, and the start bit follows one bit later; both
-    are at most 1 us late.
+    """DE is asserted half a bit after the master's stop bit, and the start bit of the reply follows one bit
+    after DE; each is at most 1 us late.
     """
     board = await start(dut)
     bit = 1e6 / board.rs485.rate

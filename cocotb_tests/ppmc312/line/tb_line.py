@@ -35,7 +35,9 @@ async def play(dut: Any, scenes: Sequence[Scene], at_least: int, **pins: int) ->
 @configs(F8L)
 @verifies("P312-SER-01", "P312-SER-02", "P312-SER-18", "P312-SER-19", "P312-SER-20", "P312-SER-30")
 async def line_sixteen_axes(dut: Any) -> None:
-    """Sixteen axes that are set up, started, polled and read back on one line move as commanded."""
+    """Sixteen axes on one line move as commanded; the master sets them up, starts and polls them, and reads
+    their positions.
+    """
     await play(dut, GOOD, 8_000)
 
 

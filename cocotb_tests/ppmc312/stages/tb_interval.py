@@ -1,5 +1,5 @@
-"""Contract of ppmc312_interval: times at which pulses are scheduled, and their lengths, for each base
-clock.
+"""Contract of ppmc312_interval: for each base clock, the times at which pulses are scheduled, and the lengths
+of the pulses.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Bench:
         return int(get_sim_time("step") - self.since) // 2
 
     async def record(self, edge: type, times: list[int]) -> None:
-        """Record the edges of high_o."""
+        """Append the times of an edge of high_o to `times`, without end."""
         while True:
             await edge(self.u.pins["high_o"])
             times.append(self.now)

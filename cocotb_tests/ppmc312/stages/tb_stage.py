@@ -24,8 +24,8 @@ from .stage_types import Target, brief, pack, walk_start
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 LONGEST_BUILD, LONGEST_PLAN = 127 * 300, 135 + 5 * 131 + 53
 # start, stop, high, acceleration, deceleration, sigmoid, separate. The rows are T1..T5 of
-# docs/ppmc312/README.md, the boundaries of its error conditions, the fastest and the slowest rates, and the
-# most pulses.
+# docs/ppmc312/README.md, settings just inside and outside its error conditions, the fastest and slowest
+# rates, and the most pulses.
 SETTINGS = [
     (1000, 0, 200, 2000, 0, 0, 0),
     (1000, 0, 200, 2000, 0, 1, 0),
@@ -176,8 +176,8 @@ def settings(rand: random.Random, count: int) -> list[tuple[int, ...]]:
 
 @cocotb.test()
 async def stage_tables_exact(dut):
-    """For reference and random settings, either all stages equal those of the model, or both reject the
-    setting.
+    """For reference and random settings, either all stages equal those of the model, or block and model both
+    reject the setting.
     """
     u = BlockDriver(dut, "unit", BLOCKS, limit=BlockDriver.FREE)
     await u.reset()

@@ -49,7 +49,9 @@ def small_curve(rand: random.Random) -> Table:
 
 
 def some_rate(rand: random.Random, table: Table) -> int:
-    """Return a rate that an instruction may request, often a rate of the table or a rate next to it."""
+    """Return a rate that an instruction may request, often a rate that is in the table, or a neighbouring
+    value.
+    """
     low, high = sorted((table.high, table.slowest))
     near = rand.choice(table.rates[table.first :]) + rand.choice((0, 0, 1, -1))
     return rand.choice((min(max(near, low), high), rand.randint(low, high)))
@@ -84,7 +86,7 @@ class SequencerRun:
         return await self.u.settle(**inputs)
 
     async def load(self) -> None:
-        """Load the operation and wait until it has begun."""
+        """Load the operation and wait until its first pulse is prepared."""
         table, plan = self.table, self.plan
         self.u.put(first_acc_i=table.sa, first_dec_i=table.sd, rate_dec_i=table.rates[table.sd])
         self.u.put(slow_i=0, change_i=0)
@@ -234,8 +236,8 @@ class CollisionRun(SequencerRun):
             n = plan.up + sum(table.pd[table.sd : table.stage(rate) + 1]) + rand.randint(12, 18)
             plan = ramped(table, rate, n)
             if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
-                # often, only the acceleration ramp contains some stages; no final deceleration starts in
-                # these
+                # in many of these tables, the first stages belong only to the acceleration ramp, so no final
+                # deceleration starts in them
                 break
         run = cls(u, table, plan, rand)
         run.jump, run.ramp, run.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
@@ -244,7 +246,9 @@ class CollisionRun(SequencerRun):
 
 @cocotb.test()
 async def stage_seq_searches(dut):
-    """When a stage becomes a constant rate, t(rate) is found for the requests that follow."""
+    """When a ramp ends and the rate of its last stage becomes constant, t(rate) is found in time for the
+    requests that follow.
+    """
     rand = rng()
     u = BlockDriver(dut, "seq", BLOCKS, WATCH)
     await u.reset()
@@ -260,8 +264,8 @@ async def stage_seq_searches(dut):
 class LateStopRun(SequencerRun):
     """A change is decided during a search, and a deceleration stop follows.
 
-    A stage of the acceleration ramp becomes a constant rate. Instruction 88 is decided during the search for
-    this rate, and instruction 81 arrives before the boundary.
+    In the acceleration ramp, the rate of a stage becomes constant. Instruction 88 is decided during the
+    search for t of this rate, and instruction 81 arrives before the boundary.
     """
 
     def plan_requests(self) -> dict[int, str]:

@@ -57,7 +57,10 @@ def pulses(bank: PpmcBank) -> dict[int, list[int]]:
 
 
 def at(link: Link, number: int, script: Script) -> Script:
-    """Access an axis as another program does; the driver does not learn of the changed axis selection."""
+    """Access an axis as another program does, so that the driver does not know that another axis is selected.
+
+    Return the script that was executed.
+    """
     whole = Script().write(3, number - 1).extend(script)
     link.execute(whole)
     return whole

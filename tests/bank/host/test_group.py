@@ -106,8 +106,8 @@ def test_go_refused_by_an_axis() -> None:
 
 
 def test_go_finds_nothing_held() -> None:
-    """If the motion of an axis outside MASK is complete before GO, GO is rejected and the error
-    states this.
+    """If the MASK bit of an axis is 0 and the motion of this axis is complete before GO, the axis rejects GO,
+    and the error states this.
     """
     with opened() as bank:
         with pytest.raises(GroupRefused, match="axis 2: GO found no waiting motion"):  # noqa: PT012

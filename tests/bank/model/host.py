@@ -113,7 +113,7 @@ class Host:
         return self.model.now
 
     def visit(self, axis: int, later: int = 40) -> int:
-        """Return a visit at least `later` cycles ahead."""
+        """Return the edge of a visit of an axis, at least `later` cycles after the present edge."""
         return self.model.visit(axis, max(self.t, self.model.now + 1) + later)
 
     # ------------------------------------------------------------------ results

@@ -75,7 +75,7 @@ def test_go_starts_all_on_one_edge(axes):
 
 
 def test_go_refused():
-    """A GO that an axis rejects sets error 1, 2 or 0 and drops the parameters that the axis waits for
+    """An axis that rejects GO sets error 1, 2 or 0, and discards a command whose parameters are incomplete
     (BANK-GRP-02).
     """
     host = held(8, count=2)

@@ -23,7 +23,7 @@ def start(host: Host, axis: int, script: str, init: str = INIT_B) -> int:
 
 @pytest.mark.parametrize("axes, clk_hz", [(8, 100_000_000), (32, 32_000_000), (64, 200_000_000)])
 def test_pins_change_on_the_edge_of_their_event(axes, clk_hz):
-    """Pins change on the edge of their event: at the start, at pulse 1 after W, and at the end of the low
+    """Pins change on the edge of their event: the start, pulse 1 (W cycles later), and the end of the low
     time (BANK-MOT-01); hold falls at the start (BANK-HLD-01).
     """
     host = Host(axes, clk_hz=clk_hz)

@@ -64,7 +64,7 @@ def moves(draw: st.DrawFn) -> Move:
 
 
 def seen(changes: list[list[tuple[int, int]]], start: int, end: tuple[int, int]) -> Seen:
-    """Return the results of one device, without changes of the outputs at the start or before."""
+    """Return the results of one device; changes of the outputs at the start or before it are omitted."""
     pout_n, s = ([(t - start, level) for t, level in found if t > start] for found in changes)
     return pout_n, s, end
 

@@ -1,4 +1,4 @@
-"""The C driver of the bank, compiled as a library whose bus accesses are made to the golden model."""
+"""The C driver of the bank, compiled as a library; its bus accesses go to the golden model."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Bench:
             READ(lambda _, address: self.read(address)),
             WRITE(lambda _, address, byte: self.write(address, byte)),
         )
-        # Memory for the structures of the driver, with spare space.
+        # Memory for the structures of the driver, larger than necessary.
         self.bank = ctypes.create_string_buffer(256)
         self.parts = [ctypes.create_string_buffer(256) for _ in range(axes)]
         self.refused = ctypes.c_uint64()

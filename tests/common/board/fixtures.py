@@ -46,7 +46,7 @@ def board(start_board: StartBoard) -> sim.SimBoard:
 
 @pytest.fixture
 def until() -> Wait:
-    """Wait for an event in another process, or fail with `what`."""
+    """Return a function that waits for an event in another process; if it times out, it fails with `what`."""
 
     def wait(condition: Callable[[], object], what: str, seconds: float = PATIENCE) -> None:
         end = time.monotonic() + seconds
@@ -84,5 +84,5 @@ def openppmc(tmp_path: Path) -> CommandLine:
 
 
 def one_line(text: str) -> bool:
-    """Return whether the text is exactly one line of error text without a traceback."""
+    """Return whether a text is a single line and contains no traceback."""
     return len(text.strip().splitlines()) == 1 and text.startswith("error: ") and "Traceback" not in text

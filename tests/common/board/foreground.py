@@ -1,4 +1,4 @@
-"""A program that Ctrl-C ends, even if the tests run in the background."""
+"""Starts programs that Ctrl-C ends, even if the tests run in the background."""
 
 from __future__ import annotations
 

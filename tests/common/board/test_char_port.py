@@ -73,7 +73,7 @@ def test_wrong_host(start_board: StartBoard) -> None:
 
 
 def test_command_line(openppmc: CommandLine, start_board: StartBoard) -> None:
-    """The command line accepts the port; `info` states that there is no pulse counter."""
+    """The command line accepts a port `char:…`; `info` states that there is no pulse counter."""
     port = "char:" + start_board(TEXT).port
     code, out, err = openppmc.run(port, "info")
     assert (code, err) == (0, "") and "pulse counter" in out and "False" in out

@@ -46,8 +46,8 @@ def test_limit_is_one_line(start_board: StartBoard, openppmc: CommandLine) -> No
 def test_ctrl_c_decelerates(
     board: SimBoard, openppmc: CommandLine, until: Wait, words: tuple[str, ...]
 ) -> None:
-    """Ctrl-C stops the motor with its deceleration ramp; after that, another connection finds the motor
-    stopped.
+    """Ctrl-C stops the motor with its deceleration ramp; the next program that connects finds the motor at
+    standstill.
     """
     process = openppmc.begin(board.port, *words, *SLOW)
     try:
@@ -76,7 +76,9 @@ def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
 
 
 def test_ctrl_c_on_sim_port(openppmc: CommandLine, tmp_path: Path, until: Wait) -> None:
-    """If Ctrl-C reaches the whole process group, the board runs until the deceleration ramp is complete."""
+    """If Ctrl-C reaches the command and its virtual board, the board continues until the deceleration ramp is
+    complete.
+    """
     log = tmp_path / "pulses.txt"
     process = openppmc.begin(f"sim:log={log}", "move", "30000", *SLOW)
     children = Path(f"/proc/{process.pid}/task/{process.pid}/children")

@@ -19,7 +19,9 @@ PULSES = 400
 @pytest.mark.parametrize("to_board", [True, False])
 @pytest.mark.parametrize("kind", [Kind.LOSE, Kind.DOUBLE, Kind.FLIP, Kind.DELAY, Kind.SHARE])
 def test_a_damaged_byte_changes_no_result(board: SimBoard, kind: Kind, to_board: bool) -> None:
-    """The driver repeats a damaged request or answer, and the motor moves once."""
+    """If a request or an answer is damaged, the driver repeats the request, and the motor nevertheless moves
+    only once.
+    """
     line = FaultyLine(
         open_port(board.port), [Fault(kind, to_board, 58, LATE), Fault(kind, to_board, 75, LATE)]
     )
@@ -68,7 +70,7 @@ def test_kill_9_of_the_program(board: SimBoard, openppmc: CommandLine, until: Wa
 
 
 def test_two_programs_at_one_port(board: SimBoard, openppmc: CommandLine) -> None:
-    """The second program ends with one line, and the first one continues."""
+    """If two programs open one port, the second program ends with one line, and the first one continues."""
     with Ppmc104.open(board.port) as axis:
         code, _, err = openppmc.run(board.port, "status")
         assert code == 1 and one_line(err) and "another program has this port open" in err
@@ -77,7 +79,7 @@ def test_two_programs_at_one_port(board: SimBoard, openppmc: CommandLine) -> Non
 
 
 def test_kill_9_of_the_board(board: SimBoard, openppmc: CommandLine, until: Wait) -> None:
-    """If the board is killed during a move, this command and the next one each end with one line."""
+    """If the board is killed during a move, the running command and the next one each end with one line."""
     process = openppmc.begin(board.port, "move", "30000", *SLOW)
     until(lambda: board.status().pulses > 300, "motor turning")
     board.process.kill()

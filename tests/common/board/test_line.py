@@ -20,7 +20,10 @@ IDENT = encode(bytes([0]) + bytes(Script().ident()))
 
 
 class Line:
-    """A serial port that returns whole frames; frames after the requested one are kept for the next call."""
+    """A serial port that returns whole frames.
+
+    If more frames were received than requested, the next calls return them.
+    """
 
     def __init__(self, port: serial.Serial) -> None:
         self.port = port
@@ -50,7 +53,7 @@ def line(board: SimBoard) -> Iterator[Line]:
 
 
 def test_ident(line: Line) -> None:
-    """A request frame gets one response frame: SEQ, RESULT and the 16 bytes of docs/uart_bridge.md."""
+    """A request of IDENT is answered with one frame: SEQ, RESULT and the 16 bytes of docs/uart_bridge.md."""
     line.port.write(IDENT)
     part, clocks = (104).to_bytes(2, "little"), (16_000_000, 8_000_000)
     flags = 1 << 1 | 4 << 4
@@ -95,11 +98,11 @@ def test_does_not_sleep_while_a_script_waits(board: SimBoard, line: Line) -> Non
     assert 4.0 <= board.status().seconds - begin < 5.0
 
 
-# 106 000 baud is 8 % below 115 200 baud: the bridge samples the last data bit as the stop bit.
+# 106 000 baud is 8 % too slow: the bridge, at 115 200 baud, samples the last data bit as the stop bit.
 @pytest.mark.parametrize("baud", [9600, 57_600, 106_000, 230_400, 921_600])
 def test_wrong_rate_hears_no_answer(board: SimBoard, baud: int) -> None:
-    """At a wrong baud rate the bridge sends nothing that could be a response; at the right one it
-    responds.
+    """To a request at a wrong baud rate the bridge sends nothing that could be a response; at the right rate
+    it responds.
     """
     with serial.Serial(board.port, baud, timeout=0.1) as port:
         for _ in range(3):
@@ -124,7 +127,7 @@ def test_small_rate_error_does_no_harm(board: SimBoard, baud: int) -> None:
 
 
 def test_all_rates(board: SimBoard) -> None:
-    """The host package works at every baud rate of the board; for a higher rate it falls back to 115 200
+    """The host package works at every baud rate of the board; if a higher rate is requested, it uses 115 200
     baud.
     """
     for baud in (115_200, 230_400, 460_800, 921_600, 1_000_000, 3_000_000):

@@ -30,7 +30,7 @@ def test_info(board: SimBoard, until: Wait) -> None:
         identity = axis.link.identity
         assert (identity.part, identity.clk_hz, identity.xtal_hz) == (104, 8_000_000, 16_000_000)
         assert (identity.version, identity.counter, identity.datasheet) == (1, True, False)
-        assert identity.best_rate == 4  # at least 5 cycles per bit
+        assert identity.best_rate == 4  # the highest rate with at least 5 cycles per bit
         assert board.status().rate == axis.link.baud == 1_000_000
     until(lambda: not board.status().open, "the board sees the port closed")
 
@@ -84,8 +84,8 @@ def test_home_without_switch(start_board: StartBoard) -> None:
 
 
 def test_hard_limit_stops(start_board: StartBoard) -> None:
-    """At constant speed the hard limit ends the motion on the first pulse at the limit; a step back is
-    possible.
+    """At constant speed the hard limit ends the motion on the first pulse at the limit; then a step in the
+    other direction is possible.
     """
     board = start_board(start=37_000, cw=38_500)
     with Ppmc104.open(board.port) as axis:
@@ -145,7 +145,7 @@ def test_jog_and_stop(board: SimBoard, until: Wait) -> None:
 
 
 def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
-    """Commands that are rejected during a move do not change the number of its pulses."""
+    """Commands that the device rejects during a move do not change the number of pulses of this move."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         motion = axis.start_move(4000)

@@ -26,7 +26,7 @@ SHORT = [3, -1, 2, 0, 1, -5, 4, 1, 1, -2, 3, -1, 2, 1, 0, 0, -5, 4, 600, -600, 7
 @pytest.mark.parametrize("part", SETUPS)
 @pytest.mark.parametrize("pps", [None, 50_000])
 def test_results_and_pulses(start_board: StartBoard, until: Wait, part: str, pps: int | None) -> None:
-    """Each result is that of its move, and the motor has made all pulses of all moves."""
+    """Each result belongs to its move, and the motor has made all pulses of all moves."""
     if part == "stmc" and pps:
         pps = 9_500
     board = start_board(part=part, speed="max")

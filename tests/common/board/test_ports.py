@@ -22,8 +22,8 @@ MakeForeignDevice = Callable[[Reply], str]
 
 
 def refusal(port: str, kind: type[Exception]) -> str:
-    """Open `port`, check that it raises `kind` with a message of one line that names the port; return the
-    message.
+    """Check that opening `port` raises an error `kind` whose message is one line that names the port; return
+    the message.
     """
     with pytest.raises(kind) as caught:
         Ppmc104.open(port).close()
@@ -51,7 +51,7 @@ def test_busy_port(board: SimBoard) -> None:
 
 
 class NonBridgeDevice:
-    """A pseudo-terminal with a foreign device, that is, one that is not a board."""
+    """A pseudo-terminal at which a device responds that is not a board."""
 
     def __init__(self, reply: Reply) -> None:
         self._reply = reply

@@ -102,7 +102,7 @@ def test_foreground(tmp_path: Path, until: Wait) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        # If the tests run in the background, SIGINT is ignored, and child processes inherit that.
+        # In a background job SIGINT is ignored, and child processes inherit this.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     try:

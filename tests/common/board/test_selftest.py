@@ -104,8 +104,8 @@ def test_other_parts(part: str, tmp_path: Path) -> None:
 
 
 def test_datasheet_timing(tmp_path: Path) -> None:
-    """With DATASHEET timing, moves of each kind agree with the golden model, also those on the clock that the
-    board generates.
+    """With DATASHEET timing, moves of each kind agree with the golden model, also moves with the external
+    clock, which the board generates.
     """
     code, out, err = selftest("sim:part=stmc,speed=max,timing=DATASHEET", tmp_path, "--only", "moves")
     assert code == 0 and out.splitlines()[-1].endswith("0 differences"), out + err
@@ -149,7 +149,9 @@ def test_jumpers(tmp_path: Path) -> None:
 
 
 def test_recorder_too_small(tmp_path: Path) -> None:
-    """With a recorder of only 32 records, each section reports that the recorder was full, and what to do."""
+    """With a recorder of only 32 records, each section reports that the recorder was full and states what to
+    do.
+    """
     code, out, _ = selftest("sim:speed=max,record=5", tmp_path, "--only", "registers")
     assert code == 1
     assert "the recorder was full after 32 records: build the bitstream with a larger RECORD" in out

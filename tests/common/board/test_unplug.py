@@ -98,7 +98,7 @@ def test_many_times(board: SimBoard, until: Wait) -> None:
 
 
 def test_move_duration_is_that_of_the_board(board: SimBoard, until: Wait) -> None:
-    """A move without a host takes the same time on the board's clock as with a host."""
+    """A move takes the same time, measured with the board's clock, with and without a host."""
     axis = Ppmc104.open(board.port)
     setup = axis.initialise(**SETUP)
     begin = board.status()

@@ -38,13 +38,13 @@ def row(file: str, line: int, column: int, kind: str, what: str, span: str, coun
 
 
 def points(folder: Path, *rows: str) -> Points:
-    """Return the points of a file with these lines."""
+    """Return the coverage points of a coverage.dat that contains these lines."""
     (folder / "one.dat").write_text("\n".join(["# SystemC::Coverage-3", *rows]), encoding="utf-8")
     return read([folder / "one.dat"])
 
 
 def test_points_of_the_rtl(tmp_path: Path) -> None:
-    """A point of the RTL is covered if any instance covers it; points of wrappers do not count."""
+    """A point of the RTL is covered if any instance covers it; points in generated wrappers are ignored."""
     found = points(
         tmp_path,
         row(f"../../../{FILE}", 20, 3, LINE, "block", "20-21,25", 0),
@@ -72,7 +72,7 @@ def test_figures_and_holes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     assert [(hole.line, hole.text, hole.why) for hole in Sums(found).holes(LINE)] == [(22, text, "")]
     monkeypatch.setattr(sums, "explained", lambda: [{"file": FILE, "line": text, "why": "so it is"}])
     figure = Sums(found).figure(FILE, LINE)
-    assert (figure.known, figure.good) == (1, False)  # 87.5 %
+    assert (figure.known, figure.good) == (1, False)  # 87.5 % is too little, although the hole is explained
     shown = page.page(Sums(found), Counter(), 3, 3)
     assert (
         "| common | 87.5 % of 8; 100 % without 1 explained | – | 100 % of 1 |" in shown
@@ -140,8 +140,8 @@ def test_copies_in_which_verilator_counts() -> None:
 
 
 def test_verilator_counts_a_copy(tmp_path: Path) -> None:
-    """If the functions of PACKAGE are called with each number, Verilator counts their branches in the copy,
-    but not in the original file.
+    """If a simulation calls the functions of PACKAGE with each number, Verilator counts their branches in the
+    copy of the package, but not in the original file.
     """
     main = """#include "Vtop.h"
 int main() { VerilatedContext c; Vtop t{&c};
@@ -204,14 +204,16 @@ def test_crosses_of_the_parts(part: parts.Row) -> None:
 
 
 def test_a_cross_as_a_table() -> None:
-    """Combinations that were not seen are bold; impossible combinations are a dash unless they were seen."""
+    """Combinations that did not occur are bold; impossible combinations are a dash unless they occurred."""
     table = Cross("t", ("a", "b"), ("x", "y"), {("b", "*"): "why not"})
     shown = "\n".join(page.cross(table, Counter({("a", "x"): 1200, ("b", "y"): 1}))).splitlines()
     assert shown[2:4] == ["| a | 1,200 | **0** |", "| b | – | 1 |"] and "why not" in shown[-1]
 
 
 def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a PPMC-104 makes 14 pulses and receives an invalid byte, this end and this error are counted."""
+    """If a PPMC-104 completes a move of 14 pulses and receives an invalid byte, the crosses count this end
+    and this error.
+    """
     monkeypatch.setenv(COVERAGE, str(tmp_path))
     chip = new_model("ppmc104", {})
     t = 10

@@ -1,4 +1,4 @@
-"""`make fire`: the sessions as jobs of a campaign."""
+"""`make fire`: its sessions, executed as jobs of a campaign."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`make fuzz`: its streams, agreement of RTL and golden models, and detection of differences."""
+"""`make fuzz`: streams of characters, agreement of RTL and golden models, detection of differences."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OUTCOMES = {
     "ppmc312": {(1, None), (2, None), (3, None), (4, None)},
     "ppmc312-chars": {(1, None), (2, None), (3, None), (4, None)},
 }
-"""Kinds of events that each line must produce; NAKs of the bridge count by their number."""
+"""Line -> kinds of events that its streams must produce; each NAK number of the bridge is a separate kind."""
 BROKEN_RTL = {
     "bridge": (
         "rtl/host/ppmc_bridge_rx.sv",
@@ -46,7 +46,7 @@ def words_of(name: str, seed: int = 1) -> array[int]:
 
 @each
 def test_streams_are_rich(name: str) -> None:
-    """A stream produces every kind of event often, and contains silences and broken characters."""
+    """A stream produces every kind of event often, and contains pauses and damaged characters."""
     words = words_of(name)
     kinds = Counter(
         (what >> 56, what & 0xFF if name == "bridge" and what >> 56 == 2 else None)

@@ -1,4 +1,4 @@
-"""Mutants by rule: which parts of a module are changed, and a copy that holds all mutants."""
+"""Generated mutants: which code of a module they change, and the copy of a file that contains all mutants."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_one_alone() -> None:
 
 
 def test_proofs_of_a_file() -> None:
-    """The proofs of a file's own block are listed separately from those of the blocks that contain it."""
+    """Proofs of the block in a file are listed separately from proofs of blocks that contain this block."""
     own, others = proofs_of("rtl/motion/ppmc_stop_monitor.sv")
     assert {one.block for one in own} == {"ppmc_stop_monitor"}
     assert {"ppmc_axis", "ppmc_proc_time"} & {one.block for one in others}
@@ -150,9 +150,7 @@ def test_every_file_can_be_changed() -> None:
 
 
 def test_a_sample_keeps_what_it_has() -> None:
-    """A sample with a higher count contains the sample with a lower count; each folder has `count`
-    mutants.
-    """
+    """A sample contains `count` mutants of each folder; a larger sample contains each smaller one."""
     files = [*rtl_files("motion"), *rtl_files("common")]
     few, more = ({(file, fault.number) for file, fault in sample(files, n)} for n in (5, 20))
     assert len(few) == 10 and len(more) == 40 and few < more
@@ -161,7 +159,7 @@ def test_a_sample_keeps_what_it_has() -> None:
 
 
 def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Mutants whose check does not end, and equivalent mutants, are counted separately from survivors."""
+    """Mutants whose tests do not end, and equivalent mutants, are counted separately from survivors."""
     file = "rtl/common/ppmc_sync.sv"
     fault = faults(TEXT)[0]
     tried = [Tried(file, fault, verdict, "") for verdict in (KILLED, KILLED, ENDLESS, ALIVE)]

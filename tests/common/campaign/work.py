@@ -50,7 +50,7 @@ def dies_always(what: tuple[Path, int]) -> Result:
 
 
 def refuses(what: tuple[Path, int]) -> Result:
-    """Raise an error of the user that only the worker can detect."""
+    """Raise an error for a mistake of the user that only the worker can detect."""
     raise ProjectError("no such thing")
 
 

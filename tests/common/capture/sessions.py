@@ -16,7 +16,7 @@ from openppmc.model.ppmc2104.part import Ppmc2104
 from openppmc.model.stmc.part import Stmc
 
 CLK_HZ = 20_000_000
-"""Clock frequency of the chip, different from that of the golden model that the capture is compared with."""
+"""Clock frequency of the recorded device; the golden model of the comparison has another one."""
 US = CLK_HZ // 1_000_000
 MS = 1000 * US
 

@@ -62,7 +62,9 @@ def test_the_command(wired: Path, run: Run, tmp_path: Path) -> None:
 
 
 def test_a_difference_is_an_error(wired: Path, run: Run, tmp_path: Path) -> None:
-    """If the map names another crystal, edges differ, the exit status is 1, and the first edge is named."""
+    """If the map states a wrong crystal frequency, edges differ: the exit status is 1, and the first of these
+    edges is printed.
+    """
     (tmp_path / "map.yml").write_text(MAP + "crystal: 8000000\n")
     outcome = run("decode", str(wired), "--map", str(tmp_path / "map.yml"), "--compare")
     assert "inputs not captured: " in outcome.err
@@ -102,7 +104,9 @@ def test_wrong_maps(old: str, new: str, says: str, wired: Path, run: Run, tmp_pa
 
 
 def test_of_another_part(wired: Path, run: Run, tmp_path: Path) -> None:
-    """If the capture of a PPMC-312 is decoded as a PPMC-104, the error suggests that the device is wrong."""
+    """If a capture of a PPMC-312 is decoded as one of a PPMC-104, the error suggests that the named device is
+    wrong.
+    """
     seen = probe(SESSIONS["ppmc312"](), rate=1e12)
     names = {"we_n": "wr_n", "oe_n": "rd_n", "rs[0]": "a0"}
     seen.wires = {names.get(name, name): wire for name, wire in seen.wires.items()}

@@ -1,4 +1,4 @@
-"""Accesses decoded in columns give the same lines as accesses that are decoded one by one."""
+"""Accesses that are decoded as columns of arrays result in the same lines as accesses decoded singly."""
 
 from __future__ import annotations
 

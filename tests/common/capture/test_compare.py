@@ -29,7 +29,7 @@ WRITERS: dict[str, Callable[[Seen, Path], Path]] = {
 }
 CORE = {"CLK_HZ": CLK_HZ}
 SHORT = ("mon_step",)
-"""Outputs of our core whose pulses are shorter than a sample; the original chip does not have them."""
+"""Outputs whose pulses are shorter than a sample period; only our core has them, not the original chip."""
 
 
 @cache
@@ -39,7 +39,7 @@ def session(part: str) -> PinLog:
 
 
 def decoded(part: str, seen: Seen, path: Path, **parameters: object) -> Decoded:
-    """Decode the record of an analyser, written to a VCD."""
+    """Write the record of an analyser to a VCD, and decode this file."""
     chosen = PinMap(timing="FAST", parameters=CORE | parameters)
     return decode(read_capture(write_vcd(seen, path / "capture.vcd")), chosen, part)
 

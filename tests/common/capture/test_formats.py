@@ -79,7 +79,7 @@ def test_csv_of_sigrok(name: str, tmp_path: Path) -> None:
 
 
 def test_sigrok_without_its_head(tmp_path: Path) -> None:
-    """Times that are whole numbers are rejected if the file states neither a unit nor a sample rate."""
+    """Times without decimals are rejected if the file states neither their unit nor a sample rate."""
     path = sigrok_cli(seen(), tmp_path / "a.csv", label="channel", header=False)
     with pytest.raises(CaptureError, match=r"whole numbers without a unit: write it .* as `Time \[ns\]`"):
         read_capture(path)
@@ -275,7 +275,7 @@ def without_values(path: Path, names: tuple[str, ...], level: str | None) -> Pat
 
 @pytest.mark.parametrize("level", ["x", "z", "X", None])
 def test_unknown_inputs(level: str | None, run: Run, tmp_path: Path) -> None:
-    """Switches whose level is unknown are assumed inactive, which is reported once."""
+    """Switches whose level is unknown count as inactive; one line reports this."""
     path = without_values(write_vcd(seen(), tmp_path / "a.vcd"), INPUTS, level)
     found = check(path, notes=1)
     assert found.notes[0].startswith("unknown levels (x, z, none), assumed inactive: ")
@@ -389,7 +389,9 @@ def test_a_constant_output(level: int, begin: float, run: Run, tmp_path: Path) -
 
 
 def test_hint_needs_pins_that_differ(run: Run, tmp_path: Path) -> None:
-    """If the capture of a PPMC-104 was sampled too slowly, the error does not suggest another device."""
+    """If a PPMC-104 was sampled too slowly, the error does not suggest that the capture is from another
+    device.
+    """
     path = write_vcd(probe(session("ppmc104"), rate=1e6), tmp_path / "slow.vcd")
     outcome = run("decode", str(path), "--part", "ppmc104")
     assert "sampled every 1 µs" in outcome.err and "another part" not in outcome.err

@@ -143,8 +143,8 @@ def test_blocks_of_a_table(name: str, tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def rewritten(rows: list[str], source: random.Random) -> str:
-    """Return the same table in another form: quoted or padded cells, decimals or letters, lines in
-    between.
+    """Return the same table in another form: with quoted or padded cells, decimals or letters, or additional
+    lines.
     """
     found = []
     for row in rows:

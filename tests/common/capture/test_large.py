@@ -13,7 +13,9 @@ from scripts.measure.bench.captures import COMPARED, EDGES, measure
 
 BYTES = 24
 PLAIN = {"moves.vcd": 40.0, "bus.vcd": 60.0, "moves.csv": 17.0}
-"""Maximum time for a file, relative to a numpy pass over its bytes: twice the measured ratio."""
+"""File -> maximum decoding time, divided by the time of a numpy pass over its bytes: twice the measured
+ratio.
+"""
 
 
 @pytest.mark.parametrize("name", PLAIN)

@@ -1,4 +1,6 @@
-"""VCDs of our own cores, which name device and parameters, and advice for files that do not name them."""
+"""VCDs of our own cores, which contain the name of the device and its parameters, and advice for files
+without them.
+"""
 
 from __future__ import annotations
 
@@ -34,8 +36,8 @@ def test_nothing_has_to_be_named(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_the_file_tells_the_clock(part: str, tmp_path: Path) -> None:
-    """If the VCD names device and clock, no edge differs; if it names a wrong clock of a PMC006B4, edges
-    differ.
+    """If the VCD states the correct device and clock frequency, no edge differs; with a wrong clock frequency
+    of a PMC006B4, edges differ.
     """
     seen = probe(session(part), rate=1e12)
     path = write_vcd(seen, tmp_path / "own.vcd", core_comment(part, CORE))

@@ -77,7 +77,7 @@ def saleae(
     separator: str = ",",
     level: Callable[[int], str] = str,
 ) -> Path:
-    """Write one row per change, and shift each time by `shift` seconds."""
+    """Write a CSV file with one row per change, as Saleae Logic 2 does; add `shift` seconds to each time."""
     write_saleae(seen, path)
     text = path.read_text().splitlines()
     rows = [f"{head}{separator}" + separator.join(text[0].split(",")[1:])]

@@ -12,14 +12,14 @@ from tests.common.capture.analyser import probe, write_saleae
 
 REJECTED = {
     **{"stop": 1, "table": 1, "selftest": 1},
-    # The tests run without LinuxCNC.
+    # Exit status 1: the tests run without LinuxCNC.
     **{"hal": 1, "ppmc312-serial hal": 1, "pmc006 hal": 1},
-    # The prefix of the EPICS records in ARGUMENTS is not ASCII.
+    # Exit status 2: the prefix of the EPICS records in ARGUMENTS is not ASCII.
     **{"ioc": 2, "ppmc312-serial ioc": 2, "pmc006 ioc": 2},
 }
 """Commands that an idle model rejects, with their exit status; they print nothing to stdout."""
-# Device ("" for those accessed through the bridge) -> command -> arguments. A word in braces is a key of the
-# result of `files`.
+# Device -> command -> arguments; the device "" represents all devices behind the bridge. A word in braces is
+# a key of the result of `files`.
 ARGUMENTS: dict[str, dict[str, str]] = {
     "": {
         "ports": "",
@@ -119,7 +119,7 @@ def files(folder: Path) -> dict[str, Path]:
 
 
 def lines(paths: dict[str, Path]) -> dict[str, list[str]]:
-    """Return command lines by name: for all commands, and for the tables that single devices add."""
+    """Return command lines by name: those of all commands, including the commands that single devices add."""
     port = ["--port", "model:speed=max"]
     found = {}
     for part, commands in ARGUMENTS.items():

@@ -299,7 +299,7 @@ def test_program_nesting_is_bounded() -> None:
 
 
 def interrupted(name: str, signals: int, cwd: Path) -> subprocess.CompletedProcess[str]:
-    """Play a script in a separate process and send Ctrl-C half a second after its first line of output.
+    """Run a script in a separate process, and send Ctrl-C half a second after its first line of output.
 
     A second Ctrl-C follows if `signals` is 2.
     """
@@ -327,9 +327,10 @@ def interrupted(name: str, signals: int, cwd: Path) -> subprocess.CompletedProce
 def test_the_second_ctrl_c_is_not_patient(
     monkeypatch: pytest.MonkeyPatch, again: bool, least: int, most: int
 ) -> None:
-    """After the second Ctrl-C the motor stops immediately, without a deceleration ramp.
+    """After the second Ctrl-C the motor stops immediately instead of completing the deceleration ramp.
 
-    Two seconds after the start of a ramp of 11 000 pulses, a deceleration would take about two more seconds.
+    The first Ctrl-C occurs two seconds after the start of a ramp of 11 000 pulses, so the deceleration would
+    take about two more seconds.
     """
     with Ppmc104.open(FAST) as axis:
         axis.initialise(start_pps=1000, high_pps=1200, ramp_pulses=11_000)

@@ -25,12 +25,12 @@ LINES = ("ppmc312-serial", "pmc006")
 MOST_CYCLES = 5000
 Run = Callable[..., str]
 Story = Callable[["Component"], Iterator[Callable[[], object]]]
-"""Story that acts as LinuxCNC: it writes pins, and yields the conditions for which it waits."""
+"""Generator that acts as LinuxCNC: it writes pins, and yields the conditions for which it waits."""
 
 
 class Component(dict[str, Any]):
-    """Component of HAL. After each cycle it continues the story; at the end of the story, it sends
-    SIGTERM.
+    """Replacement for a HAL component. After each cycle it continues the story if the awaited condition is
+    true; at the end of the story, it sends SIGTERM.
     """
 
     def __init__(self, story: Story) -> None:
@@ -98,7 +98,7 @@ def devices(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
 
 class Axis:
-    """Pins of one axis, with _ in place of - and a prefix."""
+    """Pins of one axis as attributes: without the prefix of the axis, and with _ in place of -."""
 
     def __init__(self, pins: Component, number: int) -> None:
         vars(self).update(pins=pins, number=number, prefix=f"{number}.")
@@ -253,7 +253,9 @@ def test_alarm_state(hal: Run, devices: list[Any]) -> None:
 
 
 def test_parameters(hal: Run, devices: list[Any]) -> None:
-    """Velocities and accelerations in units are those of the set-up; an impossible one is a fault."""
+    """Velocities and accelerations, which HAL states in units of length, determine the set-up of the axis; an
+    impossible value is a fault.
+    """
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
         axis = Axis(pins, 1)
@@ -399,7 +401,7 @@ def test_group(part: str, hal: Run, devices: list[Any], monkeypatch: pytest.Monk
 
 
 def test_group_waits(hal: Run) -> None:
-    """A group starts only when the running motions of its members have ended."""
+    """A group starts only after running motions of its members have ended."""
 
     def story(pins: Component) -> Iterator[Callable[[], object]]:
         one, two = Axis(pins, 1), Axis(pins, 2)

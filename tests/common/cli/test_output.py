@@ -70,7 +70,7 @@ def printed(
 
 
 def test_the_list_of_commands_is_complete() -> None:
-    """The following tests run every command of every device."""
+    """The list that the following tests use contains every command of every device."""
     assert all_commands.without_line() == set()
 
 
@@ -122,7 +122,7 @@ def test_scripts_of_the_project_print_in_ascii() -> None:
 
 
 def test_columns_stay_aligned() -> None:
-    """If the replacement of a character is longer than the character, the spaces after it are shortened."""
+    """If a character is replaced by a longer text, fewer spaces follow it, so that columns stay aligned."""
     texts = {
         "→ 05  1": "-> 05 1",
         "→→→ 5    1\n→ 5    1": "->->-> 5 1\n-> 5   1",
@@ -134,7 +134,7 @@ def test_columns_stay_aligned() -> None:
     assert attempted and not failed
 
 
-# Tables, each with one of its headings.
+# Command that prints a table -> one of the headings of this table.
 TABLES = {
     "ppmc312-serial scan": "line faults",
     "ppmc312-serial status": "line faults",

@@ -48,8 +48,8 @@ def test_every_command_of_a_part_has_a_row() -> None:
 
 
 def test_options_in_front_state_what_the_library_has() -> None:
-    """The help of --baud states the default rate of the link; `axes` of a row is the number of axes of the
-    device.
+    """The help of --baud states the default rate of the link, and the field `axes` of a row is the number of
+    axes of the device.
     """
     shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
     assert f"line rate in bit/s ({DEFAULT_BAUD};" in shown

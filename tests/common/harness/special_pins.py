@@ -13,15 +13,18 @@ class Kind(Enum):
     """Kind of the other function of a pin. The kind determines which uses of the pin are excluded."""
 
     NEVER = auto()  # configuration, flash, JTAG, control lines of a monitor: not usable
-    DRIVEN = auto()  # another chip on the board can drive it: not usable as an output, limit or alarm
+    # another chip on the board can drive the pin: not usable as an output, or as a limit or alarm input
+    DRIVEN = auto()
     SOCKET = auto()  # in a socket or a section of the header that can be left empty
-    LOADED = auto()  # LED, converter, amplifier, other bank voltage, a function during configuration
+    # connected to an LED, converter or amplifier, in a bank with another voltage, or used during
+    # configuration
+    LOADED = auto()
     NEAR_5V = auto()  # next to a header pin that carries 5 V
 
 
 @dataclass(frozen=True)
 class Special:
-    """Pins of a board with the same other function, and the source of this information."""
+    """Pins of a board that have the same other function, and the source of this information."""
 
     pins: tuple[str, ...]
     kind: Kind
@@ -30,7 +33,7 @@ class Special:
 
 
 def pins(text: str) -> tuple[str, ...]:
-    """Return the names in a text, separated by spaces; 36-39 represents four names."""
+    """Return the names in a text; they are separated by spaces, and 36-39 represents four names."""
     names = []
     for word in text.split():
         first, _, last = word.partition("-")

@@ -1,4 +1,6 @@
-"""Bitstreams as netlists: differences from the reports are errors, and a flipped bit must be detected."""
+"""Conversion of bitstreams to netlists: a difference from the reports of the tools is an error, and a flipped
+bit must be detected.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +49,8 @@ def converted(folder: Path, monkeypatch: pytest.MonkeyPatch, **changed: object) 
     """Convert a small bitstream with stubs in place of the tools; return netlist.v.
 
     Args:
-        changed: another vlog, unpacked, ff or pll, or another count of a cell in the report of nextpnr.
+        changed: replacements of the texts vlog, unpacked, ff and pll, or of the count of a cell in the report
+            of nextpnr.
     """
     cells = {**USED, **{name: n for name, n in changed.items() if name.isupper()}}
     (folder / "routed.asc").write_text(ROUTED)
@@ -71,7 +74,7 @@ def test_faults_of_icebox_vlog_are_repaired(tmp_path: Path, monkeypatch: pytest.
     assert "module top (s, q, clk, rst_n);\noutput [1:0] s;\noutput q;\n" in text
     assert "assign n3 = clk;\nassign n9 = 1'b1;\n" in text and "Warning" not in text and "PLL" not in text
     assert (tmp_path / "pins.pcf").read_text() == "set_io clk 35\n"
-    assert bits.counts(text) == (2, 1, 0)  # the second cell only passes q on
+    assert bits.counts(text) == (2, 1, 0)  # the second cell only passes the output q of the first one on
 
 
 @pytest.mark.parametrize(

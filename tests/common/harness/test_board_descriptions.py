@@ -60,7 +60,7 @@ def described(folder: Path, text: str = BOARD) -> Description:
 
 
 def fitted(folder: Path, text: str = BOARD) -> Fitted:
-    """Return the first part on that board, with its pads."""
+    """Return the board with the first part that it supports, and the pads of the part's ports."""
     board = described(folder, text)
     on = board.parts[0]
     return fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
@@ -196,7 +196,7 @@ def test_vectors_as_wide_as_a_parameter(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("wrong", ["HOST-1", "AXIS-1", "AXES"])
 def test_a_width_that_cannot_be_known(tmp_path: Path, wrong: str) -> None:
-    """If the width depends on anything else than a parameter, this is rejected in one line."""
+    """If the width of a port depends on anything other than a parameter, this is rejected in one line."""
     path = tmp_path / "tiny_carrier.sv"
     path.write_text(VECTORS.replace("5*AXES-1", wrong))
     with pytest.raises(ProjectError, match=rf"^\[{wrong}:0\]: expected a number or \[n\*\]PARAMETER-1$"):

@@ -120,7 +120,9 @@ def test_a_board_for_another_part_names_it(tmp_path: Path) -> None:
 
 
 def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """A parameter that the part does not have is rejected before synthesis, so an older bitstream is kept."""
+    """A parameter that the part does not have is rejected before synthesis, so a bitstream that was built
+    before is kept.
+    """
     monkeypatch.setattr(project, "BUILD", tmp_path)
     old = boards.board("icebreaker", "ppmc2104").file("uart")
     old.parent.mkdir(parents=True)

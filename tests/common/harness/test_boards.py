@@ -31,7 +31,9 @@ APART = (".cst", ".qsf", ".isf")  # formats whose clock constraints are in clock
 
 
 def entries() -> list[tuple[str, str, str, str, float]]:
-    """Return top module, pin file, clock file, clock input and its MHz, for each pin file in the tree."""
+    """Return (top module, pin file, clock file, clock input, frequency of this clock in MHz) for each pin
+    file in the tree.
+    """
     found = []
     for path in sorted(CONSTRAINTS.glob("*/*/pins.*")):
         board, part = path.parts[-3:-1]
@@ -154,7 +156,7 @@ def test_open_inputs_are_pulled_up(top: str, file: str, clock_file: str, clock: 
         "btn",
         "btn_f1",
         "key_n",
-    }  # key_n: resistor and Schmitt trigger; others: pull-down
+    }  # key_n has a resistor and a Schmitt trigger; the other buttons have a pull-down
     for name, port in ports(top).items():
         if name in buttons | {clock}:
             continue

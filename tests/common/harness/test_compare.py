@@ -189,8 +189,8 @@ def test_differing_spans_cover_exactly_the_wrong_time() -> None:
 
 
 def test_a_long_recording_is_reported_in_seconds(tmp_path: Path) -> None:
-    """A report about 60 000 edges takes a few seconds of CPU time; a linear search for each edge would take
-    minutes.
+    """A report about 60 000 edges takes a few seconds of CPU time; with a linear search for each edge it
+    would take minutes.
     """
     long = move(20_000)
     edges = sorted([*long[:-1], long[-1]._replace(t=long[-1].t + 2)])

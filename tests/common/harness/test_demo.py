@@ -63,15 +63,15 @@ def test_bytes_of_the_2104_in_words(script, meaning, reply):
 
 
 def test_remaining_pulses_know_the_end_of_their_axis():
-    """The remaining pulses are described according to the end of their own axis: 0 means one pulse if the
-    motion was stopped, and no pulse if the motion is complete.
+    """The description of the remaining pulses depends on how the motion of the same axis ended: 0 means one
+    pulse if it was stopped, and no pulse if it is complete.
     """
     rows = exchanges(Ppmc2104Decoder(), accesses("c80 rC3 cA0 r83 c83 r00 r00 r00 cA3 r00 r00 r00"))
     assert [row.reply for row in rows[2:]] == ["1 pulse not made", "no pulse left"]
 
 
 def test_bytes_of_the_104_in_words():
-    """For a PPMC-104, the same codes are described without an axis, and the error is that of the status."""
+    """For a PPMC-104, the same codes are described without an axis; the error is taken from the status."""
     rows = exchanges(Ppmc104Decoder(), accesses("c43 d18 d00 d00 s04 c42 s94 c80 r83"))
     assert [row.meaning for row in rows] == [
         "accelerate/decelerate, CW, 25 pulses",

@@ -14,7 +14,7 @@ from cocotb_tests.ppmc104.bench import PPMC104
 
 
 class Simulated(ModelBench):
-    """A golden model in the role of the RTL."""
+    """A golden model that is treated as if it were the RTL."""
 
     simulated = True
 
@@ -167,7 +167,9 @@ def test_parameters_go_with_it(comparer: Comparer) -> None:
 
 
 def test_golden_follows_and_is_never_ahead() -> None:
-    """`golden` has received all pin changes of its bench, and has run up to the edge before the next one."""
+    """The model that `golden` returns has received all pin changes of its bench, and has run up to the edge
+    before the next edge of the bench.
+    """
     bench, golden = ModelBench(PPMC104, OnModel()), DutBench.golden.fget
     model = golden(bench)
     assert model.now == bench.now - 1

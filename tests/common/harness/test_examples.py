@@ -1,4 +1,6 @@
-"""examples/cocotb: its tests pass on cocotb's main program; a broken example fails with a clear message."""
+"""examples/cocotb: its tests pass in simulations with the main program that cocotb supplies
+(SIM_MAIN=cocotb); a broken example fails with an AssertionError.
+"""
 
 from __future__ import annotations
 

@@ -37,8 +37,8 @@ def sampled(driven: list[Change], **late: list[tuple[int, int]]) -> jitter.Stage
 
 
 def test_late_and_prompt_changes() -> None:
-    """Each bit changes at the edge at which its first stage changes; a pin that a register also samples
-    directly has two levels.
+    """Each bit changes at the edge at which the first stage of its synchroniser changes. A pin that another
+    register samples directly has two levels.
     """
     driven = [Change(10, "l1_n", 0), Change(20, "auxi", 3), Change(30, "rd_n", 0), Change(30, "d_i", 7)]
     log = sampled(driven, u_a=[(20, 0b001), (21, 0)], u_b=[(30, 1), (31, 0)])
@@ -64,7 +64,9 @@ def test_two_synchronisers_of_a_pin() -> None:
     [([(10, 1), (11, 0)], []), ([(10, 1), (12, 0)], [11, 12]), ([(11, 1), (12, 0)], [10, 12])],
 )
 def test_short_pulse(late: list[tuple[int, int]], seen: list[int]) -> None:
-    """A level of one cycle is lost, late, or longer, depending on which of its changes are late."""
+    """A level of one cycle is missed, sampled late, or sampled for longer, depending on which of its two
+    changes are late.
+    """
     driven = [Change(10, "rxd", 0), Change(11, "rxd", 1)]
     levels = [(c.t, c.value) for c in sampled(driven, u_c=late).changes[2:] if c.pin == "rxd"]
     assert levels == list(zip(seen, (0, 1), strict=False))

@@ -25,7 +25,7 @@ def primes(number: int) -> set[int]:
 
 
 def after(steps: int, bits: int, taps: int) -> int:
-    """Return x**steps modulo x**bits + taps."""
+    """Return the power x**steps modulo x**bits + taps, a polynomial over GF(2) (one bit per coefficient)."""
     state = 1
     for bit in f"{steps:b}":
         square = 0

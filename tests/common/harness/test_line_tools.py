@@ -24,7 +24,7 @@ from scripts.measure.soak import main as soak
 
 
 def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:
-    """Return one frame of the master and its reply."""
+    """Return one frame of the master and its reply, as the demo of the line records them."""
     return [(0, 100, "master", question.hex()), (200, 300, "station", answer.hex())]
 
 
@@ -49,7 +49,7 @@ def test_frames_in_words(sent, got, meaning, reply):
 
 
 def test_a_question_without_an_answer():
-    """If only the second of two frames is answered, the row of the first one states no kind of answer."""
+    """If only the second of two frames is answered, the row of the first frame has no kind of answer."""
     rows = exchanges([(0, 10, "master", "817e"), *talk(frame(0x82), frame(0x92))])
     assert [row.kind for row in rows] == ["", "ready"]
 

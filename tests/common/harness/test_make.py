@@ -103,8 +103,8 @@ def test_command(line: str, command: str, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_every_target_and_variable_is_listed() -> None:
-    """The stored list contains every target and every variable. WRONG has an entry for each variable whose
-    values are restricted.
+    """The stored list contains every target and every variable. The table WRONG has an entry for each
+    variable whose values are restricted.
     """
     given = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line, _ in LIST]
     goals = [run.Goal(line.split()[0], values).name for (line, _), values in zip(LIST, given, strict=True)]
@@ -117,8 +117,8 @@ def test_every_target_and_variable_is_listed() -> None:
 
 @pytest.mark.parametrize(("words", "line"), WRONG.items(), ids=WRONG)
 def test_wrong_word(words: str, line: str) -> None:
-    """A wrong target, variable or value produces its error line, even if it does not belong to the first
-    goal.
+    """A wrong target, variable or value produces its error line, even if it belongs to a later goal of the
+    command line.
     """
     with pytest.raises(run.WrongError) as error:
         run.plan(words.split(" "))

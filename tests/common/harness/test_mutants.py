@@ -23,7 +23,7 @@ def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
 
 
 def test_there_are_enough() -> None:
-    """There are at least forty mutants, and some of each device."""
+    """There are at least forty mutants, among them some of each device."""
     assert len(EVERY) >= 40
     assert {one.part for one in EVERY} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "bank", "pmc006"}
     assert len({one.id for one in EVERY}) == len(EVERY)

@@ -23,8 +23,8 @@ SINGLE_STEP = 0x42
 
 
 def test_a_line_has_one_brick_a_column():
-    """A line has one character per column: a dot for no change, | for a gap, x for a level that does not
-    matter.
+    """A line of a diagram has one character per column: a dot for no change, | for a gap, x for a level that
+    does not matter.
     """
     levels = [{"a": 0}, {"a": 0}, None, {"a": 1}, {"a": 1}, {"a": 2}]
     assert wave(Row("a", "a"), levels[:5])["wave"] == "0.|1."
@@ -108,7 +108,7 @@ def _struck(root: ET.Element) -> list[str]:
 
     def walk(node: ET.Element, x: float, y: float) -> None:
         if "rotate" in node.get("transform", ""):
-            return  # the name of a group, which is left of all lines
+            return  # the name of a group is to the left of all lines, so no break mark covers it
         dx, dy = _moved(node)
         x, y = x + dx, y + dy
         if node.tag.endswith("use") and any(value == "#gap" for value in node.attrib.values()):
@@ -201,7 +201,9 @@ def test_a_block_of_the_312_is_drawn_byte_by_byte():
 
 
 def test_worked_moves_of_the_312():
-    """Shapes, pulses and times in the generated table of moves are those of the worked moves."""
+    """Profiles, pulses and times in the generated table of moves are those of the worked moves in the
+    manual.
+    """
     rows = made(figures.entries("ppmc312")["tables"]["moves-table"]).splitlines()
     assert "| TF, 82, N = 30 | 00 | 12, 6, 12 | 400×3 200×4 100×16 200×4 400×3 | 5600 |" in rows
     assert "| TF, 82, N = 24 | 00 | 12, 0, 12 | 400×3 200×4 100×10 200×4 400×3 | 5000 |" in rows

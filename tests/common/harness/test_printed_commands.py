@@ -68,7 +68,9 @@ def _blocks(text: str) -> Iterator[tuple[str, bool]]:
 
 
 def printed() -> dict[tuple[str, str, bool], str]:
-    """Return (kind of command, arguments, whether it is a whole line) -> the first page that contains it."""
+    """Return (kind of command, arguments, True if it is a whole line) -> the first page that contains the
+    command.
+    """
     found: dict[tuple[str, str, bool], str] = {}
     for page in PAGES:
         for text, whole in _blocks(page.read_text(encoding="utf-8")):
@@ -114,7 +116,7 @@ def test_make(words: list[str], whole: bool, page: str) -> None:
     if own.parent != ROOT and own.exists() and all("=" in word for word in words):
         assert all(word.split("=")[0] in own.read_text(encoding="utf-8") for word in words)
         return
-    # `make test T=…` would pass its variables on.
+    # MAKEFLAGS of a surrounding `make test T=…` would pass the variables of that make on.
     env = {name: value for name, value in os.environ.items() if name != "MAKEFLAGS"}
     done = subprocess.run(
         ["make", "-n", *words], cwd=ROOT, env=env, capture_output=True, text=True, check=False
@@ -185,7 +187,9 @@ WITHOUT_HELP = {
 
 
 def test_help_of_scripts() -> None:
-    """Each script that can be started has a parser, so --help prints its usage. The others have a reason."""
+    """Each script that can be started has a parser, so --help prints its usage; for each exception, this file
+    states a reason.
+    """
     found = {
         str(path.relative_to(ROOT)): text
         for path in sorted((ROOT / "scripts").rglob("*.py"))

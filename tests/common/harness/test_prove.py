@@ -155,7 +155,9 @@ def test_a_witness_gets_the_registers_back_that_the_search_has_thrown_away(tmp_p
 def test_a_proof_is_skipped_only_if_nothing_has_changed(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """A proof that held is skipped until code, bound or result changes; a changed comment has no effect."""
+    """A proof that succeeded is skipped until its code, bound or result changes; a changed comment does not
+    repeat it.
+    """
     monkeypatch.setattr(results, "PROVED", tmp_path / "proved.json")
     monkeypatch.setattr(results, "RESULTS", tmp_path / "results.json")
     proof, other = EVERY[0], EVERY[1]

@@ -1,4 +1,6 @@
-"""Random hosts react to responses, so on the golden model alone they must do the same as on the RTL."""
+"""The actions of random hosts depend on responses, so they must be the same on the golden model alone and on
+the RTL.
+"""
 
 from __future__ import annotations
 

@@ -71,8 +71,8 @@ def test_other_tests_than_those_requested_are_a_failure(tmp_path: Path, names: s
 
 
 def test_a_bad_end_of_good_tests_is_a_failure(tmp_path: Path) -> None:
-    """If the process fails although each test passed, all tests fail, because the log does not name a
-    test.
+    """If the process fails although each test has passed, all its tests fail, because the log does not state
+    which test caused this.
     """
     found = read(tmp_path, part("a", GOOD % "a") + part("b", GOOD % "b"), "ab", "the simulator ended: 1")
     assert {outcome.kind for outcome in found.values()} == {"failed"}

@@ -73,8 +73,9 @@ def test_each_ends_in_its_own_way(design: Design) -> None:
 
 
 def test_nothing_is_asserted_of_the_first_edge(design: Design) -> None:
-    """Assertions do not check the state at power-up on the first edge; from the second edge on they do."""
-    design = replace(design, main="own")  # cocotb's own main program cannot turn them off
+    """Assertions do not check the state at power-up on the first edge; they check from the second edge on."""
+    # with cocotb's own main program, assertions cannot be disabled for the first edge
+    design = replace(design, main="own")
     assert kinds(design, "clocked/edge=1", "passes") == {"clocked/edge=1": "passed", "passes": "passed"}
     assert kinds(design, "clocked/edge=2", "passes") == {"clocked/edge=2": "failed", "passes": "passed"}
 
@@ -91,7 +92,9 @@ def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
 
 @pytest.mark.parametrize("end", ["shows", "dies", "loops"])
 def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a test fails on a mutant, the following tests of the group do not run; they could take an hour."""
+    """If a test fails on a mutant, the following tests of the group do not run, because they could take an
+    hour.
+    """
     monkeypatch.setenv(MUTANT, "rtl/none.sv 1 none.sv")
     found = kinds(design, "passes", end, "leaks", "looks", OPENPPMC_WALL_S="6")
     assert found.pop(end) in ("failed", "crashed")
@@ -129,8 +132,8 @@ def test_a_failure_leaves_log_and_waves(design: Design) -> None:
 
 
 def test_what_needs_another_test_names_it(design: Design) -> None:
-    """If a test fails only after one of three other tests, the printed command repeats only these two
-    tests.
+    """If a test fails only after a certain one of three other tests, the printed command repeats only these
+    two tests.
     """
     text = said(design, "passes", "leaks", "raises", "follows")
     assert "(fails only after leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text

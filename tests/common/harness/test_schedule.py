@@ -53,7 +53,7 @@ def _sample() -> Iterator[Path]:
 
 
 def ran(sample: Path, seen: Path, *words: str) -> tuple[dict[str, int], list[list[str]]]:
-    """Return the counts of outcomes of a pytest run, and (worker, group size, groups run before) for each
+    """Run pytest; return the number of tests by outcome, and (worker, group size, groups run before) for each
     test.
     """
     env = {**os.environ, "SEEN": str(seen)}

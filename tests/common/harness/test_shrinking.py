@@ -34,8 +34,8 @@ from scripts.measure.replay import main as replay
 
 
 def busy_run(seed: int = 1) -> Recording:
-    """Return a run of over sixty transactions on a PPMC-104, which include a change of csel, an alarm and a
-    read of the alarm.
+    """Return a run of over sixty transactions on a PPMC-104, among them a change of csel, an alarm and a read
+    of the alarm.
     """
 
     async def run(bench: ModelBench) -> None:
@@ -80,7 +80,9 @@ class Mutant:
 
 
 def difference(recording: Recording, transactions: Sequence[Transaction]) -> int | None:
-    """Return the edge at which these transactions distinguish the mutant from the golden model."""
+    """Return the first edge that differs between mutant and golden model with these transactions; None
+    without a difference.
+    """
     some = Recording(
         "ppmc104", recording.params, 1, recording.end, changes_of(PPMC104, transactions), recording.edges
     )
@@ -103,8 +105,8 @@ def shrunk(recording: Recording, **limits: Any) -> Shrinker:
 
 
 def test_a_mutant_is_shrunk_to_a_handful() -> None:
-    """Of sixty transactions, only the two that set up the fault and the two that read it remain, without
-    pauses.
+    """Of sixty transactions, four remain, without pauses: the two that cause the fault, and the two that read
+    its effect.
     """
     recording = busy_run()
     assert len(transactions_of(recording)) >= 60 and difference(recording, transactions_of(recording))
@@ -251,7 +253,7 @@ def test_transactions_are_described_as_text() -> None:
 
 
 def test_what_is_left_out_takes_nothing_along() -> None:
-    """An access contains its own address and data, so it is complete even if the access before it is
+    """Each access contains its address and data, so it is complete even if the access before it is
     removed.
     """
     recording = busy_run()

@@ -16,8 +16,8 @@ from tests.common.harness.test_boards import ALL, CONSTRAINTS, pins, ports
 USED = [entry[1] for entry in ALL]
 TOPS = {entry[1]: entry[0] for entry in ALL}
 STOPS = re.compile(r"(l[1-4]|fh?l|bh?l|alm)_n(\[\d\])?|mon")
-"""Ports that stop a motor: limits, alarm, MON. Any other input may read a wrong level until a plug is
-removed.
+"""Ports that stop a motor: limits, alarm, MON. They must always read the correct level; any other input may
+read a wrong level until a plug is removed.
 """
 
 

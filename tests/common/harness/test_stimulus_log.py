@@ -1,4 +1,6 @@
-"""Pin changes from two sources: a change that a golden model has already received keeps its place."""
+"""Pin changes from two sources: changes that a golden model has already received keep their places in the
+list.
+"""
 
 from __future__ import annotations
 

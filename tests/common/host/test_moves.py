@@ -136,7 +136,9 @@ def test_a_move_of_its_own_after_a_queue_and_before(axis: Any) -> None:
 
 
 def test_long_moves_are_waited_for_by_the_host(axis: Any) -> None:
-    """A move that is longer than the wait in the frame delays the queue, but does not end it."""
+    """A move that lasts longer than the time limit of the wait in its frame delays the queue, but does not
+    end it.
+    """
     assert 600 / 9000 > 2e-3 * LONGEST_WAIT_MS
     moves = [1, 600, -2, 3, -600, -600, 1, 1]
     assert [end.pulses for end in axis.moves(moves)] == moves
@@ -255,7 +257,8 @@ def test_a_reset_between_two_moves_is_refused(
             ends.append(end.pulses)
     assert ends == [2, -3, 4][: number - 1] and len(codes) == number
     monkeypatch.undo()
-    if number > 1 and isinstance(axis, BankAxis):  # the counter of a bank is in the part, so it is cleared
+    # a bank counts in the part, so the reset has cleared its counter
+    if number > 1 and isinstance(axis, BankAxis):
         with pytest.raises(ProtocolError, match="now reads 0, because the part was reset"):
             axis.initialise(5000, 9000, 4)
     axis.initialise(5000, 9000, 4)

@@ -31,7 +31,7 @@ class Memory:
 
 
 def ask(bridge: Bridge, script: Script, seq: int = 0) -> bytes:
-    """Return the bytes of the response that follow SEQ."""
+    """Return the response to a script, without its first byte SEQ."""
     (item,) = Deframer().feed(bridge.receive(encode(bytes([seq]) + bytes(script))))
     assert isinstance(item, Frame)
     assert item.seq == seq

@@ -18,7 +18,7 @@ from openppmc.host.selftest.recording import Layout, NoReset, Recorded, recordin
 
 PLANS = [row.name for row in parts.having("selftest")]
 WIDTHS = {"ppmc104": 49, "ppmc2104": 63, "stmc": 36, "ppmc312": 63, "bank": 144}
-"""Number of levels in a record of each carrier; for the bank, with 8 axes."""
+"""Number of levels in a record of each carrier (of the bank with 8 axes)."""
 BEGIN, RESET = 5, 16
 CLK = 8_000_000
 
@@ -157,8 +157,8 @@ def test_recorded() -> None:
 
 
 def test_versions() -> None:
-    """UB-VER-01: the host decodes the data that the bitstream stores; for a mismatch, one line states what to
-    do.
+    """UB-VER-01: the host decodes the version data of a bitstream. If bitstream and package do not match, one
+    line states what to do.
     """
     data = sources.build_id("1.2.3", bytes.fromhex("1a2b3c4d"), bytes.fromhex("deadbeef99"), True, "ICEB")
     build = Build.parse(data)

@@ -38,8 +38,8 @@ def test_sequence_numbers() -> None:
 def test_a_lost_or_doubled_last_byte_is_detected(script: bytes) -> None:
     """No request has a CRC that ends with 00.
 
-    A CRC register of 0 stays 0 if a byte 00 follows. So such a request would also be valid without its last
-    00, or with two of them: as a shorter or longer script.
+    A CRC register of 0 stays 0 if a byte 00 follows. If a CRC ended with 00, the request would therefore also
+    be valid without this byte, or with it twice, and contain a shorter or longer script.
     """
     session = Session()
     for _ in range(200):
@@ -52,7 +52,9 @@ def test_a_lost_or_doubled_last_byte_is_detected(script: bytes) -> None:
 
 @given(st.binary(max_size=40))
 def test_a_wake_up_never_completes_a_request(script: bytes) -> None:
-    """If a killed program has sent a request without its last flag, the next wake-up does not complete it."""
+    """If a killed program has sent a request without its last flag, the wake-up bytes of the next program do
+    not complete the request.
+    """
     line = Session().request(script, 1, 0)
     for end in range(len(line)):
         assert not any(isinstance(item, Request) for item in received(line[:end] + WAKE_UP))

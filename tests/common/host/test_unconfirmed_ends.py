@@ -1,7 +1,7 @@
 """The end of a motion is reported only if the device confirms it.
 
-Its status must name this motion, and the count of pulses must agree. Otherwise EndUnknown is raised
-(P104-RD-03, P104-END-05, P2104-END-05, STMC-FIN-01).
+The status of the device must name this motion, and the pulse count must agree. Otherwise the driver raises
+EndUnknown (P104-RD-03, P104-END-05, P2104-END-05, STMC-FIN-01).
 """
 
 from __future__ import annotations
@@ -453,7 +453,9 @@ def test_a_restart_of_the_other_parts_loses_the_position(other: Any) -> None:
 @pytest.mark.parametrize("begin", [0, 500])
 @pytest.mark.parametrize("way", ["wait", "poll", "progress"])
 def test_a_reset_of_the_other_parts(other: Any, begin: int, way: str) -> None:
-    """A reset is detected also in a move to 0, the value of the counter after a reset (P006-POS-01)."""
+    """A reset is detected even in a move to position 0, which is also the value of the counter after a reset
+    (P006-POS-01).
+    """
     if begin:
         other.set_position(4000)
     motion = other.start_move(-4000)
@@ -483,7 +485,9 @@ def test_a_reset_of_other_motions_of_the_other_parts(other: Any, forward: bool) 
 
 
 def test_a_move_forward_to_0_that_a_reset_ended() -> None:
-    """A reset in a move to 0 is detected although the counter is 0: the speed has its factory value again."""
+    """A reset in a move to position 0 is detected although the counter is 0, because the speed has its
+    factory value again.
+    """
     with controller() as motor:
         motor.set_position(-4000)
         motion = motor.start_move(4000)

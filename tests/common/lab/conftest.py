@@ -1,4 +1,6 @@
-"""Channel Access on a free port of the loopback interface. Clients read these variables when they start."""
+"""Sets the EPICS variables for Channel Access on a free port of the loopback interface; clients read them
+when they start.
+"""
 
 from __future__ import annotations
 

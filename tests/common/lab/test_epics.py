@@ -267,7 +267,7 @@ def test_limit_switch_of_a_pmc006():
 
 
 def test_speeds_of_a_pmc006():
-    """ACCL selects the next lower acceleration of a PMC006B4; a put to VELO or VBAS keeps it."""
+    """ACCL selects the next lower acceleration of a PMC006B4; a put to VELO or VBAS does not change it."""
     with records(part="pmc006") as ioc:
         axis, lock = ioc.device.axis(1), ioc.motors[f"{ioc.prefix}m1"][0].lock
         for field, value in (("VBAS", 100.9), ("VELO", 3500.0), ("ACCL", 3400 / 13_599), ("VELO", 900.0)):
@@ -357,7 +357,7 @@ def test_two_clients():
 
 
 def test_unconfirmed_end():
-    """If the part is reset during a motion, RBV is NaN with severity INVALID until homing initialises the
+    """If the part is reset during a motion, RBV is NaN with severity INVALID until a homing initialises the
     axis.
     """
     with records("speed=0.3") as ioc:

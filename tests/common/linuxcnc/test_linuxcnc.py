@@ -104,7 +104,7 @@ class Session:
 
 
 def true(value: str) -> bool:
-    """Return True for a BIT that is set."""
+    """Return True if the text of a BIT pin means 1."""
     return value == "TRUE"
 
 
@@ -171,7 +171,8 @@ def test_mdi(environment: dict[str, str], tmp_path: Path) -> None:
     routine = machine / "index.ngc"
     text = routine.read_text(encoding="utf-8")
     assert "Q60\n" in text
-    routine.write_text(text.replace("Q60\n", "Q4\n"), encoding="utf-8")  # the last line waits this long
+    # time in s that the last MDI line waits: 4 instead of 60
+    routine.write_text(text.replace("Q60\n", "Q4\n"), encoding="utf-8")
     lines = ["M64 P1", "M66 P1 L3 Q60", "o<index> call [7.5]", "o<index> call [2]", "G0 X3"]
     lines.append("o<index> call [100000]")
     quoted = " ".join(f"'{line}'" for line in lines)

@@ -23,7 +23,9 @@ CLK_HZ = 16_000_000
 AXES = 4
 ROM, RAM = 0x8000, 0x2000
 FILES, INCLUDE = "sources.txt", "+incdir+"
-"""File that lists the other sources, one path per line; word that begins the line of an include folder."""
+"""FILES: file that lists the other sources, one path per line. INCLUDE: first word of a line with an include
+folder.
+"""
 
 
 def pads(*names: tuple[str, int]) -> list[Subsignal]:

@@ -47,12 +47,12 @@ class ModelHost:
         return status
 
     def command(self, code: int) -> int:
-        """Write a command byte, then wait for IBF = 0; return that status."""
+        """Write a command byte, wait for IBF = 0, and return the status that was read last."""
         self.write(1, code)
         return self.poll(IBF, 0)
 
     def data(self, byte: int) -> int:
-        """Write a data byte, then wait for IBF = 0; return that status."""
+        """Write a data byte, wait for IBF = 0, and return the status that was read last."""
         self.write(0, byte)
         return self.poll(IBF, 0)
 
@@ -119,7 +119,9 @@ class ModelHost:
         self.t = max(self.t, edge + 1)
 
     def fall(self, n: int, after: int = 0) -> int:
-        """Run to the n-th pulse since `mark` and return its edge; the next access is `after` cycles later."""
+        """Run to the n-th pulse since `mark` and return its edge; the next access is `after` cycles after the
+        pulse.
+        """
         while len(self.pulses()) < n:
             self.step()
         edge = self.pulses()[n - 1]
@@ -134,7 +136,7 @@ class ModelHost:
         return self.model.log.falls("pout_n", self.mark)
 
     def intervals(self) -> list[int]:
-        """Return the distances between these pulses in cycles."""
+        """Return the distances between the pulses since `mark` in cycles."""
         pulses = self.pulses()
         return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
 

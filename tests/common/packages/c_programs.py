@@ -115,7 +115,8 @@ def simulate(
         done = folder / "digest"
         if not done.is_file() or done.read_text() != made_of:
             done.unlink(missing_ok=True)
-            # All these programs are compiled with the same arguments.
+            # All these programs are compiled with the same arguments, so they share the compiled run-time
+            # library.
             runtime = BUILD / "cdriver-runtime"
             copy_runtime(runtime, folder)
             # The rules that Verilator writes do not link again when only an object file has changed.

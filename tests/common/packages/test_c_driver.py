@@ -125,8 +125,8 @@ def test_one_pulse_left(lines):
 
 
 def test_origin_and_stops(lines):
-    """A homing motion ends at the origin; jog and run motions end after a stop command. The driver returns
-    the cause.
+    """A homing motion ends at the origin; jog and run motions end after a stop command. In each case the
+    driver returns the cause.
     """
     home, jog, fast = (ending(lines, name) for name in ("home", "jog", "run"))
     assert (home["raw"], jog["raw"], fast["raw"]) == (0x87, 0xC5, 0xC6)
@@ -255,8 +255,8 @@ def test_busy_right_behind_the_last_byte(lines):
 
 
 def test_the_gap_before_busy_is_met(lines, request):
-    """In the test above, the status is read before BUSY rises if the timing is DATASHEET, but after it with
-    FAST.
+    """In the test above, the driver reads the status before BUSY rises with DATASHEET timing, and after it
+    with FAST.
     """
     gap = request.node.callspec.params["lines"] == "DATASHEET"
     assert next(line["bare"] for line in lines["G look"] if "bare" in line) == str(int(not gap))

@@ -22,7 +22,8 @@ def needed(group: str) -> set[str]:
     return {group}.union(*(needed(other) for other in LISTED[group]["needs"]))
 
 
-# Carriers and their shared groups have a separate target in Bender; tops of boards are in no list.
+# The lists of parts omit carriers and their shared groups, which have a separate target in Bender; tops of
+# boards are in no list.
 IN_PARTS = set[str]().union(*(needed(row.rtl) for row in tops()))
 CARRIERS = [group for group in LISTED if group not in IN_PARTS and group != "boards"]
 RTL = [f"rtl/{name}" for group in LISTED if group in IN_PARTS for name in LISTED[group]["files"]]

@@ -55,7 +55,7 @@ def test_bits_of_the_picture(part):
 
 
 def test_missing_block(tmp_path):
-    """If a file lacks the lines before and after a generated block, the error contains these lines."""
+    """If a file lacks the two lines that enclose a generated block, the error contains these lines."""
     file = tmp_path / "empty.h"
     file.write_text("")
     with pytest.raises(ProjectError, match=r"no lines '/\* Registers.*' and '/\* End"):

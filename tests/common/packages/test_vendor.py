@@ -1,4 +1,6 @@
-"""Inputs of vendors' tools, and FuseSoC cores that depend on ours: plain Verilog, no Verilator warning."""
+"""Inputs of vendors' tools contain only plain Verilog; FuseSoC cores that depend on ours cause no Verilator
+warning.
+"""
 
 from __future__ import annotations
 

@@ -63,8 +63,8 @@ SOURCES = {"sub": "// SPDX\n// sub: says it.\nmodule sub (\n    input wire logic
 
 
 def test_readable_text():
-    """Equal modules occur once, with comments; numbered one-bit wires are replaced by their expressions, but
-    the result of an addition is kept.
+    """Equal modules occur once, with comments. Numbered one-bit wires are replaced by their expressions,
+    except the results of additions.
     """
     text = readable(YOSYS, "top", SOURCES)
     assert text.startswith("module top (")

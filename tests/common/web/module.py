@@ -19,7 +19,9 @@ from scripts.site.webparts import WebPart
 
 ROW = struct.Struct("<dII")
 INPUT = 1 << 16
-"""Row number INPUT + n is a change of input word n; lower numbers are those of output words."""
+"""In a row that the module returns, number INPUT + n means input word n; a lower number is that of an output
+word.
+"""
 QUEUE = 1 << 16
 """Number of future changes that the queue of a module can store."""
 Call = Callable[..., Any]

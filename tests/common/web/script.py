@@ -1,4 +1,5 @@
-"""Sessions of the playground (site/src/engine) on the golden model: the expected result of each session.
+"""Plays sessions of the playground (site/src/engine) on the golden model, for the expected result of each
+session.
 
 A line contains statements; `;` ends a statement, `#` begins a comment. docs/playground.md has the list. A
 session on the part and the same session here apply the same levels to the pins in the same cycle.
@@ -16,8 +17,8 @@ from openppmc.check.records import Recording, steps
 from scripts.site.webparts import Motor, WebPart
 
 DENSE, FIRST, LONGEST = 16, 4, 8_000
-"""Number of polls without a pause; first pause in cycles; longest pause. Each pause is a quarter longer than
-the previous one.
+"""Polls: number of polls without a pause (DENSE), first pause (FIRST) and longest pause (LONGEST) in cycles.
+Each pause is a quarter longer than the previous one.
 """
 PATIENCE = 400_000_000
 """Maximum wait of a statement in cycles."""

@@ -29,7 +29,8 @@ pytestmark = [
 ]
 NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "board.mjs").read_text(encoding="utf-8"), re.M)
 BOARDS = {
-    # Clock, crystal and timing of the module in the page, so that the recorded edges can be compared.
+    # Clock frequency, crystal and timing are those of the module in the page, so that the page can compare
+    # the recorded edges.
     "recorded": "clk=16000000,record=13",
     "plain": "",
     **{part: f"part={part}" for part in ("ppmc2104", "stmc", "ppmc312", "bank")},
@@ -73,7 +74,7 @@ def checked() -> dict[str, dict[str, str]]:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode == 3:
         pytest.skip(done.stderr.strip().splitlines()[-1])
-    if done.returncode:  # returned, because an exception is not cached
+    if done.returncode:  # the failure is returned as a result, because an exception would not be cached
         return {name: {"error": done.stderr} for name in NAMES}
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     for line in lines:

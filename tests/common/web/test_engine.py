@@ -24,12 +24,14 @@ from tests.common.web.script import Player
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 LONG = 22_000_000
-"""Length of a session in cycles; a longer session takes more than half a minute on an idle computer."""
+"""Maximum length of a session here, in cycles; a longer one takes more than half a minute on an idle
+computer.
+"""
 HERE = ROOT / "tests/common/web"
 
 
 def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
-    """Return the results of (part, text) pairs."""
+    """Play (part, text) pairs in the engine under node; return the result of each pair."""
     folder = playground()
     done = subprocess.run(
         ["node", str(HERE / "play.mjs"), str(folder.parent / "engine/engine.js"), str(folder)],

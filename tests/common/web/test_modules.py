@@ -22,7 +22,9 @@ from tests.common.web.script import ScriptError
 
 HOSTS = 50
 LONG = 10_000_000
-"""Length of a session in cycles; test_engine.py plays longer sessions, except those that take minutes."""
+"""Maximum length of a session here, in cycles. Longer ones are played by test_engine.py, except those that
+take minutes.
+"""
 SLOWEST = 0.3
 """Minimum speed of a WebAssembly module, relative to native code."""
 every = pytest.mark.parametrize("name", WEB_PARTS)

@@ -53,7 +53,9 @@ def test_other_pages_stay_as_they_are():
 
 @pytest.mark.parametrize("part", WEB_PARTS)
 def test_rules(part):
-    """Each command, each instruction and the status register have a rule of the manual."""
+    """The tables state, for each command, each instruction and the status register, a rule that is in the
+    manual.
+    """
     found = tables(part, getattr(DEVICES[part].load("demo"), "words", Ppmc104Decoder()))
     names = {code["rule"] for code in found["codes"].values()} | {found["statusRule"]}
     assert names <= set(found["rules"]) and len(names) >= 12

@@ -48,7 +48,7 @@ def test_scan(run: Run) -> None:
     found = json.loads(run(*PART, "scan", "--json").out)
     assert [one["address"] for one in found] == [1, 2] and found[0]["line"]["silent"] == 0
     out = run(*PART, "--port", "model:speed=max,address=3,twin=3", "scan").out
-    assert "at rest" in out  # equal replies overlap
+    assert "at rest" in out  # equal replies of several controllers overlap and are read as one
     assert "no controller replies; check power" in run(
         *PART, "--port", "model:speed=max,baud=19200", "scan"
     ).only_line.replace("\n", "")
@@ -66,7 +66,7 @@ def test_looks(run: Run) -> None:
     values = json.loads(run(*PART, "status", "--address", "2", "--json").out)
     assert (values["position"], values["state"], values["inputs"]) == (0, "at rest", 31)
     assert len(json.loads(run(*PART, "status", "--address", "1,2", "--json").out)) == 2
-    # the first controller that answers
+    # status of the first controller that answers
     assert "EXT1 off, level 1; EXT2 off, level 1" in run(*PART, "status").out
     pins = json.loads(run(*PART, "io", *ONE, "--json").out)
     assert pins["gpi5"] == 1 and pins["gpo1"] == 0 and pins["ext2"] == 1

@@ -84,7 +84,7 @@ class Bench:
         return self.do(write)
 
     def start(self, count: int | None) -> int:
-        """Start a displacement, or the speed mode if `count` is None; return the edge of t = 0."""
+        """Start a move of `count` steps, or the speed mode if `count` is None; return the edge of t = 0."""
         motion = self.motion
         t = self.do(motion.run if count is None else lambda t: motion.start(t, count))
         return self.us.edge_of(self.us.first(t + self.shared.core_timing.plan))
@@ -124,7 +124,7 @@ class Made:
 
 
 def undisturbed(target: int) -> Callable[[int], LiveRegisters]:
-    """Return constant registers with this target."""
+    """Return a function that returns constant registers with this target at any time."""
     return lambda t: LiveRegisters(target)
 
 

@@ -22,7 +22,9 @@ RELEASES = {"together": ((1, 1),), "scl first": ((1, 0), (1, 1)), "sda first": (
 
 @cache
 def lines(page: bytes) -> tuple[tuple[int, int], ...]:
-    """Return the levels with which the part drives both lines while it saves the settings of `page`."""
+    """Return the successive levels that the part drives on both lines while it saves the settings of
+    `page`.
+    """
     part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
     part.run_until(CLK_HZ // 500)
     values = values_of(page)

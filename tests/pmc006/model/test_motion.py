@@ -231,8 +231,8 @@ def test_compensation_in_a_ramp_is_one_update_old() -> None:
 
 @verifies("P006-STL-01")
 def test_steady_speed() -> None:
-    """The constant-speed output changes one update later, so it does not depend on the duration of the
-    calculation.
+    """`at_constant_speed` changes one update (100 us) after the end or the beginning of a ramp, so it does
+    not depend on the duration of the calculation.
     """
     bench = Bench(**SETUP)
     origin = bench.start(2000)

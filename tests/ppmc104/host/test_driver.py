@@ -493,8 +493,8 @@ def test_a_look_before_busy_rises() -> None:
 
 
 def test_excitation_off_right_after_a_start() -> None:
-    """Excitation off directly after a start is rejected, even though a part with DATASHEET timing is not BUSY
-    yet and would execute the code as AUX ON.
+    """The driver rejects excitation off directly after a start, although a part with DATASHEET timing is not
+    BUSY yet; it would execute the code as AUX ON.
     """
     with Ppmc104.open(f"model:speed=max,timing={timing}", baud=3_000_000) as axis:
         axis.initialise(start_pps=5000, high_pps=9000)

@@ -62,8 +62,8 @@ def test_read_strobe_ends_a_write():
 
 
 def test_replacement_in_the_window_and_on_the_c_event_edge():
-    """If a byte is replaced while it waits, only the newest one is accepted; on the edge of a C-event, the
-    old byte is accepted first (P104-HSK-02).
+    """If a byte is replaced while it waits, only the newer byte is accepted; if it is replaced on the edge of
+    its C-event, both are accepted, the older one first (P104-HSK-02).
     """
     model = AnyModel(latency=replace(NOMINAL, build_clk=lambda rl, rh, pa: 500))
     t = 10
@@ -121,7 +121,9 @@ def test_three_byte_answer():
 
 
 def test_read_command_beats_a_byte_on_its_way_out():
-    """If a data read is just consuming a byte, a new answer replaces this byte (P104-HSK-08)."""
+    """If a read command is accepted while a data read consumes a byte, the new answer replaces this byte
+    (P104-HSK-08).
+    """
     for wait in range(6):
         host = ModelHost()
         host.run("c 81")

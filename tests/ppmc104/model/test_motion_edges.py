@@ -108,8 +108,8 @@ def test_slow_limit_released_before_the_plateau_is_lost_in_pulse_mode():
 
 
 def test_end_edges_of_an_immediate_stop():
-    """If pout_n is high, BUSY falls imm_end cycles after the decision; if pout_n is low, BUSY falls when
-    pout_n rises.
+    """If pout_n is high when an immediate end is decided, BUSY falls imm_end cycles later (a latency
+    constant); if pout_n is low, BUSY falls when pout_n rises.
     """
     for after, expected in ((200, 200 + 2 + 1), (80, 80 + 2 + 1), (78, 81), (77, 80), (10, 80), (0, 80)):
         host = moving(INIT_A + " c 45 d 63")

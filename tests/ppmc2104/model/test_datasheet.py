@@ -205,7 +205,7 @@ def test_no_ticks_while_a_window_is_open():
     event = host.write(1, 0xA6) + 2
     host.pin("fl_n", 0)
     host.idle()
-    # The longest time is the window of 43 us plus a complete polling period.
+    # The longest detection time is the window of 43 us plus a complete polling period.
     assert host.model.now == event + 688 + 560 + 1
 
 

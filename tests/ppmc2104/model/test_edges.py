@@ -29,8 +29,8 @@ def test_ac_79_three_bytes(busc):
 @verifies("P2104-BUS-01", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-12")
 def test_what_makes_a_strobe():
     def shows(busc: int, first: int, second: int) -> tuple[int, int]:
-        """Return d_oe during a strobe with these levels, and ERROR after it (the byte is an undefined
-        code).
+        """Return d_oe while the strobe pins have the levels `first` and `second`, and the bit ERROR
+        afterwards; the byte on the bus is an undefined code.
         """
         host = Host(busc=busc)
         host.pins(cs_n=0, ds_wrs_n=first, rw_rds_n=second, a0=1, d_i=0x87)

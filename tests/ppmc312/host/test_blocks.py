@@ -165,7 +165,7 @@ NUMBERS = [
     *(0x10, 0x11, 0x15, 0x16, 0x17, 0x18, 0x19, 0x1A),
     *(0x20, 0x21, 0x23, 0x24, 0x25, 0x26, 0x27),
 ]
-"""Error numbers of the parameter abnormality F0 (docs/ppmc312/README.md, Blocks)."""
+"""Error numbers that the answer F0 (parameter abnormality) contains (docs/ppmc312/README.md, Blocks)."""
 
 
 @pytest.mark.parametrize(("response", "kind", "text"), REFUSALS, ids=[r[0] for r in REFUSALS])

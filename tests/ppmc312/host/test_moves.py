@@ -48,7 +48,9 @@ def port_of(part: Ppmc312) -> ModelPort:
 def after_start(
     part: Ppmc312, monkeypatch: pytest.MonkeyPatch, number: int, act: Callable[[], Any]
 ) -> list[int]:
-    """Call `act` when the response to the n-th start was read; return the lengths of all instructions."""
+    """Call `act` when the response to the n-th start has been read; return the lengths of all instructions
+    sent.
+    """
     board = port_of(part).board
     read, write, reads, lengths = board.read, board.write, [], []
     # bytes read: 8 for the position; for each move, 4 for the start and 8 for the end

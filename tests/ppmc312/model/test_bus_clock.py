@@ -13,7 +13,9 @@ from openppmc.model.ppmc312.part import Ppmc312
 STROBE, SET_UP = 65, 35
 """Length of the write strobe, and time for which data is valid before the end of the strobe, in ns."""
 LEAST = math.ceil(Fraction(2 * 10**9, SET_UP))
-"""Lowest clock in Hz with which two samples fit between the change of the data and the end of the strobe."""
+"""Lowest clock frequency in Hz at which two samples fit between the change of the data and the end of the
+strobe.
+"""
 CSR, ENABLES = 0, 0x70
 
 

@@ -23,10 +23,10 @@ def test_fixed_latencies() -> None:
     assert begin + TIMING.copy + TIMING.answer + LONGEST <= 4096
     assert begin <= 64  # instruction 80: pout has no rising edge later than 64 cycles after the header
     assert begin + TIMING.look_up() + TIMING.ramp_lead <= 512
-    assert TIMING.answer + 4 <= 64  # the answer to a start is available after t0
+    assert TIMING.answer + 4 <= 64  # the answer to a start is available after t0 of the motion
     assert TIMING.report + TIMING.rest <= 64 and TIMING.turn_back <= 64
     assert TIMING.count <= 2 and TIMING.armed <= 4 and TIMING.next_response <= 4 and TIMING.reload >= 8
-    assert TIMING.compare + 2 <= TIMING.least == 4  # a stop at a position takes effect before the next pulse
+    assert TIMING.compare + 2 <= TIMING.least == 4  # a stop at a position is decided before the next pulse
     assert TIMING.slow_lead <= 4 and TIMING.lead + 2 <= 4 and TIMING.origin_lead + 2 <= 4
 
 

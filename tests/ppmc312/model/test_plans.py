@@ -77,7 +77,7 @@ Act = tuple[int, object]
 
 
 def walk(plan: Plan, *acts: Act, limit: int = 10_000) -> tuple[list[Step], Cause]:
-    """Run a sequence; return its pulses and the reason of its end.
+    """Run the sequence of pulses of a plan; return its pulses and the reason of its end.
 
     Each action takes place in the interval of its number; interval 0 is before pulse 1.
     """

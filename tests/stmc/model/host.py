@@ -82,7 +82,7 @@ class Host(ModelHost):
         return self.finish()
 
     def pulses(self) -> list[int]:
-        """Return the edges of the steps since `mark`, which are the changes of `s`."""
+        """Return the edges of the steps since `mark`; each change of `s` is a step."""
         return [t for t, _ in self.model.log.of("s", self.mark)]
 
     def gaps(self, tick: int = EXT16) -> list[int]:

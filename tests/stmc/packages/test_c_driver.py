@@ -84,8 +84,8 @@ def test_read_codes_are_found_out(lines):
 
 
 def test_interrupt(lines):
-    """The last step of a move with interrupt asserts IRQ, that of a quiet move does not; the read of the
-    finish status deasserts IRQ.
+    """The last step of a move with interrupt asserts IRQ; the last step of a quiet move does not. A read of
+    the finish status deasserts IRQ.
     """
     assert lines["irq"][0]["quiet"] == "0" and pulses(lines, "quiet")[0] == 3
     values = lines["irq"][1]
