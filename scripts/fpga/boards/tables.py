@@ -59,7 +59,7 @@ def timing_table(boards: tuple[Description, ...]) -> str:
                     ns = (f"{period:.2f} ns", f"{longest:.2f} ns", f"{margin:.2f} ns")
                     percent = f"{100 * margin / period:.0f} %"
                     rows.append((margin / period, (f"`{name}`", f"{on.mhz:g} MHz", *ns, percent, str(seed))))
-    heads = ("bitstream", "`clk`", "period", "longest path", "setup margin", "", "seed")
+    heads = ("bitstream", "`clk`", "period", "longest path", "setup margin", "share of the period", "seed")
     body = table(heads, [row for _, row in sorted(rows)])
     return f"{body}\n\nNot measured: {', '.join(missing)}." if missing else body
 
