@@ -6,8 +6,8 @@ import { Speed } from "../engine/speeds";
 
 const INPUT = 1 << 16;
 const STEP = 1 << 17;
-const MOST = 1_000_000; // changes of a pin; with more changes, the older half is discarded
-const MOST_OF_ALL = 2_000_000; // changes of all pins together; they need 24 MB, or up to twice as much after growing
+const MOST = 524_288; // changes of a pin, a power of two; with more changes, the older half is discarded
+const MOST_OF_ALL = 2_000_000; // changes of all pins together; a change needs 12 bytes
 /** Log entries that only read; they cannot start or end a move. */
 export const READS = new Set(["st", "r", "<", "get", "axis", "count"]);
 
