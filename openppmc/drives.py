@@ -39,7 +39,7 @@ class Speeds(NamedTuple):
 
 
 class Drive:
-    """Axis with the functions that differ between parts. This class is for parts with a ramp as set-up."""
+    """Axis with the functions that differ between parts. Here for parts with the ramp in the set-up."""
 
     has_acceleration = False  # True if a setting of the part replaces the number of ramp pulses
     _prepared: object = None
@@ -68,7 +68,7 @@ class Drive:
         return Speeds(base, top, 2 * setup.ramp_pulses / (base + top))
 
     def set_speeds(self, start: float, velocity: float, acceleration: float) -> None:
-        """Set the speeds (0: value of the set-up); the axis must be stopped. Raises OutOfRange."""
+        """Set the speeds; 0 selects the value of the set-up. The axis must be stopped. Raises OutOfRange."""
         if self._request is None:
             return
         high = float(velocity or self._request.high_pps)
@@ -101,11 +101,14 @@ class Drive:
         return pins.limit_cw, pins.limit_ccw, pins.origin
 
     def leave_limit(self, target: int) -> None:
-        """Clear the flag of the limit that a move to this pulse leaves, if it prevents such a move."""
+        """If the flag of a limit switch prevents a move to `target` away from this switch, clear the flag."""
 
 
 class SettingsDrive(Drive):
-    """Axis of a PMC006B4, whose speeds are settings. EXT1 is limit and origin backward, EXT2 forward."""
+    """Axis of a PMC006B4, whose speeds are settings.
+
+    EXT1 is the limit switch and the origin switch in direction backward, EXT2 in direction forward.
+    """
 
     has_acceleration = True
 

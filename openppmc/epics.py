@@ -299,7 +299,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         return error
 
     async def _call(self, job: Callable[[], None]) -> Exception | None:
-        """Call a function in a thread; return its exception. While the port is lost, return the reason."""
+        """Call a function in a thread; return its exception. If the port is lost, only return its error."""
         if self._ioc.lost is not None:
             return self._ioc.lost
         self._ioc.calls += 1
@@ -349,7 +349,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._homed, self._unknown = True, False
 
     def _confirm(self) -> None:
-        """Initialise the axis, which may have lost its set-up, because a client has stated the position."""
+        """Initialise the axis after a client has stated the position; the axis may have lost its set-up."""
         self._positioner.initialise()
         self._look()
         self._problem, self._unknown = None, False
@@ -451,7 +451,7 @@ class Motor(PVGroup):  # type: ignore[misc]
             await self._go(value)
 
     async def _put_offset(self, value: float) -> None:
-        """Shift the positions; soft limits stay at their pulses."""
+        """Set the offset of the positions; the soft limits keep their values in pulses."""
         self._check_idle()
         shift = value - self._get("OFF")
         await self._set(OFF=value)
@@ -558,7 +558,7 @@ class Ioc:
         self._log(f"{device.link.name}: the port is open again: {state}; home, or set positions with SET")
 
     async def _update(self) -> None:
-        """Begin an attempt to open a lost port, if RETRY seconds have passed; publish all records."""
+        """If RETRY seconds have passed, begin an attempt to open a lost port. Publish all records."""
         if self._attempt is not None and self._attempt.done():
             done, self._attempt = self._attempt, None
             done.result()

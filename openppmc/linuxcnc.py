@@ -203,7 +203,7 @@ class Controller:
     """All axes of a component; the caller repeats `cycle`.
 
     Args:
-        component: object with `newpin`, `newparam` and items, as of `hal`.
+        component: object with `newpin`, `newparam` and items, like a component of the module `hal`.
         types: the module `hal`, for its constants.
         report: function that prints a line about a fault.
         check: function that is called in each cycle, also during homing. It may raise an exception.

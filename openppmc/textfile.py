@@ -21,7 +21,7 @@ class NotTextError(ValueError):
 
 
 def encoding_of(head: bytes) -> str:
-    """Return the encoding that the first bytes of a file indicate; `utf-8` without a byte order mark."""
+    """Return the encoding that the first bytes of a file indicate; `utf-8` if they indicate no other one."""
     for mark, name in _MARKS:
         if head.startswith(mark):
             return name
@@ -61,7 +61,7 @@ def read_text(path: Path) -> str:
 
 
 def chunks(path: Path, size: int = 1 << 19) -> Iterator[bytes]:
-    """Yield a text file as bytes in UTF-8, or unchanged if the file has no byte order mark.
+    """Yield a text file as bytes in UTF-8; bytes that `encoding_of` takes for UTF-8 are unchanged.
 
     Raises:
         OSError: the file cannot be read.

@@ -1,8 +1,8 @@
 """Make the environment .venv: ``python -m scripts.env GROUP …`` installs these dependency groups.
 
 The groups are in pyproject.toml, the versions of all packages in requirements.lock. `make` starts this module
-when `missing` names a group. The module imports only the standard library, because no package is installed
-yet.
+if a group is not installed as required (function `missing`). The module imports only the standard library,
+because no package is installed yet.
 """
 
 from __future__ import annotations

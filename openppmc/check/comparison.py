@@ -20,7 +20,8 @@ class Mismatch:
     Attributes:
         t: clock edge of the difference.
         signal: output that differs there.
-        expected, actual: next change (t, value) of the model and of the other side; `None` if there is none.
+        expected, actual: first change (t, value) of `signal` that differs, in the model and on the other
+        side; `None` if that side has no further change.
         differing: all outputs that differ, in order of time.
     """
 
@@ -112,9 +113,9 @@ def _first_difference(expected: Waves, actual: Waves) -> Mismatch | None:
 
 
 def differing_spans(comparison: Comparison, name: str) -> list[tuple[int, int]]:
-    """Return the difference of one output as changes (t, level).
+    """Return the times at which the two sides differ in one output, as changes (t, level).
 
-    At level 1, the two sides differ.
+    While the level is 1, the two sides differ.
     """
     expected, actual = comparison.expected[name], comparison.actual[name]
     initial, spans, state = comparison.initial[name], [], 0

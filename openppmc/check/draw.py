@@ -26,7 +26,8 @@ def window(comparison: Comparison) -> tuple[int, int]:
     after = [t for t in times if t > m.t][:5]
     ends = [side[0] for side in (m.expected, m.actual) if side is not None]
     start, stop = min([m.t - 12, *before]), max([m.t + 12, *after, *ends])
-    # In a wide window the difference would be invisible, so the window ends at most 4000 cycles from it.
+    # In a wide window the difference would be invisible, so the window is limited to 4000 cycles before it
+    # and, except for the two differing edges, 4000 cycles after it.
     start, stop = max(start, m.t - 4000), min(stop, max(m.t + 4000, max(ends) + 12))
     margin = max(2, (stop - start) // 20)
     return start - margin, stop + margin

@@ -5,10 +5,10 @@ ended.
 
 `app` contains the table of commands; a command is imported when it is called. `common` contains the commands
 that the parts share, and depends on no part. The folder of a part contains its commands if it is on a serial
-line, and the objects for two columns of `openppmc.parts`: `presenter` defines the output, the forecasts and
-the additional functions of a part; without it, a part uses that of the PPMC-104. `script_commands` are
-additional commands of the part in script files. A part that is accessed through the UART bridge and has the
-ramp and the registers of the PPMC-104 requires no code in this package.
+line, and the objects for two columns of `openppmc.parts`. `presenter` defines the output, the forecasts and
+the additional functions of a part; a part without this object uses the presenter of the PPMC-104.
+`script_commands` defines additional commands of the part in script files. A part that is accessed through the
+UART bridge and has the ramp and the registers of the PPMC-104 requires no code in this package.
 """
 
 from __future__ import annotations

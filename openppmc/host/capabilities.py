@@ -95,7 +95,8 @@ class Capabilities:
         has: names of capabilities (see above).
         outputs: highest value of the auxiliary outputs; 0 if the part has no such outputs.
         alarm: name of the alarm input, and the advice in the message about an alarm.
-        origin_between: True if the origin is between the slow-down limits, and a search ends at them.
+        origin_between: True if the origin is between the slow-down limits. A search for the origin then ends
+        at a slow-down limit.
         usual_ramp: default length of a ramp in pulses.
     """
 

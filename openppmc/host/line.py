@@ -45,7 +45,7 @@ class DuplicateAddress(LinkError):
 
 
 class LineEcho(LinkError):
-    """The master receives its own bytes, but was not configured for it."""
+    """The master receives its own bytes, although it is not configured for an echo."""
 
 
 class LostReply(LinkError):

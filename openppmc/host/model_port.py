@@ -66,7 +66,7 @@ class Pacer:
 
 _Jobs = SimpleQueue[tuple[Callable[[], Any], SimpleQueue[Any]]]
 _worker: tuple[int, int, _Jobs] | None = None
-"""Worker that calls models: number of its process, its thread, its queue."""
+"""Worker that calls models: ID of its process, ID of its thread, its queue."""
 
 
 def whole(call: Callable[[], T]) -> T:

@@ -28,7 +28,7 @@ _SELECT_BYTES = 2
 _HEAD = 3
 """Number of values in an answer that precede those of the first move.
 
-The last of them is the position counter.
+The last of these values is the position counter.
 """
 _STATUS, _FINISH, _COUNT = -4, -2, -1
 """Indices of the values of one move in its answer, counted from the end."""
@@ -55,8 +55,9 @@ def run_moves(
     Args:
         numbers: pulses of each move.
         ahead: largest number of moves that are read ahead.
-        execute: executes a frame with the first of the given moves. It returns the motions that were started,
-            of which the last one may still be running, and the error that prevented the next move.
+        execute: executes one frame with as many of the given moves as fit, beginning with the first. It
+            returns the motions that were started, of which the last one may still be running, and the error
+            that prevented the next move.
         empty: returns the result of a move of 0 pulses.
     """
     waiting: list[int] = []

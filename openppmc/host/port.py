@@ -66,8 +66,8 @@ class SerialPort:
         import serial
 
         port = serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
-        # Without this mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Some systems
-        # and adapters do not support this mode.
+        # Without the low-latency mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Some
+        # systems and adapters do not support this mode.
         with suppress(AttributeError, NotImplementedError, ValueError):
             port.set_low_latency_mode(True)
         return port
@@ -214,13 +214,13 @@ def _how_to_get_permission(path: str) -> str:
 
 
 def virtual(spec: str) -> str:
-    """Return the port without `char:` if it is `sim:…` or `model:…`, else "". It need not have its colon."""
+    """Return the port without `char:` if it is `sim:…` or `model:…`, also without its colon; else ""."""
     inner = spec.removeprefix(CHAR)
     return inner if f"{inner}:".startswith((MODEL, SIM)) else ""
 
 
 def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
-    """Open a port: device path, `sim:plant text`, `model:plant text` or `char:port`. Raises PortError."""
+    """Open a port: device path, `sim:` or `model:` with options, or `char:` with a port. Raises PortError."""
     if spec.startswith(CHAR):
         from .char_port import CharPort
 

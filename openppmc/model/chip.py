@@ -217,9 +217,9 @@ class Chip(ABC):
     def pins(self, t: int, **levels: int) -> None:
         """Set input levels.
 
-        Edge t is the first edge that samples these levels; later calls for the same t override them.
-        If two registers sample a pin, for example rd_n, "stage.rd_n" is the level that the second register
-        samples; for a strobe, this is the synchroniser. Without "stage.rd_n", both sample the same level.
+        Edge t is the first edge that samples these levels; later calls for the same t override them. If two
+        registers sample a pin, for example rd_n, "stage.rd_n" is the level that the second register samples
+        (for a strobe, the synchroniser). Without "stage.rd_n", both registers sample the same level.
 
         rst_n = 0 is effective immediately; the output edges that it causes have the time t.
 

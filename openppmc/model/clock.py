@@ -37,7 +37,7 @@ class Latency:
         build_base, build_per_rate: a ramp-table build takes base + per_rate * (RL - RH) cycles (P104-HSK-04,
             <= 40000). For RL = RH, which requires no table, it takes 3 cycles.
         build_clk: function of (RL, RH, PA) that replaces build_base and build_per_rate.
-        build_queue: addition to a build where two axes share the builder.
+        build_queue: addition to the length of a build on parts whose two axes share the builder.
         ds_host: addition to times measured from a write event (P104-DS, -0/+16).
         ds_waited: addition to times measured from the end of a wait (P104-DS, -0/+16).
         ds_motor: addition to times measured from a pulse, a deciding edge or an input level (P104-DS,
@@ -45,10 +45,11 @@ class Latency:
         ds_window: addition to the windows of P2104-DS-01..14, which count from the C-event.
         ds12_lag: from a pulse event to the edge at which the length of its interval is compared for
             P104-DS-12.
-        lookup_start, lookup_per_rate: the core looks up the rate of an interval that is slower than the
-            previous one while the previous interval runs. The look-up takes lookup_start, plus
-            lookup_per_rate for each rate. The mailbox opens when the look-up has passed the limit.
-        lookup_first: length of the look-up for the first such interval, whose rate is already known.
+        lookup_start, lookup_per_rate: while an interval runs, the core looks up the rate of the next interval
+            if that interval is slower. The look-up takes lookup_start, plus lookup_per_rate for each rate
+            that it passes. With P104-DS-12, the mailbox opens when the look-up has passed the limit of that
+            rule.
+        lookup_first: length of the look-up for the first slower interval, whose rate is already known.
     """
 
     c_event: int = 2
@@ -137,7 +138,7 @@ class Timebase:
         return self.cyc(self.quantum * n)
 
     def ticks_in(self, clk: int) -> int:
-        """Return the number of the last tick at or before this cycle after the restart.
+        """Return the number of the last tick that occurs at most `clk` cycles after the restart.
 
         The result is 0 if clk < 0.
         """

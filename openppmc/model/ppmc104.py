@@ -238,7 +238,7 @@ class CommandUnit(ByteUnit):
         return None
 
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
-        """Execute an action with FAST timing immediately, with DATASHEET timing after its time (P104-DS-11).
+        """Execute an action immediately, or with DATASHEET timing after its processing time (P104-DS-11).
 
         The mailbox is closed during the processing time.
 

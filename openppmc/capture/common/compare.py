@@ -36,7 +36,7 @@ MOST_PPM = 1000
 MOST_EDGES = 10_000
 """Largest number of edges that the model stores as objects."""
 STEP = 1_000_000
-"""Number of cycles for which one call runs the model."""
+"""Largest number of cycles for which one call runs the model."""
 CLK_HZ = 16_000_000
 WINDOW = 256
 """Largest number of edges of the chip, and of the model, that are matched one by one after a difference."""
@@ -78,7 +78,7 @@ class Differences(Sequence[Difference]):
         self._pins: list[str] = []
 
     def add(self, one: Difference) -> None:
-        """Append a difference at time `t`."""
+        """Append a difference; it need not be later than those already stored."""
         if self._pins[-1:] != [one.pin]:
             self._pins.append(one.pin)
         self._times.append(one.t)
@@ -186,10 +186,10 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 
 
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
-    """Return two kinds of times at which a comparison begins, and whether there is a reset.
+    """Return the time from which the model runs, the times from which edges are compared, and a flag.
 
-    The first item is the time from which the model runs. The second item maps each axis to the time from
-    which its edges are compared. The third item is True if the capture contains a reset.
+    The second item maps each axis to the time from which its edges are compared. The third item, the flag, is
+    True if the capture contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
@@ -215,7 +215,7 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
 
 @dataclass
 class _ModelEdges:
-    """Outputs of the model; times in ps of the capture."""
+    """Outputs of the model; times in ps on the time base of the capture."""
 
     outputs: dict[str, Channel]
 
@@ -377,7 +377,7 @@ def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     The ratio is computed from the moves that both sides contain. It is 1 if it cannot be computed from them.
 
     Args:
-        alike: pairs of lengths in ps, one pair per common move: in the capture, in the model.
+        alike: for each common move, its length in the capture and its length in the model, both in ps.
         slack: possible error of a length in ps.
     """
     if not alike:

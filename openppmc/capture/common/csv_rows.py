@@ -52,7 +52,7 @@ class _Block:
     Attributes:
         changed: True for a line whose levels differ from those of the previous line.
         odd: True for a line that does not consist of a time and levels of one character each.
-        levels: levels of the lines that changed.
+        levels: levels of those changed lines that are not odd.
     """
 
     def __init__(self, block: bytes, layout: Layout, level: Column) -> None:
@@ -249,7 +249,7 @@ class Rows:
         )
 
     def _row(self, text: str, line: int, cut: bool) -> tuple[list[int], Fraction]:
-        """Read a single line.
+        """Read one line; return its levels and its time.
 
         Args:
             cut: True if the line has no line feed.
@@ -269,7 +269,7 @@ class Rows:
         return levels, self._time(line, cells[0]) if timed else Fraction(0)
 
     def _time(self, line: int, text: str) -> Fraction:
-        """Read a single time. Raises CaptureError."""
+        """Return the time in the text of one cell. Raises CaptureError."""
         found = time_of(text, self.layout.separator)
         if found is None:
             raise self.fail(line, f"{text.strip()[:30]!r} is no time: export it again")
@@ -280,13 +280,13 @@ class Rows:
     def _agree(self, line: int, absolute: bool) -> None:
         if self.absolute is None:
             self.absolute = absolute
-            # The times of such lines are in ps.
+            # Times with a unit or a date are in ps, so they have no decimals.
             self.decimals *= not absolute
         if self.absolute != absolute:
             raise self.fail(line, "times with and without a unit: write all of them alike")
 
     def _times(self, block: _Block, kept: Column, exact: dict[int, Fraction]) -> Column:
-        """Return the times of these lines.
+        """Return the times of the lines with the indices `kept`.
 
         Args:
             exact: times that were read one by one, by row.
@@ -341,7 +341,7 @@ class Rows:
         digits = chars[:, begin:end] - np.uint8(ord("0"))
         if (digits > 9).any() or (chars[:, end:] != chars[0, end:]).any():
             return None
-        # Few of the time stamps begin a new second.
+        # Few of the time stamps begin a new second, so only those are converted one by one.
         fresh = np.ones(len(rows), bool)
         fresh[1:] = (chars[1:, :begin] != chars[:-1, :begin]).any(axis=1)
         seconds = []

@@ -80,7 +80,7 @@ def part_decoder(part: str) -> PartDecoder:
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
     """Return the end of an error message, "; it has the pins of …".
 
-    It names the parts whose required pins the capture contains.
+    The text names the parts whose required pins the capture contains.
 
     The result is empty in three cases: a pin map names the channels, the capture has all required pins of
     `without`, or it matches no other part.

@@ -109,7 +109,7 @@ class CommandDecoder:
         return self.other(code | axis, data)
 
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
-        """Return the bytes that the part returned after a read command as text.
+        """Return as text the bytes with which the part answered a read command.
 
         Args:
             stopped: True if the last end status contained a cause of a stop.

@@ -85,8 +85,8 @@ class Wires:
     """Channels of a capture by the names of the pins.
 
     Attributes:
-        ports: ports whose bits were all captured, as numbers.
-        bits: single bits, by port and bit.
+        ports: ports of which all bits were captured; the level of such a port is a number.
+        bits: channels of single bits, by port and bit number.
         end, sample: time of the end of the capture, and its sample period, in ps.
     """
 
@@ -126,7 +126,7 @@ class PartDecoder:
         pins: names for the pin map; a bidirectional data bus is `d`.
         inputs: inputs of the model with their idle levels.
         needs: returns the required pins.
-        lines: returns the content as text.
+        lines: returns the content of a capture as lines of text.
         stimulus: returns the actions of the host as (ps, levels) of pins of the model.
         trains: returns the pulses per axis.
         host_pins: inputs of the model that `stimulus` and `straps` set.

@@ -29,7 +29,7 @@ from .errors import CaptureError
 from .signals import Bits, Capture, Channel
 
 NUMBERS = frozenset(("CLK_HZ", "XTAL_HZ", "BAUD", "ADR"))
-"""Parameters of a map whose values are numbers."""
+"""Parameters in a pin map that must be numbers."""
 WORDS = ("part", "crystal", "timing", "scope", "parameters", "pins")
 _PLACE = re.compile(r"(\w+)\[(\d+)\]")
 _INDEXED = re.compile(r"(.+?)\s*\[(-?\d+)\]")
@@ -196,7 +196,7 @@ def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int
 
 
 def _scoped(capture: Capture, scope: str) -> Capture:
-    """Return the capture with the names of the channels of this scope without the scope.
+    """Return the capture; the channels of this scope also have their names without the scope.
 
     Raises:
         CaptureError: the capture has no such scope.

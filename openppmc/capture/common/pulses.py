@@ -82,8 +82,8 @@ def _move(axis: int, times: Column, way: int | None) -> Move:
     gaps = np.diff(times)
     if not len(gaps):
         return Move(axis, begin, end, sign, len(times), 0.0, 0.0, 0.0)
-    # Sampling may shorten an interval by one sample. Therefore, the highest speed is that of the shortest
-    # interval, where each interval is the median of three.
+    # Sampling may shorten an interval by one sample. Therefore, the median of each three successive intervals
+    # is computed, and the highest speed is that of the shortest median.
     least = min(gaps[:2].min(), gaps[-2:].min())
     if len(gaps) > 2:
         a, b, c = gaps[:-2], gaps[1:-1], gaps[2:]

@@ -44,7 +44,7 @@ def core_comment(part: str, parameters: Mapping[str, object]) -> str:
 
 
 def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
-    """Return the content of a comment of `core_comment`; empty for any other comment. Raises CaptureError."""
+    """Return part and parameters from a comment of `core_comment`, else empty values. Raises CaptureError."""
     text = comment.strip()
     if not text.startswith(_MARK):
         return "", {}
@@ -133,7 +133,7 @@ class _Head:
             self.scale = Fraction(1000)
             self.notes.append("no $timescale in it, 1 ns is assumed")
         if self.part:
-            # Our own files contain analogue curves of the speed for a viewer.
+            # Our own files contain analogue curves of the speed for a viewer; omit the notes about them.
             self.notes = [note for note in self.notes if not note.endswith(_LEFT_OUT)]
         self._name(declared)
 

@@ -1,6 +1,7 @@
-"""Command group: a table of commands, imported when they are called, and the help texts.
+"""Command group: the table of the commands, and their help texts.
 
-On a narrow terminal the help is plain text, because table cells would cut words off.
+A command is imported when it is called. On a narrow terminal the help is plain text, because table cells
+would cut words off.
 """
 
 from __future__ import annotations
@@ -100,7 +101,8 @@ class PartGroup(TyperGroup):
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
-        # Only for help and suggestions: `resolve_command` builds the command that is called.
+        # These commands are only for help and suggestions; `resolve_command` builds the command that is
+        # called.
         self.commands = {
             row.name: TyperCommand(row.name, help=row.help, rich_markup_mode="rich")
             for row in reversed(self.rows)

@@ -249,7 +249,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
         progress: OnProgress,
         pulse_only: bool = False,
     ) -> Sequence[MotionResult]:
-        """Move several axes, with a common start, and wait.
+        """Move several axes, which start together, and wait for the end of all motions.
 
         Args:
             pulses: pulses of each axis, by its number.

@@ -77,7 +77,7 @@ def selftest(
 
 
 def _spec() -> str:
-    """Return the port; a virtual board gets a recorder.
+    """Return the port; for a virtual board, the text requests a recorder.
 
     Raises PpmcError for `model:`, because the golden model cannot be compared with itself.
     """

@@ -104,7 +104,7 @@ def watch(
     lines: Callable[[], Iterable[str]],
     table: Callable[[], Table],
 ) -> None:
-    """Show a table and update it on a terminal; elsewhere, print the `lines` of each reading.
+    """On a terminal, show a table and update it; elsewhere, print the `lines` of each reading.
 
     Args:
         pause: function that is called between two readings.

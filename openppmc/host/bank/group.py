@@ -147,7 +147,7 @@ class Group(Checked):
     def _cancel(self) -> None:
         """Cancel all motions of this group.
 
-        All its axes were stopped when the group was opened.
+        All its axes were at standstill when the group was opened.
         """
         link, kind = self._bank.link, self._bank.kind
         try:

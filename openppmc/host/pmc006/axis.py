@@ -79,9 +79,10 @@ class Axis(Settings):
     def stop(self, wait: bool = True) -> MotionResult | None:
         """Stop with a ramp; return the result, or `None` if wait is False.
 
-        A free run receives a stop instruction. The part cannot stop a move with a ramp. In a move of 256
-        steps or more, the driver therefore lowers the maximum speed, and aborts the move when the motor has
-        decelerated to this speed.
+        Speed mode has a stop instruction with a ramp. A move can only be aborted immediately. Therefore, the
+        driver lowers the maximum speed to the stop speed, waits for the time of this ramp, aborts the move,
+        and restores the maximum speed. A move of up to 255 steps ignores the new maximum speed, so it is
+        aborted without a ramp.
 
         Raises:
             NothingToStop: the motor is stopped.
@@ -176,7 +177,7 @@ class Axis(Settings):
         return motion
 
     def _start_executed(self, begin: int, reply: int) -> int | None:
-        """Return the lost reply to a start if the start was executed, else `None`.
+        """Return `reply`, the lost reply to a start, if the start was executed, else `None`.
 
         Before the start, the motor was stopped. The start was therefore executed if the motor moves or has
         moved.

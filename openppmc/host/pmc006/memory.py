@@ -15,7 +15,7 @@ OnCount = Callable[[int, int], None]
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
 """Time in s for which the EEPROM is busy after a save or a burn, with some reserve."""
 _LOOKS = 10
-"""Factor between these times and the longest wait. It allows for a slow I2C clock."""
+"""Longest wait for the EEPROM, divided by the time above. It allows for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
@@ -132,7 +132,7 @@ class Memory(Axis):
     def halt_program(self) -> None:
         """Halt the program; a motion continues.
 
-        After it, the functions of the keys are off, and `offline` is unchanged.
+        After the call, the functions of the keys are off, and `offline` is unchanged.
         """
         offline = self.offline
         self.offline = 0

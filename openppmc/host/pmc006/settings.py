@@ -60,8 +60,8 @@ class Setting:
         text: purpose of the setting.
         unit: unit of the value.
         saved: True if `save` stores it.
-        shift: lowest bit in the word that is read.
-        bits: number of bits.
+        shift: position of the lowest bit of the setting in the word that is read.
+        bits: number of bits of the setting.
         word: number of bits of the word that is read.
     """
 
@@ -143,7 +143,7 @@ _InStatus1 = partial(Setting, word=STATUS_1_BITS, bits=1)
 _InStatus2 = partial(Setting, word=STATUS_2_BITS, saved=False)
 _SPEED = (range(65, 3001), "65 to 3000")
 _SHOW_A_RESET = ("direction", "stops", "max_speed")
-"""Settings that `save` does not store. One instruction reads each of them."""
+"""Settings that a reset changes, because `save` does not store them; each has an instruction to read it."""
 
 
 class Settings(StationLink):

@@ -279,8 +279,8 @@ def _sealed(body: bytes) -> bytes:
 class Receiver:
     """Receiver for the bytes after a frame to `address`; see `host.line.ReplyReceiver`.
 
-    Replies of other controllers and damaged replies are skipped, because the expected reply may follow.
-    `fault` reports them.
+    Replies of other controllers and damaged replies are skipped, because the expected reply may follow. The
+    property `fault` reports them.
 
     Args:
         sent: the frame that was sent. It is skipped if the master receives its own bytes.

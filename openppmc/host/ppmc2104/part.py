@@ -274,8 +274,8 @@ class Ppmc2104(Part):
     def _clear_errors(self) -> None:
         """Clear errors, unfinished commands and unread answers of another program.
 
-        The code is written twice. If a command waits for data, the part discards the first code and ends the
-        command. The second code is executed.
+        The code of the instruction that reads the error is written twice. If a command waits for data, the
+        part discards the first code and ends the command. The second code is executed.
         """
         self.link.execute(
             Script()

@@ -26,7 +26,7 @@ class Status:
 
     Attributes:
         raw: condition byte of the response.
-        run_monitored: starts wait for RUN.
+        run_monitored: True if starts wait for RUN.
         interlock: True if the interlock control is active.
         encoder_watched, position_watched: True if this monitor is on.
         encoder_outside, position_outside: True if this monitor reports a deviation.

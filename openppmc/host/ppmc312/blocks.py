@@ -23,7 +23,7 @@ CW, CCW = 0, 1
 WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02
 """Headers of blocks.
 
-Their order: complete instruction; last data block; data block before further data blocks; code block before
+In this order: complete instruction; last data block; data block before further data blocks; code block before
 data blocks.
 """
 LONGEST = 32

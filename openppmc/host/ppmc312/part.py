@@ -225,7 +225,7 @@ class Axis(Overrides[MotionT]):
         return self._start(blocks.single_step(direction), direction, 1).wait().check(1)
 
     def search(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at constant speed (default: start speed) to the origin switch, or its first index."""
+        """Run at constant speed (default: start speed) to the origin switch, or to the first index on it."""
         return self._start(blocks.origin_search(direction, self._search_rate(pps), index), direction)
 
     def zero_return(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:

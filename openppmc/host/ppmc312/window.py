@@ -182,7 +182,7 @@ class Window:
     def _append_read(script: Script, gives: int) -> Script:
         """Append the operations that read a response.
 
-        Each response has at least SHORTEST bytes. Each further byte is read only if a byte is unread.
+        Each response has at least SHORTEST bytes. Each further byte is read only if an unread byte remains.
         """
         script.wait(ADDRESS, MASK, LEFT).read_many(READ, SHORTEST).timeout(0)
         for _ in range(gives - SHORTEST):

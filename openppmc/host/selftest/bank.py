@@ -12,7 +12,7 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire
 
 ONCE, AN_AXIS = 32, 14
-"""Numbers of levels in a record: bus and shared pins together, each axis."""
+"""Numbers of levels in a record: for the bus and the shared pins together, and for each axis."""
 SHOWN = 3
 """Number of axes that are started together. More axes would require a large recorder."""
 

@@ -37,7 +37,7 @@ class Rates:
         high: high rate.
         ramp: pulses of the ramp, two bytes.
         slow: rate of constant speeds.
-        table: time in s after which the ramp table may be used with DATASHEET timing.
+        table: time in s from an initialisation until its ramp table may be used, with DATASHEET timing.
     """
 
     start: int = 249

@@ -97,7 +97,7 @@ class SelfTest:
     # ------------------------------------------------------------------ link
 
     def rates(self) -> None:
-        """Test every line rate that bridge and adapter support with long answers."""
+        """With long answers, test every line rate that bridge and adapter support."""
         work = self.link.baud
         for code, baud in enumerate(RATES[: self.link.identity.best_rate + 1]):
             before = self.link.repeats
@@ -218,7 +218,7 @@ class SelfTest:
         return SectionResult(section, records, end, count, pulses, skipped=skipped)
 
     def _compare(self, samples: list[tuple[int, int]]) -> Comparison:
-        """Compare with each set of parameters until one matches, and keep this set."""
+        """Compare the records with a model for each set of parameters until one matches; keep this set."""
         if not self._params:
             reset = reset_levels(samples, self._layout)
             width = sum(bits for _, bits in self._layout)

@@ -85,7 +85,7 @@ class Group:
         """Process a write event of GO at edge t.
 
         This GO is effective from edge t on. If an earlier GO is still active, this GO is effective after the
-        end of the earlier GO (BANK-GRP-03).
+        end of the earlier GO. If another GO already waits for this end, this GO has no effect (BANK-GRP-03).
         """
         if self._go > t:
             return

@@ -127,7 +127,7 @@ class Bridge:
         bus: see `bridge_ops.Bus`.
         part: part number in the answer to IDENT.
         clk_hz: 1..2^32-1; it determines the available line rates.
-        xtal_hz, datasheet, counter: values that only the answer to IDENT contains.
+        xtal_hz, datasheet, counter: values for the answer to IDENT, without any other effect.
         axes: number of pulse counters, 1 or 2.
         build: answer to VERSION, 16 bytes.
         recorder: True if the bus has a recorder.

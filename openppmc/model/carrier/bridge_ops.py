@@ -109,7 +109,7 @@ class Engine:
         self.rate: int | None = None
 
     def hook(self, name: str, default: T, *arguments: object) -> T:
-        """Call an optional method of the bus."""
+        """Call an optional method of the bus; return `default` if the bus does not have it."""
         method: Callable[..., T] | None = getattr(self._bus, name, None)
         return default if method is None else method(*arguments)
 

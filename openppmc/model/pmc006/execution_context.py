@@ -58,7 +58,7 @@ class Program(Protocol):
         """Start the program by instruction z or by autostart."""
 
     def quit(self, t: int) -> None:
-        """Execute instruction F 0."""
+        """Execute instruction F with data 0."""
 
     def enable(self, name: str, on: int, target: int) -> None:
         """Execute RESET_EN or PAUSE_EN."""
@@ -137,7 +137,7 @@ class ExecutionContext(Protocol):
         """Execute instruction s or ROT."""
 
     def run(self, t: int) -> None:
-        """Execute instruction N = 1 at standstill (IDLE)."""
+        """Execute instruction N with data 1 at standstill (IDLE)."""
 
     def speed(self, t: int, on: bool) -> None:
         """Execute instruction N while the speed mode is running or ending."""

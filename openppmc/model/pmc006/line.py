@@ -105,8 +105,8 @@ class Line:
     Args:
         take: take(t, command) is called when a frame with a valid checksum is complete. Edge t samples its
             last stop bit. take returns True if the frame is for this controller (P006-FRM-02).
-        replies: list for (edge at which de rises, frame).
-        sent: list for (edge in the middle of a stop bit, byte).
+        replies: list to which (edge at which de rises, frame) of each reply is appended.
+        sent: list to which (edge in the middle of the stop bit, byte) of each byte sent is appended.
     """
 
     def __init__(

@@ -204,7 +204,7 @@ class CommandUnit:
         return self._windows.open(t, window_us(command, triangle), None if no_axis else command.axis)
 
     def _at(self, t: int, end: int, action: Callable[[int], None]) -> None:
-        """Execute an action with FAST timing immediately, with DATASHEET timing at the window's end."""
+        """Execute an action immediately, or with DATASHEET timing at the end of the window."""
         if end > t:
             self._context.queue.at(end, Phase.BEGIN, action)
         else:

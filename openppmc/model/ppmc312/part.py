@@ -42,7 +42,8 @@ class Ppmc312(Chip):
 
     Attributes:
         replies: (edge at which snd rises, whole frame) of all frames that the station has sent.
-        sent: (edge in the middle of the stop bit, character). Both lists may be cleared at any time.
+        sent: (edge in the middle of the stop bit, character) of all characters sent. Both lists may be
+            cleared at any time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -206,7 +207,7 @@ class Ppmc312(Chip):
             self._host.ready(t)
 
     def _reset_outputs(self, t: int) -> None:
-        """Reset the pins that follow no internal level, and the pins that follow one a cycle later."""
+        """Reset the pins that follow no internal level, or follow an internal level one cycle later."""
         for pin in ("wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
 

@@ -2,7 +2,7 @@
 
 Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..04, P2104-HSK-01..04. Output
 queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Each part defines the pins of a strobe, the other status
-bits, and the conditions for which a byte waits.
+bits, and the conditions under which a byte stays in the input buffer.
 
 The two registers that drive the bus (d_oe and d_o) sample a read strobe directly (P104-PORT-02, D-05). All
 other registers use the output of a synchroniser, which may sample the strobe up to one cycle later. Let E be
@@ -12,8 +12,8 @@ and S' are the first edges that no longer sample the strobe. The rules then stat
 - P104-BUS-05, P2104-BUS-06: d_oe rises at E and falls at E'. d_o is loaded at E and loaded again
   (refreshed) at each edge up to S + 1.
 - P104-HSK-05, P2104-BUS-08: a data read clears OBF at S' + 2 if OBF was 1 at the last refresh. The last
-  refresh is at S + 1, or at S if the synchroniser sampled the strobe only once. A read instruction that is
-  executed before S' + 2 has priority.
+  refresh is at S + 1, or at S if the synchroniser sampled the strobe only once. If a read instruction is
+  executed before S' + 2, OBF stays 1 for the answer of this instruction.
 - P104-HSK-05: from the last refresh on, a status read no longer shows the OBF of this byte.
 """
 

@@ -48,7 +48,7 @@ class Eeprom:
         self._sent = []
 
     def take(self, byte: int) -> None:
-        """Receive a byte of the controller: device, two address bytes, then data."""
+        """Receive the next byte from the controller; the order is device, two address bytes, data."""
         self._sent.append(byte)
         if len(self._sent) == 3:
             self._address = (self._sent[1] << 8 | byte) % SIZE
@@ -149,7 +149,7 @@ class LineSpec:
     """Requested virtual line.
 
     Attributes:
-        loads: one for each controller, by its address.
+        loads: mechanical load of each controller, by the address of the controller.
         twin: address that two controllers have, None if all addresses differ.
         baud: line rate in bit/s.
         step_ack: MANUAL or ECHO.

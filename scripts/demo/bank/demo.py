@@ -66,7 +66,7 @@ class Played:
 
 
 def play() -> Played:
-    """Run the host: initialise all axes, load all axes, send GO, read the results of all axes."""
+    """Run the host: initialise all axes, load a move into each, send GO, read the results of all axes."""
     host = Session(AXES, CLK_HZ)
     for one in ORDERS:
         host.send(one.axis, INIT, *one.ramp)

@@ -31,7 +31,7 @@ class Order:
 
     @property
     def code(self) -> int:
-        """The command; odd axes go CCW."""
+        """The code of the command; odd axes move CCW."""
         return RAMPED | (CCW if self.axis & 1 else 0)
 
     @property

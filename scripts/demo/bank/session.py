@@ -82,7 +82,7 @@ class Session:
         return byte
 
     def poll(self, axis: int, bits: int = IBF) -> int:
-        """Read the status until the bits of `mask` are 0; return the status."""
+        """Poll the status until all bits of the mask `bits` are 0 in it; return this last status."""
         while (status := self.read(axis, STATUS)) & bits:
             pass
         return status

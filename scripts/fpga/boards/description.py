@@ -143,11 +143,11 @@ class Description:
 
     @property
     def languages(self) -> tuple[str, ...]:
-        """Suffixes of the pin files of the board, with those of a vendor's tool if the tool supports it."""
+        """Suffixes of the pin files, including those of a vendor's tool if such a tool supports the board."""
         return LANGUAGES[self.family][: None if self.vendor else 1]
 
     def constraints(self, on: Carried, language: str = "") -> str:
-        """Return the path of a pin file with this part below constraints/; by default, the first one."""
+        """Return the path, below constraints/, of a pin file for this part; by default, of the first one."""
         return f"{self.name}/{on.name}/pins.{language or self.languages[0]}"
 
 

@@ -180,7 +180,7 @@ def build_on(
     params: dict[str, int | str] | None = None,
     notify: Callable[[str], None] = lambda text: None,
 ) -> dict:
-    """Build a row of the table of boards as `build_board` does; return the report."""
+    """Build the bitstream of a row of the table of boards as `build_board` does; return the report."""
     check_host(on, host)
     check_parameters(on, host, params or {})
     folder = on.folder(host)

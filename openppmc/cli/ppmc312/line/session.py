@@ -38,7 +38,7 @@ class Session:
     guard: Guard
 
     def selected_axes(self, text: str | None) -> list[Station312]:
-        """Return the stations that --axis names, which must all reply; else all that reply."""
+        """Return the stations that --axis names, which must all reply; without --axis, all that reply."""
         if text is not None:
             numbers = parse_stations(text)
             self.bus.check(numbers)

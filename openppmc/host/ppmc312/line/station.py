@@ -162,7 +162,7 @@ class Station312(Axis[SerialMotion]):
     # ------------------------------------------------------------------ instructions of the line only
 
     def error_code(self) -> int:
-        """Return the last error code (42 to 49) that the station has sent in a reply, 0 for no error.
+        """Return the most recent error code (42 to 49) that the station has sent in a reply, 0 for no error.
 
         The read clears the code. Raises AxisBusy while the motor is moving.
         """

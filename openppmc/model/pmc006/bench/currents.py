@@ -62,7 +62,7 @@ class WaveMetrics(NamedTuple):
     """Results of a measurement.
 
     Attributes:
-        amplitude: amplitude of the fundamental of the reference, A.
+        amplitude: amplitude of the fundamental of the reference in A.
         error: rms of (current - fundamental of the reference), relative to the rms of this fundamental.
         follows: rms of (current - reference), relative to the rms of the reference.
         thd: harmonics 2..40 of the current, relative to its fundamental.
@@ -212,5 +212,5 @@ def residual_current(measured: Waves) -> tuple[float, float]:
 
 
 def ripple(measured: Waves) -> tuple[float, float]:
-    """Return mean and peak-to-peak value of a current at standstill, A."""
+    """Return mean and peak-to-peak value of a current at standstill, in A."""
     return sum(measured.current) / len(measured.current), max(measured.current) - min(measured.current)

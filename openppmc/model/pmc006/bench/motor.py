@@ -201,7 +201,8 @@ class Plant:
         now = self.seconds(model.now)
         self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
         self._update_windings()
-        # Therefore, any caller that runs the model, for example a host, also advances the currents.
+        # `run_until` is replaced, so that any caller that runs the model, for example a host, also advances
+        # the currents.
         model.run_until = self.run_until  # type: ignore[method-assign]
 
     def seconds(self, t: int) -> float:

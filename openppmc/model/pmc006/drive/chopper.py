@@ -3,7 +3,7 @@
 After each fixed off time, the bridge is on or in fast decay.
 
 The model is driven by events: timers, and changes of the comparator, the reference and the enable. In this
-module, an edge is the edge at which the half-bridge commands change.
+module, edge t of a method is the edge at which the half-bridge commands change.
 """
 
 from __future__ import annotations

@@ -1,8 +1,10 @@
 """Drive of the PMC006B4 (P006-EXC).
 
-Angle, references, idle current, bridges and bit streams of the references.
+The drive consists of the angle, the current references with their bit streams, the idle current, and the
+bridges.
 
-The model is event driven. In this module, an edge is the edge at which the register concerned changes.
+The model is event driven. In this module, edge t of a method is the edge at which the register concerned
+changes.
 """
 
 from __future__ import annotations

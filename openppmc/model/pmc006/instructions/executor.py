@@ -129,7 +129,7 @@ class ExecutionContext:
         self.motion.start(t, count)
 
     def run(self, t: int) -> None:
-        """Execute instruction N = 1 at standstill (IDLE)."""
+        """Execute instruction N with data 1 at standstill (IDLE)."""
         self.stop_monitor.started()
         self.speed_on = self.running = True
         self.motion.run(t)

@@ -194,7 +194,7 @@ class Out(Operation):
     """Instruction OUT."""
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome, which sets one bit of GPO."""
+        """Return the outcome, which writes one bit of GPO."""
         if option not in range(1, 6):
             return NOTHING
         mask = 1 << option - 1

@@ -69,7 +69,7 @@ class Processor:
         self._executor.resume(t, restart=True)
 
     def quit(self, t: int) -> None:
-        """Execute instruction F 0."""
+        """Execute instruction F with data 0."""
         self.state, self.paused = State.HALT, False
         self.rsten = self.pauen = 0
 

@@ -110,7 +110,7 @@ class Boot:
         self._at(t + 1, self._finish)
 
     def _finish(self, t: int) -> None:
-        """End the sequence, or start a restore that was requested before, or read the copy of the page."""
+        """Start a pending restore, or read the copy of an invalid page; otherwise, end the sequence."""
         if self._restore_pending:
             self._restore_pending = False
             self._engine.run(t + 1, "fact", self._engine.fact(), self._schedule_finish)

@@ -51,7 +51,10 @@ class Bus:
     # ------------------------------------------------------------------ time
 
     def begin(self, t: int, sequence: BusSequence[None], ended: Callable[[int], None]) -> None:
-        """Run a sequence from the first tick at or after edge t; call ended(t) at its last tick."""
+        """Run a sequence from the first tick at or after edge t.
+
+        At its last tick, `ended` is called with the edge of this tick.
+        """
         next(sequence)
         self._wait(self._ticks.first(t), sequence, ended)
 
@@ -88,7 +91,7 @@ class Bus:
         self._services.queue.at(at, Phase.PIN, lambda now: self._services.log.set(now, "scl_oe", 0))
 
     def _rise(self) -> BusSequence[None]:
-        """Wait until SCL is high; a device may hold it low for a millisecond."""
+        """Wait until SCL is high; a device may hold it low for at most a millisecond."""
         for _ in range(self.per_ms + 1):
             yield
             if self._levels["scl_i"]:

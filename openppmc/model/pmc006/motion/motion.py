@@ -2,9 +2,9 @@
 
 Rules: P006-MOT-04, -05, -50..-52.
 
-`engine` contains the arithmetic. In this module, an edge is the edge at which the register concerned changes;
-registers of other blocks are read with their values before the edge. Events are processed per update and per
-step.
+`engine` contains the arithmetic. In this module, edge t of a method is the edge at which the register
+concerned changes; registers of other blocks are read with their values before the edge. Events are processed
+per update and per step.
 """
 
 from __future__ import annotations
@@ -216,7 +216,7 @@ class Motion:
         self._speed_mode = bool(on)
 
     def adc(self, t: int, data: int) -> None:
-        """Process a strobe, sampled at edge t, of the analogue value, 0..1023."""
+        """Process at edge t a strobe with the analogue value `data`, 0..1023."""
         self._adc_before, self._adc, self._adc_at = self._adc_read(t), data, t
 
     def halt(self, t: int) -> None:
@@ -294,7 +294,7 @@ class Motion:
         return True
 
     def _advance(self, t: int) -> None:
-        """Calculate the values that the next update loads from the registers before edge t."""
+        """From the registers before edge t, calculate the values that the next update loads."""
         engine, now = self.engine, self._services.settings
         assert engine is not None
         self._next_constant_speed = engine.stage is Stage.CRUISE and engine.speed > 0

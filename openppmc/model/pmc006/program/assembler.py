@@ -60,7 +60,7 @@ class _Assembler:
         self._lines: list[_Line] = []
 
     def run(self, text: str) -> Program:
-        """Assembly of one text: all names are processed first, then the instructions."""
+        """Assemble one text: process all names first, then the instructions."""
         number = 0
         for number, line in enumerate(text.splitlines(), 1):
             self._read(number, re.split("[;#]", line, maxsplit=1)[0].strip())

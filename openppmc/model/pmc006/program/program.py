@@ -39,7 +39,10 @@ class Program:
 
     @classmethod
     def of(cls, instructions: Iterable[Instruction]) -> Program:
-        """Create a program, with END after the last instruction. Raises ValueError for more than 100."""
+        """Create a program, with END after the last instruction.
+
+        Raises ValueError for more than 100 instructions.
+        """
         words = [word for one in instructions for word in one.words]
         return cls((*words, *[0] * (WORDS - len(words))))
 

@@ -39,7 +39,7 @@ class Sequence:
         decel_begins: True if a requested deceleration began at the last boundary.
         change_dropped: True if the last boundary discarded a waiting instruction 87.
         was_searched: True if the constant rate at the last boundary had been that of a stage, so that a
-            search for t(x) was required.
+            search for t(x), the stage of this rate (`stages.Table.stage`), was required.
     """
 
     def __init__(self, plan: Plan) -> None:
