@@ -26,7 +26,7 @@ QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
 QUICK_DEFAULT = "ecp5"
 
 RECORDER = (("RECORD", 10),)
-"""Parameters of the bitstreams for the self-test: a larger recorder is not in block RAM."""
+"""Parameters of the bitstreams for the self-test. A larger recorder needs RAM that is not converted."""
 PARAMS = {"bank": (), "pmc006": (("BAUD", 115_200),)}
 """Parameters of the bitstream for tests without a recorder, by part."""
 TARGETS = {plain.FAMILY: "test-verilog", gates.BITS: "test-bits"}

@@ -36,7 +36,7 @@ SESSION_AXES = 32
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # initialisation bytes: 5 to 25 kpps within 100 pulses
 BITS = ((ERR, "ERR"), (BUSY, "BUSY"), (IBF, "IBF"), (OBF, "OBF"))
 Lines = list[tuple[str, int]]
-"""Explanations of a session, each with the number of accesses from the session's start to its end."""
+"""Explanations of a session, each with the number of accesses that have been made when it ends."""
 
 
 def meaning(one: Access) -> str:

@@ -169,7 +169,7 @@ def zero_return() -> Figure:
 
 
 async def _to_answer(mode: Config, block: str, *setting: str) -> int:
-    """Return the cycles from a block's header to its answer. With `setting`, it is sent at pulse 2."""
+    """Return the cycles from a block's header to its answer. With `setting`, the block is sent at pulse 2."""
     host = await Host.start(OnModel(mode), *setting)
     await host.write(CSR, ANSWERS)
     if setting:

@@ -108,7 +108,7 @@ class Bench:
         return [t for t, _ in self.chip.log.of("s", self.mark)]
 
     def in_gap(self, gap: int) -> None:
-        """Run to a point within gap i between two steps of the last motion."""
+        """Run to a point within the gap with number `gap` between the steps of the last motion."""
         self.until(lambda: len(self.steps()) > gap)
         self.t = self.chip.now + 300
 
@@ -307,7 +307,7 @@ def _ready(code: int, **parameters: object) -> Bench:
 
 
 def moved(command: str, code: int = 0x0A) -> Start:
-    """Return the model during a move; the base of the diagram is the edge of the last step, still to come."""
+    """Return the model before the last step of a move; the edge of this step is the base of the diagram."""
     ahead = _ready(code)
     ahead.start(command)
     last = ahead.end().steps[-1]

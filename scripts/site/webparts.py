@@ -45,7 +45,7 @@ class WebPart:
     Attributes:
         bus: kind of host (site/src/engine).
         idle: levels of the straps of the part.
-        busy: status bits that a host waits for.
+        busy: status bits that a host polls until they are 0.
         bits: names of the bits in the status register, bit 7 first.
         straps: pins with a button in addition to the switches.
         hint: example of an input, which the page shows to the user.

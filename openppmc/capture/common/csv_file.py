@@ -194,7 +194,7 @@ class _Table:
         return None
 
     def _names(self, count: int) -> list[str]:
-        """Return the channel names in the comment, or `logic0`, `logic1`, … if their number does not match."""
+        """Return the channel names in the comment, or `logic0`, `logic1`, … if their number is wrong."""
         if len(self.column_names) in (count, count - 1):
             return [*self.column_names, "Trigger"][:count]
         return [f"logic{place}" for place in range(count)]

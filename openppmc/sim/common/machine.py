@@ -150,7 +150,7 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
 
 
 def _first(condition: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
-    """Return the first part whose machine model meets the condition."""
+    """Return the first part whose machine model satisfies the condition."""
     kinds = ((part, machine_kind(part)) for part in machine_parts())
     return next((part, kind) for part, kind in kinds if condition(kind))
 

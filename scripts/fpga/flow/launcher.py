@@ -25,7 +25,7 @@ BESIDE = {
     "gowin_pack": "gowin_pack",
 }
 """Programs in the folder of this Python, by the program that edalize starts."""
-OURS = {"procs": "proc", "renames": "rename"}  # names in Tcl of yosys commands whose own names Tcl uses
+OURS = {"procs": "proc", "renames": "rename"}  # Tcl names of yosys commands whose own names Tcl uses itself
 
 
 def run_tcl(script: str) -> None:

@@ -41,7 +41,7 @@ class Done:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A campaign calls `work(job.what)` for `count` jobs; its name and their keys identify results."""
+    """A campaign calls `work(job.what)` for `count` jobs. Its name and the key of a job identify a result."""
 
     name: str
     work: Callable[[Any], Result]

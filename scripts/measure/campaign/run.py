@@ -18,7 +18,7 @@ from scripts.measure.campaign.store import RESULTS, Store
 from scripts.measure.campaign.tree import tree
 
 AHEAD = 3
-"""Number of submitted jobs per worker: enough to keep it busy, few because Ctrl-C discards them."""
+"""Number of submitted jobs per worker: enough to keep it busy, but few, because Ctrl-C discards them."""
 LOST = "its workers were lost"
 
 

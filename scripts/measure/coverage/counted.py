@@ -40,7 +40,7 @@ class Copy:
         self._changes.append((at, at, new))
 
     def _list(self, statements: Sequence[Any], name: str) -> None:
-        """Change the statements that end a function, and the statements that end a branch at its end."""
+        """Change the last statement; move the statements after an `if` that returns into an else branch."""
         for number, node in enumerate(statements):
             if node is statements[-1]:
                 self._last(node, name)

@@ -70,10 +70,10 @@ class Target:
         axes: returns the axes of the driver that a session uses.
         prepare: initialises an axis.
         jog: starts an endless motion in the positive direction.
-        group: True if the part starts several axes together.
-        queue: True if the axes have `moves`.
+        group: True if the part can start several axes together.
+        queue: True if the axes have the method `moves`.
         baud: rate at which the driver opens its port.
-        crc: True if the frames have a CRC; False: a checksum, which may miss two faults in a frame.
+        crc: True if the frames have a CRC; else they have a checksum, which may miss two faults in a frame.
     """
 
     make: Callable[[], Any]

@@ -37,7 +37,7 @@ def stream(rng: random.Random, size: int, good: Frame, special: Sequence[int]) -
 
 
 def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
-    """Return some characters without a frame."""
+    """Return a valid frame, a frame with a fault, noise, or two pieces of frames."""
     kind = rng.random()
     if kind < 0.35:
         return good(rng)

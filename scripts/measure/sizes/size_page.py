@@ -129,7 +129,7 @@ def bank(found: Figures) -> str:
 
 
 def axis_costs(found: Figures) -> tuple[dict[str, tuple[int, float]], dict[str, int]]:
-    """Return COMB per axis with the plain recipe: ours as (axes, COMB), and other designs."""
+    """Return COMB per axis with the plain recipe: of our designs as (axes, COMB), and of other designs."""
     kinds = {d.name: d for d in designs.of_parts() if d.name in ("ppmc104", "ppmc2104", "isa_4axis")}
     measured = {name: found.get(f"{name} ecp5 plain") for name in kinds}
     family = {

@@ -169,7 +169,7 @@ def _rows(drawing: dict[str, Any], step: int, count: int) -> dict[str, Any] | No
 
 
 def fitted(drawing: dict[str, Any]) -> dict[str, Any]:
-    """Return a drawing with at most MOST px; raise ValueError if this is not possible."""
+    """Return a drawing that is at most MOST px wide; raise ValueError if this is not possible."""
     drawing = deepcopy(drawing)
     config = drawing.setdefault("config", {})
     if "signal" not in drawing:

@@ -99,7 +99,7 @@ class Suites:
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
-        """Return the groups in the order of their runs. Some are joined: a start takes seconds."""
+        """Return the groups in the order of their runs. Some are joined, because each start takes seconds."""
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
@@ -130,7 +130,7 @@ def _weights(points: Points) -> Counter[str]:
 
 
 def _lines(points: Points) -> dict[str, set[int]]:
-    """Return the covered lines of each file, including assignments and instances without points."""
+    """Return the covered lines of each file; lines without a point, such as assignments, count as covered."""
     found: dict[str, set[int]] = {}
     for name, was in points.reached.items():
         file = name.split(" ", 1)[0]
