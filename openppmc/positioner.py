@@ -50,7 +50,7 @@ _accesses: WeakKeyDictionary[Device, _Access] = WeakKeyDictionary()
 
 
 class Switches(NamedTuple):
-    """Hard limit switches in the direction of the position, and the origin switch; True = active."""
+    """Hard limit switches at the low and high end of the positions, and origin switch; True = active."""
 
     low: bool
     high: bool

@@ -38,9 +38,9 @@ ASCII = {
     "▶": ">", "▸": ">", "◂": "<", "✓": "ok", "✗": "x", "§": "section ", "ß": "ss", "ø": "o", "æ": "ae",
     "%": "\u066a",  # cp864 has only the Arabic percent sign
 }  # fmt: skip
-"""Replacement of characters that an encoding does not have.
+"""Replacements for characters that an encoding does not have.
 
-In addition, letters lose their accents.
+In addition to these replacements, letters lose their accents.
 """
 
 
@@ -60,7 +60,7 @@ class StdoutLost(SystemExit):
         reason = "closed" if error.errno == errno.EBADF else error.strerror or str(error)
         self.reason = "the reader has ended" if ended else reason
         self.motors = ""
-        """How moving motors were stopped; empty if no motor moved."""
+        """Text that states how moving motors were stopped; empty if no motor moved."""
 
     @property
     def line(self) -> str:
@@ -154,10 +154,10 @@ class _Stream(io.TextIOWrapper):
 
 
 class Ended:
-    """Object for the end of a block of `wrapped`.
+    """Object in which a block of `wrapped` stores its exit status.
 
     Attributes:
-        status: exit status, set by the block.
+        status: exit status; the block sets it.
     """
 
     status = 0

@@ -1,4 +1,4 @@
-"""Reader of text files in UTF-8 with or without a byte order mark, UTF-16, or Latin-1."""
+"""Reader of text files in UTF-8 (with or without a byte order mark), UTF-16, or Latin-1."""
 
 from __future__ import annotations
 
@@ -61,7 +61,9 @@ def read_text(path: Path) -> str:
 
 
 def chunks(path: Path, size: int = 1 << 19) -> Iterator[bytes]:
-    """Yield a text file as bytes in UTF-8; bytes that `encoding_of` takes for UTF-8 are unchanged.
+    """Yield the content of a text file as bytes in UTF-8.
+
+    If `encoding_of` returns UTF-8 for the file, the bytes are not changed or checked.
 
     Raises:
         OSError: the file cannot be read.

@@ -176,7 +176,7 @@ def axis_levels(levels: Mapping[str, int], axis: int) -> dict[str, int]:
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Return write strobe and read strobe in the bus style that busc selects (P2104-BUS-01, -02)."""
+    """Return the levels of write strobe and read strobe in the bus style of busc (P2104-BUS-01, -02)."""
     if pins["cs_n"]:
         return False, False
     first, second = not pins["ds_wrs_n"], bool(pins["rw_rds_n"])

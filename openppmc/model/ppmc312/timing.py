@@ -69,7 +69,7 @@ class CoreTiming:
         reply: from the sampling for a reply, or from the stored response, to the rising edge of snd.
         clear: shortest time from the middle of the stop bit to the rising edge of snd, minus one bit.
         silence: addition to the 20 ms without a character that end a frame.
-        early: crystal cycles that are subtracted from a DATASHEET time, because this time has already passed.
+        early: crystal cycles that are subtracted from a DATASHEET time, because they have already passed.
         proc_time: from the end of a DATASHEET time to the effect of the instruction.
         pins: from an internal level to irq_n and intlk_n.
         wrq_fast: T_WRQ with FAST timing.

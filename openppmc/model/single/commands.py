@@ -255,7 +255,7 @@ class ByteUnit(ABC):
         self._context.queue.at(done, Phase.BEGIN, self._complete)
 
     def _complete(self, t: int) -> None:
-        """Process the end of the table build; from now on, the motor current is chopped if bit 5 is set.
+        """Process the end of the table build: chop the motor current if bit 5 of the code is set.
 
         Rules: P104-INI-07/08, STMC-CHP-01/02.
         """

@@ -31,7 +31,7 @@ from .codes import Kind, decode
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Return write strobe and read strobe. If both pins are low, there is no strobe (P104-BUS-02)."""
+    """Return the levels of write strobe and read strobe; if both pins are low, both are False (P104-BUS-02)."""
     selected = not pins["cs_n"]
     writing = selected and not pins["wr_n"] and bool(pins["rd_n"])
     reading = selected and not pins["rd_n"] and bool(pins["wr_n"])
@@ -79,7 +79,7 @@ class BytePort(Protocol):
     """Members of the host side that the commands and the motion use."""
 
     def answer(self, values: Iterable[int]) -> None:
-        """Load the bytes of a read command."""
+        """Load the response bytes of a read command into the output queue."""
 
     def close_until(self, t: int) -> None:
         """Accept no byte before edge t (processing window)."""
@@ -92,7 +92,7 @@ class HostPort:
         take: take(t, byte, is_command, stored_at) is called at the C-event; stored_at is the edge of the
             write event.
         state: state() returns all status bits except IBF and OBF.
-        strobes: strobes(pins) returns write strobe and read strobe.
+        strobes: strobes(pins) returns the levels of write strobe and read strobe; True = active.
         must_wait: must_wait(t, byte, is_command) returns True if the byte must stay in the buffer at edge t.
             If it returns True, it must call `retry` when the byte may pass.
     """
@@ -180,7 +180,7 @@ class HostPort:
         self._context.queue.at(t + 1, Phase.LEVELS, self._decide)
 
     def _decide(self, t: int) -> None:
-        """Decide at edge S + 1 whether the read clears OBF, if this edge still samples the strobe."""
+        """If edge S + 1 still samples the strobe, decide at this edge whether the read clears OBF."""
         if self._sampled and t == self._read_began + 1:
             self._counts = self._is_final = self._is_data_read and self._readable
 
@@ -208,7 +208,7 @@ class HostPort:
     # ------------------------------------------------------------------ output queue
 
     def answer(self, values: Iterable[int]) -> None:
-        """Load the bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
+        """Load the response bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
         self._queue = list(values)
         self._output_byte = self._queue.pop(0)
         self.obf = True

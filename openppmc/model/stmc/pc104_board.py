@@ -66,7 +66,7 @@ class J105Stmc:
         )
         self._base = base_addr
         self._pins = dict(INPUTS)
-        # The core samples the register of the accumulator one edge later.
+        # The core samples the register of the accumulator one edge after it has changed.
         self._lag = self.core.latency.reset_tick + 1
         self._square = Square(clk_hz, ext_hz, self._lag)
         self.log = EdgeLog(OUTPUTS)

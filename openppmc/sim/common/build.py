@@ -91,7 +91,7 @@ def verilator_environment(folder: Path) -> dict[str, str]:
 
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
-# Assertions would cost a third of the speed, and `make test` checks all of them.
+# Assertions are disabled, because they would cost a third of the speed, and `make test` checks all of them.
 # All C++ code is in one file, because with split files, the precompiled header does not work in each version
 # of Verilator.
 VERILATE = (

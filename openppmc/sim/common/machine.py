@@ -1,4 +1,4 @@
-"""Machine model of a motor controller as a text: `start=4000,cw=40000,alarm=100..200`.
+"""Text that describes the machine model of a motor controller: `start=4000,cw=40000,alarm=100..200`.
 
 The virtual board and the golden model use the same text. It consists of words with values
 (docs/virtual_board.md, Words). Words of axis 2 end in 2 (`cw2=30000`), and so on. The column `machine` of the

@@ -1,8 +1,8 @@
 """PMC006B4 on one line: RTL or models, with EEPROM, motor, mechanical load and two switches.
 
-The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end applies to the
-controller with that address; a word without a number applies to all. The EEPROM is modelled byte by byte,
-because a simulation of each bit would need most of the run time.
+The text after `sim:` or `model:` is, for example, `address=1..3,start=2000,high3=9000,speed=max`. A word with
+a number at its end applies to the controller with that address; a word without a number applies to all. The
+EEPROM is modelled byte by byte, because a simulation of each bit would need most of the run time.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Eeprom:
 
     Args:
         content: bytes from address 0; all other bytes are blank.
-        file: the content is stored here after each write.
+        file: file in which the content is stored after each write.
         missing: True if no EEPROM is connected.
 
     Attributes:

@@ -1,9 +1,9 @@
 """Up to sixteen PPMC-312 with their motors on one line, as RTL or as models in virtual time.
 
-The text is `stations=4,start=2000,alarm3=100..200,speed=max`. A word of the plant with a number at its end
-applies to the station with this number; a word without a number applies to all stations. The characters after
-a control code are delivered only to the models that the code addresses. All other stations would ignore them,
-and thus they need no computing time.
+The text after `sim:` or `model:` is, for example, `stations=4,start=2000,alarm3=100..200,speed=max`. A word
+of the machine model with a number at its end applies to the station with this number; a word without a number
+applies to all stations. The characters after a control code are delivered only to the models that the code
+addresses. All other stations would ignore them, and thus they need no computing time.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class LineSpec:
 
     @property
     def rate(self) -> float:
-        """Line rate in bit/s with this crystal."""
+        """Line rate in bit/s with the crystal frequency `xtal_hz`."""
         return self.baud * self.xtal_hz / 16_000_000
 
 

@@ -188,7 +188,7 @@ class Player:
     # ------------------------------------------------------------------ after the session
 
     def _continue(self, error: PpmcError) -> None:
-        """After an exception, check that the same objects state the true position, or raise another exception."""
+        """After an exception, check that the same objects state the true position, or raise one again."""
         if self._device is None or self._restarted or isinstance(error, Disconnected):
             return
         try:

@@ -68,7 +68,7 @@ class Sequence:
 
     @property
     def present(self) -> Step:
-        """Current pulse with its interval; before pulse 1, these are those of pulse 1."""
+        """Current pulse with its interval; before pulse 1, pulse 1 with its interval."""
         return self.running or self.plan.step(1)
 
     # ------------------------------------------------------------------ requests
@@ -118,7 +118,8 @@ class Sequence:
 
         Args:
             ramps: True if instruction 87 may take effect at this boundary.
-            found: True if the search for t(x) has ended. It has no effect if no search was required.
+            found: True if the search for t(x) has ended. The argument has no effect if no search was
+                required.
         """
         self.decel_begins = self.change_dropped = False
         if self.complete:
