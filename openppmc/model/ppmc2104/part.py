@@ -53,8 +53,8 @@ class Ppmc2104(Chip):
             released: first edge after the reset.
         """
         counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
-        # After a reset, the synchronisers hold idle levels. Only the synchroniser of extck holds the level of
-        # its pin. Therefore, the part counts no clock edge that did not occur at the pin.
+        # After a reset, the synchroniser of extck holds the level of its pin, so the part counts no edge of
+        # the clock that did not occur at the pin. All other synchronisers hold idle levels.
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context

@@ -217,7 +217,7 @@ def build(
 
 
 def read_back(table: Table) -> list[tuple[int, bytes]]:
-    """Return the blocks of the response to a table read: (header, bytes after the length byte) (P312-CMD-41)."""
+    """Return the response to a table read: per block (header, bytes after the length byte) (P312-CMD-41)."""
     upward = range(LAST, -1, -1)
     counts = (STAGES - table.first, STAGES - table.sa, STAGES - table.sd if table.separate else 0)
     head = bytes([0x41, *counts]) + table.na.to_bytes(3, "big") + table.nd.to_bytes(3, "big")

@@ -31,7 +31,7 @@ from .codes import Kind, decode
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Return the levels of write strobe and read strobe; if both pins are low, both are False (P104-BUS-02)."""
+    """Return (write strobe, read strobe); if wr_n and rd_n are both low, both are False (P104-BUS-02)."""
     selected = not pins["cs_n"]
     writing = selected and not pins["wr_n"] and bool(pins["rd_n"])
     reading = selected and not pins["rd_n"] and bool(pins["wr_n"])

@@ -199,7 +199,7 @@ class SimLine(Child):
         return LineStatus.parse(self._ask_status())
 
     def set_inputs(self, number: int, levels: str) -> LineStatus:
-        """Set the general inputs of a station from text such as "11110" (input 1 last); return the new state."""
+        """Set a station's general inputs from text such as "11110" (input 1 last); return the new state."""
         return LineStatus.parse(self._ask_status(f"inputs {number} {levels}"))
 
 

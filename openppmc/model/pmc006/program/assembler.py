@@ -23,7 +23,7 @@ _CONSTANT = re.compile(rf"({_NAME})\s*=\s*(.*)$")
 
 
 class AssemblyError(PpmcError, ValueError):  # noqa: N818 - part of the API
-    """A line of the text is invalid; the message states the valid forms."""
+    """A line of the text is invalid; the message states the valid form."""
 
     def __init__(self, where: str, line: int, text: str) -> None:
         super().__init__(f"{where}:{line}: {text}")
@@ -41,7 +41,7 @@ def assemble(text: str, where: str = "program") -> Program:
 
     The text has one instruction per line, in upper or lower case; `;` and `#` begin comments. `name:` is a
     label of the next instruction; `name = value` defines a constant. The target of a jump is a label or the
-    number of an instruction. `.word W0, W1` specifies an instruction by its two words.
+    number of an instruction. `.word W0, W1` is an instruction as its two words.
 
     Args:
         where: file of the text, for messages.

@@ -54,7 +54,7 @@ class Program:
 
     @property
     def used(self) -> tuple[Instruction, ...]:
-        """Instructions up to and including the END that follows the last other instruction.
+        """Instructions up to the END that follows the last instruction other than END.
 
         The result contains at least one instruction.
         """
