@@ -81,7 +81,7 @@ class SerialPort:
                 return data
 
     def _guarded(self, action: Callable[[], bytes]) -> bytes:
-        """Call a function that accesses the port, and return its result. Raises Disconnected."""
+        """Call a function that accesses the port, and return its result. Raises Disconnected if it fails."""
         try:
             return action()
         except (OSError, TypeError) as error:
@@ -192,7 +192,7 @@ def _open_error_reason(path: str, error: Exception) -> str:
 
 
 def _windows_code(text: str) -> int | None:
-    """Return the number in the message of an error from Windows, which pyserial reports only as text.
+    """Return the number of a Windows error from its message, because pyserial reports only the text.
 
     >>> _windows_code("could not open port 'COM3': FileNotFoundError(2, 'not found', None, 2)")
     2
@@ -214,7 +214,10 @@ def _how_to_get_permission(path: str) -> str:
 
 
 def virtual(spec: str) -> str:
-    """Return the port without `char:` if it is `sim:…` or `model:…`, also without its colon; else ""."""
+    """Return `spec` without `char:` if the port is virtual, else "".
+
+    A virtual port is `sim:…` or `model:…`; the colon may be missing if there are no options.
+    """
     inner = spec.removeprefix(CHAR)
     return inner if f"{inner}:".startswith((MODEL, SIM)) else ""
 

@@ -32,7 +32,7 @@ def go_error(status: int, number: int) -> CommandRefused:
 
 
 class GroupRefused(PpmcError):
-    """Some axes of a group did not start; the other axes run.
+    """Some axes of a group did not start; the other axes of the group are running.
 
     Args:
         refusals: exception of each axis, by number.

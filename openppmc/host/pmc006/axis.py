@@ -73,7 +73,7 @@ class Axis(Settings):
         return self._start(Code.RUN, 1, (_RUNNING,), direction, speed)
 
     def change_speed(self, speed: int) -> None:
-        """Set the maximum speed; a running motion changes to it with its ramps."""
+        """Set the maximum speed. A running motion changes its speed to it, with its ramps."""
         self.max_speed = speed
 
     def stop(self, wait: bool = True) -> MotionResult | None:
@@ -246,7 +246,7 @@ class Axis(Settings):
         self.execute(Code.RUN, 0, good=lambda value: value == 0)
 
     def _slow_move(self, motion: Motion) -> None:
-        """Decelerate a move to its stop speed; then `Motion._update` aborts it."""
+        """Decelerate a move to its stop speed, and let `Motion._update` abort it afterwards."""
         top, low = self.max_speed, self.stop_speed
         if top <= low:
             motion._abort_after(0, top)
@@ -266,7 +266,7 @@ def _ext(number: int) -> int:
     return number
 
 
-# Homing of a PMC006B4. It has no switches except EXT1 and EXT2.
+# Homing of a PMC006B4, whose only switches are EXT1 and EXT2.
 
 LONGEST_WAY_OFF = 200_000
 SLOWEST, FASTEST = 65, 3000

@@ -15,7 +15,7 @@ OnCount = Callable[[int, int], None]
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
 """Time in s for which the EEPROM is busy after a save or a burn, with some reserve."""
 _LOOKS = 10
-"""Longest wait for the EEPROM, divided by the time above. It allows for a slow I2C clock."""
+"""Number of reads of the EEPROM's state, at intervals of the time above. It allows for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
@@ -97,8 +97,7 @@ class Memory(Axis):
         got = self.execute(code, good=_yes_or_no)
         if not got and self.counters.repeated == repeated:
             raise StorageBusy(0, f"{self._message_prefix}{StorageBusy.text}")
-        # If the first reply was lost and the repeated instruction is rejected, the first instruction is being
-        # executed.
+        # If the reply was lost and the repeated instruction is rejected, the part is executing the first one.
         for _ in range(_LOOKS):
             self.line.pause(seconds)
             state = self.execute(Code.STORED, good=lambda value: value in set(Storage))
@@ -183,7 +182,7 @@ class Memory(Axis):
         self.execute(Code.POINTER, word, good=lambda value: value == word)
 
     def _seek(self, word: int) -> None:
-        """Set the word pointer of the part unless it already has this value."""
+        """Set the word pointer of the part, unless the pointer already has this value."""
         if self._here != word:
             self._point(word)
 

@@ -49,7 +49,7 @@ class TwoAxisPart(Protocol):
 class Axis2104(Axis):
     """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions.
 
-    `part` has the functions that concern both axes.
+    The attribute `part` has the functions that concern both axes.
 
     Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, with a rate
     byte at least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz.
@@ -97,7 +97,7 @@ class Axis2104(Axis):
         self.part._other_axis(self.number)._resolve(status)
 
     def _resolve(self, status: int) -> None:
-        """Process a value of the status register; if BUSY = 0, read how the motion ended."""
+        """Process a value of the status register. If BUSY = 0, read how the motion ended."""
         if self._motion is not None and not self._motion.over:
             self._motion._on_status(status)
         elif not status & self._busy_mask:
@@ -139,15 +139,15 @@ class Axis2104(Axis):
                 error.status, f"{self._message_prefix}nothing to stop: it is not initialised"
             ) from None
         except IncompleteCommand:
-            # The error means that the stop has ended a command that was waiting for data. The stop itself has
-            # taken effect (P2104-STP-07).
+            # The part reports this error because the stop has ended a command that was waiting for data. The
+            # stop itself has been executed (P2104-STP-07).
             pass
 
     def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
-        In a motion at constant speed, and while the part waits for RUN, it rejects a stop with a ramp
-        (P2104-STP-03). In both cases, the part accepts an immediate stop.
+        The part rejects a stop with a ramp in a motion at constant speed, and while it waits for RUN
+        (P2104-STP-03). In both cases, it accepts an immediate stop.
         """
         motion = self._motion
         try:

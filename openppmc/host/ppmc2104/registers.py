@@ -107,7 +107,7 @@ class Status:
 
     Attributes:
         busy: BUSY of axis 1 and of axis 2.
-        working: for axis 1 and axis 2, True if data are required or a command is in progress.
+        working: CMND of axis 1 and of axis 2: True if a command waits for data or is being processed.
         error: True if an error register is not 0.
     """
 

@@ -1,4 +1,4 @@
-"""Self-test of a board with a PPMC-2104: each axis, then a start of both axes with one edge of RUN."""
+"""Self-test of a board with a PPMC-2104: each axis alone, then both axes, started by one edge of RUN."""
 
 from __future__ import annotations
 
