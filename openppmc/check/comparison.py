@@ -20,9 +20,9 @@ class Mismatch:
     Attributes:
         t: clock edge of the difference.
         signal: output that differs there.
-        expected, actual: first change (t, value) of `signal` that differs, in the model and on the other
-        side; `None` if that side has no further change.
-        differing: all outputs that differ, in order of time.
+        expected, actual: first change (t, value) of `signal` that differs: in the model, and on the other
+        side. `None` means that this side has no further change.
+        differing: all outputs that differ, in order of their first difference.
     """
 
     t: int
@@ -38,7 +38,7 @@ class Comparison:
 
     Attributes:
         pins: pins of the part.
-        seen: name of the source whose edges were compared with those of the model.
+        seen: name of the source whose edges were compared with the edges of the model.
     """
 
     recording: Recording

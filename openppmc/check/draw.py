@@ -37,7 +37,7 @@ def draw_png(comparison: Comparison, path: Path) -> None:
     """Draw both waveforms of every active output near the first difference.
 
     The accesses of the host are above the waveforms. The left side is a wide view. If the difference is only
-    a few pixels wide in this view, the right side shows an enlarged view of it.
+    a few pixels wide there, the right side shows it enlarged.
 
     Raises:
         MissingExtraError: matplotlib is not installed.
@@ -144,7 +144,7 @@ def _title(figure: Any, comparison: Comparison) -> None:
 def _outputs_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
     """Return the signals to draw.
 
-    The differing signals are first, in order of time, followed by those with an edge in the window.
+    The signals that differ are first, in order of time, followed by other signals with an edge in the window.
     """
     m = comparison.mismatch
     assert m is not None

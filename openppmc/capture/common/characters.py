@@ -52,7 +52,7 @@ def characters(channel: Channel, rate: float) -> list[Character]:
 
 
 def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
-    """Return the line rate at which the largest fraction of the characters is correctly framed.
+    """Return the line rate, of `rates`, at which the largest fraction of the characters is correctly framed.
 
     Raises:
         CaptureError: no rate matches.

@@ -3,8 +3,8 @@
 The inputs of the capture drive the model, and each output edge is compared.
 
 Three effects shift the edges slightly: the sampling, the phase of the base clock of the original chip, and
-its processing times. Two edges count as the same edge if their distance is at most `tolerance`. The crystals
-of chip and analyser differ by some ppm. This difference is measured in the moves and compensated.
+its processing times. Two edges are treated as the same edge if their distance is at most `tolerance`. The
+crystals of chip and analyser differ by some ppm. This difference is measured in the moves and compensated.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class Difference:
 
     Attributes:
         t: time in ps from the beginning of the capture.
-        steady: False if the difference is an edge. True if it is a stable level that differs from that of the
-            model.
+        steady: False if the difference is an edge; True if it is a stable level that differs from the level
+            of the model.
     """
 
     pin: str
@@ -78,7 +78,7 @@ class Differences(Sequence[Difference]):
         self._pins: list[str] = []
 
     def add(self, one: Difference) -> None:
-        """Append a difference; it need not be later than those already stored."""
+        """Append a difference; it may be earlier than those already stored."""
         if self._pins[-1:] != [one.pin]:
             self._pins.append(one.pin)
         self._times.append(one.t)
@@ -153,7 +153,7 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
     """Compare a capture with the golden model.
 
     Args:
-        tolerance: largest distance in ps at which two edges count as a pair.
+        tolerance: largest distance in ps of two edges that are treated as a pair.
 
     Raises:
         CaptureError: the capture contains neither a reset nor an initialisation.
@@ -186,10 +186,10 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 
 
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
-    """Return the time from which the model runs, the times from which edges are compared, and a flag.
+    """Return when the model starts, when the comparison of each axis starts, and whether there is a reset.
 
-    The second item maps each axis to the time from which its edges are compared. The third item, the flag, is
-    True if the capture contains a reset.
+    The second item contains a time for each axis; key 0 is the default. The third item is True if the capture
+    contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
@@ -221,10 +221,10 @@ class _ModelEdges:
 
 
 def _run(decoded: Decoded, begin: int, ratio: float) -> _ModelEdges:
-    """Drive a new model with the inputs, and return its outputs.
+    """Drive a new model with the captured inputs, and return its outputs.
 
     Args:
-        ratio: time of the model divided by time of the capture.
+        ratio: ratio of the model's time to the capture's time.
     """
     decoder, wires = decoded.decoder, decoded.wires
     straps = decoder.straps(wires)
@@ -320,8 +320,8 @@ class _Outputs:
 def _clk_hz(decoded: Decoded) -> int:
     """Return the clock frequency of the model.
 
-    The frequency is that of the map, else that of a captured `clk`, else a high default. With a captured
-    `clk`, captures of our own cores match exactly.
+    The frequency is that in the map, otherwise that of the captured `clk`, otherwise a high default. With a
+    captured `clk`, captures of our own cores match exactly.
     """
     if "CLK_HZ" in decoded.wires.params:
         return int(str(decoded.wires.params["CLK_HZ"]))
@@ -361,7 +361,7 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
     theirs = decoded.decoder.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
-    # The captured time of each end of a move may be wrong by one sample, so a smaller difference is ignored.
+    # The captured time of each end of a move may be wrong by one sample, so smaller differences are ignored.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
     for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
@@ -392,7 +392,7 @@ def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
 
 
 def _middle(rows: list[tuple[float, int]]) -> float:
-    """Return the median of weighted values."""
+    """Return the median of weighted values; a row is (value, weight)."""
     ordered = sorted(rows)
     sums = list(accumulate(weight for _, weight in ordered))
     return ordered[bisect_left(sums, sums[-1] / 2)][0]
@@ -550,7 +550,7 @@ def _differs(
 def _constant(
     name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int, result: Result
 ) -> None:
-    """Add a difference at the first given time at which chip and model have different stable levels."""
+    """Add a difference at the first time of `points` at which chip and model have different stable levels."""
     np = numpy()
     at = np.array(points, np.int64)
     steady = np.ones(len(at), bool)

@@ -50,7 +50,7 @@ def cells_of(line: str, separator: str) -> list[str]:
 
 
 def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
-    """Return a time or sample number, and True if it is in ps. The result is `None` for other text."""
+    """Return (time or sample number, True if it is a time in ps). The result is `None` for other text."""
     text = text.strip().strip('"')
     if separator != ",":
         text = text.replace(",", ".")
@@ -75,7 +75,7 @@ def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
 
 @lru_cache(maxsize=1000)
 def _second(text: str) -> int | None:
-    """Return a time stamp that has no decimals in seconds, `None` for an invalid date or time."""
+    """Convert a time stamp without decimals to seconds; return `None` for an invalid date or time."""
     match = _ISO.fullmatch(text)
     if match is None:
         hours, minutes, seconds = map(int, text.split(":"))

@@ -98,7 +98,7 @@ class _Block:
         marks = cells[:, 1 - timed :: 2] == separator[0]
         if not marks.all() or (self.levels == _NONE).any():
             bad = ~marks.all(axis=1) | (self.levels == _NONE).any(axis=1)
-            # A line that equals the previous one is odd if and only if the previous one is odd.
+            # If a line equals the previous line, either both lines are odd or neither is.
             self.odd |= bad[np.cumsum(self.changed) - 1]
         self.levels = self.levels[~self.odd[self.changed]]
         self.ends = ends - width
@@ -142,7 +142,7 @@ class Rows:
         levels: 0, 1, 2 (unknown).
         count: number of rows that were read so far.
         whole: True if no time has decimals.
-        absolute: True if the times have a unit or a date.
+        absolute: True if the cells with times contain a unit or a date.
     """
 
     def __init__(self, layout: Layout) -> None:
@@ -200,7 +200,7 @@ class Rows:
         kept = np.flatnonzero(block.changed | block.odd)
         levels = np.empty((len(kept), self.layout.channels), np.uint8)
         levels[~block.odd[kept]] = block.levels
-        # Times of the lines that are read one by one, by row.
+        # Times of the lines that are read one by one, by the number of the row.
         exact: dict[int, Fraction] = {}
         skipped = np.zeros(len(block.odd), bool)
         for place in np.flatnonzero(block.odd[kept]).tolist():
@@ -341,7 +341,7 @@ class Rows:
         digits = chars[:, begin:end] - np.uint8(ord("0"))
         if (digits > 9).any() or (chars[:, end:] != chars[0, end:]).any():
             return None
-        # Few of the time stamps begin a new second, so only those are converted one by one.
+        # Only few time stamps begin a new second; convert only these one by one.
         fresh = np.ones(len(rows), bool)
         fresh[1:] = (chars[1:, :begin] != chars[:-1, :begin]).any(axis=1)
         seconds = []
@@ -363,9 +363,9 @@ class Rows:
         return found
 
     def _rescale(self, whole: bool) -> None:
-        """Record whether all times are whole numbers.
+        """Store whether all times are whole numbers.
 
-        At the first time with decimals, the unit of `times` is made smaller.
+        When the first time with decimals is read, the unit of `times` is made smaller.
         """
         self.whole &= whole
         layout = self.layout

@@ -71,7 +71,7 @@ def way(flags: int) -> str:
 
 
 def when(flags: int, rest: bytes) -> str:
-    """Return as text the condition for which a registered instruction waits."""
+    """Return the condition for which a registered instruction waits, as text."""
     if not flags & OV:
         return ""
     trigger = TRIGGERS[flags & 3]
@@ -189,7 +189,7 @@ class Ppmc312Decoder(CommandDecoder):
     def exchanges(self, accesses: Iterable[Any]) -> list[Row]:
         """Group register accesses into instructions and reports."""
         rows: list[Row] = []
-        # Instructions without an answer so far.
+        # Instructions that have had no answer so far.
         waiting: list[Row] = []
         data: list[int] = []
         wanted, polls, begin = 0, [], 0

@@ -1,7 +1,7 @@
 """Command group: the table of the commands, and their help texts.
 
-A command is imported when it is called. On a narrow terminal the help is plain text, because table cells
-would cut words off.
+A command is imported when it is called. On a narrow terminal, the help is plain text, because the cells of a
+table would cut words off.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def write(command: Any, ctx: Any, formatter: Any) -> None:
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
 BRIDGE = ""
-"""Represents all parts that are accessed through the UART bridge, which have the same commands."""
+"""Represents all parts that are accessed through the UART bridge. They have the same commands."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Command:
         place: "module:function" below `openppmc.cli`; a Typer is a group of commands.
         help: docstring of the function for `--help`; only in the first row of a name.
         parts: the parts that have this command.
-        numbers: True if arguments such as -200 are numbers, not options.
+        numbers: True if arguments such as -200 are numbers and not options.
     """
 
     name: str
@@ -94,7 +94,7 @@ class PartGroup(TyperGroup):
     """Commands of all parts.
 
     Attributes:
-        rows: rows of the table; a row for BRIDGE precedes the other rows with its name.
+        rows: rows of the table. If several rows have the same name, a row for BRIDGE is the first of them.
     """
 
     rows: ClassVar[tuple[Command, ...]] = ()

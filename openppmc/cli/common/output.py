@@ -50,7 +50,7 @@ def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
 
     Args:
         rows: rows of cells; the first row contains the headings.
-        sides: alignment of each column, < = left, > = right.
+        sides: one character per column, which aligns it: "<" left, ">" right.
     """
     if is_narrow():
         from .narrow import listed

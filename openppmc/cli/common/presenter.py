@@ -34,7 +34,7 @@ FARTHEST = 1 << 31
 
 @dataclass(frozen=True)
 class Override:
-    """Action at a position: a change to a speed in pps with a ramp, or a stop.
+    """Action at a position: a change of the speed with a ramp, or a stop.
 
     Attributes:
         now: True for a stop without a ramp.
@@ -132,7 +132,7 @@ def plot_move(trajectory: Callable[[int], Trajectory], pulses: int, path: Path) 
     the suffix of the file name requests.
 
     Args:
-        trajectory: function that computes the trajectory of a number of pulses.
+        trajectory: function that computes the trajectory of a move of a given number of pulses.
     """
     needs("plot", "a plot", "matplotlib")
     from ...plot.profile import FORMATS, draw_profile
@@ -174,7 +174,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
     does not have the function of an optional method, the method raises OutOfRange or does nothing.
 
     Attributes:
-        wide: True if several axes are printed as the rows of one table.
+        wide: True to print several axes as the rows of one table.
     """
 
     wide = False
@@ -235,7 +235,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
     # ------------------------------------------------------------------ functions of some parts only
 
     def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
-        """Set the overrides of the next move, and the deviation in pulses that the encoder may have."""
+        """Set the overrides of the next move, and the permitted deviation of the encoder in pulses."""
         if encoder is not None:
             raise OutOfRange(f"encoder: a {part.kind} does not have that")
         if overrides:
@@ -311,7 +311,7 @@ class RampPresenter(Presenter[PartT, speeds.Setup]):
         }
 
     def moving(self, status: Any, number: int) -> tuple[bool, int | str | None]:
-        """Return whether the axis moves, and the error code, from a status."""
+        """Return (True if the axis moves, error code) from a status of axis `number`."""
         return status.busy, None if status.error is None else int(status.error)
 
     def setup_rows(self, setup: speeds.Setup) -> dict[str, str]:
