@@ -26,7 +26,7 @@ QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
 QUICK_DEFAULT = "ecp5"
 
 RECORDER = (("RECORD", 10),)
-"""Parameters of the bitstreams for the self-test. A larger recorder needs RAM that is not converted."""
+"""Parameters of the bitstreams for the self-test. A larger recorder needs RAM, which is not converted."""
 PARAMS = {"bank": (), "pmc006": (("BAUD", 115_200),)}
 """Parameters of the bitstream for tests without a recorder, by part."""
 TARGETS = {plain.FAMILY: "test-verilog", gates.BITS: "test-bits"}
@@ -38,7 +38,7 @@ TOO_BIG = "the part does not fit in this family"
 
 
 def suites() -> list[PartTests]:
-    """Return the tests of each part that has tests for netlists, from the table of parts."""
+    """Return the tests for netlists, by part, from the table of parts."""
     return [row.load("gates") for row in parts.having("gates")]
 
 

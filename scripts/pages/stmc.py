@@ -1,4 +1,4 @@
-"""Kinds of tables and pictures for docs/stmc/figures.yml, from a host on the golden model of the STMC."""
+"""Kinds of tables and pictures for docs/stmc/figures.yml, from the golden model of the STMC with a host."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ class Bench:
         self.t = self.chip.now + 300
 
     def start(self, command: str) -> int:
-        """Send a motion command and count steps from it on; return the edge that `send` returns."""
+        """Send a motion command, and count steps from then on; return the edge that `send` returns."""
         self.mark = self.t
         return self.send(command)
 
@@ -136,7 +136,7 @@ def play(
     """Run a move with the internal clock; return its result.
 
     Args:
-        gap: gap in which `event` (a method of Bench with arguments) happens; -1: before step 0.
+        gap: gap in which `event` (name and arguments of a method of Bench) is executed; -1: before step 0.
     """
     bench = Bench()
     bench.init(ramp=ramp)
@@ -174,7 +174,7 @@ def move(command: str, cause: int | None = None, shown: int | None = None, **cas
 
 
 def _gaps(gaps: Sequence[int], limit: int = 30) -> str:
-    """Return gaps as text. More than three equal gaps are 5×8; long lists lack their middle."""
+    """Return gaps as text; `5×8` means five gaps of 8, and long lists lack their middle."""
     words = []
     for value, group in groupby(gaps):
         count = len(list(group))
@@ -211,7 +211,7 @@ def moves(cases: Sequence[Sequence[Any]]) -> str:
 
 
 def ramps(ramps: Sequence[Sequence[int]], long: Sequence[int], some: Sequence[int]) -> str:
-    """Return a table of divisors: for short ramps at all levels, for a long ramp at some levels."""
+    """Return a table of divisors: short ramps at all levels, and a long ramp at some levels."""
     rows = []
     for ramp in (*ramps, long):
         values = [rate + 1 for rate in profile(*ramp).rates()]
@@ -263,7 +263,7 @@ def motion_time(timing: str, which: str, command: str, stop: bool = False) -> in
 
 
 def init_time(timing: str, which: str, ramp: Sequence[int]) -> int:
-    """Return the cycles from an initialisation's last byte until phases are on or bytes accepted."""
+    """Return the cycles from an initialisation's last byte until phases are on or bytes are accepted."""
     bench = Bench(timing)
     sent = bench.init(ramp=ramp)
     if which == "phases":

@@ -136,7 +136,7 @@ class Player:
         self._check_position(axes[0], 0)
 
     def _spans(self, ways: dict[int, Sequence[int]]) -> list[Span]:
-        """Return the range of positions of each motor, if axes move by the given distances."""
+        """Return the range of possible positions of each motor if axes move by the given distances."""
         found = []
         for number, at in enumerate(self.board.positions()):
             way = [at, *(at + distance for distance in ways.get(number, ()))]

@@ -52,7 +52,7 @@ def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
 
 
 def _spoilt(rng: random.Random, frame: bytes, special: Sequence[int]) -> bytes:
-    """Return a frame with one fault: a changed bit or byte; a missing, repeated or added byte; no end."""
+    """Return a frame with one fault: a changed bit or byte, a missing, repeated or added byte, or no end."""
     place = rng.randrange(len(frame))
     before, byte, after = frame[:place], frame[place], frame[place + 1 :]
     kind = rng.randrange(6)

@@ -27,7 +27,7 @@ def _pair(found: Figures, name: str) -> list[dict[str, Any] | None]:
 
 
 def _cells(found: Figures, name: str, axes: int = 0) -> list[str]:
-    """Return FF and RAM, then for each recipe COMB, COMB per axis (only with `axes`), and MHz."""
+    """Return FF and RAM, and then for each recipe COMB, with `axes` also COMB per axis, and MHz."""
     both = _pair(found, name)
     cells = [str(both[0][key]) if both[0] else "–" for key in ("ff", "ram")]
     for entry in both:

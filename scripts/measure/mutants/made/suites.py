@@ -1,8 +1,8 @@
 """Tests for the mutants of a file: groups of tests, each in one simulator process, the fastest first.
 
-If results of a coverage campaign are stored (`make coverage`), groups that cover the line of the mutant run.
-Their order is: groups of the block, groups that are newer than the campaign, all other groups by their time
-for each covered point of the file.
+If results of a coverage campaign are stored (`make coverage`), only groups that may cover the line of the
+mutant run. Their order is: groups of the block, groups that are newer than the campaign, all other groups by
+their time for each covered point of the file.
 
 Without such results, the groups of the folder run: tests of blocks before those of the parts that contain the
 file, directed tests before random tests.
@@ -51,7 +51,7 @@ def _part(group: Group) -> parts.Row | None:
 
 
 def _may_reach(group: Group, file: str) -> bool:
-    """Return whether a group without stored coverage may simulate the file."""
+    """Return whether a group may simulate the file; it is used for groups without stored coverage."""
     return _part(group) is None or _rank(group, file) >= 0
 
 
@@ -99,7 +99,7 @@ class Suites:
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
-        """Return the groups in the order of their runs. Some are joined, because each start takes seconds."""
+        """Return the groups in the order of their runs; some are joined, because each start takes seconds."""
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
