@@ -112,7 +112,7 @@ def trains(comparison: Comparison) -> list[list[int]]:
 
 
 def wrong(one: Order, pulses: list[int], played: Played) -> str:
-    """Return the first deviation of an axis from the prediction, or ""."""
+    """Return the first deviation of an axis from the prediction as text, or ""."""
     status, position = played.ends[one.axis]
     if len(pulses) != one.pulses:
         return f"{len(pulses)} pulses, not {one.pulses}"

@@ -16,7 +16,7 @@ RAMPED, CCW = 0x43, 0x08
 
 @dataclass(frozen=True)
 class Order:
-    """An initialisation and an acceleration/deceleration move of one axis."""
+    """An initialisation of one axis, and a move with acceleration and deceleration."""
 
     axis: int
     rl: int

@@ -44,7 +44,7 @@ class Recorder(PpmcBank):
 class Session:
     """A host session.
 
-    Axes count from 0, as in the window.
+    Axes are numbered from 0, as in the window.
 
     Attributes:
         t: next free edge.
@@ -88,7 +88,7 @@ class Session:
         return status
 
     def send(self, axis: int, code: int, *data: int) -> int:
-        """Send a command and its data, each byte when IBF is 0; return the status after the last byte."""
+        """Send a command and its data, each byte when IBF = 0; return the status after the last byte."""
         self.write(axis, STATUS, code)
         for byte in data:
             self.poll(axis)

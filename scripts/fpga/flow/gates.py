@@ -131,7 +131,7 @@ def netlist(
 
 
 def _forget_old(days: float = 7.0) -> None:
-    """Remove the netlists that no run has used for `days` days."""
+    """Remove the netlists that were not used in the last `days` days."""
     for done in NETLISTS.glob("*/netlist.vlt"):
         if time.time() - done.stat().st_mtime > days * 86_400:
             for path in done.parent.iterdir():

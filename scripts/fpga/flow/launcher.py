@@ -24,7 +24,7 @@ BESIDE = {
     "ecppack": "yowasp-ecppack",
     "gowin_pack": "gowin_pack",
 }
-"""Programs in the folder of this Python, by the program that edalize starts."""
+"""Programs in the folder of this Python, by the name of the program that edalize starts."""
 OURS = {"procs": "proc", "renames": "rename"}  # Tcl names of yosys commands whose own names Tcl uses itself
 
 

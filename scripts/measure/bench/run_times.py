@@ -1,6 +1,6 @@
 """Run times of a demo in three programs ("sides"): RTL with cocotb, RTL in Verilator alone, golden model.
 
-In each turn, every side runs once. Thus, other load affects a ratio of one turn only little.
+In each turn, every side runs once. Thus, other load on the machine has little effect on the ratios of a turn.
 """
 
 from __future__ import annotations

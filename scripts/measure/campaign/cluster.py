@@ -16,7 +16,7 @@ from typing import Any
 from cocotb_tests.harness.project import ProjectError
 
 SETTINGS = {
-    # A slow worker must not count as lost: it may have to wait for simulators, which use all processors.
+    # A slow worker must not be treated as lost: it may have to wait, because simulators use all processors.
     "distributed.scheduler.worker-ttl": "15 minutes",
     "distributed.comm.timeouts.connect": "60s",
     # A job counts as failed when it has lost its worker more often than this number. Dask counts a lost
@@ -29,7 +29,7 @@ SETTINGS = {
 
 @dataclass(frozen=True)
 class Workers:
-    """Workers: `count` processes of this machine, or all those of `scheduler` (tcp://host:port)."""
+    """Workers: `count` processes of this machine, or all workers of `scheduler` (tcp://host:port)."""
 
     count: int = 2
     scheduler: str = ""

@@ -1,4 +1,4 @@
-"""Data types of a campaign."""
+"""Data types that describe a campaign."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class Job:
     """One piece of work; its `key` is unique in a campaign, and its `what` is sent to the worker by pickle.
 
     Attributes:
-        stamp: digest of everything except the key on which the result depends; "" = digest of the tree.
+        stamp: digest of all that the result depends on, except the key; "" = digest of the tree.
     """
 
     key: str

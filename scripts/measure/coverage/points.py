@@ -52,7 +52,7 @@ def _fields(text: str) -> Mapping[str, str]:
 
 
 def read(files: Iterable[Path]) -> Points:
-    """Return all points of the RTL in these files; other sources (benches, wrappers) do not count."""
+    """Return all points of the RTL in these files, without those of other sources (benches, wrappers)."""
     points = Points()
     for file in files:
         for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
