@@ -29,7 +29,7 @@ If n axes of a device move, the pause after each poll is this time divided by n.
 FREE = 0.01
 """Pause in seconds after each poll, so that other threads can use the port.
 
-Without the pause, a thread could get the lock again before the threads that wait for it.
+Without the pause, the same thread could get the lock again before threads that wait for the lock.
 """
 
 

@@ -1,6 +1,6 @@
 """Print the shell text of a make target: ``python -m scripts.run GOAL GOAL … NAME=VALUE …``.
 
-The text is that of the first goal; the other words are all goals and variables of this `make`. If a word is
+The text belongs to the first goal; the other words are all goals and variables of this `make`. If a word is
 wrong, only the first fault is printed, as a line that begins with "error:". The module imports only the
 standard library.
 """

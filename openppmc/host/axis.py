@@ -196,7 +196,7 @@ class Axis(Checked):
     def _rate(self, pps: speeds.Number | None) -> tuple[speeds.BaseClock, int]:
         """Return (base clock, rate byte) of a constant speed.
 
-        The base clock may be an internal clock other than that of the ramp.
+        The base clock may differ from the base clock of the ramp if both are internal clocks.
         """
         if pps is None:
             pps = self._default_speed

@@ -207,7 +207,7 @@ def _value(bound: BoundMethod, *others: object) -> Any:
 
 
 class BoundMethod:  # noqa: D101 - help() shows the docstring of the function
-    # Method of an object. Truth value, equality, hash, help and names are those of a Python method.
+    # Method of an object. Truth value, equality, hash, help and names are the same as for a Python method.
     # Arithmetic, a comparison with a number, and the read of any other attribute raise an error, because the
     # parentheses of the call are missing.
 

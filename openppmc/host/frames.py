@@ -29,7 +29,7 @@ The content consists of SEQ, RESULT, POS, LAST, 256 data bytes and CRC.
 
 
 class Fault(IntEnum):
-    """Error of a frame; the numbers are those of the NAK messages of the bridge (UB-FRM-06)."""
+    """Error of a frame; its number is the same as in the NAK messages of the bridge (UB-FRM-06)."""
 
     FRAMING = 1
     CRC = 2

@@ -180,7 +180,7 @@ class ReplyReceiver(Protocol[Answer]):
     def feed(self, byte: int) -> Answer | Fault | None:
         """Process a byte; return the reply if this byte completes it.
 
-        The call returns a Fault if the bytes cannot become a reply any more.
+        The call returns a Fault if no further byte can make the received bytes a reply.
         """
 
 

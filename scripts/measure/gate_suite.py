@@ -167,7 +167,7 @@ def _board(family: str) -> list[GateTest]:
 
 
 def _boards() -> list[GateTest]:
-    """Return the tests of the bitstreams of the board: those of the quick sample, then one of each part."""
+    """Return the tests of the board's bitstreams: the tests of the quick sample, then one of each part."""
     config = replace(bits.config("ppmc104"), name=f"{bits.BOARD}-shipped")
     items = [replace(item, config=config) for item in board.items()]
     tests = [GateTest(gates.BITS, _tagged(item, gates.BITS), quick=True) for item in items]

@@ -301,7 +301,7 @@ def checks() -> list[Check]:
 
 
 def guarded(check: Check) -> str:
-    """Return the findings of a check; a ProjectError also counts as a finding."""
+    """Return the findings of a check; the message of a ProjectError is a finding, too."""
     try:
         return check.run()
     except ProjectError as error:

@@ -54,7 +54,7 @@ def git(*words: str) -> str:
 def section(changelog: str, version: str, trial: bool = False) -> str:
     """Return the text below the newest heading of a changelog.
 
-    The call raises ProjectError unless the heading is that of this version.
+    The call raises ProjectError unless this heading names the version.
 
     A section [Unreleased] without text may precede it. In a trial, this section may have text, which is
     returned.

@@ -320,8 +320,8 @@ class _Outputs:
 def _clk_hz(decoded: Decoded) -> int:
     """Return the clock frequency of the model.
 
-    The frequency is that in the map, otherwise that of the captured `clk`, otherwise a high default. With a
-    captured `clk`, captures of our own cores match exactly.
+    It is the frequency in the map; without it, the frequency of the captured `clk`; without that pin, a high
+    default. With a captured `clk`, captures of this project's cores match exactly.
     """
     if "CLK_HZ" in decoded.wires.params:
         return int(str(decoded.wires.params["CLK_HZ"]))

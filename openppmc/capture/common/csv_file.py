@@ -1,6 +1,6 @@
 """Captures in CSV with one column per channel.
 
-The files are those of Saleae Logic, sigrok, DSView, KingstVIS, WaveForms and others.
+Such files are written by Saleae Logic, sigrok, DSView, KingstVIS, WaveForms and other programs.
 
 A row is a sample or a change. The first column contains times in a stated unit, ISO time stamps or sample
 numbers. Without this column, a sample rate in the header defines the times. All times are relative to the
@@ -60,7 +60,7 @@ class _Lines:
             yield text_of(self._block[self._place : self._next])
 
     def rest(self) -> Iterator[bytes]:
-        """Yield the rest of the file, beginning with the line that was read last."""
+        """Yield the line that was read last, and all lines after it."""
         yield self._block[self._place :]
         self._block = b""
         yield from self._blocks

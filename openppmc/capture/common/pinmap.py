@@ -1,6 +1,6 @@
 """Assignment of the channels of a capture to pins.
 
-A YAML or TOML file contains the assignment. Without a file, the names of the channels are those of the pins.
+A YAML or TOML file contains the assignment. Without a file, each channel must have the name of its pin.
 
 part: ppmc104            # or --part
 crystal: 16000000        # of the original chip, Hz

@@ -121,7 +121,7 @@ class Channel:
 
     @property
     def changes(self) -> list[tuple[int, int]]:
-        """Changes as (ps, level), for channels with few of them."""
+        """Changes as (ps, level), for channels with few changes."""
         return list(self)
 
     @property

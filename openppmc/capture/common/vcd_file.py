@@ -232,9 +232,9 @@ class _Head:
     def _add(self, scopes: tuple[str, ...], name: str, code: str) -> None:
         """Add a variable under its name.
 
-        If variables in several scopes have this name, the name refers to the variable in the outermost scope.
-        If several scopes at the outermost depth have such a variable, the name refers to the first of these
-        variables. Each of them is also available as `scope.name`.
+        If variables in several scopes have this name, the name refers to the variable in the outermost scope
+        or, if several scopes are equally far out, to the first such variable. Each variable is also available
+        as `scope.name`.
         """
         depth, home = len(scopes), ".".join(scopes)
         known = self._depths.get(name)
@@ -258,9 +258,9 @@ class _Head:
 def read_vcd(path: Path) -> Capture:
     """Read all variables of a VCD.
 
-    If variables in several scopes have the same name, it refers to the one in the outermost scope. If several
-    scopes at the outermost depth have such a variable, the name refers to the first of these variables. Each
-    of them is also available as `scope.name`.
+    If variables in several scopes have the same name, the name refers to the variable in the outermost scope
+    or, if several scopes are equally far out, to the first such variable. Each variable is also available as
+    `scope.name`.
 
     Raises:
         CaptureError: the file is invalid.

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 USUAL = "ppmc104"
 """Part of a plan or a virtual board if the user names no part."""
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
-"""All option names that --line may contain. Each kind of line supports some of them."""
+"""All option names that --line may contain. Each kind of line supports only some of these names."""
 
 
 class PartName(str, Enum):

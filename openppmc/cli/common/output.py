@@ -46,7 +46,7 @@ def table(rows: dict[str, str]) -> Table:
 
 
 def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
-    """Print a table whose lines may be longer than those of the terminal.
+    """Print a table whose lines may be longer than a line of the terminal.
 
     Args:
         rows: rows of cells; the first row contains the headings.

@@ -82,7 +82,7 @@ _SOME = {
 
 @cache
 def part_commands() -> dict[str, PartCommand]:
-    """Return the commands that only some parts support, including those of column `script_commands`."""
+    """Return the commands that only some parts support, also the commands of column `script_commands`."""
     own = dict(_SOME)
     for row in parts.folders():
         if row.script_commands:

@@ -338,7 +338,7 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
 
 
 def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[MotionResult]:
-    """Stop motions, including those of other programs, and wait for their ends.
+    """Stop motions, including motions that other programs started, and wait for their ends.
 
     All axes are stopped before an error is raised. An axis at standstill is an error only if no axis could be
     stopped.

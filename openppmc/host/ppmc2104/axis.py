@@ -52,9 +52,10 @@ class Axis2104(Axis):
     The attribute `part` has the functions that concern both axes.
 
     Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, with a rate
-    byte at least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz.
-    positive_logic and long_intervals are not supported. On an initialised axis, phases, half_step, chop and
-    the choice of an external clock are unchanged until `excitation_off` or `reset` (P2104-INI-05).
+    byte that is at least 2 lower than the rate byte of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000
+    or 125 000 Hz. positive_logic and long_intervals are not supported. On an initialised axis, phases,
+    half_step, chop and the choice of an external clock are unchanged until `excitation_off` or `reset`
+    (P2104-INI-05).
     """
 
     kind = CAPABILITIES
@@ -113,7 +114,7 @@ class Axis2104(Axis):
     def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
         """Return a motion that a switch ended before its first pulse.
 
-        If no switch is active any more, raise the exception of the rejection instead.
+        If no switch is active when the inputs are read, the exception of the rejection is raised instead.
         """
         inputs = self.inputs()
         cause = Cause.COMPLETE

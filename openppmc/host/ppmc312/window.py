@@ -156,7 +156,7 @@ class Window:
     def collect(self) -> None:
         """Read the pending responses.
 
-        A response to an instruction of the host is discarded, because no instruction waits for it.
+        A response to an instruction of the host is discarded, because no instruction waits for a response.
         """
         if self._state_unknown:
             self.open()

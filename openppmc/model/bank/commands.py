@@ -1,8 +1,8 @@
 """Commands of an axis of the bank, and the builder of ramp tables, which all axes share.
 
-The commands are those of the PPMC-104 without auxiliary pins and external clock (BANK-GEN-03). Rules of the
-builder: BANK-HSK-05, BANK-INI-01, -02. The bank processes its axes in turn; a visit is an edge of `clk` at
-which it processes an axis.
+The commands are those of the PPMC-104, except for commands and options that concern auxiliary pins or the
+external clock (BANK-GEN-03). Rules of the builder: BANK-HSK-05, BANK-INI-01, -02. The bank processes its axes
+in turn; a visit is an edge of `clk` at which it processes an axis.
 """
 
 from __future__ import annotations

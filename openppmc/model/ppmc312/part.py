@@ -167,7 +167,7 @@ class Ppmc312(Chip):
     def _set_run_level(self, t: int, level: int) -> None:
         """Update RUN, which has no register before the decision.
 
-        A start uses the level of RUN at the same edge, not that of the previous edge (P312-INP-20).
+        A start uses the level of RUN at the same edge, not the level at the previous edge (P312-INP-20).
         """
         if t >= self._pins_from + self.latency.input_sync:
             self.core.operation.run_level = level

@@ -190,7 +190,7 @@ class ByteUnit(ABC):
         return self._execute(t, command, reference, [])
 
     def _code_error(self, command: Command) -> Error | None:
-        """Return the error of a command byte; the order of the checks is that of P104-ERR-01."""
+        """Return the error of a command byte; P104-ERR-01 defines the order of the checks."""
         motion, kind = self._motion, command.kind
         if kind is Kind.UNDEFINED:
             return Error.UNDEFINED

@@ -159,8 +159,8 @@ class HostPort:
         if t <= self._last_refresh:
             value = self._output_byte
             if self._pins["a0"]:
-                # While the synchroniser still samples a write strobe, the byte of this strobe counts as
-                # waiting.
+                # As long as the synchroniser samples a write strobe, the byte of this strobe is treated as a
+                # waiting byte.
                 value = self.status | (IBF if self._writing and self._write_began < t else 0)
             self._context.log.set(t, "d_o", value)
         if not self._refreshing:

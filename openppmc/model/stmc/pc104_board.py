@@ -27,9 +27,11 @@ WIDTHS: dict[str, int] = {"sa": 10, "sd_i": 8, "sd_o": 8, "s": 5, "drv": 4}
 
 
 class J105Stmc:
-    """J105 board. Time and edges are those of the core.
+    """J105 board.
 
-    The other arguments are those of the core, without phase_idle.
+    The time and the output edges of the board are the same as those of its core.
+
+    The other arguments are the same as for the core, except that there is no phase_idle.
 
     Args:
         base_addr: even, 0..0x3FE.

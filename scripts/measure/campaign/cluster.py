@@ -19,8 +19,8 @@ SETTINGS = {
     # A slow worker must not be treated as lost: it may have to wait, because simulators use all processors.
     "distributed.scheduler.worker-ttl": "15 minutes",
     "distributed.comm.timeouts.connect": "60s",
-    # A job counts as failed when it has lost its worker more often than this number. Dask counts a lost
-    # worker for all jobs that are assigned to it. Therefore, no job may wait at a worker.
+    # A job has failed when it has lost its worker more often than this number. Dask counts a loss for all
+    # jobs that are assigned to the worker. Therefore, no job may wait at a worker.
     "distributed.scheduler.allowed-failures": 3,
     "distributed.scheduler.worker-saturation": 1.0,
     "distributed.admin.system-monitor.gil.enabled": False,

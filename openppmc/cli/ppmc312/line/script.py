@@ -1,6 +1,6 @@
 """Script files for a line of PPMC-312.
 
-The commands are those of a board, and each command names its station.
+The commands are the same as for a board, but each command names its station.
 """
 
 from __future__ import annotations

@@ -366,7 +366,7 @@ class StationLink:
     def stop_report(self, cause: Cause) -> Stopped:
         """Return the report of the end of a motion.
 
-        The position in it is read, because the report on the line does not contain it.
+        The driver reads the position, because the report on the line does not contain it.
         """
         return Stopped(cause, self._station.position)
 

@@ -16,7 +16,7 @@ DECLARED = f' int {CHOSEN} = 0; initial if (!$value$plusargs("mutant=%d", {CHOSE
 
 
 def _heads(text: str) -> list[int]:
-    """Return the ends of the module headers."""
+    """Return the index in the text at which each module header ends."""
     return [span(node.header)[1] for node in found(tree(text), "ModuleDeclaration")]
 
 

@@ -4,7 +4,7 @@ If results of a coverage campaign are stored (`make coverage`), only groups that
 mutant run. Their order is: groups of the block, groups that are newer than the campaign, all other groups by
 their time for each covered point of the file.
 
-Without such results, the groups of the folder run: tests of blocks before those of the parts that contain the
+Without such results, the groups of the folder run: tests of blocks before tests of parts that contain the
 file, directed tests before random tests.
 """
 
@@ -130,7 +130,7 @@ def _weights(points: Points) -> Counter[str]:
 
 
 def _lines(points: Points) -> dict[str, set[int]]:
-    """Return the covered lines of each file; lines without a point, such as assignments, count as covered."""
+    """Return the covered lines of each file; lines without a point, such as assignments, are included."""
     found: dict[str, set[int]] = {}
     for name, was in points.reached.items():
         file = name.split(" ", 1)[0]
